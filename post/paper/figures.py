@@ -12,21 +12,9 @@ from matplotlib.figure import Figure
 from tiltpad.draw.layout import PAGE, top_axis
 from tiltpad.files.units import SHOWN
 
+from paper import settings
 from paper.measures import of_pad, speed_window, stribeck_curve
 from paper.runs import Runs
-from paper.settings import (
-    DETAIL,
-    DIFFERENCES,
-    HIGH_SPEED,
-    LOW_SPEED,
-    MODELS,
-    PAD,
-    PAIRS,
-    RUNUPS,
-    STIFFNESSES,
-    TILTING_ONLY,
-    VELOCITIES,
-)
 
 #: Words of the legend, the run, and what its line looks like.
 Line = tuple[str, tiltpad.Run, dict[str, Any]]
@@ -35,13 +23,15 @@ VELOCITY = "sliding velocity (mm/s)"
 
 def figure_7(runs: Runs) -> Figure:
     """Tilt rate for several critical velocities."""
-    return tilt_rates([(f"$v_c$ = {scientific(text)} m/s", runs[name]) for text, name in VELOCITIES.items()])
+    return tilt_rates(
+        [(f"$v_c$ = {scientific(text)} m/s", runs[name]) for text, name in settings.VELOCITIES.items()]
+    )
 
 
 def figure_8(runs: Runs) -> Figure:
     """Tilt rate for several bristle stiffnesses."""
     return tilt_rates(
-        [(f"$\\sigma_0$ = {scientific(text)} 1/m", runs[name]) for text, name in STIFFNESSES.items()]
+        [(f"$\\sigma_0$ = {scientific(text)} 1/m", runs[name]) for text, name in settings.STIFFNESSES.items()]
     )
 
 
@@ -61,8 +51,8 @@ def figure_10(runs: Runs) -> Figure:
     """Radius differences, without friction above and with it below."""
     fig, axes = panels(2)
     for row, title in enumerate(("frictionless", "Bengisu-Akay, $f$ = 0.1")):
-        lines = [("TO", runs[TILTING_ONLY[row]], {"color": "0.5", "linestyle": "--"})]
-        for color, (text, names) in enumerate(DIFFERENCES.items()):
+        lines = [("TO", runs[settings.TILTING_ONLY[row]], {"color": "0.5", "linestyle": "--"})]
+        for color, (text, names) in enumerate(settings.DIFFERENCES.items()):
             lines.append((f"$\\Delta R$ = {text} µm", runs[names[row]], {"color": f"C{color}"}))
         orbit_tilt_rate(axes[row], lines)
         axes[row][1].set_title(title)
@@ -74,11 +64,11 @@ def friction_pairs(runs: Runs, model: str) -> Figure:
     fig, (axes,) = panels(1)
     lines = [
         (f"$f_s/f_d$ = {pair}", runs[name], {"color": f"C{color}"})
-        for color, (pair, name) in enumerate(zip(PAIRS, MODELS[model], strict=True))
+        for color, (pair, name) in enumerate(zip(settings.PAIRS, settings.MODELS[model], strict=True))
     ]
     for _, run, look in lines:
         orbit(run, axes[0], **look)
-        tiltpad.plots.waveform(run, axes[1], "pad_tilt_rate", 1, PAD, **look)
+        tiltpad.plots.waveform(run, axes[1], "pad_tilt_rate", 1, settings.PAD, **look)
         part = tiltpad.last_revolutions(run, 1)
         tilt, moment = of_pad(run, "pad_tilt", part), of_pad(run, "friction_moment", part)
         axes[2].plot(SHOWN["pad_tilt"].factor * tilt, moment, **look)
@@ -89,14 +79,14 @@ def friction_pairs(runs: Runs, model: str) -> Figure:
 def figure_14(runs: Runs) -> Figure:
     """Friction coefficient over sliding velocity, a panel a model."""
     fig, (axes,) = panels(1)
-    for (model, names), ax in zip(MODELS.items(), axes, strict=True):
-        for color, (pair, name) in enumerate(zip(PAIRS, names, strict=True)):
+    for (model, names), ax in zip(settings.MODELS.items(), axes, strict=True):
+        for color, (pair, name) in enumerate(zip(settings.PAIRS, names, strict=True)):
             run = runs[name]
-            velocity, coefficient = tiltpad.friction_coefficient(run, PAD, 1)
+            velocity, coefficient = tiltpad.friction_coefficient(run, settings.PAD, 1)
             ax.plot(1e3 * velocity, coefficient, color=f"C{color}", label=f"$f_s/f_d$ = {pair}")
             span = np.abs(velocity).max()
             steady = np.concatenate([-np.geomspace(span, 1e-9, 300), np.geomspace(1e-9, span, 300)])
-            label = "steady law" if color == len(PAIRS) - 1 else None
+            label = "steady law" if color == len(settings.PAIRS) - 1 else None
             look = {"color": "black", "linestyle": ":", "linewidth": 0.7, "label": label}
             ax.plot(1e3 * steady, stribeck_curve(run, steady), **look)
         ax.set(title=named(model), xlabel=VELOCITY)
@@ -110,25 +100,28 @@ def figure_14(runs: Runs) -> Figure:
 def figure_15(runs: Runs) -> Figure:
     """Run-up: the whole of it, and revolutions at low and at high speed."""
     fig, axes = panels(3)
-    lines = [(named(model), runs[name], {"color": f"C{i}"}) for i, (model, name) in enumerate(RUNUPS.items())]
+    lines = [
+        (named(model), runs[name], {"color": f"C{i}"})
+        for i, (model, name) in enumerate(settings.RUNUPS.items())
+    ]
     for ax, name in zip(axes[0][1:], ("pad_tilt", "pad_tilt_rate"), strict=True):
         for _, run, look in lines:
-            tiltpad.plots.history(run, ax, name, PAD, **look)
+            tiltpad.plots.history(run, ax, name, settings.PAD, **look)
         speed = SHOWN["speed"].factor * run.values("speed")[[0, -1]]
         top_axis(ax, run.time[[0, -1]], speed, SHOWN["speed"].label)
     trajectory(lines[0][1], axes[0][0], slice(None, None, 4), linewidth=0.2, color="0.85")
     for _, run, look in lines:
         axes[0][0].plot(*(SHOWN["journal_y"].factor * each for each in orbit_centres(run)), **look)
     axes[0][0].set_title("centres of the orbits")
-    for row, rpm in ((1, LOW_SPEED), (2, HIGH_SPEED)):
+    for row, rpm in ((1, settings.LOW_SPEED), (2, settings.HIGH_SPEED)):
         for _, run, look in lines:
-            part = speed_window(run, rpm, DETAIL)
+            part = speed_window(run, rpm, settings.DETAIL)
             trajectory(run, axes[row][0], part, **look)
             turns = tiltpad.revolutions(run, part)
             for ax, name in zip(axes[row][1:], ("pad_tilt", "pad_tilt_rate"), strict=True):
                 ax.plot(turns - turns[0], SHOWN[name].factor * of_pad(run, name, part), **look)
-                ax.set(xlabel="shaft revolutions", ylabel=SHOWN[name].label, xlim=(0, DETAIL))
-        axes[row][1].set_title(f"from {rpm} rpm" if rpm < HIGH_SPEED else f"up to {rpm} rpm")
+                ax.set(xlabel="shaft revolutions", ylabel=SHOWN[name].label, xlim=(0, settings.DETAIL))
+        axes[row][1].set_title(f"from {rpm} rpm" if rpm < settings.HIGH_SPEED else f"up to {rpm} rpm")
     return legend(fig, lines)
 
 
@@ -151,7 +144,7 @@ def figure_pads(runs: Runs) -> Figure:
 #: Pictures of this module by the paper's numbers.
 FIGURES = {
     name.partition("_")[2]: draw for name, draw in list(globals().items()) if name.startswith("figure_")
-} | {str(11 + k): partial(friction_pairs, model=model) for k, model in enumerate(MODELS)}
+} | {str(11 + k): partial(friction_pairs, model=model) for k, model in enumerate(settings.MODELS)}
 
 
 def tilt_rates(lines: Sequence[tuple[str, tiltpad.Run]]) -> Figure:
@@ -159,8 +152,8 @@ def tilt_rates(lines: Sequence[tuple[str, tiltpad.Run]]) -> Figure:
     fig = plt.figure(figsize=(PAGE / 2 + 1, 2.7))
     ax = fig.subplots()
     for color, (text, run) in enumerate(lines):
-        tiltpad.plots.waveform(run, ax, "pad_tilt_rate", 1, PAD, color=f"C{color}", label=text)
-    ax.set_ylabel(f"{SHOWN['pad_tilt_rate'].text} of pad {PAD} ({SHOWN['pad_tilt_rate'].unit})")
+        tiltpad.plots.waveform(run, ax, "pad_tilt_rate", 1, settings.PAD, color=f"C{color}", label=text)
+    ax.set_ylabel(f"{SHOWN['pad_tilt_rate'].text} of pad {settings.PAD} ({SHOWN['pad_tilt_rate'].unit})")
     fig.legend(loc="outside upper center", ncols=3)
     return fig
 
@@ -170,7 +163,7 @@ def orbit_tilt_rate(axes: Sequence[Axes], lines: Sequence[Line]) -> None:
     for _, run, look in lines:
         orbit(run, axes[0], **look)
         for ax, name in zip(axes[1:], ("pad_tilt", "pad_tilt_rate"), strict=True):
-            tiltpad.plots.waveform(run, ax, name, 1, PAD, **look)
+            tiltpad.plots.waveform(run, ax, name, 1, settings.PAD, **look)
 
 
 def orbit(run: tiltpad.Run, ax: Axes, **look: Any) -> None:

@@ -27,11 +27,6 @@ def of_pad(run: Run, name: str, part: slice) -> np.ndarray:
     return run.values(name, part)[:, PAD - 1]
 
 
-def ball(run: Run) -> float:
-    """Radius of the ball R1, m."""
-    return run.input["pivot"]["socket_radius"] - run.input["pivot"]["radius_difference"]
-
-
 def sticking(run: Run) -> float:
     """Time for which the first pad is slower than tiltpad calls sticking, over the time for which a
     sinusoid of the same amplitude is: 1 where the pad swings freely, more where it comes to rest.

@@ -172,7 +172,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
     if options.plot in alone:
         alone[options.plot](options, output, form)
         return
-    from tiltpad.draw import figures, plots
+    from tiltpad.draw import figures, layout, plots
 
     with ExitStack() as stack:
         either = options.plot in (BRANCH, *OF_EITHER)
@@ -180,7 +180,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         runs = [stack.enter_context(opened(path)) for path in options.files]
         stack.enter_context(mpl.style.context(plots.STYLE))
         if options.pad is not None and not either:
-            figures.shown_pads([run for run in runs if isinstance(run, Run)], options.pad)
+            layout.shown_pads([run for run in runs if isinstance(run, Run)], options.pad)
         own = (name for name, plots_with in OWN_OPTIONS.items() if options.plot in plots_with)
         more = {name: getattr(options, name) for name in own if getattr(options, name) is not None}
         if options.plot in OF_EITHER:

@@ -7,9 +7,9 @@ import subprocess
 import sys
 import tempfile
 import weakref
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from tiltpad.collect.collect import collect
 from tiltpad.files import namelist
@@ -26,6 +26,7 @@ INPUT_ERROR, NUMERICS, STOPPED = 1, 2, 4
 REMARK = re.compile(r"^((?:'[^']*'|[^'!\n])*?)\s*!.*$", re.MULTILINE)
 
 Groups = Mapping[str, Mapping[str, Any]]
+Result = TypeVar("Result", bound=Run | Study)
 
 
 class MissingProgramError(RunError):
@@ -55,10 +56,25 @@ def run(
     case is a ValueError with the program's message, a run that gives no result a RunError. Where the numerics
     fail on the way the result is there up to this point, with an IncompleteRunWarning.
     """
+    options = ["--overwrite"] * overwrite + ["--quiet"] * quiet
+    for group, values in overrides.items():
+        for name, value in namelist.variables(group, values).items():
+            options += ["--set", f"{group}%{name}={namelist.written(value, group == namelist.STUDY)}"]
+
+    def started(folder: Path) -> Run | Study:
+        path = case
+        if not isinstance(path, str | os.PathLike):
+            path = namelist.write_case(folder / "case.nml", path or {"case": {}})
+        return result_of(path, Path(output) if output is not None else folder / "result.h5", options)
+
+    return in_temporary_folder(started)
+
+
+def in_temporary_folder(work: Callable[[Path], Result]) -> Result:
+    """What the work gives, opened; its folder stays for as long as that is used."""
     folder = Path(tempfile.mkdtemp(prefix="tiltpad-"))
-    target = Path(output) if output is not None else folder / "result.h5"
     try:
-        result = started(case, folder, target, overwrite, quiet, overrides)
+        result = work(folder)
     except BaseException:
         shutil.rmtree(folder, ignore_errors=True)
         raise
@@ -66,23 +82,9 @@ def run(
     return result
 
 
-def started(
-    case: "str | os.PathLike | Groups | None",
-    folder: Path,
-    target: Path,
-    overwrite: bool,
-    quiet: bool,
-    overrides: Groups,
-) -> Run | Study:
-    """Runs the program with what else it needs in `folder`."""
-    if not isinstance(case, str | os.PathLike):
-        case = namelist.write_case(folder / "case.nml", case or {"case": {}})
-    words = [program(), os.fspath(case), "--output", os.fspath(target)]
-    words += ["--overwrite"] if overwrite else []
-    words += ["--quiet"] if quiet else []
-    for group, values in overrides.items():
-        for name, value in namelist.variables(group, values).items():
-            words += ["--set", f"{group}%{name}={namelist.written(value, group == namelist.STUDY)}"]
+def result_of(case: str | os.PathLike, target: Path, options: Sequence[str]) -> Run | Study:
+    """Runs the program."""
+    words = [program(), os.fspath(case), "--output", os.fspath(target), *options]
     done = subprocess.run(words, stderr=subprocess.PIPE, text=True)
     said = done.stderr.strip().removeprefix("tiltpad: error: ")
     said = said.replace("--overwrite", "overwrite=True").replace("--output", "output")

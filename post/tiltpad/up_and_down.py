@@ -1,11 +1,9 @@
 """A bifurcation diagram by brute force: marches up and down a parameter, each from the last one's end."""
 
 import os
-import shutil
-import tempfile
 import warnings
-import weakref
 from collections.abc import Iterable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +12,7 @@ import h5py
 from tiltpad.collect.collect import collect
 from tiltpad.files.namelist import written
 from tiltpad.files.study import REVOLUTIONS, Study, read_study
-from tiltpad.running import Groups, run
+from tiltpad.running import Groups, in_temporary_folder, run
 
 #: Parameter of the study that tells its two ways, and their names.
 WAY, WAYS = "brute_force%direction", ("upwards", "downwards")
@@ -46,26 +44,22 @@ def brute_force(
     rising = sorted(float(value) for value in values)
     if not rising or settle < 0 or not 0 < revolutions <= REVOLUTIONS:
         raise ValueError(f"it needs values, settle from 0 on, and revolutions from 1 to {REVOLUTIONS}")
-    folder = Path(output) if output is not None else Path(tempfile.mkdtemp(prefix="tiltpad-"))
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        study = marched(case, parameter, rising, folder, (settle, revolutions), overrides)
-    except BaseException:
-        if output is None:
-            shutil.rmtree(folder, ignore_errors=True)
-        raise
     if output is None:
-        weakref.finalize(study, shutil.rmtree, folder, ignore_errors=True)
-    return study
+        return in_temporary_folder(
+            partial(marched, case, parameter, rising, (settle, revolutions), overrides)
+        )
+    folder = Path(output)
+    folder.mkdir(parents=True, exist_ok=True)
+    return marched(case, parameter, rising, (settle, revolutions), overrides, folder)
 
 
 def marched(
     case: "str | os.PathLike | Groups | None",
     parameter: str,
     rising: list[float],
-    folder: Path,
     turns: tuple[int, int],
     overrides: Groups,
+    folder: Path,
 ) -> Study:
     """The study of marches with these numbers of revolutions, without samples and with samples."""
     own: dict[str, Any] = {group: dict(values) for group, values in overrides.items()}

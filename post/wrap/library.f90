@@ -17,10 +17,9 @@ module tiltpad_library
    use contact_law, only: contact_law_type, contact_point
    use friction, only: friction_law, friction_response
    use kinds, only: degree
-   use spectra, only: one_sided_amplitude, full_amplitude
    implicit none (type, external)
    private
-   public :: film_pressure, power_losses, contact, contact_pressure, friction_force, one_sided, full
+   public :: film_pressure, power_losses, contact, contact_pressure, friction_force
 
 contains
 
@@ -53,18 +52,8 @@ contains
       real(c_double), allocatable :: y(:)
       integer :: i
       logical :: ok
-      phi = 0
-      z = 0
-      pressure = 0
-      force = 0
-      max_pressure = 0
-      min_film_thickness = 0
-      call read_case_of(text, name, int(pads), inputs, error)
+      call read_bearing(text, name, viscosity, inputs, model, error)
       if (.not. allocated(error)) then
-         ! one state is not worth a table
-         if (inputs%film%solver == 'auto') inputs%film%solver = 'direct'
-         model = new_bearing_model(inputs)
-         if (all(viscosity > 0)) model%oil%viscosity = viscosity
          y = model%state(journal_motion(journal(:2), journal(3:4)), &
             & [(pad_state(tilt(1, i), tilt(2, i), pivot_deflection(1, i), pivot_deflection(2, i)), i=1, pads)])
          call model%evaluate(time, y, .false., ok)
@@ -106,13 +95,8 @@ contains
       type(bearing_losses_type) :: finder
       type(pad_loss) :: found(pads)
       integer :: i, k
-      losses = 0
-      call read_case_of(text, name, int(pads), inputs, error)
+      call read_bearing(text, name, viscosity, inputs, model, error)
       if (.not. allocated(error)) then
-         ! no film of the model is solved
-         if (inputs%film%solver == 'auto') inputs%film%solver = 'direct'
-         model = new_bearing_model(inputs)
-         if (all(viscosity > 0)) model%oil%viscosity = viscosity
          finder = new_bearing_losses(inputs)
          do k = 1, n
             call finder%find(model%bearing, journal_motion(journal(:2, k), journal(3:4, k)), &
@@ -182,9 +166,7 @@ contains
       class(friction_law), allocatable :: law
       type(friction_response) :: response
       integer :: i
-      force = 0
-      rate = 0
-      call read_case(text, name, inputs, error)
+      call case_from_text(text, name, inputs, error)
       if (.not. allocated(error)) then
          call make_friction(inputs, law)
          do i = 1, n
@@ -196,41 +178,25 @@ contains
       call tell(error, status, message)
    end subroutine friction_force
 
-   !> Amplitudes of a real signal of n samples at the frequencies k/(n dt), k = 0 .. n/2.
-   subroutine one_sided(signal, amplitude, n)
-      integer(c_int), intent(in) :: n
-      real(c_double), intent(in) :: signal(n)
-      real(c_double), intent(out) :: amplitude(n/2 + 1)
-      amplitude = one_sided_amplitude(signal)
-   end subroutine one_sided
-
-   !> Amplitudes of y + i z at the frequencies k/(n dt), k = -((n-1)/2) .. n/2.
-   subroutine full(y, z, amplitude, n)
-      integer(c_int), intent(in) :: n
-      real(c_double), intent(in) :: y(n), z(n)
-      real(c_double), intent(out) :: amplitude(n)
-      amplitude = full_amplitude(cmplx(y, z, c_double))
-   end subroutine full
-
-   !> The case of a namelist text.
-   subroutine read_case(text, name, inputs, error)
+   !> The bearing of a namelist text, which has to have as many pads as viscosities are given. Few states are not worth
+   !> a table.
+   subroutine read_bearing(text, name, viscosity, inputs, model, error)
       character(len=*), intent(in) :: text, name
+      real(c_double), intent(in) :: viscosity(:)
       type(case_type), intent(out) :: inputs
+      type(bearing_model), intent(out) :: model
       type(error_type), allocatable, intent(out) :: error
       call case_from_text(text, name, inputs, error)
-   end subroutine read_case
-
-   !> The same, which has to have this number of pads.
-   subroutine read_case_of(text, name, pads, inputs, error)
-      character(len=*), intent(in) :: text, name
-      integer, intent(in) :: pads
-      type(case_type), intent(out) :: inputs
-      type(error_type), allocatable, intent(out) :: error
-      call read_case(text, name, inputs, error)
       if (allocated(error)) return
-      if (inputs%pad_count() /= pads) call raise(error, input_error, name//': '//to_text(inputs%pad_count()) &
-         & //' pads, but states of '//to_text(pads))
-   end subroutine read_case_of
+      if (inputs%pad_count() /= size(viscosity)) then
+         call raise(error, input_error, name//': '//to_text(inputs%pad_count()) &
+            & //' pads, but states of '//to_text(size(viscosity)))
+         return
+      end if
+      if (inputs%film%solver == 'auto') inputs%film%solver = 'direct'
+      model = new_bearing_model(inputs)
+      if (all(viscosity > 0)) model%oil%viscosity = viscosity
+   end subroutine read_bearing
 
    !> The contact at each pivot deflection, m; that of no force where it is not positive.
    subroutine find_contacts(text, name, pivot_deflection, points, error)
@@ -241,7 +207,7 @@ contains
       type(case_type) :: inputs
       class(contact_law_type), allocatable :: law
       integer :: i
-      call read_case(text, name, inputs, error)
+      call case_from_text(text, name, inputs, error)
       if (allocated(error)) return
       call make_law(inputs, law)
       do i = 1, size(points)

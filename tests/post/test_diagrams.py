@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import tiltpad
 from tiltpad import command, diagrams, figures
+from tiltpad.calculate import selection
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
 
@@ -172,7 +173,7 @@ def test_values_that_are_kept(study):
     (line,) = ax.get_lines()
     np.testing.assert_allclose(line.get_ydata(), 1e6 * study("both").orbit_size[3:])
     for spelled in ("LuGre", "LUGRE"):
-        assert diagrams.selected(study("both"), {"model": spelled}).sum() == 3
+        assert selection.selected(study("both"), {"model": spelled}).sum() == 3
     figure = figures.study(study("grid"), where={"speed_rpm": "6.5e3"})
     assert figure.get_suptitle() == "speed_rpm = 6.5e3"
     np.testing.assert_array_equal(figure.axes[0].get_lines()[0].get_xdata(), UNBALANCES)

@@ -175,19 +175,6 @@ def test_friction_of_closed_forms():
     assert not tiltpad.friction_force(v, 1e4).any()
 
 
-@pytest.mark.parametrize("n", [1, 2, 7, 8, 9, 45, 128, 361])
-def test_spectra_are_numpys(n):
-    y, z = np.random.default_rng(1).normal(size=(2, n))
-    one_sided = np.abs(np.fft.rfft(y)) / n
-    one_sided[1 : (n + 1) // 2] *= 2
-    np.testing.assert_allclose(library.one_sided_amplitude(y), one_sided, atol=1e-14)
-    order = np.arange(-((n - 1) // 2), n // 2 + 1)
-    full = np.abs(np.fft.fft(y + 1j * z))[order] / n
-    np.testing.assert_allclose(library.full_amplitude(y, z), full, atol=1e-14)
-    with pytest.raises(ValueError, match="a signal must be an array"):
-        library.full_amplitude(y, z[1:])
-
-
 @pytest.mark.parametrize(
     ("case", "message"),
     [
@@ -246,10 +233,9 @@ class Heap(ctypes.Structure):
         lambda run: tiltpad.pivot_load(1e-6, run),
         lambda run: tiltpad.contact_pressure(1e-6, 0, run),
         lambda run: tiltpad.friction_force(1e-3, 1e4, 0, run),
-        lambda _: library.one_sided_amplitude(np.ones(100)),
         lambda _: pytest.raises(tiltpad.LibraryError, tiltpad.contact, 1e-6, "&pivot law='x' /"),
     ],
-    ids=["pressure", "pivot_load", "contact_pressure", "friction_force", "one_sided", "refused"],
+    ids=["pressure", "pivot_load", "contact_pressure", "friction_force", "refused"],
 )
 def test_no_memory_is_lost(run, call):
     """Not 20 bytes a call, counted by the library that gives the memory; the first calls may fill caches."""

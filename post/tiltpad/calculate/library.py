@@ -1,4 +1,4 @@
-"""Calculations by the solver's own library: film pressure, contact, friction, spectra; all in SI units.
+"""Calculations by the solver's own library: film pressure, contact, friction; all in SI units.
 
 The Fortran library of the program is compiled into this package. Without this part the functions raise
 MissingLibraryError, and the rest of the package works.
@@ -246,16 +246,6 @@ def bristle_rate(
     return elementwise("friction_force", case, velocity, deflection, 0.0)[1]
 
 
-def one_sided_amplitude(signal: float | np.ndarray) -> np.ndarray:
-    """Amplitudes (n//2 + 1,) of a signal (n,) at k/(n dt), k = 0, ..., n//2: that of a sine is its own."""
-    return called_plain("one_sided", signal)
-
-
-def full_amplitude(y: float | np.ndarray, z: float | np.ndarray) -> np.ndarray:
-    """Amplitudes (n,) of y + i z at k/(n dt), k = -((n-1)//2), ..., n//2: forward whirl at positive k."""
-    return called_plain("full", y, z)
-
-
 def elementwise(name: str, case: Run | str, *arguments: float | np.ndarray) -> list[np.ndarray]:
     """The results of a routine that takes arrays of one length, in the common shape of the arguments."""
     arrays = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in arguments))
@@ -272,14 +262,6 @@ def called(name: str, case: Run | str, *arguments: Any) -> list[Any]:
     if status:
         raise LibraryError(message.decode(errors="replace").strip(), int(status))
     return results
-
-
-def called_plain(name: str, *signals: float | np.ndarray) -> np.ndarray:
-    """The result of a routine that needs no case."""
-    arrays = [np.asarray(each, dtype=float) for each in signals]
-    if arrays[0].ndim != 1 or not arrays[0].size or len({each.shape for each in arrays}) > 1:
-        raise ValueError(f"a signal must be an array (n,) with n > 0, not {arrays[0].shape}")
-    return routine(name)(*arrays)
 
 
 def routine(name: str) -> Callable[..., Any]:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tiltpad.calculate.selection import default_over, distinct, needs, selected
+from tiltpad.calculate.selection import SPEED, axis_of, selected, varying
 from tiltpad.calculate.signals import at_angle, steady
 from tiltpad.calculate.spectra import order_track
 from tiltpad.files.archive import NotInRunError
@@ -18,8 +18,6 @@ from tiltpad.files.study import Study
 
 #: Directions of the journal, in the order of the columns.
 DIRECTIONS = ("y", "z")
-#: The parameter over which peaks are critical speeds.
-SPEED = "speed_rpm"
 #: Amplitude at half the power.
 HALF_POWER = np.sqrt(0.5)
 #: Points between two of a curve at which it is looked at.
@@ -132,10 +130,8 @@ def of_study(
 ) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
     """Parameter, its rising values, amplitudes and phases of the runs of a study."""
     chosen = selected(study, where)
-    several = [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
-    over = over or (SPEED if SPEED in several else default_over(study, several, chosen))
-    needs(over, study.parameters, "over", "a parameter")
-    if others := [name for name in several if name != over]:
+    over = axis_of(study, over, chosen)
+    if others := [name for name in varying(study, chosen) if name != over]:
         raise ValueError(f"{study.path}: runs differ in {', '.join(others)}, too: choose by where")
     place = np.flatnonzero(chosen)
     place = place[np.argsort(study[over][place], kind="stable")]

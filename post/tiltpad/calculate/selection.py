@@ -9,6 +9,9 @@ from tiltpad.calculate.differences import WORDS
 from tiltpad.files.archive import meant
 from tiltpad.files.study import Study
 
+#: The parameter over which results are drawn where runs differ in it.
+SPEED = "speed_rpm"
+
 
 class ArgumentError(ValueError):
     """Arguments that do not fit the study.
@@ -58,6 +61,19 @@ def default_over(study: Study, several: Sequence[str], chosen: np.ndarray) -> st
     names = several or study.parameters
     numeric = [name for name in names if is_number(study, name)]
     return max(numeric or names, key=lambda name: len(distinct(study[name][chosen])))
+
+
+def varying(study: Study, chosen: np.ndarray) -> list[str]:
+    """The parameters in which the chosen runs differ."""
+    return [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
+
+
+def axis_of(study: Study, over: str | None, chosen: np.ndarray) -> str:
+    """The parameter along the axis: the speed where it differs, otherwise the number with the most values."""
+    several = varying(study, chosen)
+    over = over or (SPEED if SPEED in several else default_over(study, several, chosen))
+    needs(over, study.parameters, "over", "a parameter")
+    return over
 
 
 def is_number(study: Study, name: str) -> bool:

@@ -7,15 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from tiltpad.calculate.signals import (
-    at_angle,
-    edges,
-    ends,
-    last_revolutions,
-    needs_revolutions,
-    series,
-    steady,
-)
+from tiltpad.calculate import signals
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 
@@ -45,7 +37,7 @@ def one_sided(
     all pads without `pad`. The value at frequency 0 is the magnitude of the mean.
     """
     part, interval = sampled_evenly(run, last)
-    values = series(run, name, part, pad).T
+    values = signals.series(run, name, part, pad).T
     count = values.shape[-1]
     amplitude = 2 / count * np.abs(np.fft.rfft(values))
     amplitude[..., 0] /= 2
@@ -67,11 +59,11 @@ def full(run: Run, last: float = 10) -> tuple[np.ndarray, np.ndarray]:
 
 def sampled_evenly(run: Run, last: float) -> tuple[slice, float]:
     """Samples of the last revolutions, without the sample that begins the next one, and their interval, s."""
-    if not steady(run):
+    if not signals.steady(run):
         raise NotInRunError(f"{run.path}: no spectrum in this run: the speed changes; see waterfall")
-    needs_revolutions(run, "spectrum")
-    part = last_revolutions(run, last)
-    time = ends(run, "time", part)
+    signals.needs_revolutions(run, "spectrum")
+    part = signals.last_revolutions(run, last)
+    time = signals.ends(run, "time", part)
     return slice(part.start, part.stop - 1), float(np.ptp(time)) / (part.stop - part.start - 1)
 
 
@@ -144,23 +136,27 @@ def windows(
 
     The values are at equal steps of the shaft angle over whole revolutions; the weights (Hann) sum to 1.
     """
-    if steady(run):
+    if signals.steady(run):
         raise NotInRunError(
             f"{run.path}: no {what} in this run: its speed stays the same, a run-up is needed"
         )
-    needs_revolutions(run, what, revolutions)
-    first, final = ends(run, "shaft_angle")
+    signals.needs_revolutions(run, what, revolutions)
+    first, final = signals.ends(run, "shaft_angle")
     length = 2 * np.pi * revolutions
     count = max(1, min(spans, int((final - first) / length * 2)))
     starts = np.linspace(first, final - length, count)
-    parts = zip(edges(run, starts) - 2, edges(run, starts + length) + 2, strict=True)
+    parts = zip(signals.edges(run, starts) - 2, signals.edges(run, starts + length) + 2, strict=True)
     for start, part in zip(starts, (slice(max(0, i), j) for i, j in parts), strict=True):
         angle = run.values("shaft_angle", part)
         steps = len(angle) - 4
         even = start + length * np.arange(steps) / steps
         weight = np.sin(np.pi * np.arange(steps) / steps) ** 2
-        speed = at_angle(angle, run.values("speed", part), np.array([start + length / 2]))[0]
-        yield speed, even, weight / weight.sum() * at_angle(angle, series(run, name, part, pad), even)
+        speed = signals.at_angle(angle, run.values("speed", part), np.array([start + length / 2]))[0]
+        yield (
+            speed,
+            even,
+            weight / weight.sum() * signals.at_angle(angle, signals.series(run, name, part, pad), even),
+        )
 
 
 def needs_pad(run: Run, name: str, pad: int | None) -> None:

@@ -16,20 +16,7 @@ from tiltpad.calculate import branches, signals
 from tiltpad.calculate.response import DIRECTIONS, Peak
 from tiltpad.calculate.response import response as response_of
 from tiltpad.calculate.selection import needs
-from tiltpad.draw import plots
-from tiltpad.draw.layout import (
-    COLUMN,
-    DASHES,
-    colors,
-    dots,
-    heading,
-    labels,
-    legend,
-    of_several,
-    part_color,
-    shown_pads,
-    stacked,
-)
+from tiltpad.draw import layout, plots
 from tiltpad.draw.vibrations import parts, title
 from tiltpad.files import units
 from tiltpad.files.archive import NotInRunError
@@ -45,7 +32,7 @@ MARCHED = {"linestyle": "", "marker": ".", "markersize": 2, "color": "0.65", "zo
 FARTHEST = 2
 
 
-@of_several
+@layout.of_several
 def response(
     runs: Sequence[Run | Study],
     last: float | None = None,
@@ -55,7 +42,7 @@ def response(
 ) -> Figure:
     """Amplitude and phase of the journal's first harmonic over the speed, with the critical speeds."""
     found = parts(runs, None, over, where)
-    fig, panels = stacked(["amplitude", "phase"])
+    fig, panels = layout.stacked(["amplitude", "phase"])
     fig.set_figheight(4.2)
     entries, size = [], SHOWN["amplitude"]
     for color, one in enumerate(found):
@@ -64,13 +51,13 @@ def response(
             line = (
                 {"color": f"C{k}"}
                 if len(found) == 1
-                else {"color": part_color(color, len(found)), "linestyle": DASHES[k]}
+                else {"color": layout.part_color(color, len(found)), "linestyle": layout.DASHES[k]}
             )
             for name, values in (
                 ("amplitude", size.factor * own.amplitude),
                 ("phase", np.degrees(own.phase)),
             ):
-                panels[name].plot(own.values, values[:, k], **line | dots(len(own.values)))
+                panels[name].plot(own.values, values[:, k], **line | layout.dots(len(own.values)))
             peaks = [each for each in own.peaks if each.direction == direction]
             for each in peaks:
                 for ax in panels.values():
@@ -80,7 +67,7 @@ def response(
     text, unit = units.named(own.parameter)
     panels["amplitude"].set(ylabel=f"{size.text}, order 1 ({size.unit})", ylim=(0, None))
     panels["phase"].set(ylabel="phase lag, order 1 (deg)", xlabel=units.Shown(text, 1, unit).label)
-    heading(fig, entries, title(runs))
+    layout.heading(fig, entries, title(runs))
     return fig
 
 
@@ -90,7 +77,7 @@ def in_words(peak: Peak) -> str:
     return f"{peak.speed_rpm:.0f} rpm" + (f", AF {factor:.2f}" if np.isfinite(factor) else "")
 
 
-@of_several
+@layout.of_several
 def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | None = None) -> Figure:
     """Highest and lowest values along branches, unstable parts dashed, bifurcation points by their letters.
 
@@ -102,8 +89,8 @@ def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | No
         raise NotInRunError(f"{runs[0].path}: no branch in this study: its marches are drawn below one")
     for run in found:
         branches.needs_branch(run)
-    shown_pads(found, pad)
-    fig, panels = stacked([("journal_y", None), ("pad_tilt", pad) if pad else ("journal_z", None)])
+    layout.shown_pads(found, pad)
+    fig, panels = layout.stacked([("journal_y", None), ("pad_tilt", pad) if pad else ("journal_z", None)])
     fig.set_figheight(4.4)
     several = len(found) > 1
     for (name, own), ax in panels.items():
@@ -115,7 +102,7 @@ def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | No
         ax.set(ylabel=SHOWN[name].label + whose, xlabel=parameter_of(found[0]).label)
         ax.margins(y=0.1)
     if several:
-        names = [(text, {"color": f"C{k}"}) for k, text in enumerate(labels(found))]
+        names = [(text, {"color": f"C{k}"}) for k, text in enumerate(layout.labels(found))]
     else:
         numbers = np.unique(found[0]["branch"]).astype(int)
         names = [(f"branch {each}", {"color": color_of(each)}) for each in numbers if len(numbers) > 1]
@@ -125,7 +112,7 @@ def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | No
     marks = [(f"stable{frozen}", {"color": "0.3"}), ("unstable", {"color": "0.3"} | UNSTABLE)]
     marks += [(": ".join(branches.KINDS.get(each, (each, ""))), MARK | {"color": "0.3"}) for each in kinds]
     marks += [("marches", MARCHED | {"markersize": 5})] if len(found) < len(runs) else []
-    heading(fig, [*names, *marks], title(found))
+    layout.heading(fig, [*names, *marks], title(found))
     return fig
 
 
@@ -166,14 +153,14 @@ def color_of(branch: int) -> str:
     return f"C{(branch - 1) % 8}"
 
 
-@of_several
+@layout.of_several
 def multipliers(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Floquet multipliers of periodic orbits, or along branches, in and around the unit circle."""
-    fig = plt.figure(figsize=(COLUMN, 3.4))
+    fig = plt.figure(figsize=(layout.COLUMN, 3.4))
     ax = fig.subplots()
     ax.add_patch(Circle((0, 0), 1, fill=False, linewidth=0.8, color="0.3"))
     reach = 1.0
-    for color, run in zip(colors(runs), runs, strict=True):
+    for color, run in zip(layout.colors(runs), runs, strict=True):
         if run.is_branch:
             values = branches.multipliers(run)
             parameter = np.broadcast_to(run["parameter"][:, None], values.shape)
@@ -190,5 +177,5 @@ def multipliers(runs: Sequence[Run], last: float | None = None, pad: int | None 
         reach = max(reach, float(np.abs(values).max()))
     reach = 1.1 * min(reach, FARTHEST)
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
-    legend(fig, runs, [])
+    layout.legend(fig, runs, [])
     return fig

@@ -11,16 +11,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
+from tiltpad.calculate import selection
 from tiltpad.calculate.coefficients import chosen_pivot
-from tiltpad.calculate.selection import (
-    ArgumentError,
-    default_over,
-    distinct,
-    is_number,
-    needs,
-    selected,
-    written,
-)
 from tiltpad.draw.layout import DENSE, dots, part_color
 from tiltpad.draw.plots import on_axes
 from tiltpad.files import units
@@ -65,13 +57,13 @@ def diagram(
     most values; `kind` is one of KINDS; `where` keeps the runs with these values of parameters. Raises
     ValueError for arguments that do not fit the study.
     """
-    chosen = selected(study, where or {})
-    several = [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
-    over = over or default_over(study, several, chosen)
-    needs(over, study.parameters, "over", "a parameter")
+    chosen = selection.selected(study, where or {})
+    several = selection.varying(study, chosen)
+    over = over or selection.default_over(study, several, chosen)
+    selection.needs(over, study.parameters, "over", "a parameter")
     others = [name for name in several if name != over]
     kind = kind or default_kind(study, show, over, others, chosen)
-    needs(kind, KINDS, "kind", "a kind of diagram")
+    selection.needs(kind, KINDS, "kind", "a kind of diagram")
     draw = {"lines": lines, "map": field, "bifurcation": bifurcation}[kind]
     revolutions = draw is bifurcation
     if show is None:
@@ -103,7 +95,7 @@ def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
         text = text if np.isfinite(values[order][whole]).any() else f"{text}: none"
         color = part_color(number, len(groups))
         line = {"color": color, "label": text} | dots(len(order))
-        if not is_number(study, over):
+        if not selection.is_number(study, over):
             # there are no values between texts
             line |= {"linestyle": "", "marker": "o", "markersize": 3}
         ax.plot(place[order], np.where(whole, shown.factor * values[order], np.nan), **line)
@@ -115,12 +107,12 @@ def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
 
 def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
     """Colours over two parameters; a cross where a run failed, white where there is no run."""
-    numeric = [name for name in others if is_number(study, name)]
-    if not is_number(study, over) or not numeric:
+    numeric = [name for name in others if selection.is_number(study, name)]
+    if not selection.is_number(study, over) or not numeric:
         raise ValueError(
             f"{study.path}: a map needs two parameters that are numbers: {parameters_in_words(study)}"
         )
-    second = max(numeric, key=lambda name: len(distinct(study[name][chosen])))
+    second = max(numeric, key=lambda name: len(selection.distinct(study[name][chosen])))
     values, shown = show
     (at, x), (beside, y) = (axis(study, name, ax, which) for name, which in ((over, "x"), (second, "y")))
     columns, rows = (np.unique(each[chosen & np.isfinite(each)]) for each in (x, y))
@@ -130,7 +122,7 @@ def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
         cell = np.searchsorted(rows, y[k]), np.searchsorted(columns, x[k])
         if taken[cell]:
             rest = ", ".join(name for name in others if name != second) or "nothing"
-            raise ArgumentError(
+            raise selection.ArgumentError(
                 "{path}: a map has one run in each cell, here are several that differ in {rest}: "
                 "choose by {where}",
                 path=study.path,
@@ -164,7 +156,7 @@ def bifurcation(
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
     too_many(groups, others)
-    size = 3 if len(distinct(study[over][chosen])) < DENSE else 1.5
+    size = 3 if len(selection.distinct(study[over][chosen])) < DENSE else 1.5
     for number, (text, part) in enumerate(groups):
         points = np.where(study.done[part, None], shown.factor * values[part], np.nan)
         x = np.broadcast_to(place[part, None], points.shape)
@@ -187,8 +179,8 @@ def default_kind(study: Study, show: str | None, over: str, others: Sequence[str
     """A bifurcation diagram for Poincare points, a map over two numbers of many values, otherwise lines."""
     if show in POINTS:
         return "bifurcation"
-    if len(others) == 1 and is_number(study, over) and is_number(study, others[0]):
-        return "map" if len(distinct(study[others[0]][chosen])) > LINES_UP_TO else "lines"
+    if len(others) == 1 and selection.is_number(study, over) and selection.is_number(study, others[0]):
+        return "map" if len(selection.distinct(study[others[0]][chosen])) > LINES_UP_TO else "lines"
     return "lines"
 
 
@@ -207,15 +199,17 @@ def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Resul
     what = f"{'Poincare points' if revolutions else 'a result'}{' of a pad' if pad is not None else ''}"
     has = study.scales(name) if name in results else ()
     if "pad" in has and pad is None:
-        raise ArgumentError("{show}: {own} has a value for each pad: choose one by {pad}", own=name)
+        raise selection.ArgumentError("{show}: {own} has a value for each pad: choose one by {pad}", own=name)
     if "revolution" in has and not revolutions:
-        raise ArgumentError("{show}: {own} is once a revolution: {kind} bifurcation", own=name)
-    needs(name, [each for each in results if study.scales(each) == wanted], "show", what)
+        raise selection.ArgumentError("{show}: {own} is once a revolution: {kind} bifurcation", own=name)
+    selection.needs(name, [each for each in results if study.scales(each) == wanted], "show", what)
     values, shown = study[name], described(study, name, POINTS.get(name, name.removeprefix("pad_")))
     if pad is None:
         return values, shown
     if not 1 <= pad <= (last := study.length("pad")):
-        raise ArgumentError("{pad} {own}: must be 1 to {last}, the pads of this study", own=pad, last=last)
+        raise selection.ArgumentError(
+            "{pad} {own}: must be 1 to {last}, the pads of this study", own=pad, last=last
+        )
     return values[..., pad - 1], shown._replace(text=f"{shown.text}, pad {pad}")
 
 
@@ -223,19 +217,19 @@ def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarr
     """Unit of a parameter, positions of the runs along its axis, (run,); sets scale and ticks."""
     values = study[name]
     text = study.about(name, "long_name") or name
-    if not is_number(study, name):
-        names = distinct(values)
+    if not selection.is_number(study, name):
+        names = selection.distinct(values)
         place = np.array([names.index(value) if value in names else np.nan for value in values], dtype=float)
         ax.set(
             **{
                 f"{which}ticks": range(len(names)),
-                f"{which}ticklabels": [*map(written, names)],
+                f"{which}ticklabels": [*map(selection.written, names)],
             }
         )
         ax.set(**{f"{which}lim": (-0.5, len(names) - 0.5)})
         return Shown(text, 1, ""), place
     shown = units.shown(text, study.about(name, "units"), values)
-    if spread_in_ratio(distinct(values)):
+    if spread_in_ratio(selection.distinct(values)):
         ax.set(**{f"{which}scale": "log"})
     else:
         ax.locator_params(axis=which, nbins=6)
@@ -257,14 +251,14 @@ def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tup
     for k in np.flatnonzero(chosen):
         if all(value == value and value != "" for value in keys[k]):
             found.setdefault(keys[k], []).append(int(k))
-    rank = {name: distinct(study[name]) for name in others}
+    rank = {name: selection.distinct(study[name]) for name in others}
     keys = sorted(found, key=lambda key: [rank[name].index(v) for name, v in zip(others, key, strict=True)])
-    return [(", ".join(map(written, key)), np.array(found[key])) for key in keys]
+    return [(", ".join(map(selection.written, key)), np.array(found[key])) for key in keys]
 
 
 def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) -> None:
     if len(groups) > MOST_LINES:
-        raise ArgumentError(
+        raise selection.ArgumentError(
             "{lines} lines, one for each {others}, are more than {most}: choose by {where}, or {kind} map",
             lines=len(groups),
             others=" and ".join(others),

@@ -12,29 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tiltpad.calculate import pivots, signals
-from tiltpad.draw import diagrams, plots
+from tiltpad.calculate.selection import ArgumentError
+from tiltpad.draw import diagrams, layout, plots
 from tiltpad.draw.branches import branch, multipliers, response
 from tiltpad.draw.films import film, pressure
-from tiltpad.draw.layout import (
-    COLUMN,
-    DASHES,
-    PAGE,
-    drawn,
-    labels,
-    legend,
-    look,
-    of_several,
-    order_axis,
-    panel_a_pad,
-    parts,
-    plain,
-    remark_unfinished,
-    shown_pads,
-    stacked,
-    top_axis,
-    width,
-    with_pad,
-)
 from tiltpad.draw.orbits import equilibrium, orbit
 from tiltpad.draw.runups import orders, runup, size, waterfall
 from tiltpad.draw.vibrations import campbell, coefficients, stability
@@ -44,18 +25,18 @@ from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN, in_words
 
 
-@of_several
+@layout.of_several
 def spectrum(
     runs: Sequence[Run], last: float | None = None, pad: int | None = None, orders: float | None = None
 ) -> Figure:
     """Amplitudes of the journal up to an order: one-sided of y and of z, and full of y + i z."""
     orders = orders or 10
-    fig = plt.figure(figsize=(COLUMN, 5.6))
+    fig = plt.figure(figsize=(layout.COLUMN, 5.6))
     panels = fig.subplots(3, 1)
     for i, run in enumerate(runs):
         for ax, name in zip(panels, ("journal_y", "journal_z"), strict=False):
-            plots.spectrum(run, ax, name, orders, last, **look(i, 0, runs))
-        plots.full_spectrum(run, panels[2], orders / 2, last, **look(i, 0, runs))
+            plots.spectrum(run, ax, name, orders, last, **layout.look(i, 0, runs))
+        plots.full_spectrum(run, panels[2], orders / 2, last, **layout.look(i, 0, runs))
     frequency = {plots.shaft_frequency(run) for run in runs}
     span = orders * max(frequency)
     for ax, axis in zip(panels, "yz", strict=False):
@@ -67,92 +48,94 @@ def spectrum(
     )
     if len(frequency) == 1:
         for ax, reach in ((panels[0], orders), (full, orders / 2)):
-            order_axis(ax, frequency.copy().pop(), max(1, round(reach / 5)))
+            layout.order_axis(ax, frequency.copy().pop(), max(1, round(reach / 5)))
     for x, text in ((0.03, "backward"), (0.97, "forward")):
         side = "left" if x < 0.5 else "right"
         full.text(x, 0.95, text, transform=full.transAxes, ha=side, va="top", fontsize="small")
     panels[0].xaxis.label.set_visible(False)
     fig.align_ylabels(panels)
-    legend(fig, runs, [])
+    layout.legend(fig, runs, [])
     return fig
 
 
-@of_several
+@layout.of_several
 def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Friction moment over tilt, a panel for each pad, with the work dissipated in a revolution."""
-    fig, panels = panel_a_pad(runs, pad)
+    fig, panels = layout.panel_a_pad(runs, pad)
     for k, ax in panels.items():
         work = []
-        for i, run in with_pad(runs, k):
-            plots.hysteresis(run, ax, k, last or 1, **look(i, 0, runs))
+        for i, run in layout.with_pad(runs, k):
+            plots.hysteresis(run, ax, k, last or 1, **layout.look(i, 0, runs))
             work.append(pivots.friction_work(run, k))
         ax.margins(y=0.1)
         ax.set_title(f"pad {k}: {in_words('work', work)} per revolution")
-    legend(fig, runs, [])
+    layout.legend(fig, runs, [])
     return fig
 
 
-@of_several
+@layout.of_several
 def friction(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Friction coefficient over sliding velocity, a panel for each pad."""
-    fig, panels = panel_a_pad(runs, pad)
+    fig, panels = layout.panel_a_pad(runs, pad)
     for k, ax in panels.items():
-        for i, run in with_pad(runs, k):
-            plots.friction_coefficient(run, ax, k, last or 1, **look(i, 0, runs))
+        for i, run in layout.with_pad(runs, k):
+            plots.friction_coefficient(run, ax, k, last or 1, **layout.look(i, 0, runs))
         ax.set_title(f"pad {k}")
-    legend(fig, runs, [])
+    layout.legend(fig, runs, [])
     return fig
 
 
-@of_several
+@layout.of_several
 def sticking(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Tilt rate, bold where the pivot sticks, a panel for each pad, with the share of time that it sticks."""
     last = last or 2
-    fig, panels = panel_a_pad(runs, pad)
+    fig, panels = layout.panel_a_pad(runs, pad)
     for k, ax in panels.items():
         share = []
-        for i, run in with_pad(runs, k):
-            plots.sticking(run, ax, k, last, **look(i, 0, runs))
+        for i, run in layout.with_pad(runs, k):
+            plots.sticking(run, ax, k, last, **layout.look(i, 0, runs))
             share.append(pivots.stick_fraction(run, k, last))
         ax.set_title(f"pad {k}: sticks {in_words('share', share)} of the time")
-    neutral = look(0, 0, runs) | ({"color": "0.3"} if len(runs) > 1 else {})
-    legend(fig, runs, [("slides", neutral), ("sticks", neutral | plots.STUCK)])
+    neutral = layout.look(0, 0, runs) | ({"color": "0.3"} if len(runs) > 1 else {})
+    layout.legend(fig, runs, [("slides", neutral), ("sticks", neutral | plots.STUCK)])
     return fig
 
 
-@of_several
+@layout.of_several
 def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Journal, and tilt rate over tilt of a pad, once a revolution, on the path of the last ones.
 
     Where pads are fixed, the velocity of the journal stands in for the tilt.
     """
-    fig = plt.figure(figsize=(PAGE, 3.4))
+    fig = plt.figure(figsize=(layout.PAGE, 3.4))
     left, right = fig.subplots(1, 2)
     tilting = plots.all_tilt(runs)
     for i, run in enumerate(runs):
         for ax, names in ((left, plots.ORBIT), (right, plots.PHASE if tilting else plots.RISE)):
-            plots.poincare(run, ax, last or 50, names, pad or 1, **look(i, 0, runs))
+            plots.poincare(run, ax, last or 50, names, pad or 1, **layout.look(i, 0, runs))
     left.set(box_aspect=1, adjustable="datalim")
     left.margins(0.1)
     right.set(box_aspect=1)
     right.set_title(f"pad {pad or 1}" if tilting else "journal")
     left.set_title("journal")
     points = {"color": "0.3" if len(runs) > 1 else "C0", "linestyle": "", "marker": ".", "markersize": 5}
-    legend(fig, runs, [("once a revolution", points), (f"last {plots.PATH} revolutions", {"color": "0.7"})])
+    layout.legend(
+        fig, runs, [("once a revolution", points), (f"last {plots.PATH} revolutions", {"color": "0.7"})]
+    )
     return fig
 
 
-@of_several
+@layout.of_several
 def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Journal, tilt and tilt rate over the last revolutions; of fixed pads film and pressure."""
     last = last or 5
-    pads = shown_pads(runs, pad)
+    pads = layout.shown_pads(runs, pad)
     of_pads = plots.PHASE if plots.all_tilt(runs) else plots.FILM
-    fig, panels = stacked(["journal_y", "journal_z", *of_pads])
+    fig, panels = layout.stacked(["journal_y", "journal_z", *of_pads])
     for i, run in enumerate(runs):
         for name, ax in panels.items():
-            for k, p in drawn(run, name, pads):
-                plots.waveform(run, ax, name, last, pad=p, **look(i, k, runs))
+            for k, p in layout.drawn(run, name, pads):
+                plots.waveform(run, ax, name, last, pad=p, **layout.look(i, k, runs))
     longest = max(signals.turned(run, signals.last_revolutions(run, last)) for run in runs)
     if of_pads == plots.FILM:
         plots.label_films(panels)
@@ -161,8 +144,10 @@ def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     if len(runs) == 1:
         part = signals.last_revolutions(runs[0], last)
         turns = signals.revolutions(runs[0], part)
-        top_axis(panels["journal_y"], turns - turns[0], runs[0].values("time", part), SHOWN["time"].label)
-    legend(fig, runs, parts([f"pad {p}" for p in pads], runs))
+        layout.top_axis(
+            panels["journal_y"], turns - turns[0], runs[0].values("time", part), SHOWN["time"].label
+        )
+    layout.legend(fig, runs, layout.parts([f"pad {p}" for p in pads], runs))
     return fig
 
 
@@ -177,18 +162,18 @@ def study(
 ) -> Figure:
     """A diagram of a study, or the lines of several in one; arguments as for tiltpad.diagrams.diagram."""
     several = [studies] if isinstance(studies, Study) else list(studies)
-    fig = plt.figure(figsize=(COLUMN, 2.6))
+    fig = plt.figure(figsize=(layout.COLUMN, 2.6))
     ax = fig.subplots()
     if len(several) == 1:
         diagrams.diagram(several[0], ax, show, over, kind, where, pad, pivot)
     else:
-        over_each_other(several, labels(several), ax, show, over, kind or "lines", where, pad, pivot)
+        over_each_other(several, layout.labels(several), ax, show, over, kind or "lines", where, pad, pivot)
     titles = {each.title for each in several}
     kept = ", ".join(f"{name} = {value}" for name, value in (where or {}).items())
     title = titles.pop() if len(titles) == 1 else ""
-    fig.suptitle(plain(", ".join(text for text in (title, kept) if text), width(fig)))
+    fig.suptitle(layout.plain(", ".join(text for text in (title, kept) if text), layout.width(fig)))
     for each in several:
-        remark_unfinished(fig, each)
+        layout.remark_unfinished(fig, each)
     return fig
 
 
@@ -200,7 +185,7 @@ def over_each_other(studies: Sequence[Study], names: Sequence[str], ax: Axes, *a
         diagrams.diagram(each, ax, *arguments)
         seen.add((ax.get_xlabel(), ax.get_ylabel()))
         if ax.collections or len(seen) > 1:
-            raise diagrams.ArgumentError(
+            raise ArgumentError(
                 "several studies are lines of one result over one parameter: choose by {show} and {over}"
             )
         mine = ax.get_lines()[before:]
@@ -209,7 +194,7 @@ def over_each_other(studies: Sequence[Study], names: Sequence[str], ax: Axes, *a
             own = f"{line.get_label()}"
             line.set_label(name if own.startswith("_") or not own else f"{name}, {own}")
             if line.get_linestyle() != "None":
-                line.set_linestyle(DASHES[part % len(DASHES)])
+                line.set_linestyle(layout.DASHES[part % len(layout.DASHES)])
         for line in mine:
             line.set_color(f"C{k}")
     handles = [line for line in ax.get_lines() if not f"{line.get_label()}".startswith("_")]

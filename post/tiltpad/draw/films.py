@@ -8,25 +8,13 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from tiltpad.calculate import geometry, library
-from tiltpad.draw import plots
-from tiltpad.draw.layout import (
-    COLUMN,
-    DASHES,
-    PAGE,
-    labels,
-    legend,
-    look,
-    of_several,
-    plain,
-    shown_pads,
-    width,
-)
+from tiltpad.draw import layout, plots
 from tiltpad.draw.orbits import bearings
 from tiltpad.files.read import Run
 from tiltpad.files.units import SHOWN, digits
 
 
-@of_several
+@layout.of_several
 def pressure(
     runs: Sequence[Run], last: float | None = None, pad: int | None = None, time: float | None = None
 ) -> Figure:
@@ -34,12 +22,12 @@ def pressure(
 
     All have one scale of colours; the highest pressure of each pad is a number above it.
     """
-    pads = shown_pads(runs, pad)
+    pads = layout.shown_pads(runs, pad)
     columns = min(2, len(pads))
     own = [[k for k in pads if k <= run.pads] for run in runs]
     heights = [-(-len(each) // columns) for each in own]
     rows = sum(heights)
-    fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, 0.3 + 2.3 * rows))
+    fig = plt.figure(figsize=(layout.COLUMN if columns == 1 else layout.PAGE, 0.3 + 2.3 * rows))
     panels = np.split(fig.subplots(rows, columns, squeeze=False), np.cumsum(heights)[:-1])
     films = [library.pressure(run, time) for run in runs]
     fields = [SHOWN["pressure"].factor * film.pressure[np.array(each) - 1]
@@ -47,7 +35,7 @@ def pressure(
     low, high = min(each.min() for each in fields), max(each.max() for each in fields)
     levels = MaxNLocator(12).tick_values(low, max(high, low + 1e-6))
     used = []
-    for i, (run, film, name) in enumerate(zip(runs, films, labels(runs), strict=True)):
+    for i, (run, film, name) in enumerate(zip(runs, films, layout.labels(runs), strict=True)):
         axes = panels[i].ravel()
         for ax, k in zip(axes, own[i], strict=False):
             plots.pressure(run, ax, time, k, film, levels=levels)
@@ -63,11 +51,11 @@ def pressure(
     fig.colorbar(
         used[0].collections[0], ax=used, label=SHOWN["pressure"].label, aspect=14 * rows, fraction=0.06
     )
-    fig.suptitle(plain(instant(runs, time), width(fig)))
+    fig.suptitle(layout.plain(instant(runs, time), layout.width(fig)))
     return fig
 
 
-@of_several
+@layout.of_several
 def film(
     runs: Sequence[Run], last: float | None = None, pad: int | None = None, time: float | None = None
 ) -> Figure:
@@ -75,14 +63,14 @@ def film(
 
     The pressure is that in the middle of the width. Pads of one bearing have their numbers.
     """
-    pads = shown_pads(runs, pad)
-    fig = plt.figure(figsize=(PAGE, 3.8))
+    pads = layout.shown_pads(runs, pad)
+    fig = plt.figure(figsize=(layout.PAGE, 3.8))
     upper, lower = fig.subplots(2, 1, sharex=True)
     for i, run in enumerate(runs):
         found = geometry.surfaces(run.input, geometry.at_time(run, time))
         around = library.pressure(run, time, along=found.angle.shape[1], across=np.zeros(1))
         for k in (k for k in pads if k <= run.pads):
-            line = look(i, 0, runs) | {"linestyle": DASHES[0]}
+            line = layout.look(i, 0, runs) | {"linestyle": layout.DASHES[0]}
             x = np.degrees(found.angle[k - 1])
             upper.plot(x, SHOWN["min_film_thickness"].factor * found.thickness[k - 1], **line)
             lower.plot(x, SHOWN["pressure"].factor * around.pressure[k - 1, :, 0], **line)
@@ -97,9 +85,9 @@ def film(
     )
     lower.xaxis.set_major_locator(plt.MaxNLocator(12, steps=[1, 1.5, 3, 5, 10]))
     if len(runs) > 1:
-        legend(fig, runs, [])
+        layout.legend(fig, runs, [])
     else:
-        fig.suptitle(plain(instant(runs, time), width(fig)))
+        fig.suptitle(layout.plain(instant(runs, time), layout.width(fig)))
     return fig
 
 

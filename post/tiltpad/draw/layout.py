@@ -242,15 +242,21 @@ def stacked(names: Sequence[Name]) -> tuple[Figure, dict[Name, Axes]]:
 def panel_a_pad(runs: Sequence[Run], pad: int | None) -> tuple[Figure, dict[int, Axes]]:
     """A panel for each of the shown pads, two in a row."""
     pads = shown_pads(runs, pad)
-    columns = min(2, len(pads))
-    rows = -(-len(pads) // columns)
-    fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, 2.8 * rows))
-    panels = fig.subplots(rows, columns, squeeze=False).ravel()
-    for ax in panels[len(pads) :]:
-        ax.remove()
-    for ax in panels[: len(pads)]:
+    fig, panels = grid(len(pads), 2.8)
+    for ax in panels:
         ax.locator_params(axis="x", nbins=6)
-    return fig, dict(zip(pads, panels, strict=False))
+    return fig, dict(zip(pads, panels, strict=True))
+
+
+def grid(count: int, height: float) -> tuple[Figure, list[Axes]]:
+    """Panels of this height, two in a row."""
+    columns = min(2, count)
+    rows = -(-count // columns)
+    fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, height * rows))
+    panels = fig.subplots(rows, columns, squeeze=False).ravel()
+    for ax in panels[count:]:
+        ax.remove()
+    return fig, list(panels[:count])
 
 
 def mark_enlarged(whole: Axes, part: Axes) -> None:

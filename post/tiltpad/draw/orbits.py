@@ -9,19 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from tiltpad.draw import plots
-from tiltpad.draw.layout import (
-    COLUMN,
-    PAGE,
-    colors,
-    labels,
-    legend,
-    look,
-    mark_enlarged,
-    of_several,
-    plain,
-    remark,
-)
+from tiltpad.draw import layout, plots
 from tiltpad.files.read import Run
 
 #: What makes another bearing in a picture of its clearance.
@@ -35,19 +23,19 @@ CROSS = {"linestyle": "", "marker": "+", "markersize": 8, "markeredgewidth": 1.5
 MOST_BEARINGS = 4
 
 
-@of_several
+@layout.of_several
 def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Orbits in the clearance circle and enlarged, with the equilibrium; a row for each bearing."""
     found = bearings(runs)
     rows = len(found) if len(found) <= MOST_BEARINGS else 1
-    fig = plt.figure(figsize=(PAGE, 3.6 * rows))
+    fig = plt.figure(figsize=(layout.PAGE, 3.6 * rows))
     panels = fig.subplots(rows, 2, squeeze=False)
     groups = found if rows == len(found) else [range(len(runs))]
     for (whole, enlarged), group in zip(panels, groups, strict=True):
         surroundings(whole, runs, group, len(found) if rows == 1 else 1)
         for i in group:
-            plots.orbit(runs[i], whole, last or 1, direction=False, **look(i, 0, runs))
-            plots.orbit(runs[i], enlarged, last or 1, **look(i, 0, runs))
+            plots.orbit(runs[i], whole, last or 1, direction=False, **layout.look(i, 0, runs))
+            plots.orbit(runs[i], enlarged, last or 1, **layout.look(i, 0, runs))
         enlarged.yaxis.tick_right()  # the lines between the panels are on the left
         enlarged.yaxis.set_label_position("right")
         enlarged.yaxis.set_ticks_position("both")
@@ -56,32 +44,27 @@ def orbit(runs: Sequence[Run], last: float | None = None, pad: int | None = None
         enlarged.margins(0.1)
     color = {"color": "0.3" if len(runs) > 1 else "C0"}
     marks = [("orbit", color), ("equilibrium", color | {"linestyle": "", "marker": "+"})]
-    legend(fig, runs, marks if any(map(plots.marks_equilibrium, runs)) else [])
+    layout.legend(fig, runs, marks if any(map(plots.marks_equilibrium, runs)) else [])
     if rows < len(found):
-        remark(fig, crowded(len(found)))
+        layout.remark(fig, crowded(len(found)))
     for whole, enlarged in panels:
-        mark_enlarged(whole, enlarged)
+        layout.mark_enlarged(whole, enlarged)
     return fig
 
 
-@of_several
+@layout.of_several
 def equilibrium(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Equilibria of the journal in the clearance circle; a panel for each bearing."""
     found = bearings(runs)
     groups = found if len(found) <= MOST_BEARINGS else [range(len(runs))]
-    columns = min(2, len(groups))
-    rows = -(-len(groups) // columns)
-    fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, 3.4 * rows))
-    panels = fig.subplots(rows, columns, squeeze=False).ravel()
-    for ax in panels[len(groups) :]:
-        ax.remove()
-    for ax, group in zip(panels, groups, strict=False):
+    fig, panels = layout.grid(len(groups), 3.4)
+    for ax, group in zip(panels, groups, strict=True):
         surroundings(ax, runs, group, len(found) if len(groups) == 1 else 1)
         for i in group:
-            plots.equilibrium(runs[i], ax, color=colors(runs)[i], **CROSS)
-    legend(fig, runs, [], **CROSS)
+            plots.equilibrium(runs[i], ax, color=layout.colors(runs)[i], **CROSS)
+    layout.legend(fig, runs, [], **CROSS)
     if len(groups) < len(found):
-        remark(fig, crowded(len(found)))
+        layout.remark(fig, crowded(len(found)))
     return fig
 
 
@@ -94,10 +77,10 @@ def surroundings(ax: Axes, runs: Sequence[Run], group: Sequence[int], bearings: 
     if bearings == 1:
         plots.clearance(runs[group[0]], ax, marks=len(runs) == 1)
         if len(group) < len(runs):
-            ax.set_title(plain(", ".join(labels(runs)[i] for i in group), 45))
+            ax.set_title(layout.plain(", ".join(layout.labels(runs)[i] for i in group), 45))
         return
     radius = [plots.SHOWN["journal_y"].factor * run.clearance for run in runs]
-    for each, color in zip(radius, colors(runs), strict=True):
+    for each, color in zip(radius, layout.colors(runs), strict=True):
         ax.add_patch(Circle((0, 0), each, fill=False, linewidth=0.8, edgecolor=color))
     reach = 1.1 * max(radius)
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach))

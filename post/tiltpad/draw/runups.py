@@ -11,26 +11,8 @@ from matplotlib.figure import Figure
 
 from tiltpad.calculate import differences, signals, spectra
 from tiltpad.calculate.response import Peak, aligned, peaks_of
-from tiltpad.draw import plots
+from tiltpad.draw import layout, plots
 from tiltpad.draw.branches import in_words as critical
-from tiltpad.draw.layout import (
-    COLUMN,
-    DASHES,
-    PAGE,
-    dots,
-    drawn,
-    heading,
-    labels,
-    legend,
-    look,
-    of_several,
-    parts,
-    plain,
-    remark,
-    shown_pads,
-    stacked,
-    top_axis,
-)
 from tiltpad.files.read import Run
 from tiltpad.files.units import SHOWN, in_words
 
@@ -61,19 +43,19 @@ def mark_peak(ax: Axes, speed: np.ndarray, values: np.ndarray, quantity: str, co
     return f"peak {in_words(quantity, [peak.amplitude])} at {critical(peak)}"
 
 
-@of_several
+@layout.of_several
 def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Journal, tilt (unless pads are fixed) and film over the whole run, with the speed where it changes.
 
     Marks along the bottom say where asperities touch the journal.
     """
-    pads = shown_pads(runs, pad)
+    pads = layout.shown_pads(runs, pad)
     tilts = ["pad_tilt"] if plots.all_tilt(runs) else []
-    fig, panels = stacked(["journal_y", "journal_z", *tilts, "min_film_thickness"])
+    fig, panels = layout.stacked(["journal_y", "journal_z", *tilts, "min_film_thickness"])
     for i, run in enumerate(runs):
         for name, ax in panels.items():
-            for k, p in drawn(run, name, pads):
-                plots.history(run, ax, name, pad=p, **look(i, k, runs))
+            for k, p in layout.drawn(run, name, pads):
+                plots.history(run, ax, name, pad=p, **layout.look(i, k, runs))
     ends = {(*signals.ends(run, "time"), *signals.ends(run, "speed")) for run in runs}
     plots.label_films(panels)
     for ax in panels.values():
@@ -82,12 +64,12 @@ def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None
         start, stop, first, final = ends.pop()
         if first != final:
             speed = SHOWN["speed"].factor * np.array([first, final])
-            top_axis(panels["journal_y"], np.array([start, stop]), speed, SHOWN["speed"].label)
-    legend(fig, runs, parts([f"pad {p}" for p in pads], runs))
+            layout.top_axis(panels["journal_y"], np.array([start, stop]), speed, SHOWN["speed"].label)
+    layout.legend(fig, runs, layout.parts([f"pad {p}" for p in pads], runs))
     return fig
 
 
-@of_several
+@layout.of_several
 def orders(
     runs: Sequence[Run], last: float | None = None, pad: int | None = None, scale: str = "linear"
 ) -> Figure:
@@ -96,7 +78,7 @@ def orders(
     `scale` of the amplitudes is linear or log.
     """
     names = [("journal_y", None), ("journal_z", None), *([("pad_tilt", pad)] if pad else [])]
-    fig, panels = stacked([*names, "phase"])
+    fig, panels = layout.stacked([*names, "phase"])
     words: dict[Any, list[str]] = {each: [] for each in names}
     for i, run in enumerate(runs):
         lags = []
@@ -107,12 +89,12 @@ def orders(
                 (speed, amplitude, phase) for amplitude, phase in zip(*(each.T for each in both), strict=True)
             ]
             for k, track in enumerate(tracks):
-                plots.order_track(run, ax, name, ORDERS[k], column, scale, track, **look(i, k, runs))
-            words[name, column].append(mark_peak(ax, *tracks[0][:2], name, look(i, 0, runs)["color"]))
+                plots.order_track(run, ax, name, ORDERS[k], column, scale, track, **layout.look(i, k, runs))
+            words[name, column].append(mark_peak(ax, *tracks[0][:2], name, layout.look(i, 0, runs)["color"]))
             lags.append(-tracks[0][2])
         lag = aligned(np.column_stack(lags[:2]))
         for k, (name, _) in enumerate(names[:2]):
-            own = look(i, 0, runs) | {"linestyle": DASHES[k]}
+            own = layout.look(i, 0, runs) | {"linestyle": layout.DASHES[k]}
             plots.order_phase(run, panels["phase"], name, track=(speed, lag[:, k], -lag[:, k]), **own)
     for name, column in names:
         ax = panels[name, column]
@@ -120,13 +102,15 @@ def orders(
             ax.set_title("; ".join(words[name, column]), fontsize="x-small", loc="right")
         ax.set_ylabel(SHOWN[name].label + (f", pad {column}" if column else ""))
     panels["phase"].set_ylabel("phase lag,\norder 1 (deg)")
-    dashed = [(f"phase of ${axis}$", {"color": "0.3", "linestyle": DASHES[k]}) for k, axis in enumerate("yz")]
-    legend(fig, runs, [*parts([f"order {order}" for order in ORDERS], runs), *dashed])
-    remark(fig, PHASE)
+    dashed = [
+        (f"phase of ${axis}$", {"color": "0.3", "linestyle": layout.DASHES[k]}) for k, axis in enumerate("yz")
+    ]
+    layout.legend(fig, runs, [*layout.parts([f"order {order}" for order in ORDERS], runs), *dashed])
+    layout.remark(fig, PHASE)
     return fig
 
 
-@of_several
+@layout.of_several
 def waterfall(
     runs: Sequence[Run],
     last: float | None = None,
@@ -140,42 +124,42 @@ def waterfall(
     `by` is frequency or order, `orders` the highest order, `decades` how far down the colours reach.
     """
     names = ["pad_tilt"] if pad else ["journal_y", "journal_z"]
-    fig = plt.figure(figsize=(COLUMN if len(runs) == 1 else PAGE, 0.5 + 2.1 * len(names)))
+    fig = plt.figure(figsize=(layout.COLUMN if len(runs) == 1 else layout.PAGE, 0.5 + 2.1 * len(names)))
     panels = fig.subplots(len(names), len(runs), squeeze=False, sharex=len(runs) == 1)
-    for column, run, label in zip(panels.T, runs, labels(runs), strict=True):
+    for column, run, label in zip(panels.T, runs, layout.labels(runs), strict=True):
         for ax, name in zip(column, names, strict=True):
             plots.waterfall(run, ax, name, pad, orders or 5, by, decades)
         if len(runs) > 1:
             column[0].set_title(label, wrap=True)
     if len(runs) == 1:
-        legend(fig, runs, [])
+        layout.legend(fig, runs, [])
         for ax in panels[:-1, 0]:
             ax.xaxis.label.set_visible(False)
     return fig
 
 
-@of_several
+@layout.of_several
 def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Peak-to-peak of y and z of the journal.
 
     They are drawn over the speed if a run is a run-up (without the drift of the mean), over a number of the
     input if runs differ in it alone, and otherwise as bars.
     """
-    fig = plt.figure(figsize=(COLUMN, 2.6))
+    fig = plt.figure(figsize=(layout.COLUMN, 2.6))
     ax = fig.subplots()
     coordinates = ("journal_y", "journal_z")
     if not all(signals.steady(run) for run in runs):
         found = []
         for i, run in enumerate(runs):
             for k, name in enumerate(coordinates):
-                plots.orbit_size(run, ax, name, last or 1, **look(i, k, runs))
+                plots.orbit_size(run, ax, name, last or 1, **layout.look(i, k, runs))
                 if not signals.steady(run):
-                    color = look(i, k, runs)["color"]
+                    color = layout.look(i, k, runs)["color"]
                     found.append(mark_peak(ax, *signals.swing(run, name), "size", color))
         ax.set_ylim(bottom=0)
         for axis, each in zip("yz", found if len(runs) == 1 else (), strict=False):
-            remark(fig, f"{axis}: {each}")
-        legend(fig, runs, parts(["$y$", "$z$"], runs))
+            layout.remark(fig, f"{axis}: {each}")
+        layout.legend(fig, runs, layout.parts(["$y$", "$z$"], runs))
         return fig
     sizes = SHOWN["size"].factor * np.array([signals.orbit_size(run, last or 1) for run in runs]).T
     dashes = ["-", "-"]
@@ -185,20 +169,20 @@ def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None)
         order = np.argsort(values)
         dashes = ["-", "--"]
         for each, own in zip(sizes, dashes, strict=True):
-            ax.plot(np.array(values)[order], each[order], own, **dots(len(order)))
+            ax.plot(np.array(values)[order], each[order], own, **layout.dots(len(order)))
         ax.set(xlabel=label, ylabel=SHOWN["size"].label, ylim=(0, 1.1 * sizes.max()))
         ax.locator_params(axis="x", nbins=6)
     else:
         place = np.arange(len(runs))
-        names = labels(runs) if len(runs) > 1 else [runs[0].title or Path(runs[0].path).stem]
+        names = layout.labels(runs) if len(runs) > 1 else [runs[0].title or Path(runs[0].path).stem]
         for k, each in enumerate(sizes):
             ax.barh(place + 0.4 * k, each, 0.38)
         few = slice(None, None, 1 + len(runs) // 40)  # names of all would lie on each other
-        ax.set_yticks(place[few] + 0.2, [plain(name, 24) for name in names[few]])
+        ax.set_yticks(place[few] + 0.2, [layout.plain(name, 24) for name in names[few]])
         ax.grid(visible=False, axis="y")
         ax.invert_yaxis()
         ax.set(xlabel=SHOWN["size"].label)
         fig.set_figheight(1.2 + min(0.4 * len(runs), 9))
     entries = [{"color": f"C{k}", "linestyle": each} for k, each in enumerate(dashes)]
-    heading(fig, [*zip(("$y$", "$z$"), entries, strict=True)], "")
+    layout.heading(fig, [*zip(("$y$", "$z$"), entries, strict=True)], "")
     return fig

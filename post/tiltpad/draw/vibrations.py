@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from tiltpad.calculate.coefficients import Coefficients
 from tiltpad.calculate.coefficients import coefficients as coefficients_of
 from tiltpad.calculate.modes import Modes, forward, modes
-from tiltpad.calculate.selection import default_over, distinct, needs, selected, written
+from tiltpad.calculate.selection import axis_of, needs, selected, varying, written
 from tiltpad.draw.diagrams import mark_failed
 from tiltpad.draw.layout import COLUMN, DASHES, PAGE, dots, heading, labels, of_several, part_color
 from tiltpad.files import units
@@ -62,21 +62,22 @@ def coefficients(
     where: Mapping[str, Any] | None = None,
 ) -> Figure:
     """Stiffness and damping of studies over a parameter (the speed), of results over the whirl frequency."""
-    lines = list(coefficient_lines(parts(runs, pivot, over, where)))
+    found = parts(runs, pivot, over, where)
+    lines = list(coefficient_lines(found))
     fig = plt.figure(figsize=(PAGE, 4.6))
     panels = fig.subplots(2, 2, sharex=True)
     for row, name in zip(panels, ("stiffness", "damping"), strict=True):
         for ax, elements in zip(row, (DIRECT, CROSS), strict=True):
-            for color, (_, x, found) in enumerate(lines):
+            for color, (_, x, own) in enumerate(lines):
                 for dashes, (i, j) in zip(DASHES, elements.values(), strict=False):
-                    values = SHOWN[name].factor * getattr(found, name)[..., i, j]
+                    values = SHOWN[name].factor * getattr(own, name)[..., i, j]
                     ax.plot(x, values, dashes, color=part_color(color, len(lines)), **dots(len(x)))
                 mark_failed(
                     ax, x[np.isnan(values)], part_color(color, len(lines)) if len(lines) > 1 else None
                 )
             ax.set_ylabel(f"{SHOWN[name].text} {', '.join(elements)} ({SHOWN[name].unit})")
     for ax in panels[-1]:
-        ax.set_xlabel(axis_label(runs, over, where))
+        ax.set_xlabel(axis_label(found))
     texts = [(text, {"color": part_color(k, len(lines))}) for k, (text, *_) in enumerate(lines) if text]
     dashed = [("yy or yz", {"color": "0.3"}), ("zz or zy", {"color": "0.3", "linestyle": DASHES[1]})]
     heading(fig, [*texts, *dashed], title(runs))
@@ -139,14 +140,8 @@ def stability(
     for ax, (name, end) in zip(panels, ends.items(), strict=True):
         show_from_zero(ax, *(SHOWN[name].factor * each for each in end))
         ax.set_ylabel(SHOWN[name].label)
-    panels[1].set_xlabel(
-        SHOWN["frequency"].label if isinstance(runs[0], Run) else axis_label(runs, over, where)
-    )
-    heading(
-        fig,
-        [(one.text, {"color": part_color(k, len(found))}) for k, one in enumerate(found) if one.text],
-        title(runs),
-    )
+    panels[1].set_xlabel(SHOWN["frequency"].label if isinstance(runs[0], Run) else axis_label(found))
+    heading(fig, names(found), title(runs))
     return fig
 
 
@@ -232,14 +227,7 @@ def campbell(
         ("shaft speed", {"color": "0.3"}),
         ("0.5x", {"color": "0.3", "linestyle": "--"}),
     ]
-    heading(
-        fig,
-        [
-            *((one.text, {"color": part_color(k, len(found))}) for k, one in enumerate(found) if one.text),
-            *marks,
-        ],
-        title(runs),
-    )
+    heading(fig, [*names(found), *marks], title(runs))
     return fig
 
 
@@ -283,6 +271,8 @@ def parts(
         for own, (text, kept, along) in product(pivots, groups(source, over, dict(where or {}))):
             words = (name, own if len(pivots) > 1 else "", text)
             found.append(Part(", ".join(word for word in words if word), source, own, kept, along))
+    if not found:
+        raise NotInRunError(f"{sources[0].path}: no run in this study whose parameters are known")
     if len(found) > MOST:
         raise ValueError(f"{len(found)} kinds of lines are more than {MOST}: choose by where")
     return found
@@ -295,9 +285,8 @@ def groups(
     if isinstance(source, Run):
         return [("", where, "")]
     chosen = selected(source, where)
-    several = [name for name in source.parameters if len(distinct(source[name][chosen])) > 1]
-    along = axis_of(source, over, where)
-    others = [name for name in several if name != along]
+    along = axis_of(source, over, chosen)
+    others = [name for name in varying(source, chosen) if name != along]
     keys = dict.fromkeys(zip(*(source[name][chosen] for name in others), strict=True) if others else [()])
     known = [key for key in keys if all(value == value and value != "" for value in key)]
     return [
@@ -307,22 +296,18 @@ def groups(
     ]  # fmt: skip
 
 
-def axis_of(study: Study, over: str | None, where: Mapping[str, Any]) -> str:
-    """The parameter along the axis: the speed where it differs, otherwise the number with the most values."""
-    chosen = selected(study, where)
-    several = [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
-    over = over or ("speed_rpm" if "speed_rpm" in several else default_over(study, several, chosen))
-    needs(over, study.parameters, "over", "a parameter")
-    return over
-
-
-def axis_label(sources: Sequence[Run | Study], over: str | None, where: Mapping[str, Any] | None) -> str:
+def axis_label(found: Sequence[Part]) -> str:
     """What is along the axis of coefficients."""
-    if isinstance(sources[0], Run):
+    source = found[0].source
+    if isinstance(source, Run):
         return "whirl frequency over shaft speed"
-    name = axis_of(sources[0], over, where or {})
-    text, unit = (sources[0].about(name, each) for each in ("long_name", "units"))
-    return units.Shown(text or name, 1, "" if unit == "1" else unit).label
+    text, unit = (source.about(found[0].over, each) for each in ("long_name", "units"))
+    return units.Shown(text or found[0].over, 1, "" if unit == "1" else unit).label
+
+
+def names(found: Sequence[Part]) -> list[tuple[str, dict[str, Any]]]:
+    """Entries of the legend, with the colours of the parts."""
+    return [(one.text, {"color": part_color(k, len(found))}) for k, one in enumerate(found) if one.text]
 
 
 def title(sources: Sequence[Run | Study]) -> str:

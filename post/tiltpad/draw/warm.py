@@ -13,19 +13,9 @@ from matplotlib.figure import Figure
 
 from tiltpad.calculate.heat import heat_balance
 from tiltpad.calculate.selection import selected
+from tiltpad.draw import layout
 from tiltpad.draw.branches import parameter_of
 from tiltpad.draw.diagrams import mark_failed
-from tiltpad.draw.layout import (
-    COLUMN,
-    PAGE,
-    heading,
-    labels,
-    of_several,
-    part_color,
-    plain,
-    shown_pads,
-    stacked,
-)
 from tiltpad.draw.vibrations import axis_label, parts, title
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -46,7 +36,7 @@ DRAWN = {
 }
 
 
-@of_several
+@layout.of_several
 def temperatures(
     runs: Sequence[Run | Study],
     last: float | None = None,
@@ -71,10 +61,10 @@ def temperatures(
         names = "; ".join(one.text for one in found)
         raise ValueError(f"a picture of temperatures has a line for each pad: choose by where: {names}")
     (one,) = found
-    fig, panels = stacked(["temperature", "viscosity"])
+    fig, panels = layout.stacked(["temperature", "viscosity"])
     study = cast(Study, one.source)
     pads = over_parameter(study, one.where, one.over, pad, panels["temperature"], panels["viscosity"])
-    finish(fig, panels, pads, axis_label(runs, over, where), runs)
+    finish(fig, panels, pads, axis_label(found), runs)
     return fig
 
 
@@ -86,15 +76,17 @@ def finish(
     for name, ax in panels.items():
         ax.set_ylabel(SHOWN[name].label)
     panels["viscosity"].set(xlabel=label, ylim=(0, None))
-    entries = [(f"pad {k}", {"color": part_color(i, len(pads))}) for i, k in enumerate(pads)]
+    entries = [(f"pad {k}", {"color": layout.part_color(i, len(pads))}) for i, k in enumerate(pads)]
     entries += [("maximum", {"color": "0.3"}), ("mean", {"color": "0.3", "linestyle": "-."})]
-    heading(fig, [*entries, *((each["label"], without_label(each)) for each in (SHAFT, DRAIN))], title(runs))
+    layout.heading(
+        fig, [*entries, *((each["label"], without_label(each)) for each in (SHAFT, DRAIN))], title(runs)
+    )
 
 
 def of_branch(run: Run, pad: int | None) -> Figure:
     """Along the branches of a run."""
-    fig, panels = stacked(["temperature", "viscosity"])
-    pads = shown_pads([run], pad)
+    fig, panels = layout.stacked(["temperature", "viscosity"])
+    pads = layout.shown_pads([run], pad)
     for number in np.unique(run["branch"]):
         own = np.flatnonzero(run["branch"] == number)
         found = {name: run[name][own] for name in DRAWN}
@@ -109,7 +101,7 @@ def draw(
     """Lines of what a heat balance gives, by name."""
     dots = {"marker": "o", "markersize": 3} if len(x) < 30 else {}
     for i, k in enumerate(pads):
-        color = part_color(i, len(pads))
+        color = layout.part_color(i, len(pads))
         upper.plot(x, found["maximum_temperature"][:, k - 1], color=color, **dots)
         upper.plot(x, found["mean_temperature"][:, k - 1], "-.", color=color, linewidth=1)
         lower.plot(x, SHOWN["viscosity"].factor * found["viscosity"][:, k - 1], color=color, **dots)
@@ -139,17 +131,17 @@ def over_parameter(
 
 def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
     """For each result its temperatures, viscosities and the heat of its pads, in a row."""
-    pads = shown_pads(runs, pad)
-    fig = plt.figure(figsize=(PAGE, 0.6 + 2.4 * len(runs)))
+    pads = layout.shown_pads(runs, pad)
+    fig = plt.figure(figsize=(layout.PAGE, 0.6 + 2.4 * len(runs)))
     rows = fig.subplots(len(runs), 2, squeeze=False)
-    names = labels(runs) if len(runs) > 1 else [""]
+    names = layout.labels(runs) if len(runs) > 1 else [""]
     for (left, right), run, name in zip(rows, runs, names, strict=True):
         own = [k for k in pads if k <= run.pads]
         temperatures_of_pads(run, left, own)
         heat_of_pads(run, right, own)
         viscosity = SHOWN["viscosity"].factor * run["equilibrium/viscosity"]
         right.set_xlabel(f"viscosity below each pad ({SHOWN['viscosity'].unit})")
-        left.set_title(plain(name, int(15 * COLUMN)))
+        left.set_title(layout.plain(name, int(15 * layout.COLUMN)))
         for ax in (left, right):
             ax.set_xticks(range(len(own)), [f"pad {k}\n{viscosity[k - 1]:#.3g}" for k in own])
             ax.grid(visible=False, axis="x")
