@@ -4,13 +4,13 @@ module factories
    use kinds, only: wp, degree
    use case_inputs, only: case_type, is_set
    use pad_gap, only: pad_gap_type
-   use film_solver, only: film_solver_type
+   use film_solver, only: film_solver_type, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use fourier_film, only: new_fourier_film
    use film_resolution, only: enough_cells, enough_modes, usual_error
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: new_table_film, new_converged_film, has_tables
    use film_losses, only: film_losses_type, new_film_losses
-   use sor_film, only: new_sor_film, sor_options, cavitation_none, cavitation_gumbel, cavitation_reynolds
+   use sor_film, only: new_sor_film, sor_options
    use contact_law, only: contact_law_type, make_contact_law
    use contact_table, only: contact_table_type, new_contact_table, new_untabulated_contact
    use friction, only: friction_law, bengisu_akay_friction, lugre_friction, default_bristle_damping, &
@@ -57,13 +57,12 @@ contains
       class(film_solver_type), allocatable, intent(out) :: film
       type(pad_gap_type) :: gaps(inputs%pad_count())
       character(len=:), allocatable :: solver
-      integer :: cells, modes, volumes(2)
-      logical :: reynolds, gumbel
+      integer :: cells, modes, volumes(2), condition
       real(wp), allocatable :: error
+      type(direct_film_type) :: direct
       gaps = new_gaps(inputs)
       associate (f => inputs%film)
-         reynolds = f%cavitation == 'reynolds'
-         gumbel = f%cavitation == 'gumbel'
+         condition = cavitation_of(f%cavitation)
          cells = merge(f%circumferential_cells, enough_cells(gaps), f%circumferential_cells > 0)
          modes = merge(f%axial_modes, enough_modes(gaps), f%axial_modes > 0)
          ! what the input sets stays the same for every film
@@ -76,38 +75,28 @@ contains
          case ('sor')
             film = new_sor_film(gaps, sor_settings(inputs, gaps, accuracy))
          case ('fourier')
-            film = new_fourier_film(gaps, cells, modes, gumbel, error)
+            film = new_fourier_film(gaps, cells, modes, condition == cavitation_gumbel, error)
          case ('direct')
-            film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
+            film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), condition, error)
          case default
-            if (accuracy == march_films) then
-               ! cavitated films by volumes are dear, by modes they are cheap
-               associate (usual => merge(1, 4, gumbel)*inputs%integration%relative_tolerance)
-                  film = new_table_film(gaps, single_films(), reynolds .or. gumbel, gumbel, &
-                     & merge(f%table_tolerance, usual, f%table_tolerance > 0))
-               end associate
-            else
+            if (accuracy == converged_films) then
                error = converged_error
                if (.not. all(has_tables(gaps))) volumes = volumes_of(inputs, gaps, converged_volumes)
-               if (f%table_tolerance > 0) then
-                  film = new_converged_film(gaps, single_films(), reynolds .or. gumbel, gumbel, f%table_tolerance)
-               else
-                  film = new_converged_film(gaps, single_films(), reynolds .or. gumbel, gumbel, &
-                     & merge(converged_error, converged_cavitated_error, gumbel), converged_full_error)
-               end if
+            end if
+            direct = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), condition, error)
+            if (accuracy == march_films) then
+               ! cavitated films by volumes are dear, by modes they are cheap
+               associate (usual => merge(1, 4, condition == cavitation_gumbel)*inputs%integration%relative_tolerance)
+                  film = new_table_film(direct, merge(f%table_tolerance, usual, f%table_tolerance > 0))
+               end associate
+            else if (f%table_tolerance > 0) then
+               film = new_converged_film(direct, f%table_tolerance)
+            else
+               film = new_converged_film(direct, merge(converged_error, converged_cavitated_error, &
+                  & condition == cavitation_gumbel), converged_full_error)
             end if
          end select
       end associate
-   contains
-      !> Of every pad the solver for what tables leave. One by one: gfortran never frees the elements of a list of them.
-      function single_films() result(single)
-         type(direct_film_type), allocatable :: single(:)
-         integer :: i
-         allocate (single(size(gaps)))
-         do i = 1, size(gaps)
-            single(i) = new_direct_film(gaps(i:i), cells, modes, volumes(1), volumes(2), reynolds, gumbel, error)
-         end do
-      end function single_films
    end subroutine make_film
 
    !> Volumes along the longest arc and along half the width, from those of a usual arc, unless the input names them.
@@ -158,7 +147,7 @@ contains
       integer :: i
       gaps = new_gaps(inputs)
       do i = 1, size(gaps)
-         losses(i) = new_film_losses(gaps(i), inputs%film%cavitation == 'reynolds', inputs%film%cavitation == 'gumbel')
+         losses(i) = new_film_losses(gaps(i), cavitation_of(inputs%film%cavitation))
       end do
    end function new_losses
 

@@ -6,8 +6,9 @@
 !> and 0 where they are the same. So at the onset the force does not jump by the difference of the two
 !> discretisations, a loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
 module direct_film
-   use kinds, only: wp
-   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_ok
+   use kinds, only: wp, i8
+   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok, cavitation_gumbel, &
+      & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film
    use elimination_film, only: elimination_film_type, new_elimination_film
@@ -30,59 +31,36 @@ module direct_film
    !> coarse for the film, where Newton's iteration fails without them.
    real(wp), parameter :: coarse = 0.02_wp
 
-   type, extends(film_solver_type) :: direct_film_type
+   type, extends(fourier_film_type) :: direct_film_type
       private
-      type(pad_gap_type), allocatable :: gaps(:)
-      real(wp), allocatable :: cavitation_pressure(:), clearance(:)
-      type(fourier_film_type) :: fourier
+      !> Of every pad, with the condition of Reynolds.
       type(elimination_film_type), allocatable :: volumes(:)
-      !> Whether the elimination looks for cavitation: as the solver was made; in force.
-      logical :: made_to_project = .true., projects = .true.
    contains
-      procedure :: cavitates
-      procedure :: set_cavitation
       procedure :: forget
-      procedure :: evaluate
-      procedure :: field
-      procedure :: fine_field
+      procedure :: solve
+      procedure :: field_of_pad
+      procedure :: rebuild
    end type direct_film_type
 
 contains
 
    !> Both solvers for the same gaps: cells along the arc and modes of the one; cells along the arc and
-   !> along half the width of the other. With the condition of Reynolds or Guembel, or none; only the first needs
-   !> the other solver. The tolerance is that of the modes (new_fourier_film).
-   function new_direct_film(gaps, cells, modes, columns, rows, reynolds, gumbel, tolerance) result(solver)
+   !> along half the width of the other, which only the condition of Reynolds needs. The tolerance is that of the modes
+   !> (new_fourier_film).
+   function new_direct_film(gaps, cells, modes, columns, rows, condition, tolerance) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
-      integer, intent(in) :: cells, modes, columns, rows
-      logical, intent(in) :: reynolds, gumbel
+      integer, intent(in) :: cells, modes, columns, rows, condition
       real(wp), intent(in), optional :: tolerance
       type(direct_film_type) :: solver
       integer :: i
-      solver%made_to_project = reynolds
-      solver%projects = reynolds
-      solver%gaps = gaps
-      solver%cavitation_pressure = gaps%cavitation_pressure
-      solver%clearance = gaps%machined_clearance
-      solver%fourier = new_fourier_film(gaps, cells, modes, gumbel, tolerance)
-      if (.not. reynolds) return
+      solver%fourier_film_type = new_fourier_film(gaps, cells, modes, condition == cavitation_gumbel, tolerance)
+      call solver%set_gaps(gaps, condition)
+      if (condition /= cavitation_reynolds) return
       allocate (solver%volumes(size(gaps)))
       do i = 1, size(gaps)
          solver%volumes(i) = new_elimination_film(gaps(i), columns, rows)
       end do
    end function new_direct_film
-
-   pure logical function cavitates(self)
-      class(direct_film_type), intent(in) :: self
-      cavitates = self%projects .or. self%fourier%cavitates()
-   end function cavitates
-
-   pure subroutine set_cavitation(self, allowed)
-      class(direct_film_type), intent(inout) :: self
-      logical, intent(in) :: allowed
-      self%projects = self%made_to_project .and. allowed
-      call self%fourier%set_cavitation(allowed)
-   end subroutine set_cavitation
 
    pure subroutine forget(self)
       class(direct_film_type), intent(inout) :: self
@@ -93,44 +71,38 @@ contains
       end do
    end subroutine forget
 
-   subroutine evaluate(self, motion, oil, speed, want_derivatives, response, chosen)
+   subroutine solve(self, i, motion, oil, speed, want_derivatives, response)
       class(direct_film_type), intent(inout) :: self
-      type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
+      integer, intent(in) :: i
+      type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
-      type(film_response), intent(inout) :: response(:)
-      logical, intent(in), optional :: chosen(:)
-      type(film_response) :: changed
+      type(film_response), intent(inout) :: response
       real(wp) :: force(2)
-      integer :: i
+      integer(i8) :: others
       logical :: is_local
-      call self%fourier%evaluate(motion, oil, speed, want_derivatives, response, chosen)
-      do i = 1, size(motion)
-         if (present(chosen)) then
-            if (.not. chosen(i)) cycle
-         end if
-         if (response(i)%status /= film_ok) cycle
-         if (.not. (self%projects .and. is_cavitated(self%cavitation_pressure(i), response(i)))) then
-            self%counters%fourier = self%counters%fourier + 1
-            cycle
-         end if
+      others = self%counters%fourier
+      call self%fourier_film_type%solve(i, motion, oil, speed, want_derivatives, response)
+      if (self%condition /= cavitation_reynolds) return
+      associate (lowest => self%gaps(i)%cavitation_pressure)
+         if (.not. is_cavitated(lowest, response)) return
          self%counters%volumes = self%counters%volumes + 1
          is_local = .false.
-         if (.not. share_of_modes(self%cavitation_pressure(i), response(i)) < 1) then
-            call self%volumes(i)%force_of_cavitation(motion(i), oil(i), speed, self%counters, force, is_local)
+         if (.not. share_of_modes(lowest, response) < 1) then
+            call self%volumes(i)%force_of_cavitation(motion, oil, speed, self%counters, force, is_local)
          end if
          if (is_local) then
-            if (want_derivatives) response(i)%derivatives = response(i)%derivatives &
-               & + derivatives_of_cavitation(self, i, motion(i), oil(i), speed, force)
-            response(i)%force = response(i)%force + force
-            response(i)%min_pressure = self%cavitation_pressure(i)
+            if (want_derivatives) response%derivatives = response%derivatives &
+               & + derivatives_of_cavitation(self, i, motion, oil, speed, force)
+            response%force = response%force + force
+            response%min_pressure = lowest
          else
-            call change_of_cavitation(self, i, motion(i), oil, speed, want_derivatives, response(i), changed)
-            response(i) = changed
+            call take_volumes(self, i, motion, oil, speed, want_derivatives, response)
          end if
-      end do
-   end subroutine evaluate
+      end associate
+      self%counters%fourier = others
+   end subroutine solve
 
    !> Derivatives of what slight cavitation adds to a pad's force, by differences: it is solved exactly, and cheaper
    !> four times than its adjoints once. Where a neighbour is not slight any more its derivative is left out.
@@ -140,15 +112,15 @@ contains
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed, force(2)
-      real(wp) :: derivatives(2, 4), step(4), moved_force(2)
+      real(wp) :: derivatives(2, 4), step, moved_force(2)
+      type(film_motion) :: moved
       integer :: k
       logical :: is_local
-      step = steps(self%clearance(i), speed)
       derivatives = 0
       do k = 1, 4
-         call self%volumes(i)%force_of_cavitation(moved(motion, k, step(k)), oil, speed, &
-            & self%counters, moved_force, is_local)
-         if (is_local) derivatives(:, k) = (moved_force - force)/step(k)
+         call move(self%gaps(i), motion, speed, k, moved, step)
+         call self%volumes(i)%force_of_cavitation(moved, oil, speed, self%counters, moved_force, is_local)
+         if (is_local) derivatives(:, k) = (moved_force - force)/step
       end do
    end function derivatives_of_cavitation
 
@@ -157,67 +129,68 @@ contains
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil(:)
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed, c
-      real(wp) :: derivatives(4), step(4)
-      type(film_motion) :: beside(size(self%gaps))
-      type(film_response) :: fourier(size(self%gaps))
-      integer :: k, n
-      step = steps(self%clearance(i), speed)
+      real(wp) :: derivatives(4), step
+      type(film_motion) :: moved
+      type(film_response) :: fourier
+      integer :: k
       derivatives = 0
       do k = 1, 4
-         beside = moved(motion, k, step(k))
-         call self%fourier%evaluate(beside, oil, speed, .false., fourier, [(n == i, n=1, size(beside))])
-         if (fourier(i)%status == film_ok) derivatives(k) = &
-            & (share_of_modes(self%cavitation_pressure(i), fourier(i)) - c)/step(k)
+         call move(self%gaps(i), motion, speed, k, moved, step)
+         call self%fourier_film_type%evaluate_pad(i, moved, oil, speed, .false., fourier)
+         if (fourier%status == film_ok) derivatives(k) = &
+            & (share_of_modes(self%gaps(i)%cavitation_pressure, fourier) - c)/step
       end do
    end function derivatives_of_share
 
-   !> Steps of differences along e_y, e_z, m, and their rates, m/s.
-   pure function steps(clearance, speed)
-      real(wp), intent(in) :: clearance, speed
-      real(wp) :: steps(4)
-      steps = difference*clearance*[1.0_wp, 1.0_wp, max(1.0_wp, abs(speed)), max(1.0_wp, abs(speed))]
-   end function steps
-
-   !> A motion with a step along the k-th of these.
-   pure type(film_motion) function moved(motion, k, step)
+   !> A motion after a step of differences along the k-th of e_y, e_z, m, and their rates, m/s.
+   pure subroutine move(gap, motion, speed, k, moved, step)
+      type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
       integer, intent(in) :: k
-      real(wp), intent(in) :: step
+      type(film_motion), intent(out) :: moved
+      real(wp), intent(out) :: step
       moved = motion
-      if (k <= 2) moved%position(k) = moved%position(k) + step
-      if (k > 2) moved%velocity(k - 2) = moved%velocity(k - 2) + step
-   end function moved
+      step = difference*gap%machined_clearance
+      if (k <= 2) then
+         moved%position(k) = moved%position(k) + step
+      else
+         step = step*max(1.0_wp, abs(speed))
+         moved%velocity(k - 2) = moved%velocity(k - 2) + step
+      end if
+   end subroutine move
 
-   !> A pad's cavitated film by elimination, from that of the modes.
-   subroutine change_of_cavitation(self, i, motion, oil, speed, want_derivatives, fourier, cavitated)
+   !> Makes the response of a pad's modes that of its cavitated film by elimination.
+   subroutine take_volumes(self, i, motion, oil, speed, want_derivatives, response)
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil(:)
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
-      type(film_response), intent(in) :: fourier
-      type(film_response), intent(out) :: cavitated
-      type(film_response) :: whole
+      type(film_response), intent(inout) :: response
+      type(film_response) :: fourier, whole
       real(wp) :: c, differing(2), slopes(4)
       integer :: k
-      c = share_of_modes(self%cavitation_pressure(i), fourier)
-      call self%volumes(i)%evaluate(motion, oil(i), speed, .true., want_derivatives, self%counters, cavitated)
-      if (cavitated%status /= film_ok .or. .not. c > 0) return
-      call self%volumes(i)%evaluate(motion, oil(i), speed, .false., want_derivatives, self%counters, whole)
+      fourier = response
+      c = share_of_modes(self%gaps(i)%cavitation_pressure, fourier)
+      call self%volumes(i)%evaluate(motion, oil, speed, .true., want_derivatives, self%counters, response)
+      response%min_film_thickness = fourier%min_film_thickness
+      if (response%status /= film_ok .or. .not. c > 0) return
+      call self%volumes(i)%evaluate(motion, oil, speed, .false., want_derivatives, self%counters, whole)
       differing = fourier%force - whole%force
-      cavitated%force = cavitated%force + c*differing
-      if (want_derivatives) cavitated%derivatives = cavitated%derivatives + c*(fourier%derivatives - whole%derivatives)
-      if (want_derivatives .and. c < 1 .and. norm2(differing) > coarse*norm2(cavitated%force)) then
-         slopes = derivatives_of_share(self, i, motion, oil, speed, c)
-         do k = 1, 4
-            cavitated%derivatives(:, k) = cavitated%derivatives(:, k) + slopes(k)*differing
-         end do
-      end if
-      cavitated%max_pressure = cavitated%max_pressure + c*(fourier%max_pressure - whole%max_pressure)
-   end subroutine change_of_cavitation
+      response%force = response%force + c*differing
+      response%max_pressure = response%max_pressure + c*(fourier%max_pressure - whole%max_pressure)
+      if (.not. want_derivatives) return
+      response%derivatives = response%derivatives + c*(fourier%derivatives - whole%derivatives)
+      if (.not. (c < 1 .and. norm2(differing) > coarse*norm2(response%force))) return
+      slopes = derivatives_of_share(self, i, motion, oil, speed, c)
+      do k = 1, 4
+         response%derivatives(:, k) = response%derivatives(:, k) + slopes(k)*differing
+      end do
+   end subroutine take_volumes
 
    !> True where a pad whose full film has the response `fourier` cavitates at this pressure, Pa.
    pure logical function is_cavitated(cavitation_pressure, fourier)
@@ -238,57 +211,51 @@ contains
       if (tension < height) c = min(1.0_wp, (1 - tension/height)/(1 - loaded_tension))
    end function share_of_modes
 
-   subroutine field(self, motion, oil, speed, phi, z, pressure)
+   subroutine field_of_pad(self, i, motion, oil, speed, phi, z, pressure)
       class(direct_film_type), intent(inout) :: self
-      type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
-      real(wp), intent(in) :: speed, phi(:, :), z(:)
-      real(wp), intent(out) :: pressure(:, :, :)
-      call rebuild(self, .false., motion, oil, speed, phi, z, pressure)
-   end subroutine field
+      integer, intent(in) :: i
+      type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
+      real(wp), intent(in) :: speed, phi(:), z(:)
+      real(wp), intent(out) :: pressure(:, :)
+      call self%rebuild(i, .false., motion, oil, speed, phi, z, pressure)
+   end subroutine field_of_pad
 
-   !> The field, where it cavitates as accurate as the force from tables.
-   subroutine fine_field(self, motion, oil, speed, phi, z, pressure)
+   !> The field of a pad. Where the film cavitates, that of volumes that follow it, as accurate as the force from
+   !> tables; or as the force: that of the finite volumes with cavitation and, outside the cavitation, c times (modes -
+   !> finite volumes without cavitation).
+   subroutine rebuild(self, i, follows, motion, oil, speed, phi, z, pressure)
       class(direct_film_type), intent(inout) :: self
-      type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
-      real(wp), intent(in) :: speed, phi(:, :), z(:)
-      real(wp), intent(out) :: pressure(:, :, :)
-      call rebuild(self, .true., motion, oil, speed, phi, z, pressure)
-   end subroutine fine_field
-
-   !> The field. Where the film cavitates, that of film-adapted volumes; or as the force: that of the finite volumes
-   !> with cavitation and, outside the cavitation, c times (modes - finite volumes without cavitation).
-   subroutine rebuild(self, follows, motion, oil, speed, phi, z, pressure)
-      class(direct_film_type), intent(inout) :: self
+      integer, intent(in) :: i
       logical, intent(in) :: follows
-      type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
-      real(wp), intent(in) :: speed, phi(:, :), z(:)
-      real(wp), intent(out) :: pressure(:, :, :)
+      type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
+      real(wp), intent(in) :: speed, phi(:), z(:)
+      real(wp), intent(out) :: pressure(:, :)
       type(elimination_film_type) :: film
-      type(film_response) :: response(size(motion))
-      real(wp), dimension(size(z), size(phi, 1)) :: cavitated, whole
+      type(film_counters) :: counters
+      type(film_response) :: response
+      real(wp), dimension(size(z), size(phi)) :: cavitated, whole
       real(wp) :: c
-      integer :: i
-      call self%fourier%evaluate(motion, oil, speed, .false., response)
-      call self%fourier%field(motion, oil, speed, phi, z, pressure)
-      if (.not. self%projects) return
-      do i = 1, size(motion)
-         associate (lowest => self%cavitation_pressure(i))
-            if (.not. is_cavitated(lowest, response(i))) then
-               pressure(:, :, i) = max(lowest, pressure(:, :, i))
-            else if (follows) then
-               film = new_following_film(self%gaps(i), motion(i), speed, fine_rows)
-               call film%field(motion(i), oil(i), speed, .true., phi(:, i), z, pressure(:, :, i))
-            else
-               c = share_of_modes(lowest, response(i))
-               call self%volumes(i)%field(motion(i), oil(i), speed, .true., phi(:, i), z, cavitated)
-               call self%volumes(i)%field(motion(i), oil(i), speed, .false., phi(:, i), z, whole)
-               where (cavitated > lowest) cavitated = max(lowest, cavitated + c*(pressure(:, :, i) - whole))
-               pressure(:, :, i) = cavitated
-            end if
-         end associate
-      end do
+      ! fields are not counted
+      counters = self%counters
+      call self%fourier_film_type%evaluate_pad(i, motion, oil, speed, .false., response)
+      call self%fourier_film_type%field_of_pad(i, motion, oil, speed, phi, z, pressure)
+      self%counters = counters
+      if (self%condition /= cavitation_reynolds) return
+      associate (lowest => self%gaps(i)%cavitation_pressure)
+         if (.not. is_cavitated(lowest, response)) then
+            pressure = max(lowest, pressure)
+         else if (follows) then
+            film = new_following_film(self%gaps(i), motion, speed, fine_rows)
+            call film%field(motion, oil, speed, .true., phi, z, pressure)
+         else
+            c = share_of_modes(lowest, response)
+            call self%volumes(i)%field(motion, oil, speed, .true., phi, z, cavitated)
+            call self%volumes(i)%field(motion, oil, speed, .false., phi, z, whole)
+            where (cavitated > lowest) cavitated = max(lowest, cavitated + c*(pressure - whole))
+            pressure = cavitated
+         end if
+      end associate
    end subroutine rebuild
 end module direct_film

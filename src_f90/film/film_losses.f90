@@ -11,7 +11,8 @@
 !> how far the cavitated part is filled.
 module film_losses
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok
+   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok, cavitation_none, &
+      & cavitation_reynolds
    use pad_gap, only: pad_gap_type, pad_directions
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type
@@ -50,9 +51,8 @@ module film_losses
       type(pad_directions) :: directions
       !> The full film; that of a pressure of 1 Pa at the leading and, in a mirror, at the trailing edge.
       type(fourier_film_type) :: whole, leading, trailing
-      logical :: reynolds, gumbel
-      !> Of the volumes of a cavitated film.
-      integer :: rows
+      !> Of cavitation.
+      integer :: condition
    contains
       procedure :: find
       procedure, private :: full_film
@@ -68,19 +68,14 @@ module film_losses
 
 contains
 
-   !> For the films in a gap that cavitate by the condition of Reynolds or Guembel or not at all.
-   pure type(film_losses_type) function new_film_losses(gap, reynolds, gumbel, rows) result(self)
+   !> For the films in a gap that cavitate by this condition.
+   pure type(film_losses_type) function new_film_losses(gap, condition) result(self)
       type(pad_gap_type), intent(in) :: gap
-      logical, intent(in) :: reynolds, gumbel
-      !> Of the volumes of a cavitated film; enough, by default.
-      integer, intent(in), optional :: rows
+      integer, intent(in) :: condition
       type(pad_gap_type) :: edge
       self%gap = gap
       self%directions = gap%directions()
-      self%reynolds = reynolds
-      self%gumbel = gumbel
-      self%rows = enough_rows
-      if (present(rows)) self%rows = rows
+      self%condition = condition
       self%whole = converged_film(gap, .false., tolerance)
       edge = gap
       edge%supply_pressure = 1
@@ -99,16 +94,15 @@ contains
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_loss), intent(out) :: loss
-      type(film_response) :: response(1)
+      type(film_response) :: response
       type(driven_film) :: driven
-      call self%whole%evaluate([motion], [oil], speed, .false., response)
-      loss%status = response(1)%status
+      call self%whole%evaluate_pad(1, motion, oil, speed, .false., response)
+      loss%status = response%status
       if (loss%status /= film_ok) return
-      driven%force = response(1)%force
+      driven%force = response%force
       call self%full_film(motion, oil, speed, driven, loss)
-      if (self%reynolds .or. self%gumbel) then
-         if (is_cavitated(self%gap%cavitation_pressure, response(1))) call self%add_cavitation(motion, oil, &
-            & speed, response(1), driven, loss)
+      if (self%condition /= cavitation_none .and. is_cavitated(self%gap%cavitation_pressure, response)) then
+         call self%add_cavitation(motion, oil, speed, response, driven, loss)
       end if
       loss%force = driven%force
       call self%set_heat(motion, speed, driven, loss)
@@ -122,17 +116,19 @@ contains
       real(wp), intent(in) :: speed
       type(driven_film), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
-      type(film_response) :: response(1)
+      type(film_response) :: response
       real(wp) :: w(2), thickness(2), out, flows(2)
       associate (gap => self%gap, d => self%directions, radius => self%gap%pad_radius(), &
          & surface => speed*self%gap%journal_radius)
          loss%couette = oil%viscosity*surface**2*radius*gap%axial_length/gap%machined_clearance &
             & *span(motion%position/gap%machined_clearance, d%middle, d%half)
          w = motion%velocity + wedge_velocity(self, motion, speed)
-         call self%trailing%evaluate([mirrored(motion)], [oil], 0.0_wp, .false., response)
-         out = -dot_product(w, [-response(1)%force(1), response(1)%force(2)])
-         call self%leading%evaluate([without_velocity(motion)], [oil], 0.0_wp, .false., response)
-         driven%inlet = dot_product(w, response(1)%force)
+         associate (mirror => [-1.0_wp, 1.0_wp])
+            call self%trailing%evaluate_pad(1, film_motion(mirror*motion%position), oil, 0.0_wp, .false., response)
+            out = -dot_product(w, mirror*response%force)
+         end associate
+         call self%leading%evaluate_pad(1, film_motion(motion%position), oil, 0.0_wp, .false., response)
+         driven%inlet = dot_product(w, response%force)
          associate (rise => gap%supply_pressure - gap%ambient_pressure)
             if (abs(rise) > 0) then
                flows = rise*self%leading%supply_flows(oil)
@@ -147,17 +143,6 @@ contains
             & *dot_product(motion%velocity, over_arc(d))
       end associate
    end subroutine full_film
-
-   !> The same motion of the mirrored pad without velocity, and of the pad.
-   pure type(film_motion) function mirrored(motion)
-      type(film_motion), intent(in) :: motion
-      mirrored%position = [-motion%position(1), motion%position(2)]
-   end function mirrored
-
-   pure type(film_motion) function without_velocity(motion)
-      type(film_motion), intent(in) :: motion
-      without_velocity%position = motion%position
-   end function without_velocity
 
    !> Integrals of sine and cosine over the arc.
    pure function over_arc(directions)
@@ -191,7 +176,7 @@ contains
       real(wp) :: c
       integer :: k, status
       do k = 1, 2
-         volumes(k) = new_following_film(self%gap, motion, speed, k*(self%rows/2))
+         volumes(k) = new_following_film(self%gap, motion, speed, k*(enough_rows/2))
          call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), cavitated(k), status)
          loss%status = max(loss%status, status)
       end do
@@ -225,7 +210,7 @@ contains
          call finest%evaluate(motion, oil, speed, .false., .false., counters, response)
          call finest%cells(grid, pressure, film)
          whole = flows_of_volumes(grid, oil, surface, pressure, film > 0)
-         if (self%reynolds) then
+         if (self%condition == cavitation_reynolds) then
             if (size(volumes) > 1) call finest%start_from(volumes(1))
             call finest%evaluate(motion, oil, speed, .true., .false., counters, response)
             call finest%cells(grid, pressure, film)

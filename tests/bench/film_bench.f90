@@ -9,13 +9,13 @@ program film_bench
    use, intrinsic :: iso_fortran_env, only: output_unit
    use kinds, only: wp, i8, pi, degree
    use text, only: to_text
-   use film_solver, only: film_solver_type, film_motion, film_response
+   use film_solver, only: film_solver_type, film_motion, film_response, cavitation_none, cavitation_gumbel, &
+      & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
-      & cavitation_reynolds
+   use sor_film, only: sor_film_type, sor_options, new_sor_film
    use contact_law, only: contact_law_type, make_contact_law
    use contact_table, only: contact_table_type, new_contact_table
    use paper_bearing, only: paper_oil
@@ -60,7 +60,7 @@ contains
       ! a step of two fifths of the circle
       distant = path(centre, large, 73)
       if (cavitation == cavitation_reynolds) then
-         direct = new_direct_film(films, 128, 32, 320, 64, .true., .false.)
+         direct = new_direct_film(films, 128, 32, 320, 64, cavitation_reynolds)
          call forces(direct, nearby, exact)
       else
          fourier = new_fourier_film(films, 128, 32, cavitation == cavitation_gumbel)
@@ -74,7 +74,7 @@ contains
       n = 12
       do while (n <= 48)
          if (cavitation == cavitation_reynolds) then
-            direct = new_direct_film(films, n, 8, 80*n/24, n/3, .true., .false.)
+            direct = new_direct_film(films, n, 8, 80*n/24, n/3, cavitation_reynolds)
             call measure('direct '//to_text(n), direct, nearby, exact, condition, state)
          else
             fourier = new_fourier_film(films, n, 8, cavitation == cavitation_gumbel)
@@ -95,11 +95,8 @@ contains
       integer, intent(in) :: cavitation
       real(wp), intent(in) :: tolerance
       type(direct_film_type) :: direct
-      logical :: reynolds, gumbel
-      reynolds = cavitation == cavitation_reynolds
-      gumbel = cavitation == cavitation_gumbel
-      direct = new_direct_film(films(:1), 24, 8, 80, 8, reynolds, gumbel)
-      new_table = new_table_film(films, spread(direct, 1, pads), reynolds .or. gumbel, gumbel, tolerance)
+      direct = new_direct_film(films, 24, 8, 80, 8, cavitation)
+      new_table = new_table_film(direct, tolerance)
    end function new_table
 
    subroutine measure(name, solver, motions, exact, condition, state)

@@ -2,11 +2,11 @@
 program test_cavitation
    use kinds, only: wp
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_ok
+   use film_solver, only: film_motion, film_response, film_ok, cavitation_none, cavitation_gumbel, &
+      & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
-      & cavitation_reynolds
+   use sor_film, only: sor_film_type, sor_options, new_sor_film
    use paper_bearing, only: paper_oil, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)

@@ -5,9 +5,9 @@ program test_equilibrium_table
    use text, only: to_text
    use errors, only: error_type, numerics_error
    use case_inputs, only: case_type
-   use film_solver, only: film_oil, film_motion, film_response
+   use film_solver, only: film_oil, film_motion, film_response, cavitation_reynolds
    use pad_gap, only: pad_gap_type
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_reynolds
+   use sor_film, only: sor_film_type, sor_options, new_sor_film
    use equations_of_motion, only: new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use input_cases, only: case_of

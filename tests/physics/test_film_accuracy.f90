@@ -7,10 +7,11 @@
 program test_film_accuracy
    use kinds, only: wp
    use text, only: to_text
-   use film_solver, only: film_solver_type, film_motion, film_response, film_ok
+   use film_solver, only: film_solver_type, film_motion, film_response, film_ok, cavitation_reynolds, &
+      & cavitation_none, cavitation_gumbel
    use film_resolution, only: enough_cells, enough_modes, usual_error
    use fourier_film, only: fourier_film_type, new_fourier_film, converged_film
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_reynolds
+   use sor_film, only: sor_film_type, sor_options, new_sor_film
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
    use random_films, only: film_state, random_film, volumes_type, new_volumes, extrapolated, field_points, &
@@ -182,7 +183,7 @@ contains
             film = converged_film(state%gap, clips, usual_error)
             call try(film, state, expected, modes)
             if (i > merge(12, 10, clips)*times) cycle
-            tables = new_tables(state, .false., clips, table_tolerances(1))
+            tables = new_tables(state, merge(cavitation_gumbel, cavitation_none, clips), table_tolerances(1))
             call try(tables, state, expected, looked_up)
          end do
          limits = reshape([usual_error, 1e-3_wp, 1e-2_wp, usual_error, 1e-3_wp, 2e-2_wp], [3, 2])
@@ -193,24 +194,21 @@ contains
    end subroutine by_modes
 
    !> Tables for a film, whose other films are solved at the default resolution.
-   function new_tables(state, cavitates, clips, tolerance) result(tables)
+   function new_tables(state, condition, tolerance) result(tables)
       type(film_state), intent(in) :: state
-      logical, intent(in) :: cavitates, clips
+      integer, intent(in) :: condition
       real(wp), intent(in) :: tolerance
       type(table_film_type) :: tables
-      tables = new_table_film([state%gap], [new_direct(state, 1, cavitates, clips)], cavitates .or. clips, clips, &
-         & tolerance)
+      tables = new_table_film(new_direct(state, 1, condition), tolerance)
    end function new_tables
 
    !> `direct` with this many times its default volumes.
-   function new_direct(state, finer, cavitates, clips) result(film)
+   function new_direct(state, finer, condition) result(film)
       type(film_state), intent(in) :: state
-      integer, intent(in) :: finer
-      logical, intent(in) :: cavitates, clips
+      integer, intent(in) :: finer, condition
       type(direct_film_type) :: film
       associate (gaps => [state%gap])
-         film = new_direct_film(gaps, enough_cells(gaps), enough_modes(gaps), 80*finer, 8*finer, cavitates, clips, &
-            & usual_error)
+         film = new_direct_film(gaps, enough_cells(gaps), enough_modes(gaps), 80*finer, 8*finer, condition, usual_error)
       end associate
    end function new_direct
 
@@ -268,14 +266,14 @@ contains
             call add_missing(modes, state, missing(1))
             modes = converged_film(state%gap, .true., usual_error)
             call add_missing(modes, state, missing(2))
-            direct = new_direct(state, 1, .true., .false.)
+            direct = new_direct(state, 1, cavitation_reynolds)
             call add_missing(direct, state, missing(3))
             sor = new_sor_film([state%gap], sor_options(60, 15, tolerance=1e-7_wp, max_sweeps=100000, &
                & cavitation=cavitation_reynolds))
             call add_missing(sor, state, missing(4))
-            tables = new_tables(state, .false., .true., table_tolerances(1))
+            tables = new_tables(state, cavitation_gumbel, table_tolerances(1))
             call add_missing(tables, state, missing(5))
-            tables = new_tables(state, .true., .false., table_tolerances(2))
+            tables = new_tables(state, cavitation_reynolds, table_tolerances(2))
             call add_missing(tables, state, missing(6))
          end do
       end do
@@ -348,14 +346,14 @@ contains
             ! cells that cavitate one by one make the slopes rough
             expected%derivatives = grids(2)%derivatives
             do k = 1, 2
-               direct = new_direct(state, k, .true., .false.)
+               direct = new_direct(state, k, cavitation_reynolds)
                call try(direct, state, expected, of_direct(k))
                sor = new_sor_film([state%gap], sor_options(60*k, 15*k, tolerance=1e-7_wp, max_sweeps=100000, &
                   & cavitation=cavitation_reynolds))
                call try(sor, state, expected, of_sor(k))
             end do
             if (supplied) cycle
-            tables = new_tables(state, .true., .false., table_tolerances(2))
+            tables = new_tables(state, cavitation_reynolds, table_tolerances(2))
             call try(tables, state, expected, looked_up)
          end do
          if (.not. supplied) call expect_within('auto'//name, range, looked_up, &

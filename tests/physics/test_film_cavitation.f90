@@ -3,10 +3,11 @@
 program test_film_cavitation
    use kinds, only: wp, i8, pi
    use text, only: to_text
-   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok
+   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok, cavitation_none, &
+      & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
+   use sor_film, only: sor_film_type, sor_options, new_sor_film
    use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: direct_film_type, new_direct_film
    use film_differences, only: difference
@@ -137,7 +138,7 @@ contains
       integer :: i, k, switches
       logical :: was, is
       allowed = error_of_cells(path, columns, rows)
-      solver = new_direct_film([pad(path%flooded)], cells, modes, columns, rows, .true., .false.)
+      solver = new_direct_film([pad(path%flooded)], cells, modes, columns, rows, cavitation_reynolds)
       switches = 0
       call look(solver, path, 0.0_wp, before, was)
       do i = 1, n
@@ -234,7 +235,7 @@ contains
       integer, parameter :: coarse_steps = 100, many = 1000
       type(direct_film_type) :: solver
       real(wp) :: coarse(2, 0:coarse_steps), fine(2, 0:many), back(2, 0:coarse_steps), rough_coarse, rough_fine, largest
-      solver = new_direct_film([pad(path%flooded)], cells, modes, 60, 15, .true., .false.)
+      solver = new_direct_film([pad(path%flooded)], cells, modes, 60, 15, cavitation_reynolds)
       call walk(solver, path, 2*pi/coarse_steps, coarse, rough_coarse)
       call walk(solver, path, -2*pi/coarse_steps, back, rough_coarse)
       call walk(solver, path, 2*pi/many, fine, rough_fine)

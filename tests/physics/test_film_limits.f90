@@ -2,9 +2,9 @@
 program test_film_limits
    use kinds, only: wp
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_ok
+   use film_solver, only: film_motion, film_response, film_ok, cavitation_none
    use pad_gap, only: pad_gap_type
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none
+   use sor_film, only: sor_film_type, sor_options, new_sor_film
    use paper_bearing, only: paper_oil, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)

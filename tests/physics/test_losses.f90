@@ -5,7 +5,8 @@ program test_losses
    use errors, only: error_type
    use case_inputs, only: case_type
    use case_completion, only: complete_case
-   use film_solver, only: film_oil, film_motion, film_response, film_counters, film_ok, film_closed
+   use film_solver, only: film_oil, film_motion, film_response, film_counters, film_ok, film_closed, cavitation_none, &
+      & cavitation_gumbel, cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type, new_elimination_film
@@ -106,17 +107,17 @@ contains
    end function extrapolated
 
    !> With the paper's oil or another.
-   type(film_loss) function found(gap, motion, speed, reynolds, gumbel, oil) result(loss)
+   type(film_loss) function found(gap, motion, speed, condition, oil) result(loss)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
-      logical, intent(in) :: reynolds, gumbel
+      integer, intent(in) :: condition
       type(film_oil), intent(in), optional :: oil
       type(film_losses_type) :: losses
       type(film_oil) :: used
       used = paper_oil
       if (present(oil)) used = oil
-      losses = new_film_losses(gap, reynolds, gumbel)
+      losses = new_film_losses(gap, condition)
       call losses%find(motion, used, speed, loss)
    end function found
 
@@ -171,7 +172,7 @@ contains
       type(film_loss) :: loss
       real(wp) :: surface
       gap = offset_pad()
-      loss = found(gap, film_motion(), shaft_speed, .true., .false.)
+      loss = found(gap, film_motion(), shaft_speed, cavitation_reynolds)
       surface = shaft_speed*gap%journal_radius
       associate (area => gap%pad_radius()*gap%arc()*gap%axial_length, c => gap%machined_clearance)
          call expect_close(loss%couette, paper_oil%viscosity*surface**2*area/c, 1e-12_wp*loss%couette, 'Petroff')
@@ -184,7 +185,7 @@ contains
 
    subroutine closed()
       type(film_loss) :: loss
-      loss = found(paper_pad(), film_motion([0.0_wp, 101e-6_wp]), shaft_speed, .true., .false.)
+      loss = found(paper_pad(), film_motion([0.0_wp, 101e-6_wp]), shaft_speed, cavitation_reynolds)
       call expect(loss%status == film_closed, 'a closed film has no loss')
    end subroutine closed
 
@@ -197,7 +198,7 @@ contains
       worst = 0
       do i = 1, 40
          state = random_film(1.0_wp, 4.0_wp, .false., .false.)
-         loss = found(state%gap, state%motion, shaft_speed, .false., .false.)
+         loss = found(state%gap, state%motion, shaft_speed, cavitation_none)
          call expect(loss%status == film_ok, 'open')
          error = difference(state%gap, state%motion, shaft_speed, loss, extrapolated(state%gap, state%motion, &
             & shaft_speed, 96, 12, .false.))
@@ -219,7 +220,7 @@ contains
          state = random_film(1.0_wp, 4.0_wp, .true., .false.)
          if (state%t > 0.95_wp) cycle
          if (mod(i, 2) == 0) state%motion%velocity = 0
-         loss = found(state%gap, state%motion, shaft_speed, .true., .false.)
+         loss = found(state%gap, state%motion, shaft_speed, cavitation_reynolds)
          fine = by_volumes(state%gap, state%motion, shaft_speed, 192, 24, .true.)
          ! a film that reforms takes up more than arrives: the plain sums do not follow it
          if (abs(loss%unfed) > 1e-3_wp*loss%inlet) cycle
@@ -239,8 +240,8 @@ contains
       type(film_motion) :: motion
       gap = paper_pad()
       motion = film_motion([-5e-6_wp, 60e-6_wp])
-      whole = found(gap, motion, shaft_speed, .false., .false.)
-      cavitated = found(gap, motion, shaft_speed, .false., .true.)
+      whole = found(gap, motion, shaft_speed, cavitation_none)
+      cavitated = found(gap, motion, shaft_speed, cavitation_gumbel)
       call expect(cavitated%couette < 0.999_wp*whole%couette, 'less oil, less shear')
       call expect(cavitated%side > whole%side, 'nothing is sucked in at the sides')
       call expect_close(cavitated%inlet, whole%inlet, 1e-3_wp*whole%inlet, 'the film begins at the leading edge')
@@ -249,7 +250,7 @@ contains
       call expect_close(cavitated%wedge, cavitated%pressure, 1e-10_wp*cavitated%pressure, 'no power is lost')
       ! the same film under a cavitation pressure that it does not reach
       gap%cavitation_pressure = -1e9_wp
-      cavitated = found(gap, motion, shaft_speed, .false., .true.)
+      cavitated = found(gap, motion, shaft_speed, cavitation_gumbel)
       call expect(all(abs([cavitated%couette - whole%couette, cavitated%inlet - whole%inlet, &
          & cavitated%side - whole%side]) <= 0), 'whole')
    end subroutine clipped
@@ -262,13 +263,13 @@ contains
       type(film_motion) :: motion
       gap = paper_pad([edges, edges, 0.0_wp])
       motion = film_motion([10e-6_wp, 70e-6_wp])
-      loss = found(gap, motion, shaft_speed, .true., .false.)
+      loss = found(gap, motion, shaft_speed, cavitation_reynolds)
       fine = by_volumes(gap, motion, shaft_speed, 384, 48, .true.)
       call expect_close(loss%pressure, fine%pressure, 1.5e-2_wp*fine%pressure, 'heat of the pressure flow')
       call expect_close(loss%couette, fine%couette, 2e-3_wp*fine%couette, 'heat of sliding')
       gap%ambient_pressure = 0
       gap%supply_pressure = 0
-      without = found(gap, motion, shaft_speed, .true., .false.)
+      without = found(gap, motion, shaft_speed, cavitation_reynolds)
       call expect(loss%pressure - without%pressure > 0.02_wp*without%pressure, 'the edges matter')
       call expect(loss%wedge > 1.2_wp*loss%pressure, 'the shaft pumps oil through the cavitation to the edges')
    end subroutine under_pressure
@@ -283,7 +284,7 @@ contains
       do i = 1, 60
          state = random_film(1.0_wp, 10.0_wp, .true., .false.)
          state%motion%velocity = 0
-         loss = found(state%gap, state%motion, shaft_speed, .true., .false.)
+         loss = found(state%gap, state%motion, shaft_speed, cavitation_reynolds)
          call expect_close(loss%outlet + loss%side, loss%inlet + loss%unfed, 1e-9_wp*loss%inlet, 'cavitated: ' &
             & //shown(state))
          if (abs(loss%unfed) > 1e-3_wp*loss%inlet) again = again + 1
@@ -299,7 +300,7 @@ contains
       integer :: i
       do i = 1, 60
          state = random_film(1.0_wp, 10.0_wp, .true., mod(i, 3) == 0)
-         loss = found(state%gap, state%motion, shaft_speed, mod(i, 2) == 0, .false.)
+         loss = found(state%gap, state%motion, shaft_speed, merge(cavitation_reynolds, cavitation_none, mod(i, 2) == 0))
          forced = -dot_product(state%motion%velocity, loss%force)
          brought = loss%couette + loss%wedge + forced + state%gap%supply_pressure*loss%inlet
          call expect_close(loss%couette + loss%pressure, brought, 1e-10_wp*(loss%couette + abs(forced) &
@@ -329,8 +330,8 @@ contains
          length = 2*radius*tables(1, i)
          associate (gap => pad_gap_type(radius, clearance, length, 0.9999999_wp*pi, 0.9999999_wp*pi, 0.0_wp, &
             & 0.0_wp, 0.0_wp), motion => film_motion([0.0_wp, clearance*tables(2, i)]))
-            loss = found(gap, motion, speed, .true., .false., film_oil(viscosity))
-            whole = found(gap, motion, speed, .false., .false., film_oil(viscosity))
+            loss = found(gap, motion, speed, cavitation_reynolds, film_oil(viscosity))
+            whole = found(gap, motion, speed, cavitation_none, film_oil(viscosity))
          end associate
          load = norm2(loss%force)
          friction = (whole%couette + loss%wedge)/(speed*radius*load)*radius/clearance
@@ -364,7 +365,7 @@ contains
       real(wp) :: unit, wave, weight, inlet, outlet
       integer :: k
       gap = paper_pad([rise, 0.0_wp, 0.0_wp])
-      loss = found(gap, film_motion(), 0.0_wp, .false., .false.)
+      loss = found(gap, film_motion(), 0.0_wp, cavitation_none)
       associate (c => gap%machined_clearance, r => gap%pad_radius(), l => gap%axial_length)
          unit = rise*c**3/(12*paper_oil%viscosity*r)
          inlet = r*4/pi*log(1/tan(pi*c/(2*l)))
@@ -398,8 +399,8 @@ contains
          associate (d => gap%directions())
             even%machined_clearance = gap%thickness(motion, d%leading(1), d%leading(2))
          end associate
-         loss = found(gap, motion, 0.0_wp, .false., .false.)
-         of_even = found(even, film_motion(), 0.0_wp, .false., .false.)
+         loss = found(gap, motion, 0.0_wp, cavitation_none)
+         of_even = found(even, film_motion(), 0.0_wp, cavitation_none)
          fine = extrapolated(gap, motion, 0.0_wp, 192, 24, .false.)
          fine_of_even = extrapolated(even, film_motion(), 0.0_wp, 192, 24, .false.)
          unit = of_even%inlet
@@ -420,8 +421,8 @@ contains
       high = 40e-6_wp
       do i = 1, 60
          motion = film_motion([0.5_wp*(low + high), 40e-6_wp])
-         cavitated = found(gap, motion, shaft_speed, .true., .false.)
-         whole = found(gap, motion, shaft_speed, .false., .false.)
+         cavitated = found(gap, motion, shaft_speed, cavitation_reynolds)
+         whole = found(gap, motion, shaft_speed, cavitation_none)
          if (abs(cavitated%pressure - whole%pressure) > 0) then
             high = motion%position(1)
          else

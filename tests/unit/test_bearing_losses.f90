@@ -6,7 +6,7 @@ program test_bearing_losses
    use errors, only: error_type
    use case_inputs, only: case_type
    use case_namelist, only: case_from_text
-   use film_solver, only: film_motion
+   use film_solver, only: film_motion, cavitation_reynolds
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use rigid_journal, only: journal_motion
    use kinematics, only: pad_state, pad_frame, frame_of, motion_of
@@ -56,7 +56,7 @@ contains
       do i = 1, 2
          associate (pad => model%bearing%pads(i))
             motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
-            single = new_film_losses(pad%gap, .true., .false.)
+            single = new_film_losses(pad%gap, cavitation_reynolds)
             call single%find(motion, model%oil(i), speed, film)
             call expect_close(found(i)%load, norm2(film%force), 0.0_wp, 'load')
             call expect_close(found(i)%power(), film%couette + film%pressure, 1e-12_wp*film%couette, 'power')

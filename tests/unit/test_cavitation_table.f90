@@ -10,13 +10,17 @@ program test_cavitation_table
    use logarithmic_grid, only: interval, lower_end
    use cavitation_table, only: cavitation_table_type, new_cavitation_table
    use check, only: runs, expect, expect_close, between, report
+   use film_solver, only: film_counters
    implicit none (type, external)
 
    real(wp), parameter :: half_arc = 35*degree, tolerance = 1e-4_wp
    !> Thicknesses at the edges, and T.
    real(wp), parameter :: films(3, 4) = reshape([0.8_wp, 0.4_wp, 0.15_wp, 0.5_wp, 0.9_wp, 0.4_wp, &
       & 0.3_wp, 0.3_wp, 0.7_wp, 1.5_wp, 0.2_wp, 0.3_wp], [3, 4])
+   !> Most cells and nodes of a table.
+   integer, parameter :: most = 20000
    type(dimensionless_pad_type) :: pad
+   type(film_counters) :: counters
    integer :: i
 
    associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
@@ -111,7 +115,7 @@ contains
       real(wp) :: slope(simd_width, 3)
       integer :: trial, last, axis, meet
       logical :: good
-      table = new_cavitation_table(pad, .true., tolerance)
+      table = new_cavitation_table(pad, .true., tolerance, most)
       solver = new_effective_velocity(pad, .true., tolerance)
       last = 0
       meet = 0
@@ -124,8 +128,8 @@ contains
          if (.not. place(3) > 0) cycle
          below = place
          below(axis) = nearest(place(axis), -1.0_wp)
-         call table%look_up(place(:2), place(3), .true., last, value, slope, good)
-         call table%look_up(below(:2), below(3), .true., last, value_below, slope, good)
+         call table%look_up(place(:2), place(3), .true., last, counters, value, slope, good)
+         call table%look_up(below(:2), below(3), .true., last, counters, value_below, slope, good)
          drive = solver%at(place(:2), pad%tangent*(1 - 2*place(3)))
          jump = norm2(matmul(drive%weight, value(:2) - value_below(:2)))
          if (jump < 1e-12_wp) meet = meet + 1
@@ -144,15 +148,15 @@ contains
          & -1.0_wp), 1.0_wp]
       integer :: last, k
       logical :: good
-      table = new_cavitation_table(pad, gumbel, tolerance)
+      table = new_cavitation_table(pad, gumbel, tolerance, most)
       last = 0
       do k = 1, 2
-         call table%look_up([0.8_wp, 0.4_wp], next_to_0(k), .true., last, value, slope, good)
+         call table%look_up([0.8_wp, 0.4_wp], next_to_0(k), .true., last, counters, value, slope, good)
          call expect(good, 'there is a cell')
          call expect_close(norm2(value(:2)), 0.0_wp, 1e-12_wp, 'w at T = 0')
          call expect_close(norm2(slope(:2, :)), 0.0_wp, tolerance, 'and its slopes, to an error''s')
          call expect_close(value(3), 1.0_wp, 1e-12_wp, 'the pressure is that of the full film')
-         call table%look_up([0.8_wp, 0.4_wp], next_to_1(k), .true., last, value, slope, good)
+         call table%look_up([0.8_wp, 0.4_wp], next_to_1(k), .true., last, counters, value, slope, good)
          call expect(good, 'there is a cell')
          call expect_close(norm2([1.0_wp, -pad%tangent] + value(:2)), 0.0_wp, 1e-12_wp, 'nothing at T = 1')
          call expect_close(value(3), 0.0_wp, 1e-12_wp, 'and no pressure')
@@ -164,25 +168,27 @@ contains
       logical, intent(in) :: gumbel
       integer, parameter :: n = 12
       type(cavitation_table_type) :: table, other
+      type(film_counters) :: again
       real(wp) :: places(3, n), value(simd_width, n), slope(simd_width, 3, n), value_there(simd_width), &
          & slope_there(simd_width, 3)
       integer :: k, last, different
       logical :: good
       places = reshape([(random_place(), k=1, n)], [3, n])
-      table = new_cavitation_table(pad, gumbel, tolerance)
+      table = new_cavitation_table(pad, gumbel, tolerance, most)
+      counters = film_counters()
       last = 0
       do k = 1, n
-         call table%look_up(places(:2, k), places(3, k), .true., last, value(:, k), slope(:, :, k), good)
+         call table%look_up(places(:2, k), places(3, k), .true., last, counters, value(:, k), slope(:, :, k), good)
       end do
       other = new_cavitation_table(pad, gumbel, tolerance, 20)
       last = 0
       different = 0
       do k = n, 1, -1
-         call other%look_up(places(:2, k), places(3, k), .true., last, value_there, slope_there, good)
+         call other%look_up(places(:2, k), places(3, k), .true., last, again, value_there, slope_there, good)
          if (any(abs(value_there - value(:, k)) > 0)) different = different + 1
          if (any(abs(slope_there - slope(:, :, k)) > 0)) different = different + 1
       end do
       call expect(different == 0, to_text(different)//' of '//to_text(n)//' are others')
-      call expect(other%built_nodes > table%built_nodes, 'nodes are built again')
+      call expect(again%nodes > counters%nodes, 'nodes are built again')
    end subroutine full_table
 end program test_cavitation_table

@@ -3,7 +3,8 @@
 program test_direct_film
    use kinds, only: wp, degree
    use text, only: to_text
-   use film_solver, only: film_oil, film_motion, film_response, film_counters, film_ok, film_closed
+   use film_solver, only: film_oil, film_motion, film_response, film_counters, film_ok, film_closed, &
+      & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film
    use elimination_film, only: elimination_film_type, new_elimination_film
@@ -34,7 +35,7 @@ contains
       type(direct_film_type), intent(out) :: auto
       type(fourier_film_type), intent(out) :: by_modes
       type(elimination_film_type), intent(out) :: by_cells
-      auto = new_direct_film([paper_pad()], cells, modes, columns, rows, .true., .false.)
+      auto = new_direct_film([paper_pad()], cells, modes, columns, rows, cavitation_reynolds)
       by_modes = new_fourier_film([paper_pad()], cells, modes, .false.)
       by_cells = new_elimination_film(paper_pad(), columns, rows)
    end subroutine solvers
@@ -133,7 +134,7 @@ contains
       real(wp) :: change(2)
       integer :: k
       auto = new_direct_film([pad_gap_type(0.0315_wp, thin, 0.00786_wp, 0.55_wp*arc, 0.45_wp*arc, 5.4e5_wp, &
-         & 0.0_wp, 0.0_wp)], 16, 4, 16, 8, .true., .false.)
+         & 0.0_wp, 0.0_wp)], 16, 4, 16, 8, cavitation_reynolds)
       motion = film_motion([-1.1628e-5_wp, 8.8232e-5_wp], [1.13e-5_wp, 1.78e-6_wp])
       call auto%evaluate([motion], [oil], turning, .true., found)
       call expect(auto%counters%volumes == 1, 'the film cavitates')
@@ -166,7 +167,7 @@ contains
    subroutine closed()
       type(direct_film_type) :: auto
       type(film_response) :: found(1)
-      auto = new_direct_film([paper_pad()], cells, modes, columns, rows, .true., .false.)
+      auto = new_direct_film([paper_pad()], cells, modes, columns, rows, cavitation_reynolds)
       call auto%evaluate([film_motion([0.0_wp, 1.1_wp*clearance], [0.0_wp, 0.0_wp])], [paper_oil], speed, .true., found)
       call expect(found(1)%status == film_closed, 'a closed film')
       call expect_close(found(1)%min_film_thickness, -0.1_wp*clearance, 1e-18_wp, 'and by how much')
@@ -181,14 +182,14 @@ contains
       type(film_response) :: found(3), expected(1)
       integer :: k
       together = new_direct_film([paper_pad(), offset_pad(), paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], cells, modes, &
-         & columns, rows, .true., .false.)
+         & columns, rows, cavitation_reynolds)
       call together%evaluate(motions, spread(paper_oil, 1, size(motions)), speed, .true., found)
       call expect(all(found%status == film_ok), 'three pads')
       do k = 1, 3
-         if (k == 1) alone = new_direct_film([paper_pad()], cells, modes, columns, rows, .true., .false.)
-         if (k == 2) alone = new_direct_film([offset_pad()], cells, modes, columns, rows, .true., .false.)
+         if (k == 1) alone = new_direct_film([paper_pad()], cells, modes, columns, rows, cavitation_reynolds)
+         if (k == 2) alone = new_direct_film([offset_pad()], cells, modes, columns, rows, cavitation_reynolds)
          if (k == 3) alone = new_direct_film([paper_pad([2e5_wp, 1e5_wp, 0.0_wp])], cells, modes, columns, rows, &
-            & .true., .false.)
+            & cavitation_reynolds)
          call alone%evaluate(motions(k:k), [paper_oil], speed, .true., expected)
          call expect_same(found(k), expected(1), 'pad '//to_text(k))
       end do

@@ -2,10 +2,11 @@
 program test_elimination_film
    use kinds, only: wp, degree
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_counters, film_ok, film_closed
+   use film_solver, only: film_motion, film_response, film_counters, film_ok, cavitation_none, &
+      & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use elimination_film, only: elimination_film_type, new_elimination_film
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_reynolds
+   use sor_film, only: sor_film_type, sor_options, new_sor_film
    use paper_bearing, only: paper_oil, paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -22,7 +23,6 @@ program test_elimination_film
    end do
    if (runs('empty_film')) call empty_film()
    if (runs('many_columns')) call many_columns()
-   if (runs('closed_film')) call closed_film()
    call report()
 
 contains
@@ -125,14 +125,4 @@ contains
       call expect(fine%status == film_ok, 'the cavitation settles')
       call expect(deviation(coarse%force, fine%force) < 2e-3_wp, 'where it does on fewer columns')
    end subroutine many_columns
-
-   subroutine closed_film()
-      type(elimination_film_type) :: direct
-      type(film_counters) :: counters
-      type(film_response) :: r
-      direct = new_elimination_film(paper_pad(), 24, 6)
-      call direct%evaluate(film_motion([0.0_wp, clearance], [0.0_wp, 0.0_wp]), paper_oil, speed, .true., .true., &
-         & counters, r)
-      call expect(r%status == film_closed, 'a closed film is refused')
-   end subroutine closed_film
 end program test_elimination_film

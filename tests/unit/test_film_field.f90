@@ -3,10 +3,10 @@
 program test_film_field
    use kinds, only: wp, pi, degree
    use text, only: to_text
-   use film_solver, only: film_solver_type, film_motion
+   use film_solver, only: film_solver_type, film_motion, cavitation_none, cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film
-   use sor_film, only: sor_film_type, new_sor_film, sor_options, cavitation_none, cavitation_reynolds
+   use sor_film, only: sor_film_type, new_sor_film, sor_options
    use direct_film, only: direct_film_type, new_direct_film
    use paper_bearing, only: paper_oil, offset_pad, speed
    use check, only: runs, expect, expect_close, report
@@ -73,7 +73,7 @@ contains
       q = field_of(volumes, whole)
       p(175:, 392:) = q(175:, 392:)
       call expect_close(maxval(abs(p - q)), 0.0_wp, 3e-3_wp*maxval(q), 'modes against over-relaxation, flooded')
-      direct = new_direct_film([offset_pad()], 24, 8, 80, 8, .true., .false.)
+      direct = new_direct_film([offset_pad()], 24, 8, 80, 8, cavitation_reynolds)
       volumes = new_sor_film([offset_pad()], fine(cavitation_reynolds))
       motions = [slight, torn, unloaded]
       do i = 1, size(motions)
@@ -97,7 +97,7 @@ contains
       type(direct_film_type) :: direct
       modes = new_fourier_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, gumbel=.false.)
       volumes = new_sor_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], sor_options(24, 8, tolerance=1e-13_wp))
-      direct = new_direct_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, 24, 8, .true., .false.)
+      direct = new_direct_film([offset_pad([3e5_wp, 3e5_wp, 0.0_wp])], 24, 8, 24, 8, cavitation_reynolds)
       call expect_close(unevenness(modes), 0.0_wp, 1e-9_wp, 'uniform pressure, modes')
       call expect_close(unevenness(volumes), 0.0_wp, 1e-9_wp, 'uniform pressure, volumes')
       call expect_close(unevenness(direct), 0.0_wp, 1e-9_wp, 'uniform pressure, direct')
@@ -150,10 +150,10 @@ contains
       films(2)%trailing_angle = theta_1
       phi(:, 1) = reshape(angles(), [along])
       phi(:, 2) = -phi(along:1:-1, 1)
-      solver = new_direct_film(films, 24, 8, 80, 8, .true., .false.)
+      solver = new_direct_film(films, 24, 8, 80, 8, cavitation_reynolds)
       call solver%field([whole, whole], [paper_oil, paper_oil], speed, phi, places(), p)
       call expect(maxval(abs(p(:, :, 1) - p(:, :, 2))) > 0.01_wp*maxval(p), 'two pads, two fields')
-      alone = new_direct_film(films(:1), 24, 8, 80, 8, .true., .false.)
+      alone = new_direct_film(films(:1), 24, 8, 80, 8, cavitation_reynolds)
       call expect_close(maxval(abs(p(:, :, 1) - field_of(alone, whole))), 0.0_wp, 0.0_wp, 'the first pad''s own')
    end subroutine pads_apart
 end program test_film_field

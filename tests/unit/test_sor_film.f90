@@ -2,10 +2,10 @@
 program test_sor_film
    use kinds, only: wp, i8, degree
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_ok, film_closed, film_not_converged
+   use film_solver, only: film_motion, film_response, film_ok, film_closed, film_not_converged, cavitation_none, &
+      & cavitation_gumbel, cavitation_reynolds
    use pad_gap, only: pad_gap_type
-   use sor_film, only: sor_film_type, sor_options, new_sor_film, cavitation_none, cavitation_gumbel, &
-      & cavitation_reynolds
+   use sor_film, only: sor_film_type, sor_options, new_sor_film
    use film_differences, only: shifted
    use paper_bearing, only: paper_oil, paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report

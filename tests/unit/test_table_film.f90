@@ -3,7 +3,8 @@
 program test_table_film
    use kinds, only: wp, degree
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_ok, film_closed
+   use film_solver, only: film_motion, film_response, film_ok, film_closed, none => cavitation_none, &
+      & gumbel => cavitation_gumbel, reynolds => cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use film_resolution, only: enough_cells, enough_modes
    use fourier_film, only: fourier_film_type, new_fourier_film
@@ -14,8 +15,7 @@ program test_table_film
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
-   !> Conditions; the error that the tables may have.
-   integer, parameter :: none = 0, gumbel = 1, reynolds = 2
+   !> Error that the tables may have.
    real(wp), parameter :: tolerance = 1e-4_wp
    integer :: i
 
@@ -42,18 +42,15 @@ contains
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: condition
       type(table_film_type) :: film
-      integer :: k
-      film = new_table_film(gaps, [(solver(gaps(k), condition), k=1, size(gaps))], condition /= none, &
-         & condition == gumbel, tolerance)
+      film = new_table_film(solver(gaps, condition), tolerance)
    end function tables
 
-   !> One pad's film without tables.
-   function solver(gap, condition) result(film)
-      type(pad_gap_type), intent(in) :: gap
+   !> Films without tables.
+   function solver(gaps, condition) result(film)
+      type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: condition
       type(direct_film_type) :: film
-      film = new_direct_film([gap], enough_cells([gap]), enough_modes([gap]), 80, 8, condition == reynolds, &
-         & condition == gumbel, tolerance)
+      film = new_direct_film(gaps, enough_cells(gaps), enough_modes(gaps), 80, 8, condition, tolerance)
    end function solver
 
    !> A loaded film: it converges, and is squeezed a little either way.
@@ -133,7 +130,7 @@ contains
          gap%leading_angle = 0.5_wp*angles(k)*degree
          gap%trailing_angle = gap%leading_angle
          film = tables([gap], gumbel)
-         exact = new_direct_film([gap], 384, 64, 80, 8, .false., .true.)
+         exact = new_direct_film([gap], 384, 64, 80, 8, gumbel)
          motion%position = clearance*[-0.3_wp, 0.3_wp]
          motion%velocity = clearance*speed*[0.02_wp, -0.1_wp]
          call film%evaluate([motion], [paper_oil], speed, .true., found)
@@ -175,7 +172,7 @@ contains
       integer :: k, condition
       do condition = none, reynolds
          film = tables([paper_pad()], condition)
-         exact = solver(paper_pad(), condition)
+         exact = solver([paper_pad()], condition)
          do k = 1, size(along)
             motion = film_motion(clearance*[0.2_wp, 0.3_wp], [along(k), 0.01_wp])
             call film%evaluate([motion], [paper_oil], 0.0_wp, .true., found)
@@ -254,7 +251,7 @@ contains
       do condition = gumbel, reynolds
          do k = 1, size(around, 2)
             film = tables([paper_pad(around(:, k))], condition)
-            exact = solver(paper_pad(around(:, k)), condition)
+            exact = solver([paper_pad(around(:, k))], condition)
             motion = film_motion(clearance*[0.2_wp, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
             call film%evaluate([motion], [paper_oil], speed, .true., found)
             call exact%evaluate([motion], [paper_oil], speed, .true., expected)
@@ -284,8 +281,8 @@ contains
       integer :: k
       film = tables([offset_pad([4e5_wp, 4e5_wp, 4e5_wp])], reynolds)
       dry = tables([offset_pad()], reynolds)
-      exact = solver(offset_pad([4e5_wp, 4e5_wp, 4e5_wp]), reynolds)
-      exact_dry = solver(offset_pad(), reynolds)
+      exact = solver([offset_pad([4e5_wp, 4e5_wp, 4e5_wp])], reynolds)
+      exact_dry = solver([offset_pad()], reynolds)
       do k = 1, 3
          ! cavitated, whole, empty
          motion = film_motion(clearance*[0.2_wp, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
@@ -337,7 +334,7 @@ contains
       real(wp) :: error
       integer :: k
       film = tables([paper_pad()], reynolds)
-      exact = solver(paper_pad(), reynolds)
+      exact = solver([paper_pad()], reynolds)
       do k = -2, 0
          motion = film_motion([0.0_wp, (1 - 0.1_wp*k)*clearance], [0.0_wp, 0.0_wp])
          call film%evaluate([motion], [paper_oil], speed, .true., found)

@@ -4,10 +4,9 @@
 !> coordinate from the middle of the pad.
 module pad_gap
    use kinds, only: wp
-   use film_solver, only: film_motion
    implicit none (type, external)
    private
-   public :: pad_gap_type, pad_directions
+   public :: pad_gap_type, pad_directions, film_motion
 
    !> Geometry and boundary pressures of one pad's film.
    type :: pad_gap_type
@@ -26,6 +25,12 @@ module pad_gap
       procedure :: min_film_thickness
       procedure :: thinnest_place
    end type pad_gap_type
+
+   !> Motion of the journal seen from a pad; with the speed and the oil, all that the film force depends on.
+   type :: film_motion
+      !> (e_y', e_z'), m, and its rate, m/s, in the pad frame.
+      real(wp) :: position(2) = 0, velocity(2) = 0
+   end type film_motion
 
    !> (sin phi, cos phi) at the edges and the middle of the arc, and of half the arc.
    type :: pad_directions
@@ -70,7 +75,7 @@ contains
       h = self%machined_clearance - motion%position(1)*sin_phi - motion%position(2)*cos_phi
    end function thickness
 
-   pure function directions(self)
+   elemental function directions(self)
       class(pad_gap_type), intent(in) :: self
       type(pad_directions) :: directions
       directions%leading = [sin(self%leading_angle), cos(self%leading_angle)]

@@ -12,8 +12,8 @@
 !> below the cavitation pressure is taken out of the force.
 module fourier_film
    use kinds, only: wp
-   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_closed
-   use pad_gap, only: pad_gap_type, pad_directions
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, cavitation_none, cavitation_gumbel
+   use pad_gap, only: pad_gap_type
    use clipped_quadrature, only: clipped_weights
    use film_resolution, only: resolution_type, new_resolution, most_levels, enough_cells, enough_modes
    use fourier_edges, only: edge_flows
@@ -26,24 +26,15 @@ module fourier_film
    private
    public :: fourier_film_type, new_fourier_film, converged_film
 
-   !> Films thinner than this, over the clearance, count as closed: rounding would decide, far below an atom's size.
-   real(wp), parameter :: thinnest = 1e-9_wp
-
    type, extends(film_solver_type) :: fourier_film_type
       private
-      !> Guembel's condition: as the solver was made; in force.
-      logical :: made_gumbel = .false., gumbel = .false.
-      type(pad_gap_type), allocatable :: gaps(:)
-      type(pad_directions), allocatable :: directions(:)
       type(resolution_type), allocatable :: resolutions(:)
       !> Every pad at every resolution that a film has asked for, (level, pad); the level of the last film.
       type(fourier_pad_type), allocatable :: pads(:, :)
       integer, allocatable :: level(:)
    contains
-      procedure :: cavitates
-      procedure :: set_cavitation
-      procedure :: evaluate => evaluate_all
-      procedure :: field => field_all
+      procedure :: solve
+      procedure :: field_of_pad
       procedure :: supply_flows
    end type fourier_film_type
 
@@ -59,13 +50,9 @@ contains
       real(wp), intent(in), optional :: tolerance
       type(fourier_film_type) :: solver
       integer :: i
-      solver%made_gumbel = gumbel
-      solver%gumbel = gumbel
-      solver%gaps = gaps
-      allocate (solver%directions(size(gaps)), solver%resolutions(size(gaps)))
-      allocate (solver%pads(most_levels, size(gaps)), solver%level(size(gaps)))
+      call solver%set_gaps(gaps, merge(cavitation_gumbel, cavitation_none, gumbel))
+      allocate (solver%resolutions(size(gaps)), solver%pads(most_levels, size(gaps)), solver%level(size(gaps)))
       do i = 1, size(gaps)
-         solver%directions(i) = gaps(i)%directions()
          solver%resolutions(i) = new_resolution(gaps(i), cells, modes, tolerance)
       end do
    end function new_fourier_film
@@ -78,63 +65,35 @@ contains
       film = new_fourier_film([gap], enough_cells([gap]), enough_modes([gap]), gumbel, tolerance)
    end function converged_film
 
-   pure logical function cavitates(self)
-      class(fourier_film_type), intent(in) :: self
-      cavitates = self%gumbel
-   end function cavitates
-
-   pure subroutine set_cavitation(self, allowed)
+   subroutine solve(self, i, motion, oil, speed, want_derivatives, response)
       class(fourier_film_type), intent(inout) :: self
-      logical, intent(in) :: allowed
-      integer :: i, level
-      self%gumbel = self%made_gumbel .and. allowed
-      do i = 1, size(self%gaps)
-         do level = 1, most_levels
-            if (self%pads(level, i)%n > 0) call set_weights(self%pads(level, i), self%gumbel)
-         end do
-      end do
-   end subroutine set_cavitation
-
-   subroutine evaluate_all(self, motion, oil, speed, want_derivatives, response, chosen)
-      class(fourier_film_type), intent(inout) :: self
-      type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
+      integer, intent(in) :: i
+      type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
-      type(film_response), intent(inout) :: response(:)
-      logical, intent(in), optional :: chosen(:)
+      type(film_response), intent(inout) :: response
       real(wp) :: along
-      integer :: i
-      do i = 1, size(motion)
-         if (present(chosen)) then
-            if (.not. chosen(i)) cycle
-         end if
-         response(i) = film_response()
-         associate (gap => self%gaps(i), level => self%level(i))
-            response(i)%min_film_thickness = gap%min_film_thickness(motion(i), self%directions(i))
-            if (.not. response(i)%min_film_thickness > thinnest*gap%machined_clearance) then
-               response(i)%status = film_closed
-               cycle
-            end if
-            self%counters%fourier = self%counters%fourier + 1
-            associate (e => motion(i)%position/gap%machined_clearance)
-               along = span(e, self%directions(i)%middle, self%directions(i)%half)
-               level = self%resolutions(i)%level(gap, self%directions(i), e, along)
-            end associate
-            if (self%pads(level, i)%n == 0) then
-               call self%resolutions(i)%make_pad(gap, level, self%pads(level, i))
-               call set_weights(self%pads(level, i), self%gumbel)
-            end if
-            call set_motion(self%pads(level, i), motion(i), oil(i), speed, along)
-            call evaluate_pad(self%pads(level, i), self%gumbel, want_derivatives, response(i))
+      logical :: clips
+      self%counters%fourier = self%counters%fourier + 1
+      clips = self%condition == cavitation_gumbel
+      associate (gap => self%gaps(i), level => self%level(i), directions => self%directions(i), &
+         & e => motion%position/self%gaps(i)%machined_clearance)
+         along = span(e, directions%middle, directions%half)
+         level = self%resolutions(i)%level(gap, directions, e, along)
+         if (self%pads(level, i)%n == 0) call self%resolutions(i)%make_pad(gap, level, self%pads(level, i))
+         associate (pad => self%pads(level, i))
+            if (pad%clipped .neqv. clips) call set_weights(pad, clips)
+            call set_motion(pad, motion, oil, speed, along)
+            call solve_pad(pad, clips, want_derivatives, response)
          end associate
-      end do
-   end subroutine evaluate_all
+      end associate
+   end subroutine solve
 
    !> The film of a pad that has been set to a motion.
-   pure subroutine evaluate_pad(pad, gumbel, want_derivatives, response)
+   pure subroutine solve_pad(pad, clips, want_derivatives, response)
       type(fourier_pad_type), intent(inout) :: pad
-      logical, intent(in) :: gumbel, want_derivatives
+      logical, intent(in) :: clips, want_derivatives
       type(film_response), intent(inout) :: response
       real(wp) :: rise
       integer :: b
@@ -145,26 +104,24 @@ contains
       end do
       call sum_up(pad, rise, response)
       if (pad%shares_are_stale .and. want_derivatives) call whole_shares(pad)
-      if (gumbel .and. response%min_pressure < pad%gap%cavitation_pressure) then
+      if (clips .and. response%min_pressure < pad%gap%cavitation_pressure) then
          call cavitation(pad, rise, want_derivatives, response)
       end if
       if (want_derivatives) response%derivatives = force_slopes(pad, rise)
-   end subroutine evaluate_pad
+   end subroutine solve_pad
 
-   subroutine field_all(self, motion, oil, speed, phi, z, pressure)
+   subroutine field_of_pad(self, i, motion, oil, speed, phi, z, pressure)
       class(fourier_film_type), intent(inout) :: self
-      type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
-      real(wp), intent(in) :: speed, phi(:, :), z(:)
-      real(wp), intent(out) :: pressure(:, :, :)
-      type(film_response) :: response(size(motion))
-      integer :: i
-      call self%evaluate(motion, oil, speed, .false., response)
-      do i = 1, size(motion)
-         pressure(:, :, i) = field_of_modes(self%pads(self%level(i), i), phi(:, i), z)
-         if (self%gumbel) pressure(:, :, i) = max(pressure(:, :, i), self%gaps(i)%cavitation_pressure)
-      end do
-   end subroutine field_all
+      integer, intent(in) :: i
+      type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
+      real(wp), intent(in) :: speed, phi(:), z(:)
+      real(wp), intent(out) :: pressure(:, :)
+      type(film_response) :: response
+      call self%evaluate_pad(i, motion, oil, speed, .false., response)
+      pressure = field_of_modes(self%pads(self%level(i), i), phi, z)
+      if (self%condition == cavitation_gumbel) pressure = max(pressure, self%gaps(i)%cavitation_pressure)
+   end subroutine field_of_pad
 
    !> Flows in at the leading and out at the trailing edge of the first pad, m^3/s, in its last film, with this oil,
    !> which a pressure of 1 Pa at the leading edge alone has driven.

@@ -35,8 +35,9 @@ module fourier_pad
       type(axial_modes_type) :: axial
       integer :: n = 0
       real(wp) :: d, radius
-      !> Weights of the quadrature, in steps.
+      !> Weights of the quadrature, in steps; whether they are those of a film that is clipped.
       real(wp), allocatable :: weight(:)
+      logical :: clipped = .false.
       !> b_k cos(lambda_k Z) at (point, slot), at Gauss's points and where cavitation is looked for, and in the middle;
       !> sums over the modes left out of b_k cos(lambda_k Z)/Lambda_k^2.
       real(wp), allocatable :: across(:, :), look(:, :), at_middle(:)
@@ -82,12 +83,14 @@ contains
          allocate (pad%a(simd_width, 0:n, blocks), pad%f(simd_width, 0:n, blocks), pad%q(simd_width, 0:n, blocks))
          allocate (pad%share(simd_width, 0:n, blocks), pad%narrow_share(0:n), pad%floor_share(0:n))
       end associate
+      call set_weights(pad, .false.)
    end subroutine init_pad
 
    !> The quadrature's weights at the nodes, for a film that is clipped or not.
    pure subroutine set_weights(pad, clipped)
       type(fourier_pad_type), intent(inout) :: pad
       logical, intent(in) :: clipped
+      pad%clipped = clipped
       if (clipped .or. pad%n < 6) then
          ! the weights of what may be clipped
          call clipped_weights(pad%n, spread(1.0_wp, 1, pad%n + 1), pad%weight)

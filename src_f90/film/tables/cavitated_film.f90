@@ -2,42 +2,19 @@
 !> with d a function of the film thicknesses at both edges and of T, the part of the arc where the film diverges
 !> (docs/theory/film.md). Here d is solved where it is asked for; cavitation_table interpolates it.
 module cavitated_film
-   use kinds, only: wp, i8
+   use kinds, only: wp
+   use film_solver, only: film_counters
    use dimensionless_pad, only: dimensionless_pad_type, thickness_scale
    use effective_velocity, only: effective_velocity_type, drive_type, new_effective_velocity, least_tolerance
    use cubic_patch, only: simd_width, corner_data
    implicit none (type, external)
    private
-   public :: cavitated_film_type, solved_cavitated_film_type, node_type, new_solved_cavitated_film
+   public :: cavitated_film_type, node_type, new_cavitated_film
 
    !> Film thickness over the clearance above which forces matter less, and are no longer measured by themselves.
    real(wp), parameter :: thick_film = 1.0_wp
    !> Films that are remembered: of a state of all pads.
    integer, parameter :: memory = 24
-
-   type, abstract :: cavitated_film_type
-      !> Cells of a table and films built ever, and the time that tables took, s.
-      integer(i8) :: built_cells = 0, built_nodes = 0
-      real(wp) :: seconds = 0
-   contains
-      procedure(look_up_drive), deferred :: look_up
-   end type cavitated_film_type
-
-   abstract interface
-      !> The functions of node_type and, if they are wanted, their derivatives over both thicknesses and T, (function,
-      !> axis), for an open film with these thicknesses at its edges and 0 < T < 1. `last` is the caller's memory of the
-      !> place in a table, 0 at first. `good` is false where d is not as close as it should be: next to a film that
-      !> closes.
-      subroutine look_up_drive(self, edges, t, want_slopes, last, value, slope, good)
-         import :: cavitated_film_type, wp, simd_width
-         class(cavitated_film_type), intent(inout) :: self
-         real(wp), intent(in) :: edges(2), t
-         logical, intent(in) :: want_slopes
-         integer, intent(inout) :: last
-         real(wp), intent(out) :: value(simd_width), slope(simd_width, 3)
-         logical, intent(out) :: good
-      end subroutine look_up_drive
-   end interface
 
    !> Functions: the two components of d, the highest pressure of the full film driven by v over that of the cavitated
    !> one, and 0. Their values, and derivatives over both thicknesses and T, (function, value or derivative).
@@ -49,7 +26,7 @@ module cavitated_film
       logical :: ok = .false.
    end type node_type
 
-   type, extends(cavitated_film_type) :: solved_cavitated_film_type
+   type :: cavitated_film_type
       private
       type(dimensionless_pad_type) :: pad
       type(effective_velocity_type) :: drive
@@ -61,29 +38,33 @@ module cavitated_film
       procedure :: look_up
       procedure :: solve
       procedure, private :: find
-   end type solved_cavitated_film_type
+   end type cavitated_film_type
 
 contains
 
    !> The films of a pad, with the condition of Reynolds or Guembel: forces to a tolerance, over that at T = 0.
-   function new_solved_cavitated_film(pad, gumbel, tolerance) result(films)
+   function new_cavitated_film(pad, gumbel, tolerance) result(films)
       type(dimensionless_pad_type), intent(in) :: pad
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
-      type(solved_cavitated_film_type) :: films
+      type(cavitated_film_type) :: films
       films%pad = pad
       films%drive = new_effective_velocity(pad, gumbel, max(tolerance, least_tolerance))
-   end function new_solved_cavitated_film
+   end function new_cavitated_film
 
-   subroutine look_up(self, edges, t, want_slopes, last, value, slope, good)
-      class(solved_cavitated_film_type), intent(inout) :: self
+   !> The functions of node_type and, if they are wanted, their derivatives over both thicknesses and T, (function,
+   !> axis), for an open film with these thicknesses at its edges and 0 < T < 1. `last` is the caller's memory of the
+   !> place in a table, 0 at first. `good` is false where d is not as close as it should be: next to a film that closes.
+   subroutine look_up(self, edges, t, want_slopes, last, counters, value, slope, good)
+      class(cavitated_film_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), t
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
+      type(film_counters), intent(inout) :: counters
       real(wp), intent(out) :: value(simd_width), slope(simd_width, 3)
       logical, intent(out) :: good
       type(node_type) :: node
-      call self%find([edges, t], node)
+      call self%find([edges, t], counters, node)
       value = node%data(:, 1)
       slope = node%data(:, 2:)
       good = node%ok
@@ -91,9 +72,10 @@ contains
 
    !> The film at a place, from memory if it is among the last that were solved: a state is often evaluated again, for
    !> its derivatives.
-   subroutine find(self, place, node)
-      class(solved_cavitated_film_type), intent(inout) :: self
+   subroutine find(self, place, counters, node)
+      class(cavitated_film_type), intent(inout) :: self
       real(wp), intent(in) :: place(3)
+      type(film_counters), intent(inout) :: counters
       type(node_type), intent(out) :: node
       integer :: i
       if (.not. allocated(self%remembered)) then
@@ -105,16 +87,17 @@ contains
          node = self%remembered(i)
          return
       end do
-      call self%solve(place(:2), place(3), node)
+      call self%solve(place(:2), place(3), counters, node)
       self%remember_next = modulo(self%remember_next, size(self%remembered)) + 1
       self%remembered(self%remember_next) = node
       self%remembered_at(:, self%remember_next) = place
    end subroutine find
 
    !> The functions of a film.
-   subroutine solve(self, edges, t, node)
-      class(solved_cavitated_film_type), intent(inout) :: self
+   subroutine solve(self, edges, t, counters, node)
+      class(cavitated_film_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), t
+      type(film_counters), intent(inout) :: counters
       type(node_type), intent(out) :: node
       type(drive_type) :: drive
       real(wp) :: w(2)
@@ -128,7 +111,7 @@ contains
          w = [1.0_wp, tangent*(1 - 2*t)]
          ! at T = 1 nothing is left of the film; as it goes to nothing smoothly, only w changes
          if (t < 1) then
-            self%built_nodes = self%built_nodes + 1
+            counters%nodes = counters%nodes + 1
             drive = self%drive%at(edges, w(2))
             node%ok = drive%ok
             node%data(3, 1) = drive%pressure_ratio

@@ -10,7 +10,8 @@ module cavitation_table
    use clock, only: wall_clock
    use dimensionless_pad, only: dimensionless_pad_type
    use effective_velocity, only: least_tolerance
-   use cavitated_film, only: cavitated_film_type, solved_cavitated_film_type, node_type, new_solved_cavitated_film
+   use film_solver, only: film_counters
+   use cavitated_film, only: cavitated_film_type, node_type, new_cavitated_film
    use logarithmic_grid, only: interval, lower_end
    use cell_index, only: cell_index_type, cell_key
    use cubic_patch, only: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic
@@ -22,8 +23,6 @@ module cavitation_table
    integer, parameter :: octave_level = 1, parts = 8, deepest = 3
    !> What a cell that is not cut any more may err by: as much as the solver that would stand in for it.
    real(wp), parameter :: error_of_solver = 1e-3_wp
-   !> Most cells, and most nodes, unless told otherwise.
-   integer, parameter :: usual_most = 20000
    !> How much an error of the slopes at a cell's middle, times its size, counts.
    real(wp), parameter :: share_of_slopes = 0.15_wp
 
@@ -36,8 +35,6 @@ module cavitation_table
 
    type, extends(cavitated_film_type) :: cavitation_table_type
       private
-      !> What the table is built from.
-      type(solved_cavitated_film_type) :: films
       !> Error of the force over that of the film that is just whole, T = 0.
       real(wp) :: tolerance
       !> Terms of a cubic from the data at its corners, once it is needed.
@@ -45,9 +42,8 @@ module cavitation_table
       type(cell_index_type) :: cell_index, node_index
       type(cell_type), allocatable :: cells(:)
       type(node_type), allocatable :: nodes(:)
-      !> Most cells, and most nodes: when either are used up all are forgotten. Cells and nodes in use.
-      integer :: most = usual_most
-      integer :: used_cells = 0, used_nodes = 0
+      !> Most cells, and most nodes: when either are used up all are forgotten.
+      integer :: most
    contains
       procedure :: look_up
       procedure, private :: find_cell
@@ -63,28 +59,27 @@ contains
       type(dimensionless_pad_type), intent(in) :: pad
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
-      integer, intent(in), optional :: most
+      integer, intent(in) :: most
       type(cavitation_table_type) :: table
       ! beyond what the nodes keep to, cells would be cut for nothing
       table%tolerance = max(tolerance, least_tolerance)
-      table%films = new_solved_cavitated_film(pad, gumbel, table%tolerance)
-      if (present(most)) table%most = max(most, corners + 1)
+      table%cavitated_film_type = new_cavitated_film(pad, gumbel, table%tolerance)
+      table%most = max(most, corners + 1)
+      allocate (table%cells(32), table%nodes(128))
    end function new_cavitation_table
 
-   !> The functions and, if they are wanted, their derivatives over both thicknesses and T, (function, axis), for an
-   !> open film with these thicknesses at its edges and 0 < T < 1. `last` is the caller's memory of the cell, 0 at
-   !> first. `good` is false where d is not as close as it should be: next to a film that closes.
-   subroutine look_up(self, edges, t, want_slopes, last, value, slope, good)
+   subroutine look_up(self, edges, t, want_slopes, last, counters, value, slope, good)
       class(cavitation_table_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), t
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
+      type(film_counters), intent(inout) :: counters
       real(wp), intent(out) :: value(simd_width), slope(simd_width, 3)
       logical, intent(out) :: good
       real(wp) :: place(3)
       integer :: axis
       place = [edges, t]
-      if (.not. holds(self, last, place)) call self%find_cell(place, last)
+      if (.not. holds(self, last, place)) call self%find_cell(place, counters, last)
       associate (cell => self%cells(last))
          good = cell%good
          call evaluate_cubic(cell%coefficients, (place - cell%lower)*cell%per_size, want_slopes, value, slope)
@@ -100,7 +95,7 @@ contains
       integer, intent(in) :: number
       real(wp), intent(in) :: place(3)
       holds = .false.
-      if (number == 0 .or. number > self%used_cells) return
+      if (number == 0 .or. number > self%cell_index%count) return
       associate (cell => self%cells(number))
          holds = .not. cell%cut .and. place(1) >= cell%lower(1) .and. place(1) < cell%upper(1) &
             & .and. place(2) >= cell%lower(2) .and. place(2) < cell%upper(2) &
@@ -109,48 +104,45 @@ contains
    end function holds
 
    !> The cell that holds this place and is not cut; what is missing on the way to it is built.
-   subroutine find_cell(self, place, number)
+   subroutine find_cell(self, place, counters, number)
       class(cavitation_table_type), intent(inout) :: self
       real(wp), intent(in) :: place(3)
+      type(film_counters), intent(inout) :: counters
       integer, intent(out) :: number
       type(cell_type), allocatable :: more(:)
       real(wp) :: started
       integer :: level, at(3)
       do level = 0, deepest
          at = [interval(place(:2), octave_level + level), int(place(3)*parts*2**level)]
-         number = self%cell_index%find(cell_key(level, at(1), at(2), at(3)))
-         if (number == 0) then
-            started = wall_clock()
-            if (.not. allocated(self%cells)) then
-               allocate (self%cells(32), self%nodes(128))
-               self%transform = cubic_transform()
+         associate (key => cell_key(level, at(1), at(2), at(3)), index => self%cell_index)
+            number = index%find(key)
+            if (number == 0) then
+               started = wall_clock()
+               if (index%count == self%most .or. self%node_index%count > self%most - corners - 1) then
+                  call index%clear()
+                  call self%node_index%clear()
+               end if
+               number = index%count + 1
+               if (number > size(self%cells)) then
+                  allocate (more(2*size(self%cells)))
+                  more(:size(self%cells)) = self%cells
+                  call move_alloc(more, self%cells)
+               end if
+               call self%build(level, at, counters, self%cells(number))
+               call index%add(key, number)
+               counters%cells = counters%cells + 1
+               counters%building = counters%building + wall_clock() - started
             end if
-            if (self%used_cells == self%most .or. self%used_nodes > self%most - corners - 1) then
-               call self%cell_index%clear()
-               call self%node_index%clear()
-               self%used_cells = 0
-               self%used_nodes = 0
-            end if
-            if (self%used_cells == size(self%cells)) then
-               allocate (more(2*self%used_cells))
-               more(:self%used_cells) = self%cells
-               call move_alloc(more, self%cells)
-            end if
-            self%used_cells = self%used_cells + 1
-            self%built_cells = self%built_cells + 1
-            number = self%used_cells
-            call self%build(level, at, self%cells(number))
-            call self%cell_index%add(cell_key(level, at(1), at(2), at(3)), number)
-            self%seconds = self%seconds + wall_clock() - started
-         end if
+         end associate
          if (.not. self%cells(number)%cut) exit
       end do
    end subroutine find_cell
 
    !> The cell at a place of a level, checked.
-   subroutine build(self, level, at, cell)
+   subroutine build(self, level, at, counters, cell)
       class(cavitation_table_type), intent(inout) :: self
       integer, intent(in) :: level, at(3)
+      type(film_counters), intent(inout) :: counters
       type(cell_type), intent(inout) :: cell
       type(node_type) :: node
       real(wp) :: data(simd_width, corner_data, 0:corners - 1), value(simd_width), slope(simd_width, 3), size_of(3), &
@@ -163,10 +155,11 @@ contains
       cell%good = .false.
       cell%cut = level < deepest
       cell%coefficients = 0
+      if (.not. allocated(self%transform)) self%transform = cubic_transform()
       ! nodes have their places among the corners of cells one level below the smallest: there the middles lie, too
       finer = 2**(deepest + 1 - level)
       do corner = 0, corners - 1
-         call self%find_node(finer*(at + ibits(corner, [0, 1, 2], 1)), node)
+         call self%find_node(finer*(at + ibits(corner, [0, 1, 2], 1)), counters, node)
          if (.not. node%ok) return
          data(:, :, corner) = node%data*spread([1.0_wp, size_of], 1, simd_width)
       end do
@@ -179,7 +172,7 @@ contains
          end do
       end do
       cell%coefficients = matmul(reshape(data, [simd_width, terms]), transpose(self%transform))
-      call self%find_node(finer*at + finer/2, node)
+      call self%find_node(finer*at + finer/2, counters, node)
       if (.not. node%ok) return
       call evaluate_cubic(cell%coefficients, [0.5_wp, 0.5_wp, 0.5_wp], .true., value, slope)
       error = norm2(matmul(node%weight, value(:2) - node%data(:2, 1)))
@@ -192,30 +185,29 @@ contains
    end subroutine build
 
    !> The node at a corner `at`, counted in cells one level below the smallest.
-   subroutine find_node(self, at, node)
+   subroutine find_node(self, at, counters, node)
       class(cavitation_table_type), intent(inout) :: self
       integer, intent(in) :: at(3)
+      type(film_counters), intent(inout) :: counters
       type(node_type), intent(out) :: node
       type(node_type), allocatable :: more(:)
       integer :: number
-      associate (key => cell_key(0, at(1), at(2), at(3)))
-         number = self%node_index%find(key)
+      associate (key => cell_key(0, at(1), at(2), at(3)), index => self%node_index)
+         number = index%find(key)
          if (number > 0) then
             node = self%nodes(number)
             return
          end if
-         if (self%used_nodes == size(self%nodes)) then
-            allocate (more(2*self%used_nodes))
-            more(:self%used_nodes) = self%nodes
+         number = index%count + 1
+         if (number > size(self%nodes)) then
+            allocate (more(2*size(self%nodes)))
+            more(:size(self%nodes)) = self%nodes
             call move_alloc(more, self%nodes)
          end if
-         self%used_nodes = self%used_nodes + 1
-         call self%films%solve(lower_end(at(:2), octave_level + deepest + 1), at(3)/real(parts*2**(deepest + 1), wp), &
-            & node)
-         self%built_nodes = self%films%built_nodes
-         self%nodes(self%used_nodes) = node
-         call self%node_index%add(key, self%used_nodes)
+         call self%solve(lower_end(at(:2), octave_level + deepest + 1), at(3)/real(parts*2**(deepest + 1), wp), &
+            & counters, node)
+         self%nodes(number) = node
+         call index%add(key, number)
       end associate
    end subroutine find_node
-
 end module cavitation_table

@@ -7,10 +7,9 @@ module cell_index
 
    !> Numbers of entries by their keys. It grows as it fills.
    type :: cell_index_type
-      private
       integer :: count = 0
-      integer(int64), allocatable :: keys(:)
-      integer, allocatable :: entries(:)
+      integer(int64), allocatable, private :: keys(:)
+      integer, allocatable, private :: entries(:)
    contains
       procedure :: find
       procedure :: add

@@ -167,13 +167,13 @@ contains
       class(effective_velocity_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       type(drive_type) :: drive
-      type(film_response), dimension(1) :: cavitated, whole
-      call self%whole%evaluate([motion], [unit_oil], 0.0_wp, .true., whole)
-      call self%clipped%evaluate([motion], [unit_oil], 0.0_wp, .true., cavitated)
-      call set_drive(self%pad, cavitated(1), whole(1), drive)
+      type(film_response) :: cavitated, whole
+      call self%whole%evaluate_pad(1, motion, unit_oil, 0.0_wp, .true., whole)
+      call self%clipped%evaluate_pad(1, motion, unit_oil, 0.0_wp, .true., cavitated)
+      call set_drive(self%pad, cavitated, whole, drive)
       if (.not. drive%ok) return
-      call self%whole%evaluate([film_motion(motion%position, drive%value)], [unit_oil], 0.0_wp, .true., whole)
-      call set_slopes(cavitated(1), whole(1), drive)
+      call self%whole%evaluate_pad(1, film_motion(motion%position, drive%value), unit_oil, 0.0_wp, .true., whole)
+      call set_slopes(cavitated, whole, drive)
    end function by_modes
 
    !> v and the weight. The derivatives of the full film's force over the velocity are M.

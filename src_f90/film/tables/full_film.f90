@@ -2,142 +2,99 @@
 !> both edges (docs/theory/film.md), and that of a pressure 1 at the leading edge. Here both are solved where
 !> they are asked for, with exact derivatives; full_film_table interpolates them.
 module full_film
-   use kinds, only: wp, i8
-   use film_solver, only: film_motion, film_response, film_ok
+   use kinds, only: wp
+   use film_solver, only: film_motion, film_response, film_counters, film_ok
    use dimensionless_pad, only: dimensionless_pad_type, unit_oil, thickness_scale
    use fourier_film, only: fourier_film_type, converged_film
    use square_patch, only: simd_width
    implicit none (type, external)
    private
-   public :: full_film_type, solved_full_film_type, new_solved_full_film
+   public :: full_film_type, new_full_film, loads
 
+   !> Loads of a film: the velocity w; a pressure at the leading edge.
+   integer, parameter :: loads = 2
    !> Error of what is solved over the tolerance.
    real(wp), parameter :: share_of_nodes = 0.1_wp
 
-   type, abstract :: full_film_type
-      !> Cells of a table built ever, and the time it took, s.
-      integer(i8) :: built = 0
-      real(wp) :: seconds = 0
-   contains
-      procedure(look_up_driven), deferred :: look_up
-      procedure(look_up_supplied), deferred :: look_up_supply
-      procedure(look_up_pressure), deferred :: highest_pressure
-   end type full_film_type
-
-   abstract interface
-      !> M_11, M_12, M_22, 0 and, if they are wanted, their derivatives over both thicknesses, (function, edge), of an
-      !> open film with these thicknesses at its edges. `last` is the caller's memory of the place in a table, 0 at
-      !> first. `good` is false where the functions are not as close as they should be: next to a film that closes.
-      subroutine look_up_driven(self, edges, want_slopes, last, value, slope, good)
-         import :: full_film_type, wp, simd_width
-         class(full_film_type), intent(inout) :: self
-         real(wp), intent(in) :: edges(2)
-         logical, intent(in) :: want_slopes
-         integer, intent(inout) :: last
-         real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
-         logical, intent(out) :: good
-      end subroutine look_up_driven
-
-      !> The same for the force, (along, outward, 0, 0), of a pressure 1 at the leading edge.
-      subroutine look_up_supplied(self, edges, want_slopes, last, value, slope)
-         import :: full_film_type, wp, simd_width
-         class(full_film_type), intent(inout) :: self
-         real(wp), intent(in) :: edges(2)
-         logical, intent(in) :: want_slopes
-         integer, intent(inout) :: last
-         real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
-      end subroutine look_up_supplied
-
-      !> The highest pressure in the middle plane, or 0, where the film is open and has these thicknesses at its edges,
-      !> for w and a pressure at the leading edge.
-      subroutine look_up_pressure(self, edges, w, supply, last, pressure, good)
-         import :: full_film_type, wp
-         class(full_film_type), intent(inout) :: self
-         real(wp), intent(in) :: edges(2), w(2), supply
-         integer, intent(inout) :: last
-         real(wp), intent(out) :: pressure
-         logical, intent(out) :: good
-      end subroutine look_up_pressure
-   end interface
-
-   type, extends(full_film_type) :: solved_full_film_type
-      type(dimensionless_pad_type), private :: pad
+   type :: full_film_type
+      type(dimensionless_pad_type) :: pad
+      !> Whether there is a pressure at the leading edge.
+      logical :: supplied = .false.
       !> Without pressure around the pad, and with a pressure 1 at its leading edge.
       type(fourier_film_type) :: film, supplied_film
    contains
       procedure :: look_up
-      procedure :: look_up_supply
       procedure :: highest_pressure
-   end type solved_full_film_type
+   end type full_film_type
 
 contains
 
-   !> The full films of a pad, closer than a tolerance over the norm of M.
-   function new_solved_full_film(pad, tolerance) result(films)
+   !> The full films of a pad, with a pressure at its leading edge or without, to a tolerance over the norm of M.
+   function new_full_film(pad, supplied, tolerance) result(films)
       type(dimensionless_pad_type), intent(in) :: pad
+      logical, intent(in) :: supplied
       real(wp), intent(in) :: tolerance
-      type(solved_full_film_type) :: films
+      type(full_film_type) :: films
       films%pad = pad
+      films%supplied = supplied
       films%film = converged_film(pad%gap(0.0_wp), .false., share_of_nodes*tolerance)
       films%supplied_film = converged_film(pad%gap(1.0_wp), .false., share_of_nodes*tolerance)
-   end function new_solved_full_film
+   end function new_full_film
 
-   !> From the columns of M; `last` stays.
-   subroutine look_up(self, edges, want_slopes, last, value, slope, good)
-      class(solved_full_film_type), intent(inout) :: self
+   !> By load the functions M_11, M_12, M_22, 0 and, where there is a pressure at the leading edge, the force (along,
+   !> outward, 0, 0) of a pressure 1 there; and, if they are wanted, their derivatives over both thicknesses, (function,
+   !> edge, load): of an open film with these thicknesses at its edges. `last` is the caller's memory of the place in a
+   !> table, 0 at first. `good` is false where the functions are not as close as they should be: next to a film that
+   !> closes.
+   subroutine look_up(self, edges, want_slopes, last, counters, value, slope, good)
+      class(full_film_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
-      real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
+      type(film_counters), intent(inout) :: counters
+      real(wp), intent(out) :: value(simd_width, loads), slope(simd_width, 2, loads)
       logical, intent(out) :: good
-      type(film_response), dimension(1) :: along, outward
+      type(film_response) :: along, outward, still
       integer :: i
-      call self%film%evaluate([film_motion(self%pad%position(edges), [1.0_wp, 0.0_wp])], [unit_oil], &
-         & 0.0_wp, want_slopes, along)
-      call self%film%evaluate([film_motion(self%pad%position(edges), [0.0_wp, 1.0_wp])], [unit_oil], &
-         & 0.0_wp, want_slopes, outward)
-      good = along(1)%status == film_ok
-      value = symmetric(along(1)%force, outward(1)%force)/thickness_scale(edges(1), edges(2))
-      slope = 0
-      if (.not. want_slopes) return
-      associate (of_along => over_edges(self%pad, along(1)), of_outward => over_edges(self%pad, outward(1)))
-         do i = 1, 2
-            slope(:, i) = symmetric(of_along(:, i), of_outward(:, i))/thickness_scale(edges(1), edges(2)) &
-               & + 1.5_wp*value/edges(i)
-         end do
+      associate (pad => self%pad, position => self%pad%position(edges), scale => thickness_scale(edges(1), edges(2)))
+         call self%film%evaluate_pad(1, film_motion(position, [1.0_wp, 0.0_wp]), unit_oil, 0.0_wp, want_slopes, along)
+         call self%film%evaluate_pad(1, film_motion(position, [0.0_wp, 1.0_wp]), unit_oil, 0.0_wp, want_slopes, outward)
+         if (self%supplied) call self%supplied_film%evaluate_pad(1, film_motion(position), unit_oil, 0.0_wp, &
+            & want_slopes, still)
+         good = along%status == film_ok
+         value(:, 1) = symmetric(along%force, outward%force)/scale
+         value(:, 2) = [still%force, 0.0_wp, 0.0_wp]
+         slope = 0
+         if (.not. want_slopes) return
+         associate (of_along => over_edges(pad, along), of_outward => over_edges(pad, outward))
+            do i = 1, 2
+               slope(:, i, 1) = symmetric(of_along(:, i), of_outward(:, i))/scale + 1.5_wp*value(:, 1)/edges(i)
+            end do
+         end associate
+         slope(:2, :, 2) = over_edges(pad, still)
       end associate
    end subroutine look_up
 
-   subroutine look_up_supply(self, edges, want_slopes, last, value, slope)
-      class(solved_full_film_type), intent(inout) :: self
-      real(wp), intent(in) :: edges(2)
-      logical, intent(in) :: want_slopes
-      integer, intent(inout) :: last
-      real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
-      type(film_response) :: still(1)
-      call self%supplied_film%evaluate([film_motion(self%pad%position(edges))], [unit_oil], 0.0_wp, want_slopes, still)
-      value = [still(1)%force, 0.0_wp, 0.0_wp]
-      slope = 0
-      if (want_slopes) slope(:2, :) = over_edges(self%pad, still(1))
-   end subroutine look_up_supply
-
-   !> That of a pressure 1 at the leading edge, scaled.
-   subroutine highest_pressure(self, edges, w, supply, last, pressure, good)
-      class(solved_full_film_type), intent(inout) :: self
+   !> The highest pressure in the middle plane, or 0, where the film is open and has these thicknesses at its edges, for
+   !> w and a pressure at the leading edge. `last` and `good` as in `look_up`.
+   subroutine highest_pressure(self, edges, w, supply, last, counters, pressure, good)
+      class(full_film_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), w(2), supply
       integer, intent(inout) :: last
+      type(film_counters), intent(inout) :: counters
       real(wp), intent(out) :: pressure
       logical, intent(out) :: good
-      type(film_response) :: film(1)
+      type(film_response) :: film
       if (abs(supply) > 0) then
-         call self%supplied_film%evaluate([film_motion(self%pad%position(edges), w/supply)], [unit_oil], &
-            & 0.0_wp, .false., film)
-         pressure = max(supply*film(1)%max_pressure, supply*film(1)%min_pressure)
+         ! that of a pressure 1 at the leading edge, scaled
+         call self%supplied_film%evaluate_pad(1, film_motion(self%pad%position(edges), w/supply), unit_oil, 0.0_wp, &
+            & .false., film)
+         pressure = max(supply*film%max_pressure, supply*film%min_pressure)
       else
-         call self%film%evaluate([film_motion(self%pad%position(edges), w)], [unit_oil], 0.0_wp, .false., film)
-         pressure = film(1)%max_pressure
+         call self%film%evaluate_pad(1, film_motion(self%pad%position(edges), w), unit_oil, 0.0_wp, .false., film)
+         pressure = film%max_pressure
       end if
-      good = film(1)%status == film_ok
+      good = film%status == film_ok
    end subroutine highest_pressure
 
    !> M_11, M_12, M_22, 0 from the columns of M, which is symmetric by reciprocity; what the discretisation adds to that

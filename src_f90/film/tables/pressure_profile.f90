@@ -37,26 +37,27 @@ contains
       logical, intent(in) :: supplied
       real(wp), intent(in) :: middle(2), per_half(2)
       type(pressure_profile_type) :: profile
-      real(wp) :: values(points, 3, nodes, nodes), phi(points, 1), pressure(1, points, 1), square(points)
+      real(wp), parameter :: along(2) = [1.0_wp, 0.0_wp], outward(2) = [0.0_wp, 1.0_wp]
+      real(wp) :: values(points, 3, nodes, nodes), phi(points), pressure(1, points), square(points)
       real(wp) :: edges(0:points + 1), s(nodes)
       integer :: i, k
       profile%pad = pad
       s = node_points(nodes)
       edges = pad%spread_angles(pad%position(middle), -pad%half_arc, pad%half_arc, points + 1)
-      phi(:, 1) = edges(1:points)
-      profile%sines = sin(phi(:, 1))
-      profile%cosines = cos(phi(:, 1))
+      phi = edges(1:points)
+      profile%sines = sin(phi)
+      profile%cosines = cos(phi)
       do k = 1, nodes
          do i = 1, nodes
             associate (position => pad%position(middle + s([i, k])/per_half))
                square = (1 - position(1)*profile%sines - position(2)*profile%cosines)**2
-               call film%field([film_motion(position, [1.0_wp, 0.0_wp])], [unit_oil], 0.0_wp, phi, [0.0_wp], pressure)
-               values(:, 1, i, k) = pressure(1, :, 1)*square
-               call film%field([film_motion(position, [0.0_wp, 1.0_wp])], [unit_oil], 0.0_wp, phi, [0.0_wp], pressure)
-               values(:, 2, i, k) = pressure(1, :, 1)*square
+               call film%field_of_pad(1, film_motion(position, along), unit_oil, 0.0_wp, phi, [0.0_wp], pressure)
+               values(:, 1, i, k) = pressure(1, :)*square
+               call film%field_of_pad(1, film_motion(position, outward), unit_oil, 0.0_wp, phi, [0.0_wp], pressure)
+               values(:, 2, i, k) = pressure(1, :)*square
                if (.not. supplied) cycle
-               call supplied_film%field([film_motion(position)], [unit_oil], 0.0_wp, phi, [0.0_wp], pressure)
-               values(:, 3, i, k) = pressure(1, :, 1)*square
+               call supplied_film%field_of_pad(1, film_motion(position), unit_oil, 0.0_wp, phi, [0.0_wp], pressure)
+               values(:, 3, i, k) = pressure(1, :)*square
             end associate
          end do
       end do

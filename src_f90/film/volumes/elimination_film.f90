@@ -6,7 +6,7 @@
 !> set of the last motion (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002, theorem 3.2).
 module elimination_film
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_closed, film_not_converged
+   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_not_converged
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use volume_equations, only: volume_equations_type, new_volume_equations
@@ -55,8 +55,8 @@ contains
       allocate (self%pressure(self%basis%m, columns), self%adjoint(self%basis%m, columns, 2), source=0.0_wp)
    end function new_elimination_film
 
-   !> The film at a motion and a journal speed, rad/s, with the Reynolds condition or without cavitation.
-   !> Counts a pad and the eliminations.
+   !> The film at a motion that leaves it open and a journal speed, rad/s, with the Reynolds condition or without
+   !> cavitation. Counts the eliminations.
    subroutine evaluate(self, motion, oil, speed, cavitates, want_derivatives, counters, response)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
@@ -68,11 +68,6 @@ contains
       integer :: round
       logical :: changed
       associate (grid => self%grid)
-         response%min_film_thickness = grid%gap%min_film_thickness(motion, grid%directions)
-         if (.not. response%min_film_thickness > 0) then
-            response%status = film_closed
-            return
-         end if
          call grid%set_motion(motion, oil, speed)
          do round = 1, max(max_rounds, rounds_a_column*grid%columns)
             call self%eliminate(cavitates)
@@ -100,7 +95,6 @@ contains
       real(wp), intent(in) :: speed
       type(film_response), intent(out) :: response
       associate (grid => self%grid)
-         response%min_film_thickness = grid%gap%min_film_thickness(motion, grid%directions)
          call grid%set_motion(motion, oil, speed)
          call self%solve(-grid%source, -grid%edge_source, self%pressure)
       end associate

@@ -6,17 +6,14 @@
 !> up with idle cells (`whole = 0`) to a multiple of the vector length; so a sweep over one colour vectorises.
 module sor_film
    use kinds, only: wp, pi
-   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_closed, film_not_converged
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_not_converged, &
+      & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use sor_sweeps, only: relax, relative_residual
    implicit none (type, external)
    private
    public :: sor_film_type, sor_options, new_sor_film
-   public :: cavitation_none, cavitation_gumbel, cavitation_reynolds
-
-   !> Film cavitation: none; pressures below p_cav dropped after the solution; projected in the solution.
-   integer, parameter :: cavitation_none = 0, cavitation_gumbel = 1, cavitation_reynolds = 2
 
    !> Pairs in a row are filled up to a multiple of this.
    integer, parameter :: vector_length = 8
@@ -51,17 +48,11 @@ module sor_film
    type, extends(film_solver_type) :: sor_film_type
       private
       type(sor_options), public :: options
-      !> The one in force.
-      integer :: cavitation
       type(sor_pad), allocatable :: pads(:)
    contains
-      procedure :: cavitates
-      procedure :: set_cavitation
       procedure :: forget
-      procedure :: evaluate => evaluate_all
-      procedure :: field => field_all
-      !> One pad only.
-      procedure, public :: evaluate_pad
+      procedure :: solve
+      procedure :: field_of_pad
       !> Pressure of the last evaluation of a pad, (circumferential, axial half), Pa.
       procedure, public :: pressure_field
    end type sor_film_type
@@ -74,8 +65,8 @@ contains
       type(sor_options), intent(in) :: options
       type(sor_film_type) :: solver
       integer :: i
+      call solver%set_gaps(gaps, options%cavitation)
       solver%options = options
-      solver%cavitation = options%cavitation
       allocate (solver%pads(size(gaps)))
       do i = 1, size(gaps)
          call init_pad(solver%pads(i), gaps(i), options)
@@ -112,17 +103,6 @@ contains
       best_relaxation = 2/(1 + sqrt(room*(2 - room)))
    end function best_relaxation
 
-   pure logical function cavitates(self)
-      class(sor_film_type), intent(in) :: self
-      cavitates = self%cavitation /= cavitation_none
-   end function cavitates
-
-   pure subroutine set_cavitation(self, allowed)
-      class(sor_film_type), intent(inout) :: self
-      logical, intent(in) :: allowed
-      self%cavitation = merge(self%options%cavitation, cavitation_none, allowed)
-   end subroutine set_cavitation
-
    pure subroutine forget(self)
       class(sor_film_type), intent(inout) :: self
       integer :: i
@@ -132,66 +112,40 @@ contains
       end do
    end subroutine forget
 
-   subroutine evaluate_all(self, motion, oil, speed, want_derivatives, response, chosen)
+   subroutine field_of_pad(self, i, motion, oil, speed, phi, z, pressure)
       class(sor_film_type), intent(inout) :: self
-      type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
-      real(wp), intent(in) :: speed
-      logical, intent(in) :: want_derivatives
-      type(film_response), intent(inout) :: response(:)
-      logical, intent(in), optional :: chosen(:)
-      integer :: i
-      do i = 1, size(self%pads)
-         if (present(chosen)) then
-            if (.not. chosen(i)) cycle
-         end if
-         call self%evaluate_pad(i, motion(i), oil(i), speed, want_derivatives, response(i))
-      end do
-   end subroutine evaluate_all
+      integer, intent(in) :: i
+      type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
+      real(wp), intent(in) :: speed, phi(:), z(:)
+      real(wp), intent(out) :: pressure(:, :)
+      type(film_response) :: response
+      call self%evaluate_pad(i, motion, oil, speed, .false., response)
+      associate (pad => self%pads(i), grid => self%pads(i)%grid)
+         pressure = grid%pressure_at(natural(pad%pressure(1:grid%columns/2, 1:grid%rows, :)), self%cavitates(), phi, z)
+      end associate
+   end subroutine field_of_pad
 
-   subroutine field_all(self, motion, oil, speed, phi, z, pressure)
-      class(sor_film_type), intent(inout) :: self
-      type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
-      real(wp), intent(in) :: speed, phi(:, :), z(:)
-      real(wp), intent(out) :: pressure(:, :, :)
-      type(film_response) :: response(size(motion))
-      integer :: i
-      call self%evaluate(motion, oil, speed, .false., response)
-      do i = 1, size(motion)
-         associate (pad => self%pads(i), grid => self%pads(i)%grid)
-            pressure(:, :, i) = grid%pressure_at(natural(pad%pressure(1:grid%columns/2, 1:grid%rows, :)), &
-               & self%cavitates(), phi(:, i), z)
-         end associate
-      end do
-   end subroutine field_all
-
-   subroutine evaluate_pad(self, i, motion, oil, speed, want_derivatives, response)
+   subroutine solve(self, i, motion, oil, speed, want_derivatives, response)
       class(sor_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
-      type(film_response), intent(out) :: response
+      type(film_response), intent(inout) :: response
       real(wp) :: floor
       logical :: ok
-
-      associate (pad => self%pads(i), gap => self%pads(i)%grid%gap)
-         response%min_film_thickness = gap%min_film_thickness(motion, pad%grid%directions)
-         if (.not. response%min_film_thickness > 0) then
-            response%status = film_closed
-            return
-         end if
+      associate (pad => self%pads(i), gap => self%gaps(i))
          call pad%grid%set_motion(motion, oil, speed)
          call set_operator(pad)
          self%counters%volumes = self%counters%volumes + 1
          floor = -huge(floor)
-         if (self%cavitation == cavitation_reynolds) floor = 0
-         call solve(self, pad, pad%source, pad%cells, floor, pad%pressure, response%residual, ok)
+         if (self%condition == cavitation_reynolds) floor = 0
+         call iterate(self, pad, pad%source, pad%cells, floor, pad%pressure, response%residual, ok)
          if (ok) then
             floor = -huge(floor)
-            if (self%cavitation /= cavitation_none) floor = 0
+            if (self%cavitates()) floor = 0
             response%force = pad%grid%force(column_sums(pad, floor))
             associate (edges => [pad%grid%ambient, pad%grid%supply])
                response%min_pressure = gap%cavitation_pressure &
@@ -209,7 +163,7 @@ contains
             pad%adjoint = 0
          end if
       end associate
-   end subroutine evaluate_pad
+   end subroutine solve
 
    !> The grid's operator and right-hand side, odd and even columns apart.
    pure subroutine set_operator(pad)
@@ -234,7 +188,7 @@ contains
    end subroutine set_operator
 
    !> Sweeps until the residual is within the tolerance; ok is false if the cap comes first.
-   subroutine solve(self, pad, source, whole, floor, field, residual, ok)
+   subroutine iterate(self, pad, source, whole, floor, field, residual, ok)
       class(sor_film_type), intent(inout) :: self
       type(sor_pad), intent(in) :: pad
       !> Right-hand side; cells in the solution.
@@ -255,7 +209,7 @@ contains
          ok = residual <= self%options%tolerance
          if (ok) return
       end do
-   end subroutine solve
+   end subroutine iterate
 
    !> Force derivatives by adjoints, on the cells that are film.
    subroutine add_derivatives(self, pad, response, ok)
@@ -268,7 +222,7 @@ contains
       real(wp), dimension(0:ubound(pad%cells, 1), 0:ubound(pad%cells, 2), 2) :: positive, region
       integer :: m, j
       positive = pad%cells
-      if (self%cavitation /= cavitation_none) then
+      if (self%cavitates()) then
          where (.not. pad%pressure > 0) positive = 0
       end if
       ok = .true.
@@ -278,7 +232,7 @@ contains
          return
       end if
       region = pad%cells
-      if (self%cavitation == cavitation_reynolds) region = positive
+      if (self%condition == cavitation_reynolds) region = positive
       associate (grid => pad%grid, nk => pad%grid%columns/2, nz => pad%grid%rows)
          p = natural(pad%pressure(1:nk, 1:nz, :))
          weights = grid%weight()
@@ -288,7 +242,7 @@ contains
                pad%source(1:nk, j, :) = weight*positive(1:nk, j, :)
             end do
             pad%adjoint(:, :, :, m) = pad%adjoint(:, :, :, m)*region
-            call solve(self, pad, pad%source, region, -huge(residual), pad%adjoint(:, :, :, m), residual, ok)
+            call iterate(self, pad, pad%source, region, -huge(residual), pad%adjoint(:, :, :, m), residual, ok)
             if (.not. ok) return
             response%derivatives(m, :) = grid%derivatives(p, natural(pad%adjoint(1:nk, 1:nz, :, m)))
          end do
@@ -316,7 +270,7 @@ contains
       real(wp), allocatable :: p(:, :)
       associate (pad => self%pads(i))
          p = transpose(natural(pad%pressure(1:pad%grid%columns/2, 1:pad%grid%rows, :)))
-         if (self%cavitation /= cavitation_none) p = max(p, 0.0_wp)
+         if (self%cavitates()) p = max(p, 0.0_wp)
          p = p + pad%grid%gap%cavitation_pressure
       end associate
    end function pressure_field
