@@ -2,8 +2,8 @@
 !>
 !> The first search is pseudo-transient continuation (pseudo_transient) from the best of some positions along the load;
 !> where it fails, from the equilibrium with full films. Where these fail, or find an equilibrium that no motion dwells
-!> in, a wider one follows from all these positions: by small problems of the pads, by the same with pads sought from
-!> many tilts, and by pseudo-transient continuation. docs/stability.md counts what each finds.
+!> in, a wider one follows from all these positions: by small problems of the pads, and by pseudo-transient
+!> continuation. docs/stability.md counts what each finds.
 module equilibrium
    use kinds, only: wp
    use text, only: to_text
@@ -21,13 +21,13 @@ module equilibrium
    public :: equilibrium_type, find_equilibrium, find_partial_equilibrium
 
    !> The methods of the wider search, in their order.
-   character(len=*), parameter :: methods(*) = [character(len=14) :: 'pads', 'pad equilibria', 'newton']
+   character(len=*), parameter :: methods(*) = [character(len=6) :: 'pads', 'newton']
    !> Iterations from an equilibrium of quick films to that of the model's own: the 535 of docs/stability.md that
    !> succeed take 35 at most. Iterations of the first search from a start along the load, after which full films lead
    !> to the equilibrium of most unloaded pads: of 813 searches that succeed 90 % end within 42.
-   integer, parameter :: near_rounds = 40, cavitated_rounds = 60
+   integer, parameter :: last_iterations = 40, first_iterations = 60
    !> Residual of quick films from which on this is tried.
-   real(wp), parameter :: near_residual = 0.1_wp
+   real(wp), parameter :: quick_residual = 0.1_wp
 
 contains
 
@@ -115,7 +115,7 @@ contains
       real(wp), allocatable :: y_whole(:)
       y = best_start(static, give_up)
       call follow_motion(static, y, residual, error, give_up, &
-         & most=merge(cavitated_rounds, huge(cavitated_rounds), static%bearing%film%cavitates()))
+         & most=merge(first_iterations, huge(first_iterations), static%bearing%film%cavitates()))
       films_fail = .not. static%bearing%films_converge()
       by_full_films = .false.
       if (.not. allocated(error) .or. .not. static%bearing%film%cavitates()) return
@@ -182,8 +182,8 @@ contains
             if (.not. ok) cycle
             ! loose films leap by their error: where they do nothing comes to equilibrium
             call follow_motion(quick, y, candidate%residual, error, give_up, first_step=newtons)
-            if (candidate%residual > near_residual) cycle
-            call solve_equilibrium(static, y, candidate%residual, error, give_up, most=near_rounds)
+            if (candidate%residual > quick_residual) cycle
+            call solve_equilibrium(static, y, candidate%residual, error, give_up, most=last_iterations)
             if (allocated(error)) cycle
             if (.not. is_usable(static, y, candidate, traces)) cycle
             if (.not. is_better(candidate, found)) cycle
@@ -207,7 +207,8 @@ contains
       end if
    end function is_better
 
-   !> Brings y near an equilibrium by one of the methods.
+   !> Brings y near an equilibrium by one of the methods. Pads that find no equilibrium of their own are sought from
+   !> many tilts, once.
    subroutine approach(model, method, y, traces, ok, give_up)
       type(bearing_model), intent(inout) :: model
       character(len=*), intent(in) :: method
@@ -218,24 +219,20 @@ contains
       type(error_type), allocatable :: error
       logical :: in_equilibrium(model%layout%pads)
       real(wp) :: residual, y_of_pads(size(y))
-      select case (method)
-      case ('pads')
-         ! where a pad finds no equilibrium Newton's method on the whole may still find one, with the journal elsewhere
-         call eliminate_pads(model, y, in_equilibrium, ok, give_up)
-      case ('pad equilibria')
-         call eliminate_pads(model, y, in_equilibrium, ok, give_up)
-         if (ok) ok = .not. all(in_equilibrium)
-         if (.not. ok) return
-         call search_pads(model, y, in_equilibrium)
-         if (.not. all(in_equilibrium)) traces%without_equilibrium = .not. in_equilibrium
-         y_of_pads = y
-         call eliminate_pads(model, y_of_pads, in_equilibrium, ok, give_up)
-         if (ok .and. all(in_equilibrium)) y = y_of_pads
-         ok = .true.
-      case default
+      if (method == 'newton') then
          call follow_motion(model, y, residual, error, give_up)
-         ok = residual <= near_residual
-      end select
+         ok = residual <= quick_residual
+         return
+      end if
+      call eliminate_pads(model, y, in_equilibrium, ok, give_up)
+      if (.not. ok .or. all(in_equilibrium)) return
+      call search_pads(model, y, in_equilibrium)
+      if (.not. all(in_equilibrium)) traces%without_equilibrium = .not. in_equilibrium
+      ! where a pad finds no equilibrium Newton's method on the whole may still find one, with the journal elsewhere
+      y_of_pads = y
+      call eliminate_pads(model, y_of_pads, in_equilibrium, ok, give_up)
+      if (ok .and. all(in_equilibrium)) y = y_of_pads
+      ok = .true.
    end subroutine approach
 
    !> Describes the equilibrium y, where the model was evaluated last, and says whether a motion can start there.

@@ -21,8 +21,7 @@ SEARCHES = {
     "first": "pseudo-transient continuation from a start along the load",
     "full films": "the same with full films, and from there with films that cavitate",
     "pads": "every pad in its equilibrium, then the journal, from six starts",
-    "pad equilibria": "every pad in its equilibrium, sought from many tilts",
-    "newton": "pseudo-transient continuation from the six starts",
+    "newton": "pseudo-transient continuation from these",
     "none": "no equilibrium found",
 }
 
@@ -38,7 +37,7 @@ found what was kept, in {cases} cases (seeds {seeds}) and {bearings} bearings as
 A search stays in the program if it finds more than one in 200 that none before it finds. Newton's method in
 parts of its steps, the motion itself, pads tilted so that full films pull the journal, and pads balanced
 along all their tilts did not: what they cost, and the program is without, are the lost cases {lost},
-which are refused, and none of the bearings. Ten cases whose instability grew less there, or that
+which are refused, and none of the bearings. A dozen others whose instability grew less there, or that
 have several equilibria, now start elsewhere. `stress.py --searches` counts again.
 """
 
