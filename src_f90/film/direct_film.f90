@@ -12,17 +12,20 @@ module direct_film
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film
    use elimination_film, only: elimination_film_type, new_elimination_film
-   use film_adapted_grid, only: new_following_film
+   use dimensionless_pad, only: dimensionless_pad_type, unit_oil, new_dimensionless_pad, mid_arc_frame_type, &
+      & middle_motion, new_mid_arc_frame
    implicit none (type, external)
    private
-   public :: direct_film_type, new_direct_film, is_cavitated, share_of_modes
+   public :: direct_film_type, new_direct_film, is_cavitated, share_of_modes, new_following_film
 
    !> How far below the cavitation pressure the full film may fall, over its maximum pressure, before it
    !> counts as cavitated: the force left out is of the second order in it, below the discretisation error.
    real(wp), parameter :: slight_tension = 1e-4_wp
 
-   !> Rows of the volumes of a fine field.
-   integer, parameter :: fine_rows = 24
+   !> Rows of the volumes of a fine field; columns of volumes that follow a film for every row.
+   integer, parameter :: fine_rows = 24, columns_a_row = 8
+   !> Where the source changes its sign beside the arc or close to an edge, their columns change there, over half the arc.
+   real(wp), parameter :: farthest = 0.8_wp
    !> Tension over the maximum pressure up to which a pad is loaded: c = 1.
    real(wp), parameter :: loaded_tension = 0.1_wp
    !> Step of the derivatives that are taken by differences, in clearances (times the speed).
@@ -258,4 +261,30 @@ contains
          end if
       end associate
    end subroutine rebuild
+
+   !> Volumes that follow a film at a motion that leaves it open and a journal speed, rad/s, on this number of rows: half of
+   !> their columns lie on each side of where the source of pressure changes its sign, all of them are narrow where it is
+   !> thin. For what is asked for seldom and has to agree with the force from tables.
+   type(elimination_film_type) function new_following_film(gap, motion, speed, rows) result(film)
+      type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      integer, intent(in) :: rows
+      type(dimensionless_pad_type) :: pad
+      type(mid_arc_frame_type) :: frame
+      type(middle_motion) :: seen
+      real(wp) :: angles(0:columns_a_row*rows), zero
+      integer :: half
+      half = columns_a_row*rows/2
+      pad = new_dimensionless_pad(gap)
+      frame = new_mid_arc_frame(gap, pad)
+      seen = frame%motion(motion, unit_oil, speed)
+      zero = -atan2(sign(1.0_wp, seen%w(1))*seen%w(2), abs(seen%w(1)))
+      zero = min(max(zero, -farthest*pad%half_arc), farthest*pad%half_arc)
+      associate (position => pad%position(seen%edges))
+         angles(:half) = pad%spread_angles(position, -pad%half_arc, zero, half)
+         angles(half:) = pad%spread_angles(position, zero, pad%half_arc, half)
+      end associate
+      film = new_elimination_film(gap, 2*half, rows, 0.5_wp*(gap%leading_angle - gap%trailing_angle) + angles)
+   end function new_following_film
 end module direct_film

@@ -2,7 +2,7 @@
 !> (docs/theory/heat.md).
 !>
 !> Shear makes mu U^2/h of heat by the sliding of the journal's surface (Couette) and h^3/(12 mu) |grad p|^2 by what
-!> pressure drives. With the velocity w that drives the film (mid_arc_frame) the second integrates to -w . F, F the
+!> pressure drives. With the velocity w that drives the film (dimensionless_pad) the second integrates to -w . F, F the
 !> force of the pressure above that of cavitation, plus the power of the flows through edges under pressure; this holds
 !> for cavitated films too. Of a full film the first is Sommerfeld's variable along the arc, and what pressure drives
 !> through an edge is, by reciprocity, the force of a unit of pressure there, times w.
@@ -16,8 +16,7 @@ module film_losses
    use pad_gap, only: pad_gap_type, pad_directions
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type
-   use direct_film, only: is_cavitated, share_of_modes
-   use film_adapted_grid, only: new_following_film
+   use direct_film, only: is_cavitated, share_of_modes, new_following_film
    use fourier_film, only: fourier_film_type, converged_film
    use sommerfeld_nodes, only: span
    use volume_flows, only: volume_flow_type, flows_of_volumes, finer

@@ -6,8 +6,8 @@ program test_cavitation_table
    use pad_gap, only: pad_gap_type
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
    use effective_velocity, only: effective_velocity_type, drive_type, new_effective_velocity
-   use cubic_patch, only: simd_width
-   use logarithmic_grid, only: interval, lower_end
+   use cell_polynomials, only: simd_width
+   use cell_index, only: interval, lower_end
    use cavitation_table, only: cavitation_table_type, new_cavitation_table
    use check, only: runs, expect, expect_close, between, report
    use film_solver, only: film_counters

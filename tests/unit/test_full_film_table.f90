@@ -6,8 +6,8 @@ program test_full_film_table
    use film_solver, only: film_counters
    use pad_gap, only: pad_gap_type
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
-   use square_patch, only: simd_width
-   use logarithmic_grid, only: interval, lower_end
+   use cell_polynomials, only: simd_width
+   use cell_index, only: interval, lower_end
    use full_film_table, only: full_film_table_type, new_full_film_table
    use check, only: runs, expect, between, report
    use full_film, only: loads

@@ -4,7 +4,7 @@ program test_local_cavitation
    use text, only: to_text
    use film_solver, only: film_motion
    use film_grid, only: film_grid_type, new_film_grid
-   use grid_modes, only: grid_modes_type, new_grid_modes
+   use volume_equations, only: grid_modes_type, new_grid_modes
    use local_cavitation, only: force_of_few
    use paper_bearing, only: paper_oil, paper_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report

@@ -5,8 +5,8 @@ program test_pad_gap
    use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type
    use paper_bearing, only: paper_pad, clearance, paper_oil, offset_pad, speed
-   use dimensionless_pad, only: new_dimensionless_pad, thickness_scale
-   use mid_arc_frame, only: mid_arc_frame_type, middle_motion, middle_force, new_mid_arc_frame
+   use dimensionless_pad, only: new_dimensionless_pad, thickness_scale, mid_arc_frame_type, middle_motion, &
+      & middle_force, new_mid_arc_frame
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
    type(pad_gap_type) :: gap

@@ -3,10 +3,9 @@
 program test_table_cells
    use, intrinsic :: iso_fortran_env, only: int64
    use text, only: to_text
-   use cell_index, only: cell_index_type, cell_key
+   use cell_index, only: cell_index_type, cell_key, interval, lower_end
    use kinds, only: wp
-   use logarithmic_grid, only: interval, lower_end
-   use cubic_patch, only: terms, cubic_transform
+   use cell_polynomials, only: terms, cubic_transform
    use check, only: runs, expect, between, report
    implicit none (type, external)
    integer, parameter :: finest = 8

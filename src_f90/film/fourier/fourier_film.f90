@@ -16,8 +16,7 @@ module fourier_film
    use pad_gap, only: pad_gap_type
    use clipped_quadrature, only: clipped_weights
    use film_resolution, only: resolution_type, new_resolution, most_levels, enough_cells, enough_modes
-   use fourier_edges, only: edge_flows
-   use fourier_field, only: field_of_modes
+   use fourier_field, only: field_of_modes, edge_flows
    use fourier_pad, only: fourier_pad_type, set_weights, set_motion, gauss, middle, point_weights
    use fourier_slopes, only: force_slopes
    use fourier_passes, only: simd_width, weigh_nodes, solve_modes, sum_modes, lowest_pressure

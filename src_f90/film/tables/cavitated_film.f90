@@ -6,7 +6,7 @@ module cavitated_film
    use film_solver, only: film_counters
    use dimensionless_pad, only: dimensionless_pad_type, thickness_scale
    use effective_velocity, only: effective_velocity_type, drive_type, new_effective_velocity, least_tolerance
-   use cubic_patch, only: simd_width, corner_data
+   use cell_polynomials, only: simd_width, corner_data
    implicit none (type, external)
    private
    public :: cavitated_film_type, node_type, new_cavitated_film

@@ -12,9 +12,8 @@ module cavitation_table
    use effective_velocity, only: least_tolerance
    use film_solver, only: film_counters
    use cavitated_film, only: cavitated_film_type, node_type, new_cavitated_film
-   use logarithmic_grid, only: interval, lower_end
-   use cell_index, only: cell_index_type, cell_key
-   use cubic_patch, only: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic
+   use cell_index, only: cell_index_type, cell_key, interval, lower_end
+   use cell_polynomials, only: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic
    implicit none (type, external)
    private
    public :: cavitation_table_type, new_cavitation_table

@@ -1,9 +1,15 @@
-!> Finds what is kept of a place in a table: a hash of whole numbers, with open addressing.
+!> Places in a table: the intervals of a piecewise linear logarithm along its axes, and a hash of whole numbers, with
+!> open addressing, that finds what is kept of a place.
+!>
+!> Intervals follow the magnitude of a positive number. An octave, from one power of 2 to the next, is cut into 2^level
+!> equal ones, and these are numbered through over all octaves. The bits of a number give its interval; within one,
+!> everything is linear in the number itself, so that neither logarithm nor power is ever needed.
 module cell_index
    use, intrinsic :: iso_fortran_env, only: int64
+   use kinds, only: wp
    implicit none (type, external)
    private
-   public :: cell_index_type, cell_key
+   public :: cell_index_type, cell_key, interval, lower_end
 
    !> Numbers of entries by their keys. It grows as it fills.
    type :: cell_index_type
@@ -22,6 +28,21 @@ module cell_index
    integer, parameter :: axis_bits = 22, third_bits = 12
 
 contains
+
+   !> The interval of a number > 0 at a level.
+   elemental integer function interval(x, level)
+      real(wp), intent(in) :: x
+      integer, intent(in) :: level
+      interval = ishft(exponent(x), level) + int(scale(2*fraction(x) - 1, level))
+   end function interval
+
+   !> The lower end of an interval of a level; it belongs to the interval, the upper end to the next.
+   elemental real(wp) function lower_end(interval, level)
+      integer, intent(in) :: interval, level
+      integer :: pieces
+      pieces = 2**level
+      lower_end = scale(1 + modulo(interval, pieces)/real(pieces, wp), floor(interval/real(pieces, wp)) - 1)
+   end function lower_end
 
    !> The key of a place in up to three dimensions, at a level of 0 to 31.
    pure integer(int64) function cell_key(level, first, second, third)

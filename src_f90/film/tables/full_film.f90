@@ -6,7 +6,7 @@ module full_film
    use film_solver, only: film_motion, film_response, film_counters, film_ok
    use dimensionless_pad, only: dimensionless_pad_type, unit_oil, thickness_scale
    use fourier_film, only: fourier_film_type, converged_film
-   use square_patch, only: simd_width
+   use cell_polynomials, only: simd_width
    implicit none (type, external)
    private
    public :: full_film_type, new_full_film, loads

@@ -11,10 +11,9 @@ module full_film_table
    use film_resolution, only: usual_error
    use film_solver, only: film_counters
    use full_film, only: full_film_type, new_full_film, loads
-   use square_patch, only: nodes, simd_width, node_points, fitted, evaluate_patch, patch_values
+   use cell_polynomials, only: nodes, simd_width, node_points, fitted, evaluate_patch, patch_values
    use pressure_profile, only: pressure_profile_type, new_pressure_profile
-   use logarithmic_grid, only: interval, lower_end
-   use cell_index, only: cell_index_type, cell_key
+   use cell_index, only: cell_index_type, cell_key, interval, lower_end
    implicit none (type, external)
    private
    public :: full_film_table_type, new_full_film_table

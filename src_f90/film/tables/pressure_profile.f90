@@ -8,7 +8,7 @@ module pressure_profile
    use film_solver, only: film_motion
    use dimensionless_pad, only: dimensionless_pad_type, unit_oil
    use fourier_film, only: fourier_film_type
-   use square_patch, only: node_points, fitted, patch_values
+   use cell_polynomials, only: node_points, fitted, patch_values
    implicit none (type, external)
    private
    public :: pressure_profile_type, new_pressure_profile

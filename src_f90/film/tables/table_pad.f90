@@ -3,9 +3,9 @@ module table_pad
    use kinds, only: wp
    use film_solver, only: film_motion, film_oil, film_response, film_counters
    use pad_gap, only: pad_gap_type, pad_directions
-   use dimensionless_pad, only: dimensionless_pad_type
-   use mid_arc_frame, only: mid_arc_frame_type, middle_motion, middle_force, new_mid_arc_frame
-   use square_patch, only: simd_width
+   use dimensionless_pad, only: dimensionless_pad_type, mid_arc_frame_type, middle_motion, middle_force, &
+      & new_mid_arc_frame
+   use cell_polynomials, only: simd_width
    use full_film, only: full_film_type, loads
    use cavitated_film, only: cavitated_film_type
    implicit none (type, external)

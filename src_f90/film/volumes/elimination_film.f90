@@ -9,8 +9,7 @@ module elimination_film
    use film_solver, only: film_motion, film_oil, film_response, film_counters, film_not_converged
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
-   use volume_equations, only: volume_equations_type, new_volume_equations
-   use rupture_boundary, only: boundary_conductance
+   use volume_equations, only: volume_equations_type, new_volume_equations, boundary_conductance
    use local_cavitation, only: force_of_few
    use linear_algebra, only: apply
    use column_elimination, only: weighted
@@ -26,10 +25,10 @@ module elimination_film
    !> One pad's film.
    type, extends(volume_equations_type) :: elimination_film_type
       private
-      !> Pressure, and the adjoints of both forces, (.., column, force): scaled (grid_modes), by rows in blocks and by
+      !> Pressure, and the adjoints of both forces, (.., column, force): scaled, by rows in blocks and by
       !> modes outside.
       real(wp), allocatable :: pressure(:, :), adjoint(:, :, :)
-      !> Whether slopes are those of a film that ends between cells (rupture_boundary); else those of these cells,
+      !> Whether slopes are those of a film that ends between cells (volume_equations); else those of these cells,
       !> exact.
       logical, public :: ends_between = .false.
    contains

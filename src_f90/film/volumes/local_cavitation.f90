@@ -8,7 +8,7 @@
 module local_cavitation
    use kinds, only: wp
    use film_grid, only: film_grid_type
-   use grid_modes, only: grid_modes_type
+   use volume_equations, only: grid_modes_type
    use linear_algebra, only: apply
    use column_elimination, only: green_chain, weighted
    implicit none (type, external)
@@ -24,7 +24,7 @@ module local_cavitation
    !> A cell that may cavitate.
    type :: candidate
       integer :: row, column
-      !> Pressure of the full film, Pa, scaled (grid_modes); G w for both forces.
+      !> Pressure of the full film, Pa, scaled (volume_equations); G w for both forces.
       real(wp) :: pressure, influence(2)
    end type candidate
 

@@ -3,15 +3,36 @@
 !> Where a column of cells is whole, the axial part of its equations is the same matrix for every column, up
 !> to a factor; its eigenvectors ("modes" of the grid) turn the columns into independent chains of single
 !> equations. Only between the first and the last column that cavitate touches are whole blocks eliminated.
+!>
+!> A cavitated film ends between cells: what flows from it into a cell that has cavitated fills a part of it, over what
+!> the cell would take up if it were whole. The pressure meets this end without a slope, so that its own equations need
+!> not know it. A change of the pressure with the motion does not: it falls to 0 at the end, and if it fell to 0 in the
+!> middle of the cavitated cells, slopes would err by the first order of a cell's size, and leap when a cell cavitates.
 module volume_equations
    use kinds, only: wp
    use film_grid, only: film_grid_type
-   use grid_modes, only: grid_modes_type, new_grid_modes
-   use linear_algebra, only: apply
+   use linear_algebra, only: dstev, padded, apply
    use column_elimination, only: factor_chain, solve_chain, finish_chain, multiply_columns, weighted, invert
    implicit none (type, external)
    private
-   public :: volume_equations_type, new_volume_equations
+   public :: volume_equations_type, new_volume_equations, grid_modes_type, new_grid_modes, boundary_conductance
+
+   !> Axial eigenvectors of a column that is whole. Its matrix is symmetric for pressures times the root of the rows'
+   !> heights ("scaled").
+   type :: grid_modes_type
+      !> Rows and modes, filled up with zeros to whole SIMD vectors.
+      integer :: m
+      !> (row, mode) and (mode, row), and the eigenvalues.
+      real(wp), allocatable :: modes(:, :), transposed(:, :), eigenvalue(:)
+      !> The matrix in rows: its diagonal, and what stands beside it, with zeros at both ends (0:m).
+      real(wp), allocatable :: diagonal(:), off_diagonal(:)
+      !> Root of the rows' heights over their mean.
+      real(wp), allocatable :: root(:)
+      !> A load of 1 in every row and one of 1 in the edge row, scaled, by mode.
+      real(wp), allocatable :: uniform(:), at_edge(:)
+   contains
+      procedure :: in_rows => matrix_in_rows
+   end type grid_modes_type
 
    type :: volume_equations_type
       type(film_grid_type) :: grid
@@ -186,4 +207,97 @@ contains
             & self%in_rows(a, i + 1) - self%in_rows(a, i))
       end function over_seam
    end subroutine multiply
+
+   !> For the rows of a grid.
+   function new_grid_modes(grid) result(self)
+      type(film_grid_type), intent(in) :: grid
+      type(grid_modes_type) :: self
+      real(wp), dimension(grid%rows) :: diagonal, beside
+      real(wp), allocatable :: vectors(:, :)
+      real(wp) :: work(2*grid%rows)
+      integer :: info, rows
+      rows = grid%rows
+      allocate (vectors(rows, rows))
+      diagonal = grid%inward + grid%outward
+      beside(:rows - 1) = -sqrt(grid%outward(:rows - 1)*grid%inward(2:))
+      beside(rows) = 0
+      self%m = padded(rows)
+      allocate (self%diagonal(self%m), self%off_diagonal(0:self%m), self%root(self%m), source=0.0_wp)
+      self%diagonal(:rows) = diagonal
+      self%off_diagonal(1:rows) = beside
+      self%root(:rows) = sqrt(grid%height)
+      call dstev('V', rows, diagonal, beside, vectors, rows, work, info)
+      allocate (self%modes(self%m, rows), self%transposed(self%m, rows), source=0.0_wp)
+      allocate (self%eigenvalue(self%m), self%uniform(self%m), self%at_edge(self%m), source=0.0_wp)
+      self%modes(:rows, :) = vectors
+      self%transposed(:rows, :) = transpose(vectors)
+      self%eigenvalue(:rows) = diagonal
+      self%uniform(:rows) = matmul(self%root(:rows), vectors)
+      self%at_edge(:rows) = self%root(rows)*vectors(rows, :)
+   end function new_grid_modes
+
+   !> The matrix with these values by mode, in rows.
+   pure function matrix_in_rows(self, values) result(block)
+      class(grid_modes_type), intent(in) :: self
+      real(wp), intent(in) :: values(:)
+      real(wp) :: block(self%m, size(self%modes, 2))
+      integer :: j
+      do j = 1, size(block, 2)
+         block(:, j) = apply(size(block, 1), size(block, 2), self%modes, values*self%transposed(:, j))
+      end do
+   end function matrix_in_rows
+
+   !> What the end of a film adds to the diagonal of a cell's equation for a change of pressure, (row, column): the
+   !> conductance towards a cavitated cell is that up to the end of the film instead of up to the cell's middle.
+   pure function boundary_conductance(grid, film, pressure, first, last) result(more)
+      type(film_grid_type), intent(in) :: grid
+      !> Cells of the film 1, others 0; pressure above that of cavitation, Pa, 0 in the others; (row, column).
+      real(wp), intent(in) :: film(:, :), pressure(:, :)
+      !> The columns that cavitate touches; beside these alone the pressure has to be known.
+      integer, intent(in) :: first, last
+      real(wp) :: more(size(film, 1), grid%columns)
+      real(wp), dimension(0:grid%rows + 1, 0:grid%columns + 1) :: filled, p
+      integer :: i, k
+      more = 0
+      filled = 1
+      p = 0
+      associate (n => grid%columns, rows => grid%rows, width => grid%width, height => grid%height)
+         p(1:rows, 1:n) = pressure(:rows, :)
+         do i = first, last
+            do k = 1, rows
+               if (film(k, i) > 0) cycle
+               filled(k, i) = share(grid%along(i - 1)*p(k, i - 1) + grid%along(i)*p(k, i + 1) + grid%beside(i) &
+                  & *(grid%inward(k)*p(k - 1, i) + grid%outward(k)*p(k + 1, i)), &
+                  & grid%source(i) + merge(grid%edge_source(i), 0.0_wp, k == rows))
+            end do
+         end do
+         do i = max(1, first - 1), min(n, last + 1)
+            do k = 1, rows
+               if (.not. film(k, i) > 0) cycle
+               if (i > 1) more(k, i) = grid%along(i - 1)*nearer(width(i), width(i - 1), filled(k, i - 1))
+               if (i < n) more(k, i) = more(k, i) + grid%along(i)*nearer(width(i), width(i + 1), filled(k, i + 1))
+               if (k > 1) more(k, i) = more(k, i) + grid%beside(i)*grid%inward(k) &
+                  & *nearer(height(k), height(k - 1), filled(k - 1, i))
+               if (k < rows) more(k, i) = more(k, i) + grid%beside(i)*grid%outward(k) &
+                  & *nearer(height(k), height(k + 1), filled(k + 1, i))
+            end do
+         end do
+      end associate
+   end function boundary_conductance
+
+   !> The part of a cavitated cell that an inflow fills.
+   pure real(wp) function share(inflow, source)
+      real(wp), intent(in) :: inflow, source
+      share = 0
+      if (source > 0) share = min(1.0_wp, max(0.0_wp, inflow/source))
+   end function share
+
+   !> Distance from the middle of a cell to that of its neighbour, over the distance to the end of the film, less 1; 0
+   !> where the neighbour is full.
+   pure real(wp) function nearer(own, other, filled)
+      !> Sizes of both, and the part of the neighbour up to which there is film.
+      real(wp), intent(in) :: own, other, filled
+      nearer = 0
+      if (filled < 1) nearer = (own + other)/(own + 2*filled*other) - 1
+   end function nearer
 end module volume_equations
