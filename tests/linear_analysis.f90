@@ -6,7 +6,8 @@ module linear_analysis
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_fine
-   use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
+   use linear_bearing, only: bearing_coefficients_type, find_coefficients
+   use thermal_equilibrium, only: settle
    use stability_threshold, only: find_thresholds
    use check, only: expect_no_error
    implicit none (type, external)

@@ -6,7 +6,7 @@ module branch_task
    use errors, only: error_type, raise, add_context, system_error, stopped
    use clock, only: wall_clock
    use equilibrium, only: equilibrium_type
-   use bearing_coefficients, only: settle
+   use thermal_equilibrium, only: settle
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of
    use newton_method, only: branch_point_type

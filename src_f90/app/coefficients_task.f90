@@ -8,8 +8,8 @@ module coefficients_task
    use equilibrium, only: equilibrium_type
    use equations_of_motion, only: bearing_model
    use static_model, only: make_fine
-   use bearing_coefficients, only: bearing_coefficients_type, settle, find_coefficients
-   use linear_bearing, only: vibration_modes_type
+   use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type
+   use thermal_equilibrium, only: settle
    use stability_threshold, only: find_thresholds
    use coefficient_results, only: put_coefficients
    use stop_signals, only: stop_requested, stop_reason

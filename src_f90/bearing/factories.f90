@@ -8,7 +8,7 @@ module factories
    use fourier_film, only: new_fourier_film
    use film_resolution, only: enough_cells, enough_modes, usual_error
    use direct_film, only: direct_film_type, new_direct_film
-   use table_film, only: new_table_film, new_converged_film, has_tables
+   use table_film, only: new_table_film, has_tables
    use film_losses, only: film_losses_type, new_film_losses
    use sor_film, only: new_sor_film, sor_options
    use contact_law, only: contact_law_type, make_contact_law
@@ -87,12 +87,12 @@ contains
             if (accuracy == march_films) then
                ! cavitated films by volumes are dear, by modes they are cheap
                associate (usual => merge(1, 4, condition == cavitation_gumbel)*inputs%integration%relative_tolerance)
-                  film = new_table_film(direct, merge(f%table_tolerance, usual, f%table_tolerance > 0))
+                  film = new_table_film(direct, .true., merge(f%table_tolerance, usual, f%table_tolerance > 0))
                end associate
             else if (f%table_tolerance > 0) then
-               film = new_converged_film(direct, f%table_tolerance)
+               film = new_table_film(direct, .false., f%table_tolerance)
             else
-               film = new_converged_film(direct, merge(converged_error, converged_cavitated_error, &
+               film = new_table_film(direct, .false., merge(converged_error, converged_cavitated_error, &
                   & condition == cavitation_gumbel), converged_full_error)
             end if
          end select

@@ -6,8 +6,7 @@ module stability_threshold
    use errors, only: error_type, asked_to_stop, stopped
    use equations_of_motion, only: bearing_model
    use case_parameter, only: case_parameter_type, find_parameter
-   use linear_bearing, only: pivot_name
-   use bearing_coefficients, only: bearing_coefficients_type
+   use linear_bearing, only: pivot_name, bearing_coefficients_type
    use newton_method, only: branch_point_type
    use continuation, only: branch_options, start_branch, advance, return_to
    use bifurcations, only: bifurcation_type, find_bifurcations

@@ -9,11 +9,14 @@ module pad_elimination
    use kinematics, only: pad_state, pad_frame, frame_of, motion_of
    use equations_of_motion, only: bearing_model
    use force_balance, only: forces, pad_derivatives
-   use pseudo_transient, only: reference_force, next_time_step, longest_move, shortest_move, trace
+   use pseudo_transient, only: reference_force, next_time_step, longest_move, shortest_move, trace, set_free, &
+      & static_derivatives, newton_step
    implicit none (type, external)
    private
    public :: eliminate_pads, search_pads
 
+   !> Positions of the journal.
+   integer, parameter :: of_journal = 2
    !> Unbalanced forces over the reference force at which a pad and the journal are in equilibrium: near enough for
    !> Newton's method on the whole.
    real(wp), parameter :: pad_limit = 1e-9_wp, journal_limit = 1e-6_wp
@@ -41,8 +44,8 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(journal_motion) :: journal
       type(pad_state) :: pads(model%layout%pads)
-      real(wp) :: force(2), stiffness(2, 2), damping(2, 2), step(2), time_step, unbalanced, last
-      real(wp) :: follow(2, 2, size(pads))
+      real(wp) :: time_step, unbalanced, last
+      real(wp), allocatable :: force(:), step(:)
       integer :: iteration
       journal = model%rotor%journal(y(:model%rotor%states))
       pads = model%layout%pad_states(y)
@@ -54,15 +57,15 @@ contains
          if (ok) call settle_pads(model, journal, pads, in_equilibrium, ok)
          if (ok .and. .not. all(in_equilibrium)) call put_down(model, journal, pads, in_equilibrium, ok)
          if (.not. ok) exit
-         force = resultant(model)
+         force = forces(model, 0.0_wp)
+         force(of_journal + 1:) = 0
          unbalanced = norm2(force)
          if (unbalanced <= journal_limit*reference_force(model)) exit
          if (iteration > 1) time_step = next_time_step(time_step, last, unbalanced)
          last = unbalanced
-         call reduce(model, in_equilibrium, stiffness, damping, follow)
-         call find_step(stiffness, damping, force, model%rotor%mass*model%point%speed(0.0_wp), &
-            & model%inputs%bearing%assembled_clearance, time_step, step)
-         call move_journal(model, follow, journal, pads, time_step, step)
+         call find_step(model, in_equilibrium, force, time_step, step, ok)
+         if (.not. ok) exit
+         call move_journal(model, journal, pads, time_step, step)
       end do
       ok = ok .and. iteration <= journal_iterations
       y = model%state(journal, pads)
@@ -220,80 +223,51 @@ contains
       call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. in_equilibrium)
    end subroutine put_down
 
-   !> Force on the journal, N.
-   pure function resultant(model) result(force)
-      type(bearing_model), intent(in) :: model
-      real(wp) :: force(2), all_forces(model%layout%n_positions())
-      all_forces = forces(model, 0.0_wp)
-      force = all_forces(:2)
-   end function resultant
-
-   !> Derivatives of the force on the journal over its position, with pads that follow to their own equilibrium, and
-   !> over its velocity; and the moves of each pad over those of the journal.
-   pure subroutine reduce(model, in_equilibrium, stiffness, damping, follow)
+   !> The step of the journal, in a time step that is shortened until it does not move too far, and of the pads that
+   !> follow to their own equilibrium at once.
+   subroutine find_step(model, in_equilibrium, force, time_step, step, ok)
       type(bearing_model), intent(in) :: model
       logical, intent(in) :: in_equilibrium(:)
-      real(wp), intent(out) :: stiffness(2, 2), damping(2, 2), follow(:, :, :)
-      real(wp) :: force(2), of_pad(2, 2), ignored(2, 2), over_positions(4, 4), over_rates(4, 4)
-      integer :: i, k
-      stiffness = 0
-      damping = 0
-      follow = 0
-      do i = 1, size(in_equilibrium)
-         call pad_derivatives(model, i, over_positions, over_rates)
-         stiffness = stiffness + over_positions(1:2, 1:2)
-         damping = damping + over_rates(1:2, 1:2)
-         if (.not. in_equilibrium(i) .or. .not. model%layout%tilting) cycle
-         call pad_balance(model, i, force, of_pad, ignored)
-         if (.not. model%layout%radial) over_positions(4, 1:2) = 0
-         do k = 1, 2
-            follow(:, k, i) = solve_2x2(of_pad, -over_positions(3:4, k))
-         end do
-         stiffness = stiffness + matmul(over_positions(1:2, 3:4), follow(:, :, i))
-      end do
-   end subroutine reduce
-
-   !> The step of the journal in a time step that is shortened until it does not move too far.
-   pure subroutine find_step(stiffness, damping, force, mass_rate, clearance, time_step, step)
-      real(wp), intent(in) :: stiffness(2, 2), damping(2, 2), force(2), mass_rate, clearance
+      real(wp), intent(in) :: force(:)
       real(wp), intent(inout) :: time_step
-      real(wp), intent(out) :: step(2)
-      real(wp) :: matrix(2, 2)
-      integer :: k
-      do
-         matrix = stiffness + damping/time_step
-         do k = 1, 2
-            matrix(k, k) = matrix(k, k) - trace*mass_rate/time_step
+      real(wp), allocatable, intent(out) :: step(:)
+      logical, intent(out) :: ok
+      real(wp), dimension(size(force), size(force)) :: stiffness, damping
+      logical :: free(size(force))
+      call static_derivatives(model, stiffness, damping)
+      damping(of_journal + 1:, :) = 0
+      damping(:, of_journal + 1:) = 0
+      call set_free(model, .not. in_equilibrium, free)
+      associate (longest => longest_move*model%inputs%bearing%assembled_clearance)
+         do
+            call newton_step(stiffness, damping, force, free, time_step, step, ok)
+            ! what is no number ends here too, and the films refuse it
+            if (.not. (ok .and. norm2(step(:of_journal)) > longest)) exit
+            time_step = time_step*min(0.5_wp, longest/norm2(step(:of_journal)))
          end do
-         step = solve_2x2(matrix, -force)
-         ! what is no number ends here too, and the films refuse it
-         if (.not. norm2(step) > longest_move*clearance) exit
-         time_step = time_step*min(0.5_wp, longest_move*clearance/norm2(step))
-      end do
+      end associate
    end subroutine find_step
 
-   !> Moves the journal by the step, or by a part that leaves the films open, and the pads after it.
-   subroutine move_journal(model, follow, journal, pads, time_step, step)
+   !> Moves journal and pads by the step, or by a part that leaves the films open.
+   subroutine move_journal(model, journal, pads, time_step, step)
       type(bearing_model), intent(in) :: model
-      real(wp), intent(in) :: follow(:, :, :)
       type(journal_motion), intent(inout) :: journal
       type(pad_state), intent(inout) :: pads(:)
-      real(wp), intent(inout) :: time_step, step(2)
+      real(wp), intent(inout) :: time_step, step(:)
       type(journal_motion) :: moved
       type(pad_state) :: trial(size(pads))
-      real(wp) :: change(2)
+      real(wp) :: y(model%n)
       integer :: i
       logical :: open
       do
-         moved%position = journal%position + step
-         open = .true.
-         do i = 1, size(pads)
-            change = matmul(follow(:, :, i), step)
-            trial(i) = pad_state(tilt=pads(i)%tilt + change(1), pivot_deflection=pads(i)%pivot_deflection + change(2))
-            if (film_of(model, i, moved, trial(i)) < least_film*film_of(model, i, journal, pads(i))) open = .false.
-         end do
+         y = model%state(journal, pads)
+         y(model%layout%positions()) = y(model%layout%positions()) + step
+         moved = model%rotor%journal(y(:model%rotor%states))
+         trial = model%layout%pad_states(y)
+         open = all([(film_of(model, i, moved, trial(i)) >= least_film*film_of(model, i, journal, pads(i)), &
+            & i=1, size(pads))])
          ! a film that is closed already, or nearly, stops no journal for ever
-         if (open .or. .not. norm2(step) > shortest_move*model%inputs%bearing%assembled_clearance) exit
+         if (open .or. .not. norm2(step(:of_journal)) > shortest_move*model%inputs%bearing%assembled_clearance) exit
          step = 0.5_wp*step
          time_step = 0.5_wp*time_step
       end do

@@ -13,7 +13,7 @@ module pseudo_transient
    implicit none (type, external)
    private
    public :: follow_motion, unbalanced, reference_force, clearances, next_time_step, residual_limit, &
-      & newtons, longest_move, shortest_move, trace
+      & newtons, longest_move, shortest_move, trace, set_free, static_derivatives, newton_step
 
    !> Unbalanced force over the reference force in equilibrium.
    real(wp), parameter :: residual_limit = 1e-8_wp
@@ -154,9 +154,9 @@ contains
       real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
       move = 0
       call model%evaluate(0.0_wp, y, .true., ok)
-      if (ok) call force_derivatives(model, stiffness, damping)
+      if (ok) call static_derivatives(model, stiffness, damping)
       do while (ok)
-         call newton_step(model, stiffness, damping, forces(model, 0.0_wp), free, time_step, step, ok)
+         call newton_step(stiffness, damping, forces(model, 0.0_wp), free, time_step, step, ok)
          if (.not. all(ieee_is_finite(step))) ok = .false.
          if (.not. ok) exit
          move = maxval(abs(step/clearances(model)))
@@ -199,16 +199,23 @@ contains
       clearances = scale(model%layout%positions())
    end function clearances
 
-   !> Solves (K + C / time step) step = -f with the forces f and their derivatives, K over positions and C over rates.
-   subroutine newton_step(model, stiffness, damping, f, free, time_step, step, ok)
+   !> Derivatives of the forces over positions and, with the trace of damping, rates, in the state evaluated last.
+   pure subroutine static_derivatives(model, stiffness, damping)
       type(bearing_model), intent(in) :: model
+      real(wp), intent(out) :: stiffness(:, :), damping(:, :)
+      call force_derivatives(model, stiffness, damping)
+      damping = damping - trace*model%point%speed(0.0_wp)*masses(model)
+   end subroutine static_derivatives
+
+   !> Solves (K + C / time step) step = -f with the forces f and their derivatives, K over positions and C over rates.
+   subroutine newton_step(stiffness, damping, f, free, time_step, step, ok)
       real(wp), intent(in) :: stiffness(:, :), damping(:, :), f(:), time_step
       logical, intent(in) :: free(:)
       real(wp), allocatable, intent(out) :: step(:)
       logical, intent(out) :: ok
       real(wp) :: matrix(size(f), size(f))
       integer :: pivots(size(f)), info, i
-      matrix = stiffness + (damping - trace*model%point%speed(0.0_wp)*masses(model))/time_step
+      matrix = stiffness + damping/time_step
       step = -f
       do i = 1, size(f)
          if (free(i)) cycle

@@ -10,11 +10,12 @@ module thermal_equilibrium
    use heat_balance, only: oil_temperatures_type
    use oil_properties, only: viscosity
    use equations_of_motion, only: bearing_model
+   use force_balance, only: stability_at
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_lack, check_heat
-   use static_model, only: solve_equilibrium, start
+   use static_model, only: equilibrium_type, describe, solve_equilibrium, start
    implicit none (type, external)
    private
-   public :: guess_oil, guesses, solve_thermal_equilibrium
+   public :: guess_oil, guesses, solve_thermal_equilibrium, settle
 
    !> Difference of the logarithms of viscosities and of those that the balance wants, at the end; what leaps of
    !> cavitated films may leave.
@@ -90,6 +91,24 @@ contains
             & //to_text(100*lack)//' %')
       end associate
    end subroutine solve_thermal_equilibrium
+
+   !> Brings an equilibrium that another model has found to that of this one, whose films differ a little; y is its
+   !> state.
+   subroutine settle(model, found, y, error, give_up)
+      type(bearing_model), intent(inout) :: model
+      type(equilibrium_type), intent(inout) :: found
+      real(wp), allocatable, intent(out) :: y(:)
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      logical :: ok
+      y = model%static_state(found%journal, found%tilt, found%pivot_deflection)
+      model%oil%viscosity = found%viscosity
+      call solve_thermal_equilibrium(model, y, found%residual, error, give_up)
+      if (allocated(error)) return
+      call describe(model, y, found)
+      call stability_at(model, y, found%stability, ok)
+      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
+   end subroutine settle
 
    !> Brings a state in equilibrium to equilibrium again after a step of the logarithms of the viscosities, or after the
    !> longest part of it that Newton's method can follow.

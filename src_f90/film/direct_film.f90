@@ -24,7 +24,8 @@ module direct_film
 
    !> Rows of the volumes of a fine field; columns of volumes that follow a film for every row.
    integer, parameter :: fine_rows = 24, columns_a_row = 8
-   !> Where the source changes its sign beside the arc or close to an edge, their columns change there, over half the arc.
+   !> Where the source changes its sign beside the arc or close to an edge, their columns change there, over half the
+   !> arc.
    real(wp), parameter :: farthest = 0.8_wp
    !> Tension over the maximum pressure up to which a pad is loaded: c = 1.
    real(wp), parameter :: loaded_tension = 0.1_wp
@@ -262,9 +263,9 @@ contains
       end associate
    end subroutine rebuild
 
-   !> Volumes that follow a film at a motion that leaves it open and a journal speed, rad/s, on this number of rows: half of
-   !> their columns lie on each side of where the source of pressure changes its sign, all of them are narrow where it is
-   !> thin. For what is asked for seldom and has to agree with the force from tables.
+   !> Volumes that follow a film at a motion that leaves it open and a journal speed, rad/s, on this number of rows:
+   !> half of their columns lie on each side of where the source of pressure changes its sign, all of them are narrow
+   !> where the film is thin. For what is asked for seldom and has to agree with the force from tables.
    type(elimination_film_type) function new_following_film(gap, motion, speed, rows) result(film)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion

@@ -59,12 +59,6 @@ module film_losses
       procedure, private :: set_heat
    end type film_losses_type
 
-   !> What its heat follows from: force, N; flow that pressure drives in at the leading edge, m^3/s; integral of
-   !> (sin phi, cos phi) over the cavitated part, m^2.
-   type :: driven_film
-      real(wp) :: force(2) = 0, inlet = 0, void(2) = 0
-   end type driven_film
-
 contains
 
    !> For the films in a gap that cavitate by this condition.
@@ -94,7 +88,7 @@ contains
       real(wp), intent(in) :: speed
       type(film_loss), intent(out) :: loss
       type(film_response) :: response
-      type(driven_film) :: driven
+      type(volume_flow_type) :: driven
       call self%whole%evaluate_pad(1, motion, oil, speed, .false., response)
       loss%status = response%status
       if (loss%status /= film_ok) return
@@ -113,7 +107,7 @@ contains
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
-      type(driven_film), intent(inout) :: driven
+      type(volume_flow_type), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
       type(film_response) :: response
       real(wp) :: w(2), thickness(2), out, flows(2)
@@ -168,7 +162,7 @@ contains
       real(wp), intent(in) :: speed
       !> That of the modes.
       type(film_response), intent(in) :: fourier
-      type(driven_film), intent(inout) :: driven
+      type(volume_flow_type), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
       type(elimination_film_type) :: volumes(2)
       type(volume_flow_type) :: whole(2), cavitated(2)
@@ -226,7 +220,7 @@ contains
       class(film_losses_type), intent(in) :: self
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
-      type(driven_film), intent(in) :: driven
+      type(volume_flow_type), intent(in) :: driven
       type(film_loss), intent(inout) :: loss
       real(wp) :: force(2), wedge(2), thickness
       associate (gap => self%gap, d => self%directions)

@@ -16,15 +16,15 @@ module table_film
    use table_pad, only: table_pad_type, shape_tables, new_table_pad
    implicit none (type, external)
    private
-   public :: table_film_type, new_table_film, new_converged_film, has_tables
+   public :: table_film_type, new_table_film, has_tables
 
    !> Pads with half arcs above this, rad, have no table: their film does not follow from its thickness at the edges.
    real(wp), parameter :: largest_half_arc = 1.3_wp
    !> Error of the full film over that of what cavitation changes.
-   real(wp), parameter :: share_of_whole = 0.1_wp
+   real(wp), parameter :: share_of_full = 0.1_wp
 
    !> Most cells of full films, and most cells and most nodes of cavitated ones, over all shapes: 0.3 GB.
-   integer, parameter :: most_whole = 16000, most_cavitated = 100000
+   integer, parameter :: most_full = 16000, most_cavitated = 100000
 
    type, extends(direct_film_type) :: table_film_type
       private
@@ -38,73 +38,45 @@ module table_film
 
 contains
 
-   !> Tables for the films of a solver, with errors of this tolerance over the force.
-   function new_table_film(direct, tolerance) result(solver)
+   !> The films of a solver from tables; or the same solved at the motions themselves, which is quicker where motions
+   !> are few, with exact derivatives. Errors over the force: of what cavitation changes, and of full films (left out: a
+   !> share of the other).
+   function new_table_film(direct, tabulated, tolerance, full_tolerance) result(solver)
       type(direct_film_type), intent(in) :: direct
-      real(wp), intent(in) :: tolerance
-      type(table_film_type) :: solver
-      integer :: k
-      solver = sorted_by_shape(direct)
-      do k = 1, size(solver%shapes)
-         associate (shape => solver%shapes(k), pads => size(solver%tabulated))
-            shape%whole = new_full_film_table(shape%pad, shape%supplied, share_of_whole*tolerance, most_whole/pads)
-            shape%cavitation = new_cavitation_table(shape%pad, direct%condition == cavitation_gumbel, tolerance, &
-               & most_cavitated/pads)
-         end associate
-      end do
-   end function new_table_film
-
-   !> The same films, solved at the motions themselves: quicker where motions are few, with exact derivatives. Errors of
-   !> what cavitation changes and of full films are these.
-   function new_converged_film(direct, tolerance, full_tolerance) result(solver)
-      type(direct_film_type), intent(in) :: direct
+      logical, intent(in) :: tabulated
       real(wp), intent(in) :: tolerance
       real(wp), intent(in), optional :: full_tolerance
       type(table_film_type) :: solver
       real(wp) :: of_full
-      integer :: k
-      of_full = share_of_whole*tolerance
+      integer :: i, k
+      of_full = share_of_full*tolerance
       if (present(full_tolerance)) of_full = full_tolerance
-      solver = sorted_by_shape(direct)
-      do k = 1, size(solver%shapes)
-         associate (shape => solver%shapes(k))
-            shape%whole = new_full_film(shape%pad, shape%supplied, of_full)
-            shape%cavitation = new_cavitated_film(shape%pad, direct%condition == cavitation_gumbel, tolerance)
-         end associate
-      end do
-   end function new_converged_film
-
-   !> The pads with the shapes that they share.
-   function sorted_by_shape(direct) result(solver)
-      type(direct_film_type), intent(in) :: direct
-      type(table_film_type) :: solver
-      type(dimensionless_pad_type) :: pads(size(direct%gaps))
-      logical :: supplied(size(direct%gaps))
-      integer :: i, k, n
       solver%direct_film_type = direct
-      allocate (solver%tabulated(size(direct%gaps)))
-      n = 0
+      allocate (solver%tabulated(size(direct%gaps)), solver%shapes(0))
       do i = 1, size(direct%gaps)
          associate (gap => direct%gaps(i), unit => new_dimensionless_pad(direct%gaps(i)), pad => solver%tabulated(i))
             pad = new_table_pad(gap, unit)
             if (.not. has_tables(gap)) cycle
-            do k = 1, n
-               if (same(pads(k), unit) .and. (supplied(k) .eqv. abs(pad%rise) > 0)) exit
+            do k = 1, size(solver%shapes)
+               if (same(solver%shapes(k)%pad, unit) .and. (solver%shapes(k)%supplied .eqv. abs(pad%rise) > 0)) exit
             end do
-            if (k > n) then
-               n = k
-               pads(k) = unit
-               supplied(k) = abs(pad%rise) > 0
-            end if
+            if (k > size(solver%shapes)) solver%shapes = [solver%shapes, shape_tables(unit, abs(pad%rise) > 0)]
             pad%shape = k
          end associate
       end do
-      allocate (solver%shapes(n))
-      do k = 1, n
-         solver%shapes(k)%pad = pads(k)
-         solver%shapes(k)%supplied = supplied(k)
+      do k = 1, size(solver%shapes)
+         associate (shape => solver%shapes(k), pads => size(solver%tabulated), &
+            & gumbel => direct%condition == cavitation_gumbel)
+            if (tabulated) then
+               shape%whole = new_full_film_table(shape%pad, shape%supplied, of_full, most_full/pads)
+               shape%cavitation = new_cavitation_table(shape%pad, gumbel, tolerance, most_cavitated/pads)
+            else
+               shape%whole = new_full_film(shape%pad, shape%supplied, of_full)
+               shape%cavitation = new_cavitated_film(shape%pad, gumbel, tolerance)
+            end if
+         end associate
       end do
-   end function sorted_by_shape
+   end function new_table_film
 
    !> True where the thickness at the edges describes the film in a gap.
    elemental logical function has_tables(gap)

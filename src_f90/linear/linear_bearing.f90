@@ -1,16 +1,17 @@
 !> A bearing linearised where it is in equilibrium: masses, stiffness and damping of all positions, for each way that
 !> its pivots may behave; what a journal meets of it that whirls at one frequency; and the vibrations of rotor and pads
-!> on it, in an order, and what is said of each.
+!> on it, in an order, and what is said of each. What a case asks for of all these.
 module linear_bearing
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
    use linear_algebra, only: zgesv
+   use errors, only: error_type, raise, numerics_error
    use equations_of_motion, only: bearing_model
    use force_balance, only: force_derivatives, add_sticking, masses, find_vibrations
    implicit none (type, external)
    private
-   public :: linear_bearing_type, linearize, linear_bearing_of, pivot_name
-   public :: vibration_modes_type, find_modes, rotor_eigenvalues
+   public :: linear_bearing_of, pivot_name
+   public :: vibration_modes_type, rotor_eigenvalues, bearing_coefficients_type, find_coefficients
 
    !> Length of the names of pivots.
    integer, parameter :: pivot_name = 6
@@ -40,12 +41,69 @@ module linear_bearing
       real(wp), allocatable :: damping_ratio(:), log_decrement(:)
    end type vibration_modes_type
 
+   !> One element, or the last dimension, for each way that the pivots may behave.
+   type :: bearing_coefficients_type
+      type(linear_bearing_type), allocatable :: bearings(:)
+      !> Of the journal, N/m and N s/m, (row, column, frequency, pivot).
+      real(wp), allocatable :: stiffness(:, :, :, :), damping(:, :, :, :)
+      type(vibration_modes_type), allocatable :: modes(:)
+      !> Threshold speeds of stability, rpm, where they are asked for, and up to where they were sought.
+      real(wp), allocatable :: thresholds(:)
+      real(wp) :: sought_up_to = 0
+   end type bearing_coefficients_type
+
    !> Positions of the journal.
    integer, parameter :: journal = 2
    !> Least whirl frequency over the speed of the shaft: slower whirl is taken there, as the coefficients have a limit.
    real(wp), parameter :: slowest = 1e-6_wp
 
 contains
+
+   !> The coefficients that the case asks for, of a model without friction in equilibrium in y.
+   subroutine find_coefficients(model, y, found, error)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      type(bearing_coefficients_type), intent(out) :: found
+      type(error_type), allocatable, intent(out) :: error
+      logical :: ok
+      integer :: i, k
+      associate (given => model%inputs%coefficients, speed => model%point%speed(0.0_wp))
+         call linearize(model, y, found%bearings, ok)
+         if (.not. ok) then
+            call raise(error, numerics_error, 'at the equilibrium '//model%refusal)
+            return
+         end if
+         associate (pivots => size(found%bearings), ratios => size(given%frequency_ratio))
+            allocate (found%stiffness(2, 2, ratios, pivots), found%damping(2, 2, ratios, pivots), found%modes(pivots))
+            do i = 1, pivots
+               do k = 1, ratios
+                  call found%bearings(i)%condense(given%frequency_ratio(k), speed, found%stiffness(:, :, k, i), &
+                     & found%damping(:, :, k, i), ok)
+                  if (.not. ok) exit
+               end do
+               if (ok) call find_modes(found%bearings(i), model%rotor%mass, given%cross_stiffness, lengths(model), &
+                  & found%modes(i), ok)
+               if (.not. ok) then
+                  call raise(error, numerics_error, 'the linear equations of the pads with '//found%bearings(i)%pivot &
+                     & //' pivots are singular')
+                  return
+               end if
+            end do
+         end associate
+      end associate
+   end subroutine find_coefficients
+
+   !> What stands for 1 rad of a tilt: the distance from the pivot to the centre of the pad's arc, m; 1 for others.
+   pure function lengths(model)
+      type(bearing_model), intent(in) :: model
+      real(wp), allocatable :: lengths(:)
+      integer :: i
+      allocate (lengths(model%layout%n_positions()), source=1.0_wp)
+      if (.not. model%layout%tilting) return
+      do i = 1, model%layout%pads
+         lengths(model%layout%first_position(i)) = model%bearing%pads(i)%position%centre_distance
+      end do
+   end function lengths
 
    !> The bearing of a model without friction in equilibrium in the state y, for each way that the pivots of its case
    !> may behave. `ok` is false where the films have no derivatives.

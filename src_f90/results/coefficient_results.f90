@@ -5,7 +5,7 @@ module coefficient_results
    use kinds, only: wp, pi
    use hdf5_file, only: hdf5_type
    use summary_group, only: put_figure
-   use bearing_coefficients, only: bearing_coefficients_type
+   use linear_bearing, only: bearing_coefficients_type
    implicit none (type, external)
    private
    public :: put_coefficients

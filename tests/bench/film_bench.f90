@@ -96,7 +96,7 @@ contains
       real(wp), intent(in) :: tolerance
       type(direct_film_type) :: direct
       direct = new_direct_film(films, 24, 8, 80, 8, cavitation)
-      new_table = new_table_film(direct, tolerance)
+      new_table = new_table_film(direct, .true., tolerance)
    end function new_table
 
    subroutine measure(name, solver, motions, exact, condition, state)

@@ -10,7 +10,7 @@ program test_coefficients
    use input_cases, only: case_of
    use linear_analysis, only: analyse
    use equilibrium, only: equilibrium_type
-   use bearing_coefficients, only: bearing_coefficients_type
+   use linear_bearing, only: bearing_coefficients_type
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 

@@ -199,7 +199,7 @@ contains
       integer, intent(in) :: condition
       real(wp), intent(in) :: tolerance
       type(table_film_type) :: tables
-      tables = new_table_film(new_direct(state, 1, condition), tolerance)
+      tables = new_table_film(new_direct(state, 1, condition), .true., tolerance)
    end function new_tables
 
    !> `direct` with this many times its default volumes.

@@ -35,8 +35,7 @@ program test_linear_motion
    use sampled_march, only: march_samples
    use linear_analysis, only: analyse
    use equations_of_motion, only: bearing_model
-   use bearing_coefficients, only: bearing_coefficients_type
-   use linear_bearing, only: vibration_modes_type
+   use linear_bearing, only: bearing_coefficients_type, vibration_modes_type
    use forced_motion, only: forced_model
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)

@@ -8,7 +8,7 @@ program test_thermal_equilibrium
    use equations_of_motion, only: bearing_model, new_bearing_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use heat_balance_equations, only: static_figures_type, find_static_figures
-   use bearing_coefficients, only: bearing_coefficients_type
+   use linear_bearing, only: bearing_coefficients_type
    use viscosity_history, only: viscosity_history_type
    use groove_transient, only: find_groove_transient
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report

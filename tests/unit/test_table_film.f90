@@ -42,7 +42,7 @@ contains
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: condition
       type(table_film_type) :: film
-      film = new_table_film(solver(gaps, condition), tolerance)
+      film = new_table_film(solver(gaps, condition), .true., tolerance)
    end function tables
 
    !> Films without tables.

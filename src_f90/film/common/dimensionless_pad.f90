@@ -3,8 +3,8 @@
 !> The frame is that of the pad's middle, lengths along the film are over the pad's radius R, film thicknesses over the
 !> pad clearance c. Wedge and squeeze drive a film together, by the velocity
 !>    w = velocity + omega R_J/(2 R) (e_2, -e_1),
-!> and its force is mu R^4/c^3 times one that follows from the film thicknesses at the two edges and from w alone. Between
-!> this frame and the pad's own the mid-arc frame takes the motion there, forces and their derivatives back.
+!> and its force is mu R^4/c^3 times one that follows from the film thicknesses at the two edges and from w alone.
+!> Between this frame and the pad's own the mid-arc frame takes the motion there, forces and their derivatives back.
 module dimensionless_pad
    use kinds, only: wp
    use film_solver, only: film_motion, film_oil
