@@ -22,7 +22,7 @@ module direct_film
    !> counts as cavitated: the force left out is of the second order in it, below the discretisation error.
    real(wp), parameter :: slight_tension = 1e-4_wp
 
-   !> Rows of the volumes of a fine field; columns of volumes that follow a film for every row.
+   !> Rows of the volumes of a fine field; columns of a film-adapted grid for every row.
    integer, parameter :: fine_rows = 24, columns_a_row = 8
    !> Where the source changes its sign beside the arc or close to an edge, their columns change there, over half the
    !> arc.
@@ -225,7 +225,7 @@ contains
       call self%rebuild(i, .false., motion, oil, speed, phi, z, pressure)
    end subroutine field_of_pad
 
-   !> The field of a pad. Where the film cavitates, that of volumes that follow it, as accurate as the force from
+   !> The field of a pad. Where the film cavitates, that of a film-adapted grid, as accurate as the force from
    !> tables; or as the force: that of the finite volumes with cavitation and, outside the cavitation, c times (modes -
    !> finite volumes without cavitation).
    subroutine rebuild(self, i, follows, motion, oil, speed, phi, z, pressure)
@@ -263,7 +263,7 @@ contains
       end associate
    end subroutine rebuild
 
-   !> Volumes that follow a film at a motion that leaves it open and a journal speed, rad/s, on this number of rows:
+   !> The film-adapted grid at a motion that leaves the film open and a journal speed, rad/s, on this number of rows:
    !> half of their columns lie on each side of where the source of pressure changes its sign, all of them are narrow
    !> where the film is thin. For what is asked for seldom and has to agree with the force from tables.
    type(elimination_film_type) function new_following_film(gap, motion, speed, rows) result(film)

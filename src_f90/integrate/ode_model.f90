@@ -1,5 +1,5 @@
-!> What an integrator needs to know of a problem: y' = f(t, y), its derivatives, and Newton's linear systems; and what an
-!> integration cost.
+!> What an integrator needs to know of a problem, y' = f(t, y), with its derivatives and Newton's linear systems; and
+!> what an integration cost.
 module ode_model
    use kinds, only: wp, i8
    implicit none (type, external)

@@ -137,11 +137,12 @@ contains
       character(len=*), intent(in) :: path
       character :: version
       integer :: unit, status
+      has_checksums = .false.
       open (newunit=unit, file=path, access='stream', action='read', iostat=status)
-      if (status == 0) read (unit, pos=version_place, iostat=status) version
-      has_checksums = status == 0
-      if (has_checksums) has_checksums = ichar(version) >= first_with_checksums
-      close (unit, iostat=status)
+      if (status /= 0) return
+      read (unit, pos=version_place, iostat=status) version
+      if (status == 0) has_checksums = ichar(version) >= first_with_checksums
+      close (unit)
    end function has_checksums
 
    subroutine close_file(self)
