@@ -29,12 +29,12 @@ program global_search
    implicit none (type, external)
 
    !> Distances and leanings of a table; distances over the pad clearance.
-   integer, parameter :: close = 44, middle = 10, far = 8, distances = close + 2*middle + far, leanings = 65
+   integer, parameter :: thin = 44, middle = 10, far = 8, distances = thin + 2*middle + far, leanings = 65
    real(wp), parameter :: nearest = 3e-4_wp, farthest = 6
    integer :: n
    !> Close where the film is thin, and about the place where the pad is round about the journal and its force changes
    !> its sign; distances of the pad's middle from the journal.
-   real(wp), parameter :: gaps(distances) = [(nearest*(0.68_wp/nearest)**(real(n, wp)/(near - 1)), n=0, near - 1), &
+   real(wp), parameter :: gaps(distances) = [(nearest*(0.68_wp/nearest)**(real(n, wp)/(thin - 1)), n=0, thin - 1), &
       & (1 - 10**(-0.5_wp - 2.5_wp*n/(middle - 1)), n=0, middle - 1), &
       & (1 + 10**(-3 + 2.5_wp*n/(middle - 1)), n=0, middle - 1), &
       & (1.4_wp*(farthest/1.4_wp)**(real(n, wp)/(far - 1)), n=0, far - 1)]
@@ -249,7 +249,7 @@ contains
       end associate
    end subroutine make_curve
 
-   !> Adds the piece between two places, where the pivot can hold the pad there.
+   !> Adds the piece between two places, up to where the pivot can hold the pad there.
    subroutine add_piece(model, i, rho, b, force, stable, pieces)
       type(bearing_model), intent(in) :: model
       integer, intent(in) :: i
@@ -400,7 +400,7 @@ contains
       if (ok) y = state_on_curves(model, curves, place, at, t)
    end subroutine journal_on_curves
 
-   !> The piece on which a pad is when the journal has come a way towards it, and where on it: which one has it and is
+   !> The piece on which a pad is when the journal has come a way towards it, and where on it: the one that has it and is
    !> closest to the last one; one drawn of those that have it if there was none; the nearest where none has it.
    !> Newton's method on the whole then says whether there is an equilibrium.
    subroutine choose(pieces, way, handicap, at, t)
