@@ -400,8 +400,8 @@ contains
       if (ok) y = state_on_curves(model, curves, place, at, t)
    end subroutine journal_on_curves
 
-   !> The piece on which a pad is when the journal has come a way towards it, and where on it: the one that has it and is
-   !> closest to the last one; one drawn of those that have it if there was none; the nearest where none has it.
+   !> The piece on which a pad is when the journal has come a way towards it, and where on it: the one that has it and
+   !> is closest to the last one; one drawn of those that have it if there was none; the nearest where none has it.
    !> Newton's method on the whole then says whether there is an equilibrium.
    subroutine choose(pieces, way, handicap, at, t)
       type(piece_type), intent(in) :: pieces(:)
