@@ -104,7 +104,8 @@ def together(dice: Random, variables: dict[str, Variable]) -> Fault:
 
 def bad_set(dice: Random, inputs: dict[str, tuple], variables: dict[str, Variable]) -> Fault:
     """An argument of --set that is none."""
-    key = dice.choice(list(variables))
+    # any word is a text
+    key = dice.choice([key for key, each in variables.items() if not each.is_text or each.choices])
     group, name = key.encode().split(b"%")
     good = dice.choice(list(variables.values()))
     value = default(good, good.default[0])
