@@ -60,7 +60,8 @@ contains
    end subroutine return_to
 
    !> From a point, at which the problem stands, to the next, where it stands then; `length` is that of the step, and
-   !> becomes that for the next one. `ends` where the parameter has come to one of its bounds. An error where no next
+   !> becomes that for the next one. `ends` where the parameter has come to one of its bounds, or to within a shortest step
+   !> of it. An error where no next
    !> point was found: at the shortest step, or, of status `stopped`, as the options say.
    subroutine advance(problem, options, here, length, next, ends, error)
       class(branch_problem_type), intent(inout) :: problem
@@ -100,6 +101,8 @@ contains
          length = 0.5_wp*length
       end do
       next%arc_length = here%arc_length + next%along
+      ! at the bound itself equations that leap may have no solution
+      if (.not. ends) ends = to_bound(problem, options, next) <= shortest*options%first_step
       if (next%iterations <= quick) length = longer*length
       if (next%iterations >= slow) length = shorter*length
 
