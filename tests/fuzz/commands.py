@@ -180,6 +180,9 @@ def extremes(dice: Random, program: Path, folder: Path, variables, corpus):
     # what belongs to a task of its own is refused without it
     apart = ("pads", *cases.OF_TASK)
     inputs = {key: value for key, value in inputs.items() if variables[key].group not in cases.OF_TASK}
+    # there is no other result to start from
+    if inputs.get("start%from") == (b"file",):
+        del inputs["start%from"], inputs["start%file"]
     # an oil of the case gives the viscosity
     alone = (*cases.SPECIAL, "bearing%viscosity")
     for key in dice.sample(list(variables), 5):
