@@ -96,6 +96,7 @@ contains
       order = (top + side*beside)/revolutions
       amplitude = lines(top)/lost
    end subroutine dominant
+
    !> Values at equal steps of the rising angle, by the cubic through the four nearest samples.
    pure function evenly(angle, values) result(even)
       real(wp), intent(in) :: angle(:), values(:)
