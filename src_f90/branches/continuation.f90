@@ -60,9 +60,9 @@ contains
    end subroutine return_to
 
    !> From a point, at which the problem stands, to the next, where it stands then; `length` is that of the step, and
-   !> becomes that for the next one. `ends` where the parameter has come to one of its bounds, or to within a shortest step
-   !> of it. An error where no next
-   !> point was found: at the shortest step, or, of status `stopped`, as the options say.
+   !> becomes that for the next one. `ends` where the parameter has come to one of its bounds, or to within a shortest
+   !> step of it. An error where no next point was found: at the shortest step, or, of status `stopped`, as the options
+   !> say.
    subroutine advance(problem, options, here, length, next, ends, error)
       class(branch_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
