@@ -10,9 +10,10 @@ module branch_problems
    private
    public :: parabola, turning_frame, duffing, oscillator_orbits
 
-   !> x' = p - x**2 at rest: a fold at p = 0; values of p below `least` are refused.
+   !> x' = p - x**2 at rest: a fold at p = 0; values of p below `least` are refused. Where x = -1 it leaps by 2 `leap`, so
+   !> that there is no equilibrium for p within `leap` of 1 on this side.
    type, extends(branch_problem_type) :: parabola
-      real(wp) :: x = 1, least = -1
+      real(wp) :: x = 1, least = -1, leap = 0
    contains
       procedure :: linearize => parabola_equations
       procedure :: move => move_parabola
@@ -59,7 +60,7 @@ contains
       real(wp), intent(out) :: matrix(:, :), b(:)
       type(error_type), allocatable, intent(out) :: error
       matrix(1, :) = [-2*self%x, self%unit]
-      b = self%x**2 - self%parameter
+      b = self%x**2 - self%parameter - sign(self%leap, self%x + 1)
       self%refused = self%parameter < self%least
       if (self%refused) call raise(error, input_error, 'too small')
    end subroutine parabola_equations
@@ -203,6 +204,7 @@ program test_continuation
    implicit none (type, external)
 
    if (runs('fold')) call fold()
+   if (runs('leap')) call leap()
    if (runs('refused')) call refused()
    if (runs('return')) call return()
    if (runs('period_doubling')) call period_doubling()
@@ -256,6 +258,21 @@ contains
       call expect_close(here%arc_length, sqrt(5.0_wp) + 0.5_wp*asinh(2.0_wp), 2e-2_wp, 'length of the branch')
       call expect(here%growth(1) > 0, 'and it ends unstable')
    end subroutine fold
+
+   !> The same where the equations leap at the bound: the branch is not lost there.
+   subroutine leap()
+      type(parabola) :: problem
+      type(branch_point_type) :: here
+      type(bifurcation_type), allocatable :: special(:)
+      type(branch_options) :: options
+      options = branch_options(low=-1.0_wp, high=1.0_wp, tolerance=1e-10_wp)
+      problem%leap = 1e-7_wp
+      call begin_parabola(problem, options, here)
+      call follow(problem, options, here, special)
+      call expect(here%parameter < 1, 'the end is before the leap')
+      call expect_close(here%parameter, 1.0_wp, 1e-4_wp*options%first_step, 'and within a shortest step of the bound')
+      call expect(problem%x < 0, 'on the other side')
+   end subroutine leap
 
    !> At p = 1 on the stable side.
    subroutine begin_parabola(problem, options, here)
