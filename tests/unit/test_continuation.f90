@@ -10,8 +10,8 @@ module branch_problems
    private
    public :: parabola, turning_frame, duffing, oscillator_orbits
 
-   !> x' = p - x**2 at rest: a fold at p = 0; values of p below `least` are refused. Where x = -1 it leaps by 2 `leap`, so
-   !> that there is no equilibrium for p within `leap` of 1 on this side.
+   !> x' = p - x**2 at rest: a fold at p = 0; values of p below `least` are refused. Where x = -1 it leaps by 2 `leap`:
+   !> there is no equilibrium for p within `leap` of 1 on this side.
    type, extends(branch_problem_type) :: parabola
       real(wp) :: x = 1, least = -1, leap = 0
    contains
