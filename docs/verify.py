@@ -101,7 +101,7 @@ and Thomsen below; its Sommerfeld number is kept while the speed changes.
 
 | rotor and bearing | here | reference |
 |---|---|---|
-{threshold speeds}
+{thresholds}
 
 ## Orbits against marches
 
