@@ -52,7 +52,7 @@ contains
       end if
    end function bytes_text
 
-   !> A remark on that many results of this case that are large together; else empty.
+   !> A note where this many results of the case are large together; else empty.
    function size_note(inputs, results) result(note)
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: results

@@ -180,7 +180,7 @@ contains
             y = start(quick, k)
             call approach(quick, methods(method), y, traces, ok, give_up)
             if (.not. ok) cycle
-            ! loose films leap by their error: where they do nothing comes to equilibrium
+            ! quick films leap by their error: where they do, nothing comes to equilibrium
             call follow_motion(quick, y, candidate%residual, error, give_up, first_step=newtons)
             if (candidate%residual > quick_residual) cycle
             call solve_equilibrium(static, y, candidate%residual, error, give_up, most=last_iterations)

@@ -25,6 +25,8 @@ module pad_elimination
    integer, parameter :: pad_iterations = 40, journal_iterations = 60
    !> Least part of a film that a move leaves. Of 250 bearings 0.1 loses none, 0.6 two.
    real(wp), parameter :: least_film = 0.3_wp
+   !> Time step, in radians of the shaft, below which a pad stays where it is.
+   real(wp), parameter :: shortest_step = 1e-12_wp
    !> Gaps over the pad clearance, from just above the least one on, and parts of the tilt that closes a gap, from which
    !> a pad is sought: of the 36 bearings of docs/stability.md that need this they serve 29, as do 12 gaps up to 4.
    integer, parameter :: gaps = 10
@@ -183,7 +185,7 @@ contains
             & <= longest_move*clearance .and. film_of(model, i, journal, trial) >= least_film*film &
             & .and. abs(trial%tilt) < model%bearing%pads(i)%largest_tilt) exit
          time_step = 0.5_wp*time_step
-         if (time_step*model%point%speed(0.0_wp) < 1e-12_wp) return
+         if (time_step*model%point%speed(0.0_wp) < shortest_step) return
       end do
       pad = trial
    end subroutine move_pad

@@ -59,7 +59,7 @@ contains
       call model%set_point(point)
    end subroutine stand_still
 
-   !> A static model of a case with films solved loosely: quick, and nearly the case's.
+   !> A static model of a case with quick films, which are nearly the case's.
    subroutine make_quick(inputs, viscosity, cavitation, quick)
       type(case_type), intent(in) :: inputs
       !> Of the oil on every pad, Pa s.

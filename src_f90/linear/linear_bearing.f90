@@ -29,7 +29,7 @@ module linear_bearing
       procedure :: condense
    end type linear_bearing_type
 
-   !> The modes in the order of their damping ratios, the least first, so that the first says whether the rest is
+   !> The modes in the order of their damping ratios, the least first, so that the first says whether the equilibrium is
    !> stable; of a pair of eigenvalues the one with a positive imaginary part; among ratios of 1 the slowest first.
    type :: vibration_modes_type
       !> 1/s.

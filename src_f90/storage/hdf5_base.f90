@@ -16,7 +16,8 @@ module hdf5_base
    private
    public :: hdf5_base_type, start_hdf5
 
-   !> Version of a file's first structure from which on all have checksums (HDF5 1.10), and its byte in the file.
+   !> Version of a file's first structure from which on all have checksums (HDF5 1.10) but the heaps that hold texts of
+   !> attributes and lists of scales; its byte in the file.
    integer, parameter :: first_with_checksums = 3, version_place = 9
    !> HDF5's number of the class of links to other files.
    integer(c_int), parameter :: external_links = 64
@@ -107,7 +108,7 @@ contains
       integer :: status
       call self%ready()
       call h5pcreate_f(h5p_file_access_f, access, status)
-      ! from this version on all structures have checksums, and damaged ones are refused before they do harm
+      ! in this version structures have checksums: damaged ones are refused before they are changed
       call h5pset_libver_bounds_f(access, h5f_libver_v110_f, h5f_libver_v110_f, status)
       if (status >= 0) call h5fcreate_f(path, h5f_acc_trunc_f, self%id, status, access_prp=access)
       call self%check(status, 'create the file')
@@ -132,7 +133,7 @@ contains
       if (.not. has_checksums(path)) call self%check(-1, 'find checksums in it; start the run anew')
    end subroutine open_file
 
-   !> Whether all structures of an HDF5 file have checksums.
+   !> Whether the structures of an HDF5 file have checksums.
    logical function has_checksums(path)
       character(len=*), intent(in) :: path
       character :: version

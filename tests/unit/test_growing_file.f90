@@ -9,6 +9,7 @@ program test_growing_file
    use hdf5_series, only: hdf5_series_type, chunk_samples
    use growing_file, only: growing_file_type
    use scratch, only: scratch_path, file_there
+   use hdf5_expectations, only: expect_damaged
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
    !> Samples of a long series.
@@ -126,15 +127,6 @@ contains
       call file%close()
       call expect(.not. allocated(file%failure), 'one is the scale of the other')
    end subroutine shape_in_the_file
-
-   !> The file fails in reading, with these words; it is closed.
-   subroutine expect_damaged(file, words)
-      type(hdf5_type), intent(inout) :: file
-      character(len=*), intent(in) :: words
-      call expect(allocated(file%failure) .and. file%damaged, 'a failure in reading: '//words)
-      if (allocated(file%failure)) call expect(index(file%failure, words) > 0, words//' in '//file%failure)
-      call file%close()
-   end subroutine expect_damaged
 
    subroutine no_series()
       type(hdf5_type) :: file

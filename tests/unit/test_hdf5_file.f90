@@ -10,6 +10,7 @@ program test_hdf5_file
    use run_statistics, only: run_statistics_type
    use files, only: delete_file
    use scratch, only: scratch_path, file_there, write_bytes
+   use hdf5_expectations, only: expect_damaged
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    character(len=:), allocatable :: path
@@ -45,15 +46,6 @@ contains
       call expect(.not. allocated(file%failure), what)
       if (allocated(file%failure)) call expect(.false., '   but: '//file%failure)
    end subroutine expect_well
-
-   !> Damaged, with these words; the file is closed.
-   subroutine expect_damaged(file, words)
-      type(hdf5_type), intent(inout) :: file
-      character(len=*), intent(in) :: words
-      call expect(allocated(file%failure) .and. file%damaged, 'a failure in reading: '//words)
-      if (allocated(file%failure)) call expect(index(file%failure, words) > 0, words//' in '//file%failure)
-      call file%close()
-   end subroutine expect_damaged
 
    !> The file has failed, in reading or in writing, with these words.
    subroutine expect_failure(file, damaged, words, what)

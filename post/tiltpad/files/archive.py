@@ -73,7 +73,7 @@ class Archive:
         *("scale", "today"),
     )
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
-    OWN = ("file", "path", "attributes", "former", "found", "listed", "size")
+    OWN = ("file", "path", "attributes", "former", "found", "listed", "over", "size")
 
     def __init__(self, path: str | os.PathLike):
         self.path = os.fspath(path)
@@ -81,6 +81,7 @@ class Archive:
         self.size = os.path.getsize(self.path)
         self.found: dict[str, h5py.Dataset | h5py.Group] = {}
         self.listed: dict[str, list[str]] = {}
+        self.over: dict[str, tuple[str, ...]] = {}
         try:
             with reading(self.path, "attributes"):
                 attrs = self.file.attrs
@@ -177,9 +178,15 @@ class Archive:
         """What a dataset of this file is called today in its group."""
         return (renamed(path) if self.former else path).rpartition("/")[2]
 
-    def scales(self, name: str, found: h5py.Dataset | None = None) -> tuple[str, ...]:
+    def scales(self, name: str) -> tuple[str, ...]:
         """Dimensions of a dataset by the names of their scales; a scale is its own."""
-        found = self.item(name) if found is None else found
+        found = self.item(name)
+        if name not in self.over:
+            self.over[name] = self.scales_of(name, found)
+        return self.over[name]
+
+    def scales_of(self, name: str, found: h5py.Dataset) -> tuple[str, ...]:
+        """The same, read from the file."""
         if found.shape == ():
             return ()
         attrs = found.attrs
@@ -242,10 +249,9 @@ class Archive:
         compressed = found.id.get_create_plist().get_nfilters() > 0
         if claimed > (max(COMPRESSION * self.size, SMALL) if compressed else self.size):
             raise ValueError(f"it claims {claimed} bytes, more than the file holds")
-        scales = self.scales(name, found)
+        scales = self.scales_of(name, found)
         if scales == (name,):
             fits(found.shape[1:], ())
-            found.shape[0]  # a scalar has none
         else:
             fits(found.shape, [self.length(each) for each in scales])
 

@@ -20,7 +20,7 @@ module full_film
       type(dimensionless_pad_type) :: pad
       !> Whether there is a pressure at the leading edge.
       logical :: supplied = .false.
-      !> Without pressure around the pad, and with a pressure 1 at its leading edge.
+      !> Without pressure around the pad, and, where there is one, with a pressure 1 at its leading edge.
       type(fourier_film_type) :: film, supplied_film
    contains
       procedure :: look_up
@@ -38,7 +38,7 @@ contains
       films%pad = pad
       films%supplied = supplied
       films%film = converged_film(pad%gap(0.0_wp), .false., share_of_nodes*tolerance)
-      films%supplied_film = converged_film(pad%gap(1.0_wp), .false., share_of_nodes*tolerance)
+      if (supplied) films%supplied_film = converged_film(pad%gap(1.0_wp), .false., share_of_nodes*tolerance)
    end function new_full_film
 
    !> By load the functions M_11, M_12, M_22, 0 and, where there is a pressure at the leading edge, the force (along,

@@ -24,7 +24,6 @@ module table_pad
    !> A pad: its gap, how it differs from its shape, and the cells it was in last.
    type :: table_pad_type
       type(pad_gap_type) :: gap
-      type(pad_directions) :: directions
       type(mid_arc_frame_type), private :: frame
       !> Which tables are the pad's; 0: none.
       integer :: shape = 0
@@ -65,15 +64,15 @@ contains
    pure type(table_pad_type) function new_table_pad(gap, shape) result(pad)
       type(pad_gap_type), intent(in) :: gap
       type(dimensionless_pad_type), intent(in) :: shape
+      type(pad_directions) :: edges
       pad%gap = gap
-      pad%directions = gap%directions()
       pad%frame = new_mid_arc_frame(gap, shape)
       pad%rise = gap%supply_pressure - gap%ambient_pressure
       pad%even_pressure = .not. (abs(pad%rise) > 0 .or. abs(gap%ambient_pressure - gap%cavitation_pressure) > 0)
       pad%square = gap%pad_radius()**2
+      edges = gap%directions()
       pad%ambient_force = -gap%pad_radius()*gap%ambient_pressure*gap%axial_length &
-         & *[pad%directions%trailing(2) - pad%directions%leading(2), &
-         & pad%directions%leading(1) - pad%directions%trailing(1)]
+         & *[edges%trailing(2) - edges%leading(2), edges%leading(1) - edges%trailing(1)]
    end function new_table_pad
 
    !> Force and its derivatives of an open film; `found` is false where the tables do not have it.
