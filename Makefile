@@ -156,7 +156,7 @@ VENV := build/venv
 venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
-.PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress fuzz bench paper \
+.PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress realistic fuzz bench paper \
         unit test-programs lint format docs install install-plots uninstall clean
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
@@ -169,6 +169,7 @@ help:
 	@echo 'make test-debian13   tries make run, make test and the wheel on an empty Debian 13, ten minutes (as root);'
 	@echo '                     make test-debian-sid: on another release'
 	@echo 'make stress   runs random cases, half an hour; writes docs/stability.md (CASES=300 SEED=1)'
+	@echo 'make realistic   marches bearings as they are built, 25 minutes; writes docs/realistic.md (BEARINGS=200 SEED=1)'
 	@echo 'make fuzz     tries random cases and arguments, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'
 	@echo 'make bench    measures run time against error, and other programs, a quarter of an hour; writes docs/benchmarks.md'
 	@echo 'make paper    makes the figures and checks the claims of the paper, a minute or two; writes docs/paper'
@@ -210,6 +211,12 @@ SEED   ?= 1
 stress: build python $(B)/stress/global_search
 	PYTHONPATH=post $(venv_python) tests/stress/stress.py $(B)/bin/tiltpad --search $(B)/stress/global_search \
 	   --cases $(CASES) --seed $(SEED) --flutter --searches --report docs/stability.md
+
+# bearings as they are built; a record takes up a study that was stopped
+BEARINGS ?= 200
+realistic: build python
+	PYTHONPATH=post:tests/stress $(venv_python) tests/realistic/realistic.py $(B)/bin/tiltpad \
+	   --bearings $(BEARINGS) --seed $(SEED) $(if $(RECORD),--record $(RECORD)) --report docs/realistic.md
 
 # MINUTES and SEED choose what is drawn
 MINUTES ?= 5

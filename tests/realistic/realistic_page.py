@@ -1,0 +1,194 @@
+"""The page that says what the study of realistic bearings found."""
+
+from collections import Counter
+
+from bearing_runs import DISTURBANCE, LIMIT, REVOLUTIONS, ROTOR_TIME, Bearing
+from cost_tables import SHORT, longest, most_steps, steps, times
+from error_tables import (
+    SENSITIVE,
+    curve,
+    distribution,
+    errors,
+    numbers,
+    on_curve,
+    sensitive,
+    unsensitive,
+    worst,
+)
+from march_errors import LAST, REPEATS, UNLOADED
+from report import reason, table
+from stress_judge import cause_of
+from tiltpad.calculate.deviations import STEADY
+
+PAGE = """\
+# Realistic bearings
+
+{count} bearings as designers draw them (seed {seed}; `tests/realistic/bearings.py` has the ranges and
+where they come from): three to six pads, journals of 30 to 500 mm, 0.1 to 4 MPa, 5 to 90 m/s, preload 0
+to 0.6, load on and between pivots, with and without friction. Each has the minimum film thickness of ISO
+7902-3 by a plane slider's formula, a laminar film, and pivots that carry their load. This command wrote
+the page:
+
+    make realistic BEARINGS={count} SEED={seed}
+
+Each bearing is marched from its equilibrium over {rotor_time:g} s, at least {revolutions} revolutions,
+with the default settings. From the end of this march it is marched on over {revolutions} revolutions with
+several settings, of which the closest are `film%table_tolerance = 2e-6`, `integration%relative_tolerance
+= 1e-7`. The error of the others is their difference from these over the last {last} revolutions: of the
+highest, lowest and mean value of each signal and of its part at the speed of the shaft, in size and
+phase. The phase of a pad that flutters is in none of these; it drifts without any error of the motion.
+Errors of the journal are relative to the larger peak-to-peak value of its orbit, those of a pad's tilt to
+its peak-to-peak value, but at least to {steady:.0%} of the bearing clearance, and of the clearance over
+the pad's radius (as in [benchmarks](benchmarks.md)); those of minimum film thickness, highest pressure
+and pivot force to the value itself. A pad is unloaded where its pivot bears less than {unloaded:.0%} of
+the load in the mean.
+
+A bearing is *sensitive* where a load changed by {disturbance:g} of itself, marched with the closest
+settings, moves the journal by more than {journal:g} or a tilt by more than {tilt:g} in the same measure.
+No solver can follow these; they are left out of the errors: {sensitive}.
+
+## Outcomes
+
+{outcomes}
+
+## Errors of the default settings
+
+{compared} bearings that are not sensitive:
+
+{errors}
+
+The largest errors:
+
+{worst}
+
+![Error against time of the default and of other table tolerances](images/realistic.png)
+
+## Tables: error against time
+
+{curve_count} of the bearings with other tolerances of the tables (`film%table_tolerance`) and films
+without tables (`direct`); time of the {revolutions} revolutions:
+
+{curve}
+
+## Steps
+
+Accepted steps per revolution of the march from the equilibrium:
+
+{steps}
+
+The bearings with the most:
+
+{most_steps}
+
+## Time
+
+CPU seconds for {rotor_time:g} s of rotor (the same march), the part of it that builds tables (wall time),
+and the time of the {revolutions} revolutions over that with `direct` (over {short:g} s, where `direct`
+takes less):
+
+{times}
+
+The longest marches:
+
+{longest}
+
+## Refusals
+
+Equilibria and marches that are refused or do not end within {limit} s of CPU time:
+
+{refusals}
+
+Periodic orbits (task `periodic`) from the equilibrium. A march repeats where each of its last revolutions
+differs by less than {repeats:g} of the characteristic scales from that of one to four revolutions before:
+
+{orbits}
+
+Refused though the march repeats after one revolution: {missed}.
+"""
+
+
+def page(bearings: list[Bearing], seed: int) -> str:
+    """The whole page."""
+    compared = [bearing for bearing in bearings if bearing.compared]
+    left_out = [bearing for bearing in compared if sensitive(bearing)]
+    kept = unsensitive(bearings)
+    curve_bearings = [bearing for bearing in kept if on_curve(bearing)]
+    longs = [bearing for bearing in bearings if bearing.runs["long"].steps]
+    return PAGE.format(
+        count=len(bearings), repeats=REPEATS, seed=seed, revolutions=REVOLUTIONS, last=LAST, steady=STEADY,
+        unloaded=UNLOADED, disturbance=DISTURBANCE, journal=SENSITIVE["journal"],
+        tilt=SENSITIVE["tilt_loaded"],
+        sensitive=numbers(left_out), outcomes=outcomes(bearings, compared),
+        compared=len(kept), errors=errors(kept), worst=worst(kept), curve_count=len(curve_bearings),
+        curve=curve(curve_bearings), rotor_time=ROTOR_TIME, steps=steps(longs), most_steps=most_steps(longs),
+        short=SHORT, times=times(longs), longest=longest(longs), limit=LIMIT, refusals=refusals(bearings),
+        orbits=orbits(bearings), missed=numbers([bearing for bearing in bearings if missed_orbit(bearing)]),
+    )  # fmt: skip
+
+
+def missed_orbit(bearing: Bearing) -> bool:
+    """Whether an orbit was refused that a march finds."""
+    return not bearing.runs["periodic"].complete and bearing.period == 1
+
+
+def line(bearing: Bearing) -> str:
+    """What was found of a bearing, in a line."""
+    said = ", ".join(
+        f"{name} {run.outcome} {run.seconds:.2f} s {run.rate:.0f}/rev" for name, run in bearing.runs.items()
+    )
+    found = " ".join(f"{name} {value:.1e}" for name, value in bearing.runs["default"].errors.items())
+    return f"{bearing.number}: {said}; {found}"
+
+
+def outcomes(bearings: list[Bearing], compared: list[Bearing]) -> str:
+    """How the runs ended."""
+    names = {"long": f"march of {ROTOR_TIME:g} s", "closest": "closest", "default": "default",
+             "direct": "direct", "disturbed": "disturbed", "periodic": "periodic orbit"}  # fmt: skip
+    ends = ("complete", "refused", "time limit")
+    found = Counter(
+        (name, bearing.runs[name].outcome) for bearing in bearings for name in names if name in bearing.runs
+    )
+    others = sorted({end for _, end in found} - set(ends))
+    rows = [(words, *(found[name, end] for end in (*ends, *others))) for name, words in names.items()]
+    started = sum(bool(bearing.refusal) for bearing in bearings)
+    return (
+        table(("run", *ends, *others), rows)
+        + f"\n\n{len(compared)} bearings are compared; {started} without an equilibrium start from `partial`."
+    )
+
+
+def refusals(bearings: list[Bearing]) -> str:
+    """Refused equilibria and marches, with the bearings."""
+    found: dict[str, list[Bearing]] = {}
+    for bearing in bearings:
+        run = bearing.runs["long"]
+        if bearing.refusal:
+            cause = cause_of(bearing.refusal) or reason(bearing.refusal)
+            found.setdefault(f"no equilibrium: {cause}; from `partial`: {run.outcome}", []).append(bearing)
+        elif not run.complete:
+            found.setdefault(reason(run.message), []).append(bearing)
+    rows = [(words, len(own), numbers(own)) for words, own in sorted(found.items())]
+    return table(("reason", "bearings", "numbers"), rows) if rows else "None."
+
+
+def orbits(bearings: list[Bearing]) -> str:
+    """Orbits found and refused, over whether a march repeats."""
+
+    def repeats(bearing):
+        return (
+            "does not repeat"
+            if not bearing.period
+            else "repeats"
+            if bearing.period == 1
+            else "of 2 to 4 revolutions"
+        )
+
+    found = Counter((bearing.runs["periodic"].outcome, repeats(bearing)) for bearing in bearings)
+    kinds = ("repeats", "of 2 to 4 revolutions", "does not repeat")
+    rows = [(end, *(found[end, kind] for kind in kinds)) for end in sorted({end for end, _ in found})]
+    took = [(bearing.runs["periodic"].seconds, bearing) for bearing in bearings]
+    return (
+        table(("task", *(f"march: {kind}" for kind in kinds)), rows)
+        + "\n\n"
+        + distribution([("CPU s", took, ".2f")])
+    )
