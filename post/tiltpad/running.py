@@ -40,6 +40,7 @@ def run(
     *,
     overwrite: bool = False,
     quiet: bool = True,
+    verify: int = 0,
     **overrides: Mapping[str, Any],
 ) -> Run | Study:
     """Runs a case and gives its result, opened.
@@ -52,11 +53,12 @@ def run(
     `case` is a namelist file, or groups of variables as for `write_case`; without it all have their defaults.
     Each further keyword is a group with values of its own. A parameter study gives the study of its runs. The
     result is written to `output` (of a study: the folder of its runs, with study.h5); it replaces that of
-    another case only with `overwrite`. Without a name it is temporary, for as long as it is used. A wrong
-    case is a ValueError with the program's message, a run that gives no result a RunError. Where the numerics
-    fail on the way the result is there up to this point, with an IncompleteRunWarning.
+    another case only with `overwrite`. Without a name it is temporary, for as long as it is used. With
+    `verify` the films in this number of states are solved closely, too, and compared. A wrong case is a
+    ValueError with the program's message, a run that gives no result a RunError. Where the numerics fail on
+    the way the result is there up to this point, with an IncompleteRunWarning.
     """
-    options = ["--overwrite"] * overwrite + ["--quiet"] * quiet
+    options = ["--overwrite"] * overwrite + ["--quiet"] * quiet + ["--verify", f"{verify}"] * (verify != 0)
     for group, values in overrides.items():
         for name, value in namelist.variables(group, values).items():
             options += ["--set", f"{group}%{name}={namelist.written(value, group == namelist.STUDY)}"]

@@ -9,8 +9,8 @@ module arguments
 
    !> Longest override, and how many there may be.
    integer, parameter :: longest = 4096, most = 1000
-   character(len=*), parameter :: options = '--output --overwrite --resume --set --check --jobs --run --count ' &
-      & //'--quiet --reference --version --help'
+   character(len=*), parameter :: options = '--output --overwrite --resume --set --check --verify --jobs --run ' &
+      & //'--count --quiet --reference --version --help'
 
    type :: arguments_type
       !> 'run', 'check', 'count', 'help', 'version' or 'reference'.
@@ -21,6 +21,8 @@ module arguments
       character(len=longest), allocatable :: overrides(:)
       !> Run of a study, and how many at a time; 0 where not given.
       integer :: run = 0, jobs = 0
+      !> States whose films are solved closely after a run; 0: none.
+      integer :: verify = 0
       logical :: quiet = .false., overwrite = .false.
    end type arguments_type
 
@@ -56,7 +58,7 @@ contains
             given%quiet = .true.
          case ('--overwrite')
             given%overwrite = .true.
-         case ('--output', '-o', '--resume', '--set', '--run', '--jobs')
+         case ('--output', '-o', '--resume', '--set', '--verify', '--run', '--jobs')
             if (i == command_argument_count()) then
                call raise(error, input_error, word//': a value must follow; see tiltpad --help')
                return
@@ -97,6 +99,8 @@ contains
             call raise(error, input_error, '--set '//shortened(value)//': given more than '//to_text(most)//' times')
          end if
          if (.not. allocated(error)) given%overrides = [character(len=longest) :: given%overrides, value]
+      case ('--verify')
+         call read_whole(word, value, given%verify, error)
       case ('--run')
          call read_whole(word, value, given%run, error)
       case ('--jobs')
@@ -127,6 +131,8 @@ contains
          & //'name another', error)
       call require(.not. given%overwrite .or. runs .and. .not. resumes, '--overwrite: is for runs; not with ' &
          & //'--resume, --check or --count', error)
+      call require(given%verify == 0 .or. runs, '--verify: is for runs and their results; not with --check or ' &
+         & //'--count', error)
       call require(given%jobs == 0 .or. runs .and. given%run == 0, '--jobs: is for all runs of a study; not with ' &
          & //'--run, --check or --count', error)
       call require(given%task /= 'count' .or. given%run == 0, '--count and --run: one of them at a time', error)
@@ -194,6 +200,8 @@ contains
          & '                          with a CASE, starts the run if FILE does not exist', &
          & '  --set group%name=value  overrides one value of the case; may be repeated', &
          & '  --check                 reads, checks and prints the resolved case; runs nothing', &
+         & '  --verify N              solves the films in N states of the complete run closely, and says how far', &
+         & '                          its own are from them; with --resume also those of a complete result', &
          & '  --jobs N                performs N runs of a study at a time; default: one for each processor', &
          & '  --run K                 performs (with --check: prints) only run K of a study', &
          & '  --count                 prints the number of runs of the case; 1 without a group &sweep', &

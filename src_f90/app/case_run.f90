@@ -23,6 +23,8 @@ module case_run
       !> Which run of a study it is, if any.
       type(run_tag) :: tag
       logical :: quiet = .true.
+      !> States whose films are solved closely once it is complete; 0: none.
+      integer :: verified_states = 0
       !> True where the file is continued from its checkpoint.
       logical :: resumed = .false.
       !> True once there are results that are worth a file.
@@ -50,15 +52,17 @@ module case_run
 contains
 
    !> Starts the clock of a run.
-   subroutine begin_run(run, inputs, path, tag, quiet)
+   subroutine begin_run(run, inputs, path, tag, verified_states, quiet)
       type(case_run_type), intent(out) :: run
       type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: path
       type(run_tag), intent(in) :: tag
+      integer, intent(in) :: verified_states
       logical, intent(in) :: quiet
       run%inputs = inputs
       run%path = path
       run%tag = tag
+      run%verified_states = verified_states
       run%quiet = quiet
       run%started = wall_clock()
       run%last_checkpoint = run%started

@@ -12,6 +12,7 @@ module run_case
    use periodic_task, only: run_periodic
    use branch_task, only: run_branch
    use march_task, only: run_march
+   use verification, only: check_verification, verify_films
    use run_summary, only: print_notes, print_march, print_cost
    implicit none (type, external)
    private
@@ -25,23 +26,35 @@ contains
    !> Runs a valid case and writes its result file. On a numerics error the file holds what was computed and is
    !> marked incomplete. With `go_on` a result of the same case that is there already is completed, from its
    !> checkpoint; else it is replaced. The result of another case is replaced only with `overwrite`, and what is no
-   !> result never. `tag` says which run of a study it is, if any.
-   subroutine run_task(inputs, path, tag, go_on, overwrite, quiet, error)
+   !> result never. `tag` says which run of a study it is, if any. Of a complete run the films in this number of states,
+   !> `verified_states`, are solved closely.
+   subroutine run_task(inputs, path, tag, verified_states, go_on, overwrite, quiet, error)
       type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: path
       type(run_tag), intent(in) :: tag
+      integer, intent(in) :: verified_states
       logical, intent(in) :: go_on, overwrite, quiet
       type(error_type), allocatable, intent(out) :: error
       type(case_run_type), target :: run
       logical :: complete
 
-      call begin_run(run, inputs, path, tag, quiet)
+      if (verified_states > 0) call check_verification(inputs, verified_states, error)
+      if (allocated(error)) return
+      call begin_run(run, inputs, path, tag, verified_states, quiet)
       call open_file(run, go_on, overwrite, complete, error)
-      if (complete .or. allocated(error)) return
+      if (allocated(error) .or. complete .and. run%verified_states == 0) return
       if (.not. quiet) call print_notes(inputs)
       run%model = new_bearing_model(inputs)
+      if (.not. complete) call perform(run, error)
+      if (run%verified_states > 0 .and. .not. allocated(error)) call verify_films(run, complete, error)
+   end subroutine run_task
+
+   !> Has the task of a case done, and closes its file.
+   subroutine perform(run, error)
+      type(case_run_type), intent(inout), target :: run
+      type(error_type), allocatable, intent(out) :: error
       ! every task has a line here, and where it is more than the start of others a module of its own
-      select case (inputs%about%task)
+      select case (run%inputs%about%task)
       case ('equilibrium')
          call start_at_equilibrium(run, error)
       case ('coefficients')
@@ -53,10 +66,10 @@ contains
       case ('march')
          call run_march(run, error)
       case default
-         call raise(error, input_error, 'case%task: there is no task '//inputs%about%task)
+         call raise(error, input_error, 'case%task: there is no task '//run%inputs%about%task)
       end select
       call close_file(run, error)
-   end subroutine run_task
+   end subroutine perform
 
    !> Claims the name of the file, and looks whether there is one to continue, or a complete one.
    subroutine open_file(run, go_on, overwrite, complete, error)
@@ -111,7 +124,10 @@ contains
       call found%refuse_end(run%path, error)
       complete = found%complete
       run%resumed = .not. complete
-      if (complete .and. .not. run%quiet) print '(a)', run%path//': complete already, nothing to do'
+      if (.not. complete) return
+      ! verified already
+      if (found%verified_states == run%verified_states) run%verified_states = 0
+      if (run%verified_states == 0 .and. .not. run%quiet) print '(a)', run%path//': complete already, nothing to do'
    end subroutine look_at_file
 
    !> Closes the file of a run that is done, or that failed with this error.

@@ -66,7 +66,7 @@ contains
       if (given%task == 'check') then
          call put(namelist_of(found%inputs), error)
       else
-         call run_task(found%inputs, given%resumed, none, .true., .false., given%quiet, error)
+         call run_task(found%inputs, given%resumed, none, given%verify, .true., .false., given%quiet, error)
       end if
    end subroutine resume_run
 
@@ -122,8 +122,8 @@ contains
          if (.not. given%overwrite) call check_neighbours(study, output, given%run, error)
          output = result_path(output, given%run, study%runs)
       end if
-      if (.not. allocated(error)) call run_task(inputs, output, tag, study%given .or. given%resumed /= '', &
-         & given%overwrite, given%quiet, error)
+      if (.not. allocated(error)) call run_task(inputs, output, tag, given%verify, study%given .or. &
+         & given%resumed /= '', given%overwrite, given%quiet, error)
    end subroutine treat_case
 
    !> The checksums of a study are those of its first run's case and of the runs' values.
@@ -203,7 +203,7 @@ contains
       character(len=*), intent(in) :: path
       type(run_tag), intent(in) :: tag
       type(error_type), allocatable, intent(out) :: error
-      call run_task(inputs, path, tag, .true., given%overwrite, .true., error)
+      call run_task(inputs, path, tag, given%verify, .true., given%overwrite, .true., error)
    end subroutine perform_run
 
    !> An error's line.

@@ -1,4 +1,4 @@
-!> The last state of another result, from which a march may start.
+!> The states in the samples of a result, and the last one of another result, from which a march may start.
 module last_state
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8, pi
@@ -12,7 +12,7 @@ module last_state
    use restart, only: restart_type, read_result, open_result
    implicit none (type, external)
    private
-   public :: read_last_state
+   public :: read_last_state, read_states
 
    !> Part of a turn within which samples count as equally close to a whole one.
    real(wp), parameter :: same_angle = 1e-6_wp

@@ -8,6 +8,8 @@ module restart
    use case_namelist, only: case_from_text
    use namelist_writer, only: lines_of
    use hdf5_file, only: hdf5_type
+   use summary_group, only: figure
+   use verification_results, only: states_figure
    use guarded_open, only: try_reading
    use provenance, only: format_version
    use parameter_study, only: run_tag
@@ -23,8 +25,9 @@ module restart
       type(run_tag) :: tag
       !> True where an earlier version of the program wrote it; the rest is not known then.
       logical :: older = .false.
-      !> True where nothing is left to do.
+      !> True where nothing is left to do; states whose films were solved closely afterwards.
       logical :: complete = .false.
+      integer :: verified_states = 0
       !> How the run ended, and whether there is a checkpoint.
       integer, private :: status = 0
       character(len=:), allocatable, private :: reason
@@ -60,6 +63,7 @@ contains
       call file%get_flag('complete', complete)
       call file%get_text('input', input)
       found%checkpoint = file%has('checkpoint/time')
+      found%verified_states = nint(figure(file, states_figure))
       found%reason = ''
       if (file%has_attribute('exit_status')) call file%get_flag('exit_status', found%status)
       if (found%status /= 0) call file%get_text('reason', found%reason)

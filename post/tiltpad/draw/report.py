@@ -31,6 +31,7 @@ def report(run: Run) -> str:
         remarks(run),
         section("Key figures", key_figures(run)),
         section("Pads", pad_figures(run)),
+        section("Films, solved closely", verification(run)),
         section("Spectrum", spectrum_peaks(run)),
         section("Stiffness and damping", coefficient_table(run)),
         section("Modes", mode_table(run)),
@@ -90,12 +91,19 @@ def key_figures(run: Run) -> str:
 def pad_figures(run: Run) -> str:
     head = ("pad", *(f"{pad}" for pad in range(1, run.pads + 1)), "unit")
     angles = ("pivot angle", *(f"{angle:g}" for angle in np.round(np.degrees(run.pivot_angle), 6)), "deg")
-    rows = [row(shown, list(np.atleast_1d(values))) for _, shown, values in summary.pads(run)]
+    own = [figure for figure in summary.pads(run) if "film_error" not in figure.name]
+    rows = [row(shown, list(np.atleast_1d(values))) for _, shown, values in own]
     note = ""
     if "summary/last_revolutions" in run:
         over = f"lifting, rubbing and dominant order over the last {run['summary/last_revolutions']:.0f}"
         note = f"<p>Last revolution; {over}.</p>"
     return table(head, [angles, *rows]) + note
+
+
+def verification(run: Run) -> str:
+    """How far the films of the run are from closely solved ones, as its file says it in words."""
+    lines = f"{run.attributes.get('verification', '')}".splitlines()
+    return "".join(paragraph(f"{line[0].upper()}{line[1:]}.") for line in lines)
 
 
 def spectrum_peaks(run: Run) -> str:

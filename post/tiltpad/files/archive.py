@@ -70,7 +70,7 @@ class Archive:
     INTERNAL = (
         *("check_whole", "check_dataset", "scales", "sound", "without", "item", "own", "found", "listed"),
         *("former", "size", "why_not", "end", "in_words", "is_series", "KINDS", "OWN", "GROUPS", "INTERNAL"),
-        *("scale", "today"),
+        *("scale", "scales_of", "today"),
     )
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
     OWN = ("file", "path", "attributes", "former", "found", "listed", "over", "size")

@@ -1,0 +1,143 @@
+!> Option --verify: what a run may say of its own films. Of states of a complete result, spread over its samples, the
+!> films of the run are compared with closely solved ones, and the file gets the differences. The result stays as it is
+!> until all of them are there.
+module verification
+   use kinds, only: wp, i8
+   use text, only: to_text, replaced
+   use errors, only: error_type, raise, require, stopped
+   use clock, only: wall_clock
+   use case_inputs, only: case_type
+   use result_size, only: sample_count
+   use rigid_journal, only: journal_motion
+   use kinematics, only: pad_state
+   use equations_of_motion, only: bearing_model
+   use film_comparison, only: film_comparison_type, film_difference, new_film_comparison
+   use static_model, only: make_static, make_fine
+   use heat_balance_equations, only: has_warm_oil
+   use run_file, only: run_file_type
+   use last_state, only: read_states
+   use verification_results, only: put_verification
+   use stop_signals, only: stop_requested, stop_reason
+   use case_run, only: case_run_type
+   use run_start, only: take_oil
+   implicit none (type, external)
+   private
+   public :: check_verification, verify_films
+
+   !> By which part of a stretch of samples the state goes on from one stretch to the next: the golden ratio, whose
+   !> multiples spread evenly, so that the states meet all angles of the shaft.
+   real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1)
+
+contains
+
+   !> Refuses to verify what keeps no states, or more states than a run has.
+   subroutine check_verification(inputs, states, error)
+      type(case_type), intent(in) :: inputs
+      integer, intent(in) :: states
+      type(error_type), allocatable, intent(out) :: error
+      integer(i8) :: samples
+      call require(inputs%about%task /= 'branch', '--verify: the points of a branch keep no states to verify; run ' &
+         & //'one of them with case%task = ''equilibrium'' or ''periodic''', error)
+      samples = states
+      if (inputs%about%task == 'march') samples = max(0_i8, sample_count(inputs))
+      if (inputs%about%task == 'periodic') samples = 1 + int(inputs%periodic%revolutions, i8) &
+         & *inputs%output%samples_per_revolution
+      call require(states <= samples, '--verify '//to_text(states)//': the run has '//to_text(samples) &
+         & //' samples', error)
+   end subroutine check_verification
+
+   !> Verifies films of a complete run, whose file is closed. `remade`: the model was made anew, after the run.
+   subroutine verify_films(run, remade, error)
+      type(case_run_type), intent(inout) :: run
+      logical, intent(in) :: remade
+      type(error_type), allocatable, intent(out) :: error
+      type(run_file_type) :: file
+      type(film_difference), allocatable :: found(:, :)
+      real(wp), allocatable :: time(:)
+      character(len=:), allocatable :: lines
+      call file%claim(run%path, error)
+      if (allocated(error)) return
+      call file%reopen(error)
+      if (.not. allocated(error)) call file%begin_series('time', 0_i8)
+      if (.not. allocated(error) .and. remade .and. file%samples > 0) call take_oil(run, &
+         & run%inputs%start%from == 'partial', error)
+      if (.not. allocated(error)) then
+         if (file%samples > 0) then
+            call verify_samples(run, file, time, found, error)
+         else
+            call verify_equilibrium(run, file, time, found)
+         end if
+      end if
+      if (.not. allocated(error)) call file%error_of(error)
+      if (.not. allocated(error)) then
+         call put_verification(file, time, found, norm2(run%model%point%load), lines)
+         call file%publish(.false., error)
+      else
+         call file%abandon()
+      end if
+      if (.not. allocated(error)) then
+         if (.not. run%quiet) print '(a)', replaced(lines, achar(10), achar(10)//'  ')
+      else if (error%status == stopped) then
+         error%message = stop_reason()//' while films were verified; '//run%path//' is complete without that'
+      end if
+   end subroutine verify_films
+
+   !> The films at samples of a motion, one in each of as many stretches of equal length.
+   subroutine verify_samples(run, file, time, found, error)
+      type(case_run_type), intent(inout) :: run
+      type(run_file_type), intent(inout) :: file
+      real(wp), allocatable, intent(out) :: time(:)
+      type(film_difference), allocatable, intent(out) :: found(:, :)
+      type(error_type), allocatable, intent(out) :: error
+      type(film_comparison_type) :: comparison
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(run%model%layout%pads)
+      real(wp), allocatable :: at(:, :)
+      integer(i8) :: sample
+      integer :: n, k
+      n = int(min(int(run%verified_states, i8), file%samples))
+      allocate (time(n), found(size(pads), n))
+      comparison = new_film_comparison(run%inputs)
+      do k = 1, n
+         associate (first => (k - 1)*file%samples/n, next => k*file%samples/n)
+            sample = first + int(modulo(k*golden, 1.0_wp)*(next - first), i8)
+         end associate
+         call file%part_of_samples('time', sample, 1, at)
+         time(k) = at(1, 1)
+         call read_states(file, run%model%layout, sample, journal, pads)
+         call file%error_of(error)
+         if (allocated(error)) return
+         if (stop_requested()) then
+            call raise(error, stopped, '')
+            return
+         end if
+         call comparison%compare(run%model, time(k), run%model%state(journal, pads), found(:, k))
+         call file%beat(int(wall_clock() - run%started))
+      end do
+   end subroutine verify_samples
+
+   !> The films at the equilibrium; coefficients have converged ones.
+   subroutine verify_equilibrium(run, file, time, found)
+      type(case_run_type), intent(inout) :: run
+      type(run_file_type), intent(inout) :: file
+      real(wp), allocatable, intent(out) :: time(:)
+      type(film_difference), allocatable, intent(out) :: found(:, :)
+      type(film_comparison_type) :: comparison
+      type(bearing_model) :: static
+      type(pad_state) :: pads(run%model%layout%pads)
+      real(wp) :: journal(2)
+      allocate (time(0), found(size(pads), 1))
+      if (file%has('coefficients')) then
+         call make_fine(run%model, static)
+      else
+         call make_static(run%model, run%model%point%cavitation, static)
+      end if
+      journal = [file%get_real('equilibrium/journal_y'), file%get_real('equilibrium/journal_z')]
+      if (static%layout%tilting) call file%get_list('equilibrium/pad_tilt', pads%tilt)
+      if (static%layout%radial) call file%get_list('equilibrium/pivot_deflection', pads%pivot_deflection)
+      if (has_warm_oil(static)) call file%get_list('equilibrium/viscosity', static%oil%viscosity)
+      comparison = new_film_comparison(run%inputs)
+      call comparison%compare(static, 0.0_wp, static%static_state(journal, pads%tilt, pads%pivot_deflection), &
+         & found(:, 1))
+   end subroutine verify_equilibrium
+end module verification

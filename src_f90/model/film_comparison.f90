@@ -1,0 +1,127 @@
+!> How far the films of a model are from the same films solved closely, whatever solver it takes: by axial modes and,
+!> where they cavitate, by volumes of a film-adapted grid, extrapolated (the converged films of the factories).
+!> These show their own convergence: they are solved a second time, ten times less closely.
+module film_comparison
+   use kinds, only: wp, degree
+   use case_inputs, only: case_type
+   use factories, only: converged_films
+   use tilting_pad_bearing, only: pad_sample
+   use equations_of_motion, only: bearing_model, new_bearing_model
+   implicit none (type, external)
+   private
+   public :: film_comparison_type, film_difference, new_film_comparison
+
+   !> Error of the closest cavitated films, and of those they are compared with (film%table_tolerance).
+   real(wp), parameter :: closest = 1e-6_wp, less_close = 1e-5_wp
+   !> Volumes along an arc up to this, rad, and along half the width, of the closest films that have no tables: those
+   !> of wide arcs, and of supply pressures where they may cavitate. Twice those of converged films.
+   real(wp), parameter :: usual_arc = 120*degree
+   integer, parameter :: volumes(2) = [320, 32]
+   !> What a pad carries counts as this share of its weight at least: below, the weight, whose moment about the pivot
+   !> is at least that of the tilt (some 1e-3 rad), moves the pad, not the film. Without weight: of the load.
+   real(wp), parameter :: least_share = 1e-3_wp
+
+   !> One film, and the same solved closely.
+   type :: film_difference
+      !> What the pad carries, N: force of its film, solved closely, and of asperities, or the least that counts.
+      real(wp) :: carried = 0
+      !> Difference of the film force, N, and an estimate of the error that is left in the closely solved one: its
+      !> change where it is solved ten times less closely.
+      real(wp) :: force = 0, left = 0
+      !> Highest pressure, solved closely, and the difference from it, Pa.
+      real(wp) :: highest_pressure = 0, pressure = 0
+      !> Why there is no difference, as a film could not be solved; empty where there is one.
+      character(len=:), allocatable :: refusal
+   end type film_difference
+
+   type :: film_comparison_type
+      private
+      type(bearing_model) :: close, less_close
+      !> Of each pad the least force that counts as carried, N.
+      real(wp), allocatable :: least(:)
+   contains
+      procedure :: compare
+   end type film_comparison_type
+
+contains
+
+   !> For the films of models of a case.
+   function new_film_comparison(inputs) result(comparison)
+      type(case_type), intent(in) :: inputs
+      type(film_comparison_type) :: comparison
+      comparison%close = new_bearing_model(closely(inputs, closest, volumes), converged_films)
+      comparison%less_close = new_bearing_model(closely(inputs, less_close, volumes/2), converged_films)
+      associate (weight => comparison%close%bearing%pads%weight)
+         comparison%least = least_share*merge(weight, norm2(comparison%close%point%load), weight > 0)
+      end associate
+   end function new_film_comparison
+
+   !> The case with films of this error and on these volumes.
+   pure function closely(inputs, tolerance, volumes) result(changed)
+      type(case_type), intent(in) :: inputs
+      real(wp), intent(in) :: tolerance
+      integer, intent(in) :: volumes(2)
+      type(case_type) :: changed
+      changed = inputs
+      changed%film%solver = 'auto'
+      changed%film%table_tolerance = tolerance
+      changed%film%circumferential_cells = volumes(1)*max(1, nint(maxval(inputs%pads%arc_deg)*degree/usual_arc))
+      changed%film%axial_cells = volumes(2)
+      changed%film%axial_modes = 0
+   end function closely
+
+   !> Compares the films of a model, of each pad, in the state y at time t, s.
+   subroutine compare(self, model, t, y, found)
+      class(film_comparison_type), intent(inout) :: self
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(in) :: t, y(:)
+      type(film_difference), intent(out) :: found(:)
+      type(pad_sample), dimension(size(found)) :: own, close, less_close
+      integer :: i
+      call adapt(self%close, model)
+      call adapt(self%less_close, model)
+      found = film_difference(refusal='')
+      call take_films(model, t, y, own, found)
+      call take_films(self%close, t, y, close, found)
+      call take_films(self%less_close, t, y, less_close, found)
+      do i = 1, size(found)
+         if (found(i)%refusal /= '') cycle
+         associate (f => close(i)%film_force)
+            found(i)%carried = max(norm2(f) + close(i)%asperity_force, self%least(i))
+            found(i)%force = norm2(own(i)%film_force - f)
+            found(i)%left = norm2(less_close(i)%film_force - f)
+            found(i)%highest_pressure = close(i)%max_pressure
+            found(i)%pressure = abs(own(i)%max_pressure - close(i)%max_pressure)
+         end associate
+         ! where nothing is carried and nothing weighs
+         if (.not. found(i)%carried > 0) found(i)%carried = max(found(i)%force, tiny(1.0_wp))
+      end do
+   end subroutine compare
+
+   !> Gives a model the operating point and the oil of another.
+   subroutine adapt(model, other)
+      type(bearing_model), intent(inout) :: model
+      type(bearing_model), intent(in) :: other
+      call model%set_point(other%point)
+      model%oil = other%oil
+      model%oil_history = other%oil_history
+   end subroutine adapt
+
+   !> The films of all pads, each on its own: one that cannot be solved leaves the others.
+   subroutine take_films(model, t, y, films, found)
+      type(bearing_model), intent(inout) :: model
+      real(wp), intent(in) :: t, y(:)
+      type(pad_sample), intent(out) :: films(:)
+      type(film_difference), intent(inout) :: found(:)
+      logical :: chosen(size(found)), ok
+      integer :: i
+      do i = 1, size(found)
+         if (found(i)%refusal /= '') cycle
+         chosen = .false.
+         chosen(i) = .true.
+         call model%evaluate(t, y, .false., ok, chosen)
+         if (.not. ok) found(i)%refusal = model%refusal
+      end do
+      films = model%bearing%sampled()
+   end subroutine take_films
+end module film_comparison
