@@ -4,7 +4,7 @@
 module verification
    use kinds, only: wp, i8
    use text, only: to_text, replaced
-   use errors, only: error_type, raise, require, stopped
+   use errors, only: error_type, raise, require, system_error, stopped
    use clock, only: wall_clock
    use case_inputs, only: case_type
    use result_size, only: sample_count
@@ -15,7 +15,7 @@ module verification
    use static_model, only: make_static, make_fine
    use heat_balance_equations, only: has_warm_oil
    use run_file, only: run_file_type
-   use last_state, only: read_states
+   use last_state, only: read_states, all_finite
    use verification_results, only: put_verification
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
@@ -106,6 +106,8 @@ contains
          time(k) = at(1, 1)
          call read_states(file, run%model%layout, sample, journal, pads)
          call file%error_of(error)
+         if (.not. allocated(error) .and. .not. all_finite(journal, pads)) call raise(error, system_error, run%path &
+            & //': damaged: a state is not a number')
          if (allocated(error)) return
          if (stop_requested()) then
             call raise(error, stopped, '')

@@ -12,7 +12,7 @@ module last_state
    use restart, only: restart_type, read_result, open_result
    implicit none (type, external)
    private
-   public :: read_last_state, read_states
+   public :: read_last_state, read_states, all_finite
 
    !> Part of a turn within which samples count as equally close to a whole one.
    real(wp), parameter :: same_angle = 1e-6_wp

@@ -1,5 +1,6 @@
 !> What a run reads in a result file before it continues or replaces it.
 module restart
+   use kinds, only: wp
    use text, only: to_text, replaced
    use errors, only: error_type, raise, add_context, system_error, numerics_error
    use case_inputs, only: case_type
@@ -27,7 +28,7 @@ module restart
       logical :: older = .false.
       !> True where nothing is left to do; states whose films were solved closely afterwards.
       logical :: complete = .false.
-      integer :: verified_states = 0
+      real(wp) :: verified_states = 0
       !> How the run ended, and whether there is a checkpoint.
       integer, private :: status = 0
       character(len=:), allocatable, private :: reason
@@ -63,7 +64,7 @@ contains
       call file%get_flag('complete', complete)
       call file%get_text('input', input)
       found%checkpoint = file%has('checkpoint/time')
-      found%verified_states = nint(figure(file, states_figure))
+      found%verified_states = figure(file, states_figure)
       found%reason = ''
       if (file%has_attribute('exit_status')) call file%get_flag('exit_status', found%status)
       if (found%status /= 0) call file%get_text('reason', found%reason)

@@ -133,6 +133,10 @@ def test_a_complete_result(tiltpad, run, tmp_path):
     assert again.stdout == "later.h5: complete already, nothing to do\n"
     other = tiltpad("--resume", "later.h5", "--verify", 5, cwd=tmp_path, status=0)
     assert "films in 5 states" in other.stdout
+    with h5py.File(tmp_path / "later.h5", "r+") as file:
+        file["journal_y"][:] = np.nan
+    damaged = tiltpad("--resume", "later.h5", "--verify", 3, cwd=tmp_path, status=3)
+    assert "damaged: a state is not a number" in damaged.stderr
 
 
 def test_all_samples_of_a_short_run(verified):
