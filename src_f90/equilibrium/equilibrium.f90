@@ -15,7 +15,7 @@ module equilibrium
    use static_model, only: equilibrium_type, describe, make_static, make_quick, solve_equilibrium, start, starts
    use heat_balance_equations, only: has_warm_oil
    use thermal_equilibrium, only: guess_oil, guesses, solve_thermal_equilibrium
-   use equilibrium_refusal, only: search_traces, refusal
+   use equilibrium_refusal, only: search_traces, note_divergence, refusal
    implicit none (type, external)
    private
    public :: equilibrium_type, find_equilibrium, find_partial_equilibrium
@@ -63,7 +63,9 @@ contains
             return
          end if
       end do
-      if (.not. allocated(error)) call raise(error, numerics_error, refusal(model, traces))
+      if (allocated(error)) return
+      call note_partial(model, traces, give_up)
+      call raise(error, numerics_error, refusal(model, traces))
    end subroutine find_equilibrium
 
    !> The equilibrium with the viscosities that the model has.
@@ -95,9 +97,23 @@ contains
       if (asked(give_up)) then
          call raise(error, stopped, 'stopped while the equilibrium was sought')
       else if (.not. allocated(found%tilt)) then
+         call note_partial(model, traces, give_up)
          call raise(error, numerics_error, refusal(model, traces))
       end if
    end subroutine find_isothermal
+
+   !> Notes whether a march can start from a partial equilibrium, and which pads are held there.
+   subroutine note_partial(model, traces, give_up)
+      type(bearing_model), intent(in) :: model
+      type(search_traces), intent(inout) :: traces
+      procedure(asked_to_stop), optional :: give_up
+      type(equilibrium_type) :: partial
+      type(error_type), allocatable :: error
+      logical, allocatable :: held(:)
+      if (.not. model%layout%tilting) return
+      call find_partial_equilibrium(model, partial, held, error, give_up)
+      if (.not. allocated(error)) traces%held = held
+   end subroutine note_partial
 
    !> From the best start along the load; with films that cavitate also from the equilibrium with full films: on the way
    !> a pad may lose its film and with it all stiffness.
@@ -245,7 +261,7 @@ contains
       call stability_at(model, y, found%stability, is_usable)
       if (.not. is_usable) return
       is_usable = found%stability%name /= 'static instability'
-      if (.not. is_usable) traces%divergence = found%stability%eigenvalue%re
+      if (.not. is_usable) call note_divergence(model, traces)
    end function is_usable
 
    !> The partial equilibrium of a model under its load at its initial speed, and which pads are held; none where all

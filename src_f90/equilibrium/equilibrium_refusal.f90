@@ -3,9 +3,10 @@ module equilibrium_refusal
    use kinds, only: wp, degree, pi
    use text, only: to_text
    use equations_of_motion, only: bearing_model
+   use force_balance, only: masses, force_derivatives, find_vibrations
    implicit none (type, external)
    private
-   public :: search_traces, refusal
+   public :: search_traces, note_divergence, refusal
 
    !> What the searches left behind.
    type :: search_traces
@@ -13,12 +14,17 @@ module equilibrium_refusal
       character(len=:), allocatable :: last_words
       !> Pads that found no equilibrium where the journal and the others did.
       logical, allocatable :: without_equilibrium(:)
-      !> Growth, 1/s, of the last statically unstable equilibrium; 0: none was found.
+      !> Growth, 1/s, of the last statically unstable equilibrium, 0: none was found; pads that leave it.
       real(wp) :: divergence = 0
+      logical, allocatable :: leaving(:)
+      !> Pads that are held in the partial equilibrium; not allocated where there is none.
+      logical, allocatable :: held(:)
       !> Whether the first search ended at a film that did not converge: no other search would help.
       logical :: films_fail = .false.
    end type search_traces
 
+   !> A pad leaves an equilibrium if its edge moves at least by this part of what moves most.
+   real(wp), parameter :: moves = 0.5_wp
    !> Cosine of the angle between load and pivot below which one pad carries a load that points past it.
    real(wp), parameter :: through_pivot = 0.999_wp
 
@@ -36,45 +42,94 @@ contains
       end if
       message = message//cause(model, traces)
       if (traces%divergence > 0) then
-         message = message &
-            & //' (an equilibrium that was found is statically unstable (divergence): a small motion grows by ' &
-            & //to_text(traces%divergence)//' 1/s)'
+         message = message//' (an equilibrium that was found is statically unstable (divergence): a small motion '
+         if (any(traces%leaving)) message = message//'of '//listed(traces%leaving)//' '
+         message = message//'grows by '//to_text(traces%divergence)//' 1/s)'
       else if (allocated(traces%last_words)) then
          message = message//' ('//traces%last_words//')'
       end if
    end function refusal
+
+   !> Notes how a statically unstable equilibrium is left, in which the derivatives of the model were taken last.
+   subroutine note_divergence(model, traces)
+      type(bearing_model), intent(in) :: model
+      type(search_traces), intent(inout) :: traces
+      real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
+      complex(wp) :: values(2*size(stiffness, 1)), shapes(size(stiffness, 1), 2*size(stiffness, 1))
+      real(wp) :: edge(model%layout%pads)
+      integer :: i, k
+      logical :: ok
+      call force_derivatives(model, stiffness, damping)
+      call find_vibrations(masses(model), stiffness, damping, values, ok, shapes)
+      if (.not. ok) return
+      k = maxloc(values%re, dim=1, mask=abs(values%im) <= 0)
+      traces%divergence = values(k)%re
+      edge = 0
+      do i = 1, merge(size(edge), 0, model%layout%tilting)
+         associate (gap => model%bearing%pads(i)%gap)
+            edge(i) = abs(shapes(model%layout%first_position(i), k))*0.5_wp*gap%arc()*gap%pad_radius()
+         end associate
+      end do
+      traces%leaving = edge >= moves*max(maxval(edge), norm2(abs(shapes(:2, k))))
+   end subroutine note_divergence
 
    !> The most likely cause with what helps.
    function cause(model, traces)
       type(bearing_model), intent(in) :: model
       type(search_traces), intent(in) :: traces
       character(len=:), allocatable :: cause
-      integer :: count
-      count = model%layout%pads
-      if (.not. norm2(model%point%load) > 0 .and. count <= 2) then
-         cause = 'without load '//to_text(count)//trim(merge(' pad pushes', ' pads push ', count == 1)) &
+      integer :: pads
+      pads = model%layout%pads
+      if (.not. norm2(model%point%load) > 0 .and. pads <= 2) then
+         cause = 'without load '//to_text(pads)//trim(merge(' pad pushes', ' pads push ', pads == 1)) &
             & //' the journal away; give it a load or pads on all sides'
       else if (.not. model%layout%tilting .and. load_on_pads(model)) then
          cause = 'the films do not hold the journal; try another load (rotor%static_load) or clearance'
-      else if (count == 1 .and. .not. load_on_pads(model)) then
+      else if (pads == 1 .and. .not. load_on_pads(model)) then
          cause = 'the load points past the only pad; turn the load (rotor%static_load) or the pad ' &
             & //'(pads%pivot_angle_deg)'
-      else if (count == 1) then
+      else if (pads == 1) then
          cause = 'one pad: the journal rolls off it; add a second pad (pads%pivot_angle_deg)'
       else if (.not. load_on_pads(model)) then
          cause = 'the load points to '//to_text(load_angle(model))//' deg, where no pad is; turn the load ' &
             & //'(rotor%static_load) or add a pad there (pads%pivot_angle_deg)'
       else if (allocated(traces%without_equilibrium)) then
-         cause = listed(traces%without_equilibrium)//' no equilibrium (unloaded); try start%from = ''partial'''
-      else if (count == 2) then
+         cause = listed(traces%without_equilibrium) &
+            & //trim(merge(' has ', ' have', count(traces%without_equilibrium) == 1)) &
+            & //' no equilibrium (unloaded)'//help(traces)
+      else if (pads == 2) then
          cause = 'two pads that push the journal away; try another angle between them (pads%pivot_angle_deg) ' &
             & //'or another pads%pivot_ratio'
       else if (traces%divergence > 0) then
-         cause = 'the journal leaves every equilibrium that was found; try more preload or another load'
+         cause = 'the motion leaves every equilibrium that was found'//help(traces)
+      else if (any_held(traces)) then
+         cause = listed(traces%held)//' (unloaded) did not come to equilibrium'//help(traces)
       else
          cause = 'the search did not end; try another load or clearance'
+         if (model%layout%tilting) cause = cause//', or a march from another start ('//other_start(traces)//')'
       end if
    end function cause
+
+   !> What helps pads that no film holds.
+   function help(traces)
+      type(search_traces), intent(in) :: traces
+      character(len=:), allocatable :: help
+      help = '; try more preload, or a march from another start ('//other_start(traces)//')'
+   end function help
+
+   !> Where a march can start without an equilibrium.
+   function other_start(traces)
+      type(search_traces), intent(in) :: traces
+      character(len=:), allocatable :: other_start
+      other_start = 'start%from = '''//merge('partial', 'centred', allocated(traces%held))//''''
+   end function other_start
+
+   !> Whether pads are held in a partial equilibrium.
+   pure logical function any_held(traces)
+      type(search_traces), intent(in) :: traces
+      any_held = .false.
+      if (allocated(traces%held)) any_held = any(traces%held)
+   end function any_held
 
    !> The angle to which the load points, deg, counted as that of a pivot.
    real(wp) function load_angle(model)
@@ -113,7 +168,7 @@ contains
       load_on_pads = .false.
    end function load_on_pads
 
-   !> "pad 4 has" or "pads 4, 5 have".
+   !> "pad 4" or "pads 4, 5".
    function listed(chosen)
       logical, intent(in) :: chosen(:)
       character(len=:), allocatable :: listed
@@ -122,10 +177,6 @@ contains
       do i = 1, size(chosen)
          if (chosen(i)) listed = listed//', '//to_text(i)
       end do
-      if (count(chosen) == 1) then
-         listed = 'pad '//listed(3:)//' has'
-      else
-         listed = 'pads '//listed(3:)//' have'
-      end if
+      listed = trim(merge('pad ', 'pads', count(chosen) == 1))//' '//listed(3:)
    end function listed
 end module equilibrium_refusal

@@ -121,7 +121,7 @@ ASTRAY = {
 # what stands where nothing carries the load, and what may help
 CAUSE = (
     "where no pad is|past the only pad|one pad: |push.* away|ha(s|ve) no equilibrium|"
-    "leaves every equilibrium|did not end"
+    "leaves every equilibrium|did not (end|come to equilibrium)"
 )
 
 

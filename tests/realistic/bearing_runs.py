@@ -1,6 +1,7 @@
 """The runs of one realistic bearing, and what they say of the program's default settings."""
 
 import copy
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -61,7 +62,7 @@ class Bearing:
     number: int
     case: Case
     runs: dict[str, Run] = field(default_factory=dict)
-    #: Why there is no equilibrium; the marches then start from 'partial'.
+    #: Why there is no equilibrium; the march then starts where the refusal offers.
     refusal: str = ""
     #: Revolutions after which the long march repeats; 0 where it does not.
     period: int = 0
@@ -79,9 +80,9 @@ def study(program: Path, bearing: Bearing, folder: Path, curve: bool) -> None:
     case = bearing.case
     long = changed(case, {"operation": {"duration": max(ROTOR_TIME, time_of(case, REVOLUTIONS))}})
     bearing.runs["long"] = march(program, long, folder / "long")
-    if "no equilibrium" in bearing.runs["long"].message:
+    if offered := re.search(r"no equilibrium.* start%from = '(\w+)'", bearing.runs["long"].message):
         bearing.refusal = bearing.runs["long"].message
-        bearing.runs["long"] = march(program, changed(long, {"start": {"from": "partial"}}), folder / "long")
+        bearing.runs["long"] = march(program, changed(long, {"start": {"from": offered[1]}}), folder / "long")
     bearing.runs["periodic"] = march(
         program, changed(case, {"case": {"task": "periodic"}}), folder / "periodic"
     )

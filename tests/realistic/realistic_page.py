@@ -151,10 +151,8 @@ def outcomes(bearings: list[Bearing], compared: list[Bearing]) -> str:
     others = sorted({end for _, end in found} - set(ends))
     rows = [(words, *(found[name, end] for end in (*ends, *others))) for name, words in names.items()]
     started = sum(bool(bearing.refusal) for bearing in bearings)
-    return (
-        table(("run", *ends, *others), rows)
-        + f"\n\n{len(compared)} bearings are compared; {started} without an equilibrium start from `partial`."
-    )
+    said = f"{len(compared)} bearings are compared; {started} start where a refusal offers."
+    return f"{table(('run', *ends, *others), rows)}\n\n{said}"
 
 
 def refusals(bearings: list[Bearing]) -> str:
@@ -164,7 +162,9 @@ def refusals(bearings: list[Bearing]) -> str:
         run = bearing.runs["long"]
         if bearing.refusal:
             cause = cause_of(bearing.refusal) or reason(bearing.refusal)
-            found.setdefault(f"no equilibrium: {cause}; from `partial`: {run.outcome}", []).append(bearing)
+            found.setdefault(
+                f"no equilibrium: {cause}; march from the offered start: {run.outcome}", []
+            ).append(bearing)
         elif not run.complete:
             found.setdefault(reason(run.message), []).append(bearing)
     rows = [(words, len(own), numbers(own)) for words, own in sorted(found.items())]

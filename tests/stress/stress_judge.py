@@ -37,6 +37,7 @@ CAUSES = {
     "one pad: the journal": "one pad: the journal rolls off",
     "the journal away": "pads that push the journal away",
     "no equilibrium (unloaded)": "unloaded pads have no equilibrium",
+    "did not come to equilibrium": "unloaded pads did not come to equilibrium",
     "leaves every equilibrium": "the journal leaves every equilibrium that was found",
     "did not converge": "a film did not converge",
     "do not hold the journal": "fixed pads that do not hold the journal",
