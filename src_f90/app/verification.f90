@@ -22,10 +22,10 @@ module verification
    use run_start, only: take_oil
    implicit none (type, external)
    private
-   public :: check_verification, verify_films
+   public :: check_verification, verify_films, sample_of
 
-   !> By which part of a stretch of samples the state goes on from one stretch to the next: the golden ratio, whose
-   !> multiples spread evenly, so that the states meet all angles of the shaft.
+   !> By which part of a turn of the shaft the state goes on from one stretch of samples to the next: the golden ratio,
+   !> whose multiples spread evenly over the turn, however few they are.
    real(wp), parameter :: golden = 0.5_wp*(sqrt(5.0_wp) - 1)
 
 contains
@@ -99,9 +99,7 @@ contains
       allocate (time(n), found(size(pads), n))
       comparison = new_film_comparison(run%inputs)
       do k = 1, n
-         associate (first => (k - 1)*file%samples/n, next => k*file%samples/n)
-            sample = first + int(modulo(k*golden, 1.0_wp)*(next - first), i8)
-         end associate
+         sample = sample_of(k, n, file%samples, run%inputs%output%samples_per_revolution)
          call file%part_of_samples('time', sample, 1, at)
          time(k) = at(1, 1)
          call read_states(file, run%model%layout, sample, journal, pads)
@@ -117,6 +115,20 @@ contains
          call file%beat(int(wall_clock() - run%started))
       end do
    end subroutine verify_samples
+
+   !> The sample, from 0, of the k-th of n states: one in the first revolution of each of n stretches of equal length.
+   pure integer(i8) function sample_of(k, n, samples, of_revolution) result(sample)
+      integer, intent(in) :: k, n
+      !> In all, n at least, and in a revolution.
+      integer(i8), intent(in) :: samples
+      integer, intent(in) :: of_revolution
+      integer(i8) :: length
+      associate (first => (k - 1)*samples/n)
+         length = min(k*samples/n - first, int(of_revolution, i8))
+         ! at the same angle lie samples that are a revolution apart, from the first of the run on
+         sample = first + modulo(int(modulo(k*golden, 1.0_wp)*length, i8) - first, length)
+      end associate
+   end function sample_of
 
    !> The films at the equilibrium; coefficients have converged ones.
    subroutine verify_equilibrium(run, file, time, found)

@@ -2,10 +2,11 @@
 !> solved, and what a file says of them.
 program test_film_comparison
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use kinds, only: wp
+   use kinds, only: wp, i8
    use text, only: to_text
    use equations_of_motion, only: bearing_model, new_bearing_model
    use film_comparison, only: film_comparison_type, film_difference, new_film_comparison
+   use verification, only: sample_of
    use verification_results, only: put_verification, states_figure
    use hdf5_file, only: hdf5_type
    use summary_group, only: figure, pad_figures, has_figure
@@ -25,6 +26,7 @@ program test_film_comparison
    if (runs('wide_arcs')) call wide_arcs()
    if (runs('carried')) call carried()
    if (runs('closed')) call closed()
+   if (runs('spread')) call spread_over_run()
    if (runs('in_a_file')) call in_a_file()
    call report()
 
@@ -103,6 +105,37 @@ contains
       call expect(found(4)%refusal == '', 'not named: '//found(4)%refusal)
       call expect(found(4)%carried > 0, 'compared')
    end subroutine closed
+
+   !> One state in each stretch of the run; at all angles of the shaft: multiples of the golden ratio leave no gap of
+   !> more than 1.9 over their number (three-gap theorem), to which comes a sample of 1/360.
+   subroutine spread_over_run()
+      integer, parameter :: numbers(5) = [1, 7, 10, 50, 300]
+      integer(i8), parameter :: samples(5) = [300_i8, 8001_i8, 55*3600_i8, 78001_i8, 78001_i8]
+      integer(i8) :: sample
+      logical :: met(0:359)
+      integer :: i, k, gap, longest
+      do i = 1, size(numbers)
+         associate (n => numbers(i))
+            met = .false.
+            do k = 1, n
+               sample = sample_of(k, n, samples(i), size(met))
+               call expect(sample >= (k - 1)*samples(i)/n .and. sample < k*samples(i)/n, 'in its stretch')
+               met(modulo(sample, size(met, kind=i8))) = .true.
+            end do
+         end associate
+         gap = 0
+         longest = 0
+         do k = 0, 2*size(met) - 1
+            gap = merge(1, gap + 1, met(modulo(k, size(met))))
+            longest = max(longest, gap)
+         end do
+         call expect(numbers(i) == 1 .or. longest <= 360*1.9_wp/numbers(i) + 1, 'angles of '//to_text(numbers(i)) &
+            & //' states: '//to_text(longest))
+      end do
+      do k = 1, 5
+         call expect(sample_of(k, 5, 5_i8, 360) == k - 1, 'all samples')
+      end do
+   end subroutine spread_over_run
 
    !> Median, largest with its time, films that could not be compared; the same in words.
    subroutine in_a_file()
