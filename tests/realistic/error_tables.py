@@ -127,10 +127,10 @@ def curve(bearings: list[Bearing]) -> str:
         found = [f"{each:.1e}" for each in (*point.journal, *point.tilt)]
         rows.append((name, *found, f"{point.seconds:.2f}"))
     words = ("median", "95 %", "largest")
-    head = ("tolerance", *(f"{each}, {word}" for each in ("journal", "tilt") for word in words), "CPU s, all")
+    head = ("", *(f"{each}, {word}" for each in ("journal", "tilt") for word in words), "CPU s, all")
     return table(head, rows)
 
 
 def curve_names() -> list[str]:
     """The runs of the curve."""
-    return [*(f"{each:.0e}" for each in CURVE), "default", "direct"]
+    return [*CURVE, "default", "direct"]

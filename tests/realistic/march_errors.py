@@ -24,6 +24,7 @@ REPEATS = 1e-3
 #: What is compared, and how the page calls it.
 QUANTITIES = {
     "journal": "journal",
+    "journal_clearance": "journal, over the clearance",
     "tilt_loaded": "tilt, loaded pads",
     "tilt_unloaded": "tilt, unloaded pads",
     "film": "minimum film thickness",
@@ -62,7 +63,9 @@ class Window:
 def errors(path: Path, reference: Path, case: Case) -> dict[str, float]:
     """Errors of a march by quantity; nothing of unloaded pads where there are none."""
     run, true = Window(path), Window(reference)
-    found = {"journal": journal(run, true, case)}
+    moved, size = journal(run, true)
+    clearance = case["bearing"]["assembled_clearance"]
+    found = {"journal": moved / max(size, STEADY * clearance), "journal_clearance": moved / clearance}
     forces = true.values["pivot_load"]
     unloaded = forces.mean(axis=0) < UNLOADED * load(case)
     tilts = tilt(run, true, case)
@@ -83,12 +86,11 @@ def gap(run: Window, true: Window, name: str) -> np.ndarray:
     return abs(run.figures(name) - true.figures(name)).max(axis=0)
 
 
-def journal(run: Window, true: Window, case: Case) -> float:
-    """Error of the orbit, over its size (the larger peak-to-peak value)."""
+def journal(run: Window, true: Window) -> tuple[float, float]:
+    """Error of the orbit, and its size (the larger peak-to-peak value), m."""
     names = "journal_y", "journal_z"
     size = max(true.size(name)[0] for name in names)
-    scale = max(size, STEADY * case["bearing"]["assembled_clearance"])
-    return float(max(gap(run, true, name)[0] for name in names) / scale)
+    return float(max(gap(run, true, name)[0] for name in names)), float(size)
 
 
 def tilt(run: Window, true: Window, case: Case) -> np.ndarray:

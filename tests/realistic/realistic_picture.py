@@ -56,7 +56,7 @@ def tolerances(bearings: list[Bearing], ax) -> None:
     """95 % and largest errors of journal and tilts over the time of all marches."""
     for index, (colour, label) in enumerate((("C0", "journal"), ("C3", "tilt"))):
         points = {name: curve_points(bearings, name) for name in curve_names()}
-        tables = [points[name] for name in curve_names() if name not in ("default", "direct")]
+        tables = [points[name] for name in curve_names() if name.startswith("tables")]
         seconds = [each.seconds for each in tables]
         for part, style in ((1, "-"), (2, "--")):
             errors = [(each.journal, each.tilt)[index][part] for each in tables]

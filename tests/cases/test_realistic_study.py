@@ -1,0 +1,45 @@
+"""The study of realistic bearings: it draws what a designer accepts; its errors are those of the motion."""
+
+import sys
+from pathlib import Path
+
+TESTS = Path(__file__).parents[1]
+sys.path[:0] = [str(TESTS / "stress"), str(TESTS / "realistic")]
+import bearings  # noqa: E402
+from bearing_runs import CLOSEST, REVOLUTIONS, changed, march, time_of  # noqa: E402
+from march_errors import errors, period  # noqa: E402
+
+SEED = 1
+
+
+def test_a_designer_accepts_every_bearing():
+    for number in range(1, 201):
+        case = bearings.draw(SEED, number)
+        assert case == bearings.draw(SEED, number)
+        if "thermal" not in case:
+            assert bearings.accepted(case)
+        assert 0.1e6 <= specific_load(case) <= 4e6
+
+
+def specific_load(case):
+    """Load over the projected area, Pa."""
+    rotor, bearing = case["rotor"], case["bearing"]
+    load = rotor["mass"] * bearings.GRAVITY - rotor.get("static_load", [0.0])[0]
+    return load / (2 * bearing["journal_radius"] * bearing["axial_length"]) * (1 + 1e-12)
+
+
+def test_errors_are_those_of_the_motion(program, tmp_path):
+    """Nothing where a run is compared with itself or begins elsewhere; a load that differs by a hundredth is
+    seen."""
+    case = bearings.draw(SEED, 12)
+    case["operation"]["duration"] = time_of(case, REVOLUTIONS)
+    moved = changed(case, {"start": {"journal": [0.1 * case["bearing"]["assembled_clearance"], 0.0]}})
+    heavier = changed(case, {"rotor": {"mass": 1.01 * case["rotor"]["mass"]}})
+    for name, each in (("one", case), ("moved", moved), ("heavier", heavier)):
+        assert march(Path(program), changed(each, CLOSEST), tmp_path / name).complete
+    assert period(tmp_path / "one.h5", case) == 1
+    assert max(errors(tmp_path / "one.h5", tmp_path / "one.h5", case).values()) == 0
+    assert max(errors(tmp_path / "moved.h5", tmp_path / "one.h5", case).values()) < 1e-3
+    found = errors(tmp_path / "heavier.h5", tmp_path / "one.h5", case)
+    assert 3e-3 < found["force"] < 3e-2
+    assert found["journal"] > 1e-3
