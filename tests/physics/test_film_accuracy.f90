@@ -2,8 +2,9 @@
 !> ranges of the film thickness ratio. Prints the largest errors, which are those of docs/verification.md. With a number
 !> as an argument the program takes that many times as many films.
 !>
-!> Errors of force and highest pressure are over those of the film in the same position that is just whole; of slopes
-!> over the position likewise, times the thinnest film.
+!> Errors of the force are over that of the film in the same position that is just whole; of slopes over the position
+!> likewise, times the thinnest film. Errors of the highest pressure are over itself where half of the film or more
+!> converges, over that of the film that is just whole elsewhere.
 program test_film_accuracy
    use kinds, only: wp
    use text, only: to_text
@@ -77,7 +78,8 @@ contains
       errors%force = max(errors%force, error)
       errors%slopes = max(errors%slopes, state%thinnest/state%force &
          & *norm2(found%derivatives(:, :2) - expected%derivatives(:, :2)))
-      errors%pressure = max(errors%pressure, abs(found%max_pressure - expected%max_pressure)/state%pressure)
+      errors%pressure = max(errors%pressure, abs(found%max_pressure - expected%max_pressure) &
+         & /merge(expected%max_pressure, state%pressure, state%t <= 0.5_wp))
    end subroutine compare
 
    !> Prints the errors of a range, and holds them against limits of force, slopes and highest pressure.
@@ -186,8 +188,10 @@ contains
             tables = new_tables(state, merge(cavitation_gumbel, cavitation_none, clips), table_tolerances(1))
             call try(tables, state, expected, looked_up)
          end do
-         limits = reshape([usual_error, 1e-3_wp, 1e-2_wp, usual_error, 1e-3_wp, 2e-2_wp], [3, 2])
-         if (clips) limits = spread([merge(supply_limits(range), usual_error, supplied), 2e-2_wp, 5e-3_wp], 2, 2)
+         ! tables keep a profile of few points
+         limits = reshape([usual_error, 1e-3_wp, merge(1e-3_wp, 3e-3_wp, supplied), usual_error, 1e-3_wp, 2e-2_wp], &
+            & [3, 2])
+         if (clips) limits(:2, :) = spread([merge(supply_limits(range), usual_error, supplied), 2e-2_wp], 2, 2)
          call expect_within('fourier'//name, range, modes, limits(:, 1))
          call expect_within('auto'//name, range, looked_up, limits(:, 2))
       end do
@@ -359,10 +363,10 @@ contains
          if (.not. supplied) call expect_within('auto'//name, range, looked_up, &
             & [5*table_tolerances(2), 1e-2_wp, 1e-2_wp])
          do k = 1, 2
-            ! of second order
+            ! of second order; what is found between the volumes errs no more than the force
             associate (in_force => direct_limits(range, merge(1, 0, supplied)))
                call expect_within('direct '//to_text(80*k)//' x '//to_text(8*k)//name, range, of_direct(k), &
-                  & [in_force, 0.1_wp, 4*in_force]*0.4_wp**(k - 1))
+                  & [in_force, 0.1_wp, in_force]*0.4_wp**(k - 1))
             end associate
             call expect_within('sor '//to_text(60*k)//' x '//to_text(15*k)//name, range, of_sor(k), &
                & [1.0_wp, 4.0_wp, 1.0_wp]*sor_limits(range)*0.4_wp**(k - 1))

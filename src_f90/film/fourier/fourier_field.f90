@@ -21,10 +21,12 @@ module fourier_field
    use sommerfeld_nodes, only: span
    implicit none (type, external)
    private
-   public :: field_of_modes, edge_flows
+   public :: field_of_modes, edge_flows, add_layer_left_out
 
    !> pi R x/L beyond which nothing is left of W: exp(-50) = 2e-22.
    real(wp), parameter :: far = 50
+   !> The same of the first mode left out where it does not count any more: exp(-10)/order is below 1e-5.
+   real(wp), parameter :: thin_layer = 10
 
 contains
 
@@ -77,6 +79,34 @@ contains
       integer, intent(in) :: i
       even_layer = (pad%h(pad%n)/pad%h(i))**1.5_wp
    end function even_layer
+
+   !> Adds what the modes left out have of the layer at the leading edge to the pressure in the middle plane at the
+   !> nodes, where its highest value lies in that layer. They are an alternating sum of which each term is the one
+   !> before times q, but for a factor (2k-1)/(2k+1), here to first order in 1/k.
+   pure subroutine add_layer_left_out(pad, rise, pressure)
+      type(fourier_pad_type), intent(in) :: pad
+      !> Pressure at the leading edge above ambient; pressures above ambient, Pa.
+      real(wp), intent(in) :: rise
+      real(wp), intent(inout) :: pressure(0:)
+      real(wp) :: x, q
+      integer :: i
+      associate (n => pad%n, order => 2*pad%axial%modes + 1)
+         if (order*from_edge(maxloc(pressure, 1) - 1) > thin_layer) return
+         do i = n - 1, 1, -1
+            x = from_edge(i)
+            if (order*x > thin_layer) exit
+            q = exp(-2*x)
+            pressure(i) = pressure(i) + rise*even_layer(pad, i)*4/(pi*order)*(-1)**pad%axial%modes*exp(-order*x) &
+               & /(1 + q)*(1 + 2*q/(order*(1 + q)))
+         end do
+      end associate
+   contains
+      !> Distance of a node from the leading edge, over that in which the first mode falls to 1/e.
+      pure real(wp) function from_edge(i)
+         integer, intent(in) :: i
+         from_edge = pad%axial%first*(pad%gap%leading_angle - atan2(pad%sine(i), pad%cosine(i)))
+      end function from_edge
+   end subroutine add_layer_left_out
 
    !> Where an angle lies between the nodes, in steps from the trailing edge.
    pure real(wp) function node_position(pad, phi)

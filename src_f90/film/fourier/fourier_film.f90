@@ -16,7 +16,7 @@ module fourier_film
    use pad_gap, only: pad_gap_type
    use clipped_quadrature, only: clipped_weights
    use film_resolution, only: resolution_type, new_resolution, most_levels, enough_cells, enough_modes
-   use fourier_field, only: field_of_modes, edge_flows
+   use fourier_field, only: field_of_modes, edge_flows, add_layer_left_out
    use fourier_pad, only: fourier_pad_type, set_weights, set_motion, gauss, middle, point_weights
    use fourier_slopes, only: force_slopes
    use fourier_passes, only: simd_width, weigh_nodes, solve_modes, sum_modes, lowest_pressure
@@ -161,12 +161,14 @@ contains
          p_middle = p_middle/h
          p_middle(0) = 0
          p_middle(n) = rise
+         if (abs(rise) > 0) call add_layer_left_out(pad, rise, p_middle)
          response%max_pressure = gap%ambient_pressure + peak(n, p_middle)
       end associate
    end subroutine sum_up
 
    !> Highest value of a function given at nodes 0:n, n >= 4: that of the quartic through the five nodes around the
-   !> highest, found by Newton's method from the top of the parabola through three.
+   !> highest, found by Newton's method from the top of the parabola through three. Beside an edge that is higher than
+   !> the nodes there may be a higher place.
    pure real(wp) function peak(n, p)
       integer, intent(in) :: n
       real(wp), intent(in) :: p(0:n)
@@ -177,7 +179,6 @@ contains
          if (p(j) > p(i)) i = j
       end do
       peak = p(i)
-      if (i == 0 .or. i == n) return
       j = min(max(i, 2), n - 2)
       associate (odd => (p(j + 1:j + 2) - p(j - 1:j - 2:-1))/2, even => (p(j + 1:j + 2) + p(j - 1:j - 2:-1))/2)
          ! p(j) + c1 t + c2 t^2 + c3 t^3 + c4 t^4
@@ -186,6 +187,7 @@ contains
          c(4) = (even(2) - 4*even(1) + 3*p(j))/12
          c(2) = even(1) - p(j) - c(4)
       end associate
+      i = min(max(i, 1), n - 1)
       bend = p(i + 1) - 2*p(i) + p(i - 1)
       if (.not. bend < 0) return
       t = i - j - 0.5_wp*(p(i + 1) - p(i - 1))/bend

@@ -224,16 +224,15 @@ contains
          do i = 1, grid%columns
             if (i >= self%first .and. i <= self%last) then
                sums(i) = weighted(m, self%basis%root, p(:, i))
-               middle(i) = p(1, i)
+               middle(i) = max(0.0_wp, weighted(m, self%basis%middle_rows, p(:, i)))
             else
                sums(i) = weighted(m, self%basis%uniform, p(:, i))
-               middle(i) = weighted(m, self%basis%transposed(:, 1), p(:, i))
+               middle(i) = weighted(m, self%basis%middle_modes, p(:, i))
             end if
          end do
-         middle = middle/self%basis%root(1)
          response%force = grid%force(sums)
          response%min_pressure = grid%gap%cavitation_pressure + min(minval(middle), grid%ambient, grid%supply)
-         response%max_pressure = grid%gap%cavitation_pressure + max(maxval(middle), grid%ambient, grid%supply)
+         response%max_pressure = grid%gap%cavitation_pressure + grid%highest(middle)
       end associate
    end subroutine sum_up
 

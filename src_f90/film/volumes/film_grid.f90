@@ -10,6 +10,7 @@
 !> pressure. Fields are (row, column).
 module film_grid
    use kinds, only: wp
+   use linear_algebra, only: solve_2x2
    use film_solver, only: film_motion, film_oil
    use pad_gap, only: pad_gap_type, pad_directions
    implicit none (type, external)
@@ -34,6 +35,8 @@ module film_grid
       !> Conductances of a row towards the middle plane and towards the side, over those of uniform rows and its
       !> height: so chosen that the parabola of a narrow pad comes out exactly.
       real(wp), allocatable :: inward(:), outward(:)
+      !> What the pressures of the rows count for that in the middle plane.
+      real(wp), allocatable :: to_middle(:)
       !> Pressure at the leading edge and at the other edges, Pa.
       real(wp) :: supply, ambient
       !> Sine and cosine at the cell centres and at the cell faces (0:columns).
@@ -53,6 +56,7 @@ module film_grid
       procedure :: derivatives
       procedure :: derivatives_of_products
       procedure :: pressure_at
+      procedure :: highest
    end type film_grid_type
 
 contains
@@ -81,6 +85,7 @@ contains
       conductance(rows) = 2*face(rows)/(face(rows)**2 - square(rows))
       grid%inward = conductance(:rows - 1)/grid%height
       grid%outward = conductance(1:)/grid%height
+      grid%to_middle = middle_shares(face)
       grid%supply = gap%supply_pressure - gap%cavitation_pressure
       grid%ambient = gap%ambient_pressure - gap%cavitation_pressure
       allocate (grid%along(0:columns), grid%between(0:columns), grid%h_face(0:columns))
@@ -105,6 +110,22 @@ contains
       grid%cos_face(:) = cos(line)
       allocate (grid%h_cell(columns), grid%beside(columns), grid%source(columns), grid%edge_source(columns))
    end function new_film_grid
+
+   !> Shares of the rows' means in the value at 0 of the even polynomial, of the fourth degree, with the means of the
+   !> first three rows between these faces; of a parabola between two.
+   pure function middle_shares(face) result(shares)
+      real(wp), intent(in) :: face(0:)
+      real(wp) :: shares(ubound(face, 1)), square(3), fourth(3)
+      integer :: n
+      n = min(3, size(shares))
+      shares = 0
+      square(:n) = (face(1:n)**3 - face(:n - 1)**3)/(3*(face(1:n) - face(:n - 1)))
+      fourth(:n) = (face(1:n)**5 - face(:n - 1)**5)/(5*(face(1:n) - face(:n - 1)))
+      if (n == 2) shares(2) = -square(1)/(square(2) - square(1))
+      if (n == 3) shares(2:3) = solve_2x2(reshape([square(2:) - square(1), fourth(2:) - fourth(1)], [2, 2], &
+         & order=[2, 1]), -[square(1), fourth(1)])
+      shares(1) = 1 - sum(shares(2:))
+   end function middle_shares
 
    !> Film thickness, conductances and right-hand side at a motion, with an oil, and a journal speed, rad/s.
    pure subroutine set_motion(self, motion, oil, speed)
@@ -230,6 +251,25 @@ contains
          pressure = pressure + self%gap%cavitation_pressure
       end associate
    end function pressure_at
+
+   !> Highest pressure above that of cavitation, Pa, in the middle plane and at the edges, from the columns' means in
+   !> that plane: of the parabola with the means of three columns, the highest one in their middle.
+   pure real(wp) function highest(self, mean)
+      class(film_grid_type), intent(in) :: self
+      real(wp), intent(in) :: mean(:)
+      real(wp) :: first, bend, x
+      integer :: i
+      highest = max(maxval(mean), self%ambient, self%supply)
+      if (self%columns < 3) return
+      i = min(max(maxloc(mean, 1), 2), self%columns - 1)
+      associate (m => mean(i - 1:i + 1), w => self%width(i - 1:i + 1))
+         first = (m(2) - m(1))/(w(1) + w(2))
+         bend = ((m(3) - m(2))/(w(2) + w(3)) - first)/sum(w)
+         if (.not. bend < 0) return
+         x = min(max((2*w(1) + w(2) - first/bend)/3, 0.0_wp), sum(w))
+         highest = max(highest, m(1) + first*(2*x - w(1)) + bend*(3*x**2 - 2*x*(2*w(1) + w(2)) + w(1)*(w(1) + w(2))))
+      end associate
+   end function highest
 
    !> The interval, of these widths, in which a place lies, and where in it, from 0 to 1.
    pure subroutine find(width, place, i, t)

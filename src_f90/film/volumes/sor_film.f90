@@ -151,7 +151,7 @@ contains
                response%min_pressure = gap%cavitation_pressure &
                   & + min(minval(edges), minval(pad%pressure, mask=pad%cells > 0))
                response%max_pressure = gap%cavitation_pressure &
-                  & + max(floor, maxval(edges), maxval(pad%pressure, mask=pad%cells > 0))
+                  & + max(floor, pad%grid%highest(in_middle(pad)))
             end associate
             if (want_derivatives) call add_derivatives(self, pad, response, ok)
          end if
@@ -263,6 +263,16 @@ contains
          sums(parity::2) = pair
       end do
    end function column_sums
+
+   !> Pressure in the middle plane, by column.
+   pure function in_middle(pad) result(pressure)
+      type(sor_pad), intent(in) :: pad
+      real(wp) :: pressure(pad%grid%columns)
+      integer :: parity
+      do parity = 1, 2
+         pressure(parity::2) = matmul(pad%pressure(1:pad%grid%columns/2, 1:pad%grid%rows, parity), pad%grid%to_middle)
+      end do
+   end function in_middle
 
    pure function pressure_field(self, i) result(p)
       class(sor_film_type), intent(in) :: self

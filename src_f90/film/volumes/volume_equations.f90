@@ -30,6 +30,8 @@ module volume_equations
       real(wp), allocatable :: root(:)
       !> A load of 1 in every row and one of 1 in the edge row, scaled, by mode.
       real(wp), allocatable :: uniform(:), at_edge(:)
+      !> What scaled pressures count for that in the middle plane, by row and by mode.
+      real(wp), allocatable :: middle_rows(:), middle_modes(:)
    contains
       procedure :: in_rows => matrix_in_rows
    end type grid_modes_type
@@ -234,6 +236,9 @@ contains
       self%eigenvalue(:rows) = diagonal
       self%uniform(:rows) = matmul(self%root(:rows), vectors)
       self%at_edge(:rows) = self%root(rows)*vectors(rows, :)
+      allocate (self%middle_rows(self%m), self%middle_modes(self%m), source=0.0_wp)
+      self%middle_rows(:rows) = grid%to_middle/self%root(:rows)
+      self%middle_modes(:rows) = matmul(self%middle_rows(:rows), vectors)
    end function new_grid_modes
 
    !> The matrix with these values by mode, in rows.
