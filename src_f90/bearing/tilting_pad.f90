@@ -4,7 +4,7 @@ module tilting_pad
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_ok, film_closed, film_not_converged
+   use film_solver, only: film_motion, film_response, film_ok, film_closed, film_not_converged, film_not_resolved
    use pad_gap, only: pad_gap_type, pad_directions
    use asperity_contact, only: asperity_load
    use contact_table, only: contact_table_type
@@ -85,6 +85,10 @@ contains
       else if (film%status == film_not_converged .and. .not. film%residual > 0) then
          reason = 'the film of pad '//to_text(number)//' did not converge: where it cavitates does not settle; try ' &
             & //'other volumes (film%circumferential_cells, film%axial_cells)'
+      else if (film%status == film_not_resolved) then
+         reason = 'the film of pad '//to_text(number)//' is not resolved: on the finest volumes its force or slopes ' &
+            & //'err by '//to_text(film%residual)//thickness//'; volumes that are given (film%circumferential_cells, ' &
+            & //'film%axial_cells) are taken as they are'
       else if (film%status == film_not_converged) then
          reason = 'the film of pad '//to_text(number)//' did not converge: residual '//to_text(film%residual) &
             & //' after film%max_sweeps = '//to_text(film%max_sweeps)

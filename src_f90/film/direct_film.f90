@@ -12,21 +12,17 @@ module direct_film
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film
    use elimination_film, only: elimination_film_type, new_elimination_film
-   use dimensionless_pad, only: dimensionless_pad_type, unit_oil, new_dimensionless_pad, mid_arc_frame_type, &
-      & middle_motion, new_mid_arc_frame
+   use following_film, only: following_film_type, new_following_film, new_following_grid
    implicit none (type, external)
    private
-   public :: direct_film_type, new_direct_film, is_cavitated, share_of_modes, new_following_film
+   public :: direct_film_type, new_direct_film, is_cavitated, share_of_modes
 
    !> How far below the cavitation pressure the full film may fall, over its maximum pressure, before it
    !> counts as cavitated: the force left out is of the second order in it, below the discretisation error.
    real(wp), parameter :: slight_tension = 1e-4_wp
 
-   !> Rows of the volumes of a fine field; columns of a film-adapted grid for every row.
-   integer, parameter :: fine_rows = 24, columns_a_row = 8
-   !> Where the source changes its sign beside the arc or close to an edge, their columns change there, over half the
-   !> arc.
-   real(wp), parameter :: farthest = 0.8_wp
+   !> Rows of the volumes of a fine field.
+   integer, parameter :: fine_rows = 24
    !> Tension over the maximum pressure up to which a pad is loaded: c = 1.
    real(wp), parameter :: loaded_tension = 0.1_wp
    !> Step of the derivatives that are taken by differences, in clearances (times the speed).
@@ -37,8 +33,9 @@ module direct_film
 
    type, extends(fourier_film_type) :: direct_film_type
       private
-      !> Of every pad, with the condition of Reynolds.
+      !> Of every pad, with the condition of Reynolds: a grid that stays the same, or film-adapted ones.
       type(elimination_film_type), allocatable :: volumes(:)
+      type(following_film_type), allocatable :: following(:)
    contains
       procedure :: forget
       procedure :: solve
@@ -50,16 +47,20 @@ contains
 
    !> Both solvers for the same gaps: cells along the arc and modes of the one; cells along the arc and
    !> along half the width of the other, which only the condition of Reynolds needs. The tolerance is that of the modes
-   !> (new_fourier_film).
-   function new_direct_film(gaps, cells, modes, columns, rows, condition, tolerance) result(solver)
+   !> (new_fourier_film). With a tolerance of volumes, too, these lie on film-adapted grids, as fine as that asks for.
+   function new_direct_film(gaps, cells, modes, columns, rows, condition, tolerance, of_volumes) result(solver)
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: cells, modes, columns, rows, condition
-      real(wp), intent(in), optional :: tolerance
+      real(wp), intent(in), optional :: tolerance, of_volumes
       type(direct_film_type) :: solver
       integer :: i
       solver%fourier_film_type = new_fourier_film(gaps, cells, modes, condition == cavitation_gumbel, tolerance)
       call solver%set_gaps(gaps, condition)
       if (condition /= cavitation_reynolds) return
+      if (present(of_volumes)) then
+         solver%following = [(new_following_film(gaps(i), of_volumes), i=1, size(gaps))]
+         return
+      end if
       allocate (solver%volumes(size(gaps)))
       do i = 1, size(gaps)
          solver%volumes(i) = new_elimination_film(gaps(i), columns, rows)
@@ -69,9 +70,9 @@ contains
    pure subroutine forget(self)
       class(direct_film_type), intent(inout) :: self
       integer :: i
-      if (.not. allocated(self%volumes)) return
-      do i = 1, size(self%volumes)
-         call self%volumes(i)%start_from()
+      do i = 1, size(self%gaps)
+         if (allocated(self%volumes)) call self%volumes(i)%start_from()
+         if (allocated(self%following)) call self%following(i)%forget()
       end do
    end subroutine forget
 
@@ -93,7 +94,7 @@ contains
          if (.not. is_cavitated(lowest, response)) return
          self%counters%volumes = self%counters%volumes + 1
          is_local = .false.
-         if (.not. share_of_modes(lowest, response) < 1) then
+         if (allocated(self%volumes) .and. .not. share_of_modes(lowest, response) < 1) then
             call self%volumes(i)%force_of_cavitation(motion, oil, speed, self%counters, force, is_local)
          end if
          if (is_local) then
@@ -180,10 +181,15 @@ contains
       integer :: k
       fourier = response
       c = share_of_modes(self%gaps(i)%cavitation_pressure, fourier)
-      call self%volumes(i)%evaluate(motion, oil, speed, .true., want_derivatives, self%counters, response)
+      if (allocated(self%following)) then
+         call self%following(i)%evaluate(motion, oil, speed, want_derivatives, self%counters, response, whole)
+      else
+         call self%volumes(i)%evaluate(motion, oil, speed, .true., want_derivatives, self%counters, response)
+      end if
       response%min_film_thickness = fourier%min_film_thickness
       if (response%status /= film_ok .or. .not. c > 0) return
-      call self%volumes(i)%evaluate(motion, oil, speed, .false., want_derivatives, self%counters, whole)
+      if (allocated(self%volumes)) call self%volumes(i)%evaluate(motion, oil, speed, .false., want_derivatives, &
+         & self%counters, whole)
       differing = fourier%force - whole%force
       response%force = response%force + c*differing
       response%max_pressure = response%max_pressure + c*(fourier%max_pressure - whole%max_pressure)
@@ -250,8 +256,8 @@ contains
       associate (lowest => self%gaps(i)%cavitation_pressure)
          if (.not. is_cavitated(lowest, response)) then
             pressure = max(lowest, pressure)
-         else if (follows) then
-            film = new_following_film(self%gaps(i), motion, speed, fine_rows)
+         else if (follows .or. allocated(self%following)) then
+            film = new_following_grid(self%gaps(i), motion, speed, fine_rows)
             call film%field(motion, oil, speed, .true., phi, z, pressure)
          else
             c = share_of_modes(lowest, response)
@@ -262,30 +268,4 @@ contains
          end if
       end associate
    end subroutine rebuild
-
-   !> The film-adapted grid at a motion that leaves the film open and a journal speed, rad/s, on this number of rows:
-   !> half of their columns lie on each side of where the source of pressure changes its sign, all of them are narrow
-   !> where the film is thin. For what is asked for seldom and has to agree with the force from tables.
-   type(elimination_film_type) function new_following_film(gap, motion, speed, rows) result(film)
-      type(pad_gap_type), intent(in) :: gap
-      type(film_motion), intent(in) :: motion
-      real(wp), intent(in) :: speed
-      integer, intent(in) :: rows
-      type(dimensionless_pad_type) :: pad
-      type(mid_arc_frame_type) :: frame
-      type(middle_motion) :: seen
-      real(wp) :: angles(0:columns_a_row*rows), zero
-      integer :: half
-      half = columns_a_row*rows/2
-      pad = new_dimensionless_pad(gap)
-      frame = new_mid_arc_frame(gap, pad)
-      seen = frame%motion(motion, unit_oil, speed)
-      zero = -atan2(sign(1.0_wp, seen%w(1))*seen%w(2), abs(seen%w(1)))
-      zero = min(max(zero, -farthest*pad%half_arc), farthest*pad%half_arc)
-      associate (position => pad%position(seen%edges))
-         angles(:half) = pad%spread_angles(position, -pad%half_arc, zero, half)
-         angles(half:) = pad%spread_angles(position, zero, pad%half_arc, half)
-      end associate
-      film = new_elimination_film(gap, 2*half, rows, 0.5_wp*(gap%leading_angle - gap%trailing_angle) + angles)
-   end function new_following_film
 end module direct_film

@@ -16,7 +16,8 @@ module film_losses
    use pad_gap, only: pad_gap_type, pad_directions
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type
-   use direct_film, only: is_cavitated, share_of_modes, new_following_film
+   use direct_film, only: is_cavitated, share_of_modes
+   use following_film, only: new_following_grid
    use fourier_film, only: fourier_film_type, converged_film
    use sommerfeld_nodes, only: span
    use volume_flows, only: volume_flow_type, flows_of_volumes, finer
@@ -169,7 +170,7 @@ contains
       real(wp) :: c
       integer :: k, status
       do k = 1, 2
-         volumes(k) = new_following_film(self%gap, motion, speed, k*(enough_rows/2))
+         volumes(k) = new_following_grid(self%gap, motion, speed, k*(enough_rows/2))
          call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), cavitated(k), status)
          loss%status = max(loss%status, status)
       end do

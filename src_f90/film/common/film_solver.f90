@@ -6,7 +6,7 @@ module film_solver
    implicit none (type, external)
    private
    public :: film_solver_type, film_motion, film_oil, film_response, film_counters
-   public :: film_ok, film_closed, film_not_converged
+   public :: film_ok, film_closed, film_not_converged, film_not_resolved
    public :: cavitation_none, cavitation_gumbel, cavitation_reynolds
 
    !> The oil in a pad's film.
@@ -15,7 +15,7 @@ module film_solver
       real(wp) :: viscosity = 0
    end type film_oil
 
-   integer, parameter :: film_ok = 0, film_closed = 1, film_not_converged = 2
+   integer, parameter :: film_ok = 0, film_closed = 1, film_not_converged = 2, film_not_resolved = 3
    !> Film cavitation: none; pressures below p_cav dropped after the solution; projected in the solution.
    integer, parameter :: cavitation_none = 0, cavitation_gumbel = 1, cavitation_reynolds = 2
    !> Films thinner than this, over the clearance, count as closed: rounding would decide, far below an atom's size.
@@ -31,6 +31,7 @@ module film_solver
       !> Minimum and maximum pressure, Pa (a solver may leave them to `take_pressures`); minimum film thickness, m.
       real(wp) :: min_pressure = 0, max_pressure = 0, min_film_thickness = 0
       !> Relative residual of an iterative solution, and the SOR sweeps after which it is given up; 0 for a direct one.
+      !> Of a film that is not resolved its error.
       real(wp) :: residual = 0
       integer :: max_sweeps = 0
    end type film_response
