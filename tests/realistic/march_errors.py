@@ -1,8 +1,11 @@
 """The error of a march: how far what a user reads of its last revolutions lies from that of another.
 
-Of each signal these are the highest, the lowest and the mean value and the part at the speed of the shaft, in
-size and phase. The phase of a pad that flutters drifts from run to run without any error of its motion; it is
-in none of these figures, and where two runs agree at every instant, the figures agree as well.
+Of each signal these are the mean value, the sizes of its motion above and below the mean, and the part at
+the speed of the shaft, in size and phase. The phase of a pad that flutters drifts from run to run without
+any error of its motion; it is in none of these figures. Highest and lowest values themselves would depend
+on it, by what a finite number of revolutions shows of a motion with two frequencies; so the sizes are means
+of a high power, and all means are weighted with a smooth window. Where two runs agree at every instant the
+figures agree as well.
 """
 
 from pathlib import Path
@@ -19,6 +22,8 @@ UNLOADED = 0.02
 #: Least scale of highest pressures and pivot forces, over the largest of all pads. That of positions and
 #: tilts is STEADY of the clearance, and of the clearance over the radius, as in docs/benchmarks.md.
 LARGEST = 0.01
+#: Power of the means that stand for the highest and lowest values.
+POWER = 8
 #: Difference of a revolution from an earlier one, over the characteristic scales, that repeats it.
 REPEATS = 1e-3
 #: What is compared, and how the page calls it.
@@ -49,11 +54,17 @@ class Window:
         self.turns = turns[self.samples]
 
     def figures(self, name: str) -> np.ndarray:
-        """Highest, lowest and mean value and the synchronous part of a signal, for each of its columns."""
+        """Mean value, sizes above and below it and synchronous part of a signal, for each of its columns."""
         values = self.values[name]
-        wave = np.exp(-2j * np.pi * self.turns)
-        part = 2 * np.mean(wave[:, None] * values, axis=0)
-        return np.array((values.max(axis=0), values.min(axis=0), values.mean(axis=0), part.real, part.imag))
+        weight = np.sin(np.pi * (np.arange(len(values)) + 0.5) / len(values))[:, None] ** 4
+        weight /= weight.sum()
+        mean = np.sum(weight * values, axis=0)
+        above, below = (
+            np.sum(weight * np.maximum(side * (values - mean), 0) ** POWER, axis=0) ** (1 / POWER)
+            for side in (1, -1)
+        )
+        part = 2 * np.sum(weight * np.exp(-2j * np.pi * self.turns)[:, None] * (values - mean), axis=0)
+        return np.array((mean, above, below, part.real, part.imag))
 
     def size(self, name: str) -> np.ndarray:
         """Peak-to-peak values."""
@@ -72,9 +83,9 @@ def errors(path: Path, reference: Path, case: Case) -> dict[str, float]:
     for name, pads in (("tilt_loaded", ~unloaded), ("tilt_unloaded", unloaded)):
         if pads.any():
             found[name] = float(tilts[pads].max())
-    thickness, right = (each.figures("min_film_thickness")[1] for each in (run, true))
+    thickness, right = (each.values["min_film_thickness"].min(axis=0) for each in (run, true))
     found["film"] = float(np.max(abs(thickness / right - 1)))
-    pressure, right = (each.figures("max_pressure")[0] for each in (run, true))
+    pressure, right = (each.values["max_pressure"].max(axis=0) for each in (run, true))
     found["pressure"] = float(np.max(abs(pressure - right) / np.maximum(right, LARGEST * right.max())))
     scale = np.maximum(forces.max(axis=0), LARGEST * forces.max())
     found["force"] = float(np.max(gap(run, true, "pivot_load") / scale))

@@ -15,7 +15,7 @@ from error_tables import (
     unsensitive,
     worst,
 )
-from march_errors import LAST, REPEATS, UNLOADED
+from march_errors import LAST, POWER, REPEATS, UNLOADED
 from report import reason, table
 from stress_judge import cause_of
 from tiltpad.calculate.deviations import STEADY
@@ -36,13 +36,14 @@ with the default settings. From the end of this march it is marched on over {rev
 several settings, of which the closest is `integration%relative_tolerance = 1e-6`: the march and the
 tables, whose tolerance follows it, are ten times closer than by default, so that an error is known to
 about a tenth of itself. It is the difference from this march over the last {last} revolutions: of the
-highest, lowest and mean value of each signal and of its part at the speed of the shaft, in size and
-phase. The phase of a pad that flutters is in none of these; it drifts without any error of the motion.
-Errors of the journal are relative to the larger peak-to-peak value of its orbit, those of a pad's tilt to
-its peak-to-peak value, but at least to {steady:.0%} of the bearing clearance, and of the clearance over
-the pad's radius (as in [benchmarks](benchmarks.md)); those of minimum film thickness, highest pressure
-and pivot force to the value itself. A pad is unloaded where its pivot bears less than {unloaded:.0%} of
-the load in the mean.
+mean value of each signal, of the sizes of its motion above and below the mean (means of the power
+{power}) and of its part at the speed of the shaft, in size and phase. The phase of a pad that flutters is
+in none of these; it drifts without any error of the motion. Errors of the journal are relative to the
+larger peak-to-peak value of its orbit, those of a pad's tilt to its peak-to-peak value, but at least to
+{steady:.0%} of the bearing clearance, and of the clearance over the pad's radius (as in
+[benchmarks](benchmarks.md)); those of minimum film thickness, highest pressure (their extremes) and pivot
+force to the value itself. A pad is unloaded where its pivot bears less than {unloaded:.0%} of the load in
+the mean.
 
 A bearing is *sensitive* where a load changed by {disturbance:g} of itself, marched with the closest
 settings, moves the journal by more than {journal:g} or a tilt by more than {tilt:g} in the same measure.
@@ -123,7 +124,8 @@ def page(bearings: list[Bearing], seed: int) -> str:
         sensitive=numbers(left_out), outcomes=outcomes(bearings, compared),
         compared=len(kept), errors=errors(kept), worst=worst(kept), curve_count=len(curve_bearings),
         curve=curve(curve_bearings), rotor_time=ROTOR_TIME, steps=steps(longs), most_steps=most_steps(longs),
-        short=SHORT, times=times(longs), longest=longest(longs), limit=LIMIT, refusals=refusals(bearings),
+        short=SHORT, times=times(longs), longest=longest(longs), limit=LIMIT, power=POWER,
+        refusals=refusals(bearings),
         orbits=orbits(bearings), missed=numbers([bearing for bearing in bearings if missed_orbit(bearing)]),
     )  # fmt: skip
 

@@ -16,6 +16,8 @@ LOOKS = {
     TILTS[0]: ("C2", "tilt, loaded pads"),
     TILTS[1]: ("C3", "tilt, unloaded pads"),
 }
+#: Other settings of the curve, and their marks.
+MARKS = {"default": "*", "direct": "s", "both 3e-06": "D", "march 1e-06": "^"}
 
 
 def draw(bearings: list[Bearing], path: Path) -> None:
@@ -61,15 +63,15 @@ def tolerances(bearings: list[Bearing], ax) -> None:
         for part, style in ((1, "-"), (2, "--")):
             errors = [(each.journal, each.tilt)[index][part] for each in tables]
             ax.plot(seconds, errors, style, marker="o", markersize=3, color=colour, linewidth=0.8)
-            for name, mark in (("default", "*"), ("direct", "s")):
+            for name, mark in MARKS.items():
                 own = points[name]
                 size = 10 if mark == "*" else 4
                 ax.plot(
                     own.seconds, (own.journal, own.tilt)[index][part], mark, color=colour, markersize=size
                 )
         ax.plot([], [], color=colour, label=f"{label}: 95 %, dashed: largest")
-    for mark, words in (("*", "default"), ("s", "direct")):
+    for words, mark in MARKS.items():
         ax.plot([], [], mark, color="black", linestyle="none", label=words)
-    ax.set(xscale="log", yscale="log", xlabel="CPU time of all marches, s", ylabel="error")
-    ax.set_title("table tolerances 1e-3 to 4e-6")
+    ax.set(yscale="log", xlabel="CPU time of all marches, s", ylabel="error")
+    ax.set_title("tables of 1e-3 to 4e-6, and other settings")
     ax.legend(fontsize=7)
