@@ -28,7 +28,7 @@ class Film:
         self.full = np.ones((columns - 1, rows), dtype=bool)
 
     def force(self, position, velocity):
-        """Force on the journal in the frame of the middle of the arc, over mu omega R^4/c^2."""
+        """Force on the journal in the mid-arc frame, over mu omega R^4/c^2."""
         phi, z, columns, rows = self.phi, self.z, len(self.phi) - 2, len(self.z) - 1
         middle = (phi[1:] + phi[:-1]) / 2
         face = thickness(position, middle) ** 3 / np.diff(phi)

@@ -28,7 +28,7 @@ contains
          & 0.0_wp, 0.0_wp)
    end function pad_of
 
-   !> The journal without velocity, off the middle by a part of the clearance, towards an angle from the pivot, in degrees.
+   !> The journal without velocity, off the middle by a part of the clearance, towards an angle from the pivot, degrees.
    pure type(film_motion) function at(eccentricity, angle) result(motion)
       real(wp), intent(in) :: eccentricity, angle
       motion = film_motion(eccentricity*clearance*[sin(angle*degree), cos(angle*degree)], [0.0_wp, 0.0_wp])
