@@ -1,6 +1,7 @@
 !> How far the films of a model are from the same films solved closely, whatever solver it takes: by axial modes and,
 !> where they cavitate, by volumes of a film-adapted grid, extrapolated (the converged films of the factories).
-!> These show their own convergence: they are solved a second time, ten times less closely.
+!> How good these are tells a second solution: ten times less close, or, where no table knows the film, on even
+!> volumes.
 module film_comparison
    use kinds, only: wp, degree
    use case_inputs, only: case_type
@@ -13,10 +14,10 @@ module film_comparison
 
    !> Error of the closest cavitated films, and of those they are compared with (film%table_tolerance).
    real(wp), parameter :: closest = 1e-6_wp, less_close = 1e-5_wp
-   !> Volumes along an arc up to this, rad, and along half the width, of the closest films that have no tables: those
-   !> of wide arcs, and of supply pressures where they may cavitate. Twice those of converged films.
+   !> Even volumes, along an arc up to this, rad, and along half the width, for the second solution of films that have
+   !> no tables: those of wide arcs, and of supply pressures where they may cavitate. Four times those of a march.
    real(wp), parameter :: usual_arc = 120*degree
-   integer, parameter :: volumes(2) = [320, 32]
+   integer, parameter :: film_adapted(2) = 0, even(2) = [320, 32]
    !> What a pad carries counts as this share of its weight at least: below, the weight, whose moment about the pivot
    !> is at least that of the tilt (some 1e-3 rad), moves the pad, not the film. Without weight: of the load.
    real(wp), parameter :: least_share = 1e-3_wp
@@ -26,7 +27,7 @@ module film_comparison
       !> What the pad carries, N: force of its film, solved closely, and of asperities, or the least that counts.
       real(wp) :: carried = 0
       !> Difference of the film force, N, and an estimate of the error that is left in the closely solved one: its
-      !> change where it is solved ten times less closely.
+      !> difference from the second solution.
       real(wp) :: force = 0, left = 0
       !> Highest pressure, solved closely, and the difference from it, Pa.
       real(wp) :: highest_pressure = 0, pressure = 0
@@ -49,8 +50,8 @@ contains
    function new_film_comparison(inputs) result(comparison)
       type(case_type), intent(in) :: inputs
       type(film_comparison_type) :: comparison
-      comparison%close = new_bearing_model(closely(inputs, closest, volumes), converged_films)
-      comparison%less_close = new_bearing_model(closely(inputs, less_close, volumes/2), converged_films)
+      comparison%close = new_bearing_model(closely(inputs, closest, film_adapted), converged_films)
+      comparison%less_close = new_bearing_model(closely(inputs, less_close, even), converged_films)
       associate (weight => comparison%close%bearing%pads%weight)
          comparison%least = least_share*merge(weight, norm2(comparison%close%point%load), weight > 0)
       end associate
