@@ -88,22 +88,28 @@ class Bearing:
 
 def study(program: Path, bearing: Bearing, folder: Path, curve: bool) -> None:
     """All runs of a bearing."""
-    case = bearing.case
-    long = changed(case, {"operation": {"duration": max(ROTOR_TIME, time_of(case, REVOLUTIONS))}})
-    bearing.runs["long"] = march(program, long, folder / "long")
+    settle(program, bearing, folder)
+    orbit = changed(bearing.case, {"case": {"task": "periodic"}})
+    bearing.runs["periodic"] = march(program, orbit, folder / "periodic")
+    compare(program, bearing, folder, curve)
+
+
+def settle(program: Path, bearing: Bearing, folder: Path) -> None:
+    """The long march from the equilibrium, or from the start that its refusal offers."""
+    time = max(ROTOR_TIME, time_of(bearing.case, REVOLUTIONS))
+    case = changed(bearing.case, {"operation": {"duration": time}})
+    bearing.runs["long"] = march(program, case, folder / "long")
     if offered := re.search(r"no equilibrium.* start%from = '(\w+)'", bearing.runs["long"].message):
         bearing.refusal = bearing.runs["long"].message
-        bearing.runs["long"] = march(program, changed(long, {"start": {"from": offered[1]}}), folder / "long")
-    bearing.runs["periodic"] = march(
-        program, changed(case, {"case": {"task": "periodic"}}), folder / "periodic"
-    )
+        bearing.runs["long"] = march(program, changed(case, {"start": {"from": offered[1]}}), folder / "long")
     if bearing.runs["long"].revolutions >= SETTLED:
         behaviour(bearing, folder / "long.h5")
-        compare(program, bearing, folder, curve)
 
 
 def compare(program: Path, bearing: Bearing, folder: Path, curve: bool) -> None:
-    """Marches on from the end of the long march with several settings."""
+    """Marches on from the end of the long march with several settings, where it came far enough."""
+    if bearing.runs["long"].revolutions < SETTLED:
+        return
     case = changed(bearing.case, {"operation": {"duration": time_of(bearing.case, REVOLUTIONS)}})
     case["start"] = {"from": "file", "file": "long.h5"}
     marches = {name: changed(case, settings) for name, settings in SETTINGS.items()}

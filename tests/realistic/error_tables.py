@@ -104,7 +104,7 @@ class Point(NamedTuple):
 
 def curve_points(bearings: list[Bearing], name: str) -> Point:
     """The point of a tolerance, over the bearings that were marched with all of them."""
-    runs = [bearing.runs[name] for bearing in bearings if on_curve(bearing)]
+    runs = [bearing.runs[name] for bearing in bearings]
     found = [run.errors for run in runs if run.errors]
     journal = [each["journal"] for each in found]
     tilt = [max(each[name] for name in TILTS if name in each) for each in found]
@@ -121,6 +121,8 @@ def on_curve(bearing: Bearing) -> bool:
 
 def curve(bearings: list[Bearing]) -> str:
     """Errors and time over the tolerance of the tables."""
+    if not bearings:
+        return "None."
     rows = []
     for name in curve_names():
         point = curve_points(bearings, name)

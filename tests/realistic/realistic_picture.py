@@ -6,7 +6,7 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from bearing_runs import Bearing
-from error_tables import TILTS, curve_names, curve_points, unsensitive
+from error_tables import TILTS, curve_names, curve_points, on_curve, unsensitive
 from tiltpad.draw.layout import PAGE
 from tiltpad.draw.plots import STYLE
 
@@ -27,7 +27,7 @@ def draw(bearings: list[Bearing], path: Path) -> None:
     with plt.style.context(STYLE):
         fig, (left, right) = plt.subplots(1, 2, figsize=(PAGE, 3.4))
         distributions(kept, left)
-        tolerances(kept, right)
+        tolerances([bearing for bearing in kept if on_curve(bearing)], right)
         path.parent.mkdir(parents=True, exist_ok=True)
         fig.savefig(path, dpi=200)
         plt.close(fig)
@@ -56,6 +56,8 @@ def distributions(bearings: list[Bearing], ax) -> None:
 
 def tolerances(bearings: list[Bearing], ax) -> None:
     """95 % and largest errors of journal and tilts over the time of all marches."""
+    if not bearings:
+        return
     for index, (colour, label) in enumerate((("C0", "journal"), ("C3", "tilt"))):
         points = {name: curve_points(bearings, name) for name in curve_names()}
         tables = [points[name] for name in curve_names() if name.startswith("tables")]
