@@ -39,8 +39,8 @@ Largest errors at the default resolution over random films: pads of 20 to 120 de
 clearances of 5 to 200 um, every direction of motion, and film thickness ratios (the thickest over the thinnest place)
 up to 50. Force is over that of the full film in the same position that is just about to cavitate, driven as fast and
 in the same sense along the arc. Slopes are derivatives over the position, likewise and times the thinnest film. Highest
-pressure is over itself where half of the film or more converges, and over that of the film just about to cavitate
-elsewhere. Field is the integral of the pressure field less the force. References are the axial expansion
+pressure is over that of the film just about to cavitate; where half of the film or more converges, over itself, or over
+a tenth of the other where this is higher. Field is the integral of the pressure field less the force. References are the axial expansion
 on 640 cells (`none`), its clipped integral (`gumbel`) and extrapolated finite volumes on a film-adapted grid
 (`reynolds`). `auto` has the default tolerances, 1e-5, and with `reynolds` 4e-5. `build/tests/test_film_accuracy {times}`
 prints these figures, and the test holds those of fewer films below limits.
