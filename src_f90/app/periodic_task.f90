@@ -5,6 +5,7 @@ module periodic_task
    use errors, only: error_type, raise, stopped, numerics_error
    use marching, only: sample_plan
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit, are_stable, loss_of_stability
+   use orbit_refinement, only: allowed_error
    use march_results, only: put_periodic, put_spectra
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
@@ -80,13 +81,19 @@ contains
       character(len=:), allocatable :: what
       what = 'unstable: '//loss_of_stability(found%multipliers)
       if (are_stable(found%multipliers)) what = 'stable'
-      associate (leading => found%multipliers(1))
+      if (.not. found%closed) what = 'a march repeats it'
+      associate (leading => found%multipliers(1), error => found%errors(1))
          print '(a)', 'periodic orbit: period '//fixed_text(1e3_wp*found%period, 4)//' ms ('//to_text(revolutions) &
             & //trim(merge(' revolution), ', ' revolutions),', revolutions == 1))//' '//what &
             & //'; leading multiplier '//fixed_text(leading%re, 6)//merge(' + ', ' - ', leading%im >= 0) &
             & //fixed_text(abs(leading%im), 6)//' i, modulus '//fixed_text(abs(leading), 6)
+         print '(a)', '  '//to_text(found%iterations)//' iterations on '//to_text(found%orbit%intervals()) &
+            & //' intervals, after '//to_text(found%marched)//' periods of a march; the multiplier errs by at most ' &
+            & //to_text(error)
+         if (error > allowed_error(leading)) print '(a)', '  the leading multiplier is not known better: shorter ' &
+            & //'intervals still change it'
       end associate
-      print '(a)', '  '//to_text(found%iterations)//' iterations on '//to_text(found%orbit%intervals()) &
-         & //' intervals, after '//to_text(found%marched)//' periods of a march'
+      if (.not. found%closed) print '(a)', '  Newton''s method does not close the orbit: it is that of the march, ' &
+         & //'whose displacements change by '//to_text(found%change)//' of their characteristic scales in a period'
    end subroutine print_orbit
 end module periodic_task

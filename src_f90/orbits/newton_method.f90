@@ -116,6 +116,9 @@ module newton_method
 
    !> Longest correction that is made in a plane: what is further away is sought by a shorter step.
    real(wp), parameter :: longest = 0.5_wp
+   !> Iterations in which a correction that is longer must fall by half. Shorter ones may fall slowly, where places at
+   !> which the derivatives jump go from interval to interval.
+   integer, parameter :: looked_at_iterations = 8
 
 contains
 
@@ -163,23 +166,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp), intent(in), optional :: normal(:)
       real(wp), allocatable :: matrix(:, :), b(:, :)
-      real(wp) :: before, left
-      logical :: stops, ok
+      real(wp) :: before, left, best, best_before
+      logical :: ok
       integer :: n, unknowns
       n = problem%n
       unknowns = merge(n + 1, n, present(normal))
       allocate (matrix(unknowns, unknowns), b(unknowns, 1 + unknowns - n))
       before = 0
+      best = huge(best)
+      best_before = best
       do
-         stops = associated(options%give_up)
-         if (stops) stops = options%give_up()
-         if (stops) then
-            call raise(error, stopped, 'asked to stop')
-         else if (point%iterations == options%max_iterations) then
-            call raise(error, numerics_error, 'Newton''s method stopped after '//to_text(point%iterations) &
-               & //' iterations at a correction of '//to_text(point%correction) &
-                  & //' of the characteristic scale of the states')
-         end if
+         call check_progress(options, point, best, best_before, error)
          if (allocated(error)) return
          point%iterations = point%iterations + 1
          call problem%get_place(point%place)
@@ -205,6 +202,8 @@ contains
          ! by as much as this correction is shorter than the last, the next is shorter still
          if (before > 0 .and. .not. present(normal)) left = left*min(1.0_wp, left/before)
          before = point%correction
+         best = min(best, point%correction)
+         if (point%iterations == 1) best_before = best
          if (left <= options%tolerance) exit
       end do
       point%parameter = problem%parameter
@@ -212,6 +211,33 @@ contains
       call problem%spectrum(point%values, point%growth, ok)
       if (.not. ok) call raise(error, numerics_error, 'the eigenvalues that tell stability were not found')
    end subroutine correct
+
+   !> Whether to go on: not where it is asked to stop, after too many iterations, or where the correction stays long.
+   subroutine check_progress(options, point, best, best_before, error)
+      class(newton_options), intent(in) :: options
+      type(branch_point_type), intent(in) :: point
+      !> Shortest correction up to now, and when this was asked last.
+      real(wp), intent(in) :: best
+      real(wp), intent(inout) :: best_before
+      type(error_type), allocatable, intent(out) :: error
+      logical :: stops
+      stops = associated(options%give_up)
+      if (stops) stops = options%give_up()
+      if (stops) then
+         call raise(error, stopped, 'asked to stop')
+      else if (point%iterations == options%max_iterations) then
+         call raise(error, numerics_error, 'Newton''s method stopped after '//to_text(point%iterations) &
+            & //' iterations at a correction of '//to_text(point%correction) &
+               & //' of the characteristic scale of the states')
+      else if (point%iterations > 0 .and. mod(point%iterations, looked_at_iterations) == 0) then
+         if (best > max(longest, 0.5_wp*best_before)) then
+            call raise(error, numerics_error, 'Newton''s method does not converge: its correction is still ' &
+               & //to_text(best)//' of the characteristic scale of the states after ' &
+               & //to_text(point%iterations)//' iterations')
+         end if
+         best_before = best
+      end if
+   end subroutine check_progress
 
    !> b := matrix^(-1) b.
    subroutine solve(matrix, b, error)

@@ -22,12 +22,14 @@ module orbit_collocation
    type :: orbit_equations_type
       private
       type(interval_maps_type) :: maps
-      !> How many constants the equations of an interval have there.
-      integer :: constants = 0
+      !> States, and how many constants the equations of an interval have there.
+      integer :: n = 0, constants = 0
       !> How the ends of intervals go where they lie at a switching point, s, (column, 0:intervals): columns 1 to n from
       !> a change of the state at the start of the period, n + 1 from what the equations lack, n + 2 (where it is asked
       !> for) from a change of the parameter by 1; the last from how far the next such end goes.
       real(wp), allocatable :: shift(:, :)
+   contains
+      procedure :: transitions
    end type orbit_equations_type
 
    !> What the equations are for another value of the parameter.
@@ -65,6 +67,7 @@ contains
       n = model%n
       columns = n + merge(2, 1, present(shift))
       constants = columns - n + merge(2, 0, any(orbit%switching_point > 0))
+      equations%n = n
       equations%constants = constants
       ! the last column is how far the next end at a switching point goes
       associate (rows => padded(columns + 1))
@@ -106,6 +109,25 @@ contains
       if (present(shift)) matrix(:, n + 1) = -start(n + 2, :n)
       b = start(n + 1, :n) + orbit%gap()
    end subroutine condense
+
+   !> How the state at the end of each interval follows from that at its start, over the scales: (to, from, interval).
+   function transitions(self)
+      class(orbit_equations_type), intent(in) :: self
+      real(wp), allocatable :: transitions(:, :, :), start(:, :), at(:, :, :)
+      integer :: i, k
+      associate (n => self%n)
+         allocate (transitions(n, n, ubound(self%shift, 2)))
+         allocate (start(padded(n), n + self%constants), source=0.0_wp)
+         allocate (at(padded(n), n, points))
+         do i = 1, n
+            start(i, i) = 1
+         end do
+         do k = 1, size(transitions, 3)
+            call self%maps%follow(k, points, start, at)
+            transitions(:, :, k) = transpose(at(:n, :, points))
+         end do
+      end associate
+   end function transitions
 
    !> The ends of intervals at switching points, and those of the period.
    pure function switching_ends(orbit) result(ends)

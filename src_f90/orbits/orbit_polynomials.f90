@@ -31,6 +31,7 @@ module orbit_polynomials
    contains
       procedure :: intervals
       procedure :: gap
+      procedure :: end => end_state
       procedure :: state_at
       procedure :: change_mesh
       procedure :: set_mesh
@@ -47,8 +48,15 @@ contains
    pure function gap(self)
       class(orbit_type), intent(in) :: self
       real(wp) :: gap(size(self%start))
-      gap = (self%at(:, points, self%intervals()) - self%start)/self%scale
+      gap = (self%end() - self%start)/self%scale
    end function gap
+
+   !> The state at the end of the period.
+   pure function end_state(self)
+      class(orbit_type), intent(in) :: self
+      real(wp) :: end_state(size(self%start))
+      end_state = self%at(:, points, self%intervals())
+   end function end_state
 
    !> The state y at a time of the period, s, and its rate along the polynomial there.
    pure subroutine state_at(self, t, y, rate)

@@ -34,8 +34,9 @@ module orbit_problem
       real(wp) :: longest = huge(1.0_wp)
       !> Evaluations of the rates with their derivatives, and without.
       integer(i8) :: tangents = 0, evaluations = 0
+      !> As they were linearised last.
+      type(orbit_equations_type) :: equations
       class(parametric_ode_type), pointer, private :: ode => null()
-      type(orbit_equations_type), private :: equations
       !> How far the first orbit on its mesh was from satisfying the rates in the middle of the intervals, < 0: not
       !> known yet.
       real(wp), private :: first_defect = -1

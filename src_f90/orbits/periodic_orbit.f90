@@ -4,14 +4,15 @@ module periodic_orbit
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use errors, only: error_type, add_context, numerics_error, asked_to_stop
-   use linear_algebra, only: zgesv
-   use operating_point, only: operating_point_type
    use marching, only: march_options
    use ode_model, only: integrator_counts_type
    use cvode_integrator, only: integrator_type
    use equations_of_motion, only: bearing_model
    use orbit_polynomials, only: orbit_type
-   use newton_method, only: newton_options, branch_point_type, correct
+   use newton_method, only: newton_options
+   use orbit_refinement, only: refined_orbit_type, close_on_meshes, linearize_along
+   use march_repetition, only: march_repetition_type
+   use linear_response, only: go_to_response, longest_interval
    use orbit_problem, only: parametric_ode_type, orbit_problem_type, begin_orbits
    use orbit_march, only: march_period, mesh_options
    implicit none (type, external)
@@ -26,15 +27,22 @@ module periodic_orbit
       real(wp) :: residual = huge(1.0_wp)
       !> Eigenvalues of the monodromy matrix, that of largest modulus first.
       complex(wp), allocatable :: multipliers(:)
+      !> Their errors, by the changes from mesh to mesh.
+      real(wp), allocatable :: errors(:)
+      !> Whether Newton's method closed the orbit. Else it is a period of a march that repeats, and by how much the
+      !> displacements change in a period, over the scales.
+      logical :: closed = .true.
+      real(wp) :: change = 0
       !> Periods marched, and what this cost.
       integer :: marched = 0
       type(integrator_counts_type) :: march
-      !> Rounds of Newton's method that closed the orbit; evaluations of the equations with their derivatives in all
-      !> rounds.
+      !> Iterations of Newton's method on the meshes that closed the orbit; evaluations of the equations with their
+      !> derivatives in all iterations.
       integer :: iterations = 0
       integer(i8) :: evaluations = 0
    contains
       procedure :: counts
+      procedure :: is_stable
    end type periodic_orbit_type
 
    !> Newton's method is tried once the state changes by less than this over a period, over the scales, or after a
@@ -46,16 +54,13 @@ module periodic_orbit
    integer, parameter :: fewest_periods = 2, early_rounds = 12
    !> Largest correction that is made, over the scales.
    real(wp), parameter :: longest = 0.5_wp
-   !> A state that its mean rates move by less than this, over the scales, is in equilibrium.
-   real(wp), parameter :: still = 1e-3_wp
-   !> Largest amplitude of a displacement, over its scale: of a longer response only a part is taken.
-   real(wp), parameter :: largest = 0.3_wp
 
 contains
 
    !> The periodic orbit that the motion from state y leads to; from a state in equilibrium, that to which the motion
-   !> near the answer of the linearised equations to the unbalance leads. A numerics error where the march ends or
-   !> Newton's method finds none, or one of status `stopped`, where `give_up` says so.
+   !> near the answer of the linearised equations to the unbalance leads. Where Newton's method does not close it from
+   !> there, the motion from y itself as the case is marched. A numerics error where the march ends, or where it does
+   !> not repeat and Newton's method finds no orbit; one of status `stopped`, where `give_up` says so.
    subroutine find_periodic_orbit(model, march, y, found, error, give_up)
       type(bearing_model), intent(inout), target :: model
       !> Tolerances of a march; they choose the mesh.
@@ -65,71 +70,92 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(integrator_type) :: integrator
-      type(march_options) :: mesh
+      type(march_options) :: options
       type(orbit_type) :: before
-      real(wp) :: close_by
+      type(integrator_counts_type) :: earlier
+      type(march_repetition_type) :: repetition
       integer :: next_try, revolutions
+      logical :: near_by
       revolutions = model%inputs%periodic%revolutions
       found%period = revolutions*2*pi/model%point%speed(0.0_wp)
       found%orbit%start = y
       found%orbit%scale = model%scale
-      mesh = mesh_options(march, found%period/revolutions)
-      close_by = merge(small_change, small_change_of_several, revolutions == 1)
+      options = mesh_options(march, found%period/revolutions)
+      near_by = .true.
       if (revolutions == 1) call go_to_response(model, found%orbit%start)
-      call integrator%start(model, mesh, 0.0_wp, found%orbit%start, last_try*found%period, error)
+      call integrator%start(model, options, 0.0_wp, found%orbit%start, last_try*found%period, error)
       next_try = first_try
       do while (.not. allocated(error))
          before = found%orbit
-         call march_period(integrator, mesh, found%marched, found%period, found%orbit, error, give_up)
-         found%march = integrator%counts()
-         if (allocated(error)) exit
-         found%marched = found%marched + 1
-         if (found%marched < next_try .and. (found%evaluations > 0 .or. found%marched < fewest_periods &
-            & .or. maxval(abs(found%orbit%gap())) > close_by)) cycle
-         next_try = 2*found%marched
-         if (maxval(abs(found%orbit%gap())) > close_by) call average(found%orbit, before)
-         call close_orbit(model, found, error, give_up)
-         if (.not. allocated(error)) return
-         if (error%status == numerics_error .and. next_try <= last_try) deallocate (error)
+         call march_period(integrator, options, found%marched, found%period, found%orbit, error, give_up)
+         found%march = earlier + integrator%counts()
+         if (.not. allocated(error)) then
+            found%marched = found%marched + 1
+            call repetition%add(model%positions(found%orbit%end()))
+            if (found%marched < next_try .and. (found%evaluations > 0 .or. found%marched < fewest_periods &
+               & .or. .not. nearly_closed(found%orbit, revolutions))) cycle
+            next_try = 2*found%marched
+            call close_or_accept(model, before, repetition, found, error, give_up)
+            if (.not. allocated(error)) return
+            if (next_try > last_try) call add_context(error, repetition%cause(revolutions))
+            near_by = near_by .and. next_try <= last_try
+            if (error%status == numerics_error .and. next_try <= last_try) deallocate (error)
+            if (found%marched < first_try) cycle
+         end if
+         if (.not. near_by) cycle
+         if (allocated(error)) then
+            if (error%status /= numerics_error) exit
+            deallocate (error)
+         end if
+         near_by = .false.
+         earlier = found%march
+         repetition = march_repetition_type()
+         call start_march(integrator, model, march, y, found, options, error)
       end do
       call add_context(error, 'no periodic orbit was found: after '//to_text(found%marched)//' periods')
    end subroutine find_periodic_orbit
 
-   !> Puts a state in equilibrium into the steady motion of the linearised equations under the unbalance, without
-   !> friction, at t = 0: it is near the periodic orbit, and free of a march. Other states stay.
-   subroutine go_to_response(model, y)
-      type(bearing_model), intent(inout) :: model
-      real(wp), intent(inout) :: y(:)
-      type(operating_point_type) :: point, free
-      complex(wp) :: matrix(model%n, model%n), response(model%n, 2)
-      real(wp) :: rates(model%n, 0:2), jacobian(model%n, model%n), speed, amplitude
-      integer :: pivots(model%n), info, i
-      logical :: ok
-      point = model%point
-      speed = point%speed(0.0_wp)
-      free = point
-      free%friction = .false.
-      call model%set_point(free)
-      do i = 2, 0, -1
-         call model%rhs_and_jacobian(i*pi/(2*speed), y, rates(:, i), jacobian, ok)
-         if (.not. ok) exit
-         rates(:, i) = rates(:, i)/(speed*model%scale)
-      end do
-      call model%set_point(point)
-      if (.not. ok) return
-      ! the rates are mean + Re(swing exp(i angle))
-      response(:, 1) = 0.5_wp*(rates(:, 0) + rates(:, 2))
-      response(:, 2) = cmplx(rates(:, 0), -rates(:, 1), wp) - (1.0_wp, -1.0_wp)*response(:, 1)
-      do i = 1, model%n
-         matrix(:, i) = -jacobian(:, i)*model%scale(i)/(speed*model%scale)
-         matrix(i, i) = matrix(i, i) + (0.0_wp, 1.0_wp)
-      end do
-      call zgesv(model%n, 2, matrix, model%n, pivots, response, model%n, info)
-      if (info /= 0 .or. .not. all(abs(response) <= huge(speed))) return
-      if (maxval(abs(response(:, 1))) > still) return
-      amplitude = maxval(abs(response(model%layout%positions(), 2)))
-      y = y + model%scale*response(:, 2)%re*largest/max(largest, amplitude)
-   end subroutine go_to_response
+   !> Starts at state y as the case is marched.
+   subroutine start_march(integrator, model, march, y, found, options, error)
+      type(integrator_type), intent(inout) :: integrator
+      type(bearing_model), intent(inout), target :: model
+      type(march_options), intent(in) :: march
+      real(wp), intent(in) :: y(:)
+      type(periodic_orbit_type), intent(in) :: found
+      type(march_options), intent(inout) :: options
+      type(error_type), allocatable, intent(out) :: error
+      options%relative_tolerance = march%relative_tolerance
+      options%absolute_tolerance = march%absolute_tolerance
+      options%max_steps = march%max_steps - found%march%steps
+      call integrator%start(model, options, found%marched*found%period, y, last_try*found%period, error)
+   end subroutine start_march
+
+   !> Whether an orbit is so close to itself a period later that Newton's method may begin.
+   pure logical function nearly_closed(orbit, revolutions)
+      type(orbit_type), intent(in) :: orbit
+      integer, intent(in) :: revolutions
+      nearly_closed = maxval(abs(orbit%gap())) <= merge(small_change, small_change_of_several, revolutions == 1)
+   end function nearly_closed
+
+   !> Closes the last period of a march by Newton's method, or its mean with the period before where these are far from
+   !> each other. Where that fails, but the march repeats this period, it is the orbit.
+   subroutine close_or_accept(model, before, repetition, found, error, give_up)
+      type(bearing_model), intent(inout), target :: model
+      type(orbit_type), intent(inout) :: before
+      type(march_repetition_type), intent(in) :: repetition
+      type(periodic_orbit_type), intent(inout) :: found
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(orbit_type) :: marched
+      marched = found%orbit
+      if (.not. nearly_closed(marched, model%inputs%periodic%revolutions)) call average(found%orbit, before)
+      call close_orbit(model, found, error, give_up)
+      if (.not. allocated(error)) return
+      found%orbit = marched
+      if (error%status /= numerics_error .or. found%marched < first_try .or. .not. repetition%repeats(1)) return
+      found%change = repetition%change(1)
+      call follow_march(model, found, error)
+   end subroutine close_or_accept
 
    !> What the march and Newton's method cost together.
    pure type(integrator_counts_type) function counts(self)
@@ -158,7 +184,7 @@ contains
       type(parametric_ode_type), target :: ode
       type(orbit_problem_type) :: problem
       type(newton_options) :: newton
-      type(branch_point_type) :: closed
+      type(refined_orbit_type) :: refined
       associate (given => model%inputs%periodic)
          newton = newton_options(given%tolerance, given%max_iterations)
          if (present(give_up)) newton%give_up => give_up
@@ -168,19 +194,46 @@ contains
          call begin_orbits(problem, ode, found%orbit, given%revolutions)
       end associate
       problem%longest = longest
-      call correct(problem, newton, closed, error)
-      found%orbit = problem%orbit
-      found%iterations = closed%iterations
+      call close_on_meshes(problem, newton, longest_interval(model, found%orbit%start, found%period), refined, error)
+      found%iterations = refined%iterations
       found%evaluations = found%evaluations + problem%tangents
       if (allocated(error)) then
-         if (closed%iterations == model%inputs%periodic%max_iterations) then
+         if (refined%exhausted .and. newton%max_iterations == model%inputs%periodic%max_iterations) then
             call add_context(error, 'periodic%max_iterations')
          end if
-      else
-         call move_alloc(closed%values, found%multipliers)
-         found%residual = problem%residual()
+         return
       end if
+      found%orbit = problem%orbit
+      call move_alloc(refined%multipliers, found%multipliers)
+      call move_alloc(refined%errors, found%errors)
+      found%residual = problem%residual()
    end subroutine close_orbit
+
+   !> Takes the last period of a march that repeats as the orbit, with the multipliers along it.
+   subroutine follow_march(model, found, error)
+      type(bearing_model), intent(inout), target :: model
+      type(periodic_orbit_type), intent(inout) :: found
+      type(error_type), allocatable, intent(out) :: error
+      type(parametric_ode_type), target :: ode
+      type(orbit_problem_type) :: problem
+      type(refined_orbit_type) :: refined
+      ode%model => model
+      ode%period = found%period/model%inputs%periodic%revolutions
+      call begin_orbits(problem, ode, found%orbit, model%inputs%periodic%revolutions)
+      call linearize_along(problem, refined, error)
+      found%evaluations = found%evaluations + problem%tangents
+      if (allocated(error)) return
+      found%closed = .false.
+      call move_alloc(refined%multipliers, found%multipliers)
+      call move_alloc(refined%errors, found%errors)
+      found%residual = problem%residual()
+   end subroutine follow_march
+
+   !> True where a small disturbance dies out, or where a march stays on the orbit.
+   pure logical function is_stable(self)
+      class(periodic_orbit_type), intent(in) :: self
+      is_stable = are_stable(self%multipliers) .or. .not. self%closed
+   end function is_stable
 
    !> True where a small disturbance of the orbit dies out.
    pure logical function are_stable(values)

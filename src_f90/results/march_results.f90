@@ -5,7 +5,7 @@ module march_results
    use errors, only: error_type
    use case_inputs, only: case_type
    use spectra, only: one_sided_amplitude, full_amplitude
-   use periodic_orbit, only: periodic_orbit_type, are_stable
+   use periodic_orbit, only: periodic_orbit_type
    use hdf5_file, only: hdf5_type
    use summary_group, only: put_figure
    use viscosity_history, only: viscosity_history_type
@@ -178,8 +178,14 @@ contains
          call put_figure(file, 'leading_multiplier_modulus', abs(values(1)), '1', 'leading multiplier, modulus')
          call file%put_list('periodic/multiplier_real', values%re, '1', 'multiplier, real part', 'multiplier')
          call file%put_list('periodic/multiplier_imag', values%im, '1', 'multiplier, imaginary part', 'multiplier')
-         call file%put_count('periodic/stable', merge(1_i8, 0_i8, are_stable(found%multipliers)), &
-            & '1 where all multipliers are inside the unit circle')
+         call file%put_list('periodic/multiplier_error', found%errors, '1', &
+            & 'by how much a mesh of shorter intervals changed the multiplier', 'multiplier')
+         call file%put_count('periodic/stable', merge(1_i8, 0_i8, found%is_stable()), &
+            & '1 where all multipliers are inside the unit circle, or a march repeats the orbit')
+         call file%put_count('periodic/closed', merge(1_i8, 0_i8, found%closed), &
+            & '1 where Newton''s method closed the orbit; 0: it is a period of a march that repeats')
+         call file%put_real('periodic/change', found%change, '1', 'change of the displacements in a period of this ' &
+            & //'march, over their characteristic scales')
       end associate
    end subroutine put_periodic
 end module march_results

@@ -80,7 +80,9 @@ PERIODIC = {
     "periodic/multiplier_real": (("multiplier",), "1"),
     "periodic/multiplier_imag": (("multiplier",), "1"),
     "periodic/period": ((), "s"),
+    "periodic/multiplier_error": (("multiplier",), "1"),
     "periodic/residual": ((), "1"),
+    "periodic/change": ((), "1"),
 }
 COUNTS = ["steps", "rhs_evaluations", "jacobian_evaluations", "error_test_failures", "convergence_failures"]
 COUNTS += ["film_fourier", "film_volumes", "film_passes"]

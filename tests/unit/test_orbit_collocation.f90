@@ -33,6 +33,8 @@ module orbit_problems
    !> x'' + 2 d x' + x + a max(x - b, 0) = cos t.
    type, extends(small_ode_type) :: bent_problem
       real(wp) :: damping = 0.1_wp, more = 0.5_wp, bend = 0.3_wp
+      !> Whether it says where its spring changes.
+      logical :: told = .true.
    contains
       procedure :: rates => bent_rates
       procedure :: jacobian => bent_jacobian
@@ -104,8 +106,8 @@ contains
       class(bent_problem), intent(in) :: self
       integer, allocatable, intent(out) :: state(:)
       real(wp), allocatable, intent(out) :: value(:)
-      state = [1]
-      value = [self%bend]
+      state = pack([1], self%told)
+      value = pack([self%bend], self%told)
    end subroutine bend_of_spring
 
    pure function turn_of_force(self, t) result(df_dt)
@@ -120,6 +122,9 @@ program test_orbit_collocation
    use kinds, only: wp, pi
    use orbit_polynomials, only: orbit_type, points, place
    use constant_orbit, only: at_rest, newton_round
+   use newton_method, only: newton_options
+   use orbit_problem, only: parametric_ode_type, orbit_problem_type, begin_orbits
+   use orbit_refinement, only: refined_orbit_type, close_on_meshes, allowed_error
    use errors, only: error_type
    use text, only: to_text
    use orbit_problems, only: linear_problem, van_der_pol, bent_problem
@@ -138,6 +143,7 @@ program test_orbit_collocation
    if (runs('limit_cycle')) call limit_cycle()
    if (runs('blocks')) call blocks()
    if (runs('switching points')) call switching_points()
+   if (runs('refinement')) call refinement()
    call report()
 
 contains
@@ -330,6 +336,44 @@ contains
       call expect(errors(1)/errors(2) > 28 .and. errors(1)/errors(2) < 36, 'order 5: '//to_text(errors(1))//' to ' &
          & //to_text(errors(2)))
    end subroutine switching_points
+
+   !> Where the model does not say at which state its spring changes, the passages lie inside of intervals. Quarters of
+   !> these alone bring the leading multiplier as near as is allowed to that on a mesh with ends there. Equal intervals
+   !> would have to be some thousand.
+   subroutine refinement()
+      type(bent_problem), target :: problem
+      type(parametric_ode_type), target :: ode
+      type(orbit_problem_type) :: stands
+      type(refined_orbit_type) :: found
+      type(orbit_type) :: orbit
+      type(error_type), allocatable :: error
+      complex(wp), allocatable :: values(:)
+      real(wp) :: error_of_first
+      integer :: round
+      problem%n = 2
+      problem%more = 8
+      problem%damping = 0.02_wp
+      orbit = at_rest(2, 400, 2*pi)
+      do round = 1, 20
+         call newton_round(problem, orbit, error, values)
+      end do
+      call expect(orbit%correction < 1e-10_wp, 'with ends at the passages it converges')
+      problem%told = .false.
+      ode%model => problem
+      ode%period = 2*pi
+      call begin_orbits(stands, ode, orbit, 1)
+      call stands%orbit%change_mesh([(2*pi*round/24, round=0, 24)])
+      call close_on_meshes(stands, newton_options(max_iterations=60), 2*pi, found, error)
+      call expect_no_error(error, 'it closes on all meshes')
+      if (allocated(error)) return
+      error_of_first = minval(abs(found%multipliers(1) - values))
+      call expect(found%errors(1) <= allowed_error(found%multipliers(1)), 'it is told to be near enough: ' &
+         & //to_text(found%errors(1)))
+      call expect(error_of_first <= allowed_error(found%multipliers(1)), 'the multiplier is near enough: ' &
+         & //to_text(error_of_first))
+      call expect(stands%orbit%intervals() > 24 .and. stands%orbit%intervals() < 400, 'not all are cut: ' &
+         & //to_text(stands%orbit%intervals()))
+   end subroutine refinement
 
    !> The trace of the product of both springs' exact solutions, that of the stiffer one for so long in a period.
    real(wp) function sum_of_multipliers(problem, length) result(sum)
