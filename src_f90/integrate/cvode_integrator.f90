@@ -1,4 +1,4 @@
-!> Integrates an ode_model step by step with CVODE (BDF, Newton). It, sundials_context and vector_operations
+!> Integrates an ode_model step by step with CVODE (BDF). It, newton_iteration, sundials_context and vector_operations
 !> alone know SUNDIALS.
 module cvode_integrator
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
@@ -19,6 +19,7 @@ module cvode_integrator
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
    use ode_model, only: ode_model_type, integrator_counts_type
+   use newton_iteration, only: newton_iteration_type
    use step_history, only: step_history_type, new_step_history
    implicit none (type, external)
    private
@@ -49,8 +50,9 @@ module cvode_integrator
       real(c_double) :: t(1) = 0, t_end = 0
       real(wp), allocatable :: y(:)
       real(wp) :: relative_tolerance = 0
-      !> Absolute tolerance of each state; Newton's last correction of it.
-      real(wp), allocatable :: absolute_tolerance(:), correction(:)
+      !> Absolute tolerance of each state.
+      real(wp), allocatable :: absolute_tolerance(:)
+      type(newton_iteration_type) :: newton
       type(step_history_type) :: history
       logical :: keeps_outputs = .true.
       !> Order of the last step.
@@ -118,6 +120,7 @@ contains
          flag = fcvodesetlinearsolutionscaling(core%memory, 0_c_int)
          flag = fcvodesetjacevalfrequency(core%memory, int(options%derivatives_age, c_long))
          flag = fcvodesetlsetupfrequency(core%memory, int(options%derivatives_age, c_long))
+         call core%newton%attach(model, size(y), core%context, core%memory)
          flag = fcvodesetnonlinconvcoef(core%memory, newton_coefficient)
          flag = fcvodesetmaxord(core%memory, int(options%max_order, c_int))
          flag = fcvodesetmaxerrtestfails(core%memory, max_failures)
@@ -141,7 +144,6 @@ contains
       core%t_end = t_end
       core%order = 0
       core%counts = integrator_counts_type()
-      core%correction = spread(0.0_wp, 1, size(core%y))
       call core%model%rhs(t, core%y, dydt, ok)
       if (.not. ok) call raise(error, numerics_error, failure(core, cv_first_rhsfunc_err))
       core%history = new_step_history(size(core%y) + merge(core%model%outputs, 0, core%keeps_outputs))
@@ -152,7 +154,7 @@ contains
    subroutine note_end(core)
       type(core_type), intent(inout) :: core
       real(wp) :: outputs(merge(core%model%outputs, 0, core%keeps_outputs))
-      if (core%keeps_outputs) outputs = core%model%output(core%correction)
+      if (core%keeps_outputs) outputs = core%model%output(core%newton%correction)
       call core%history%add(core%t(1), core%y, outputs)
    end subroutine note_end
 
@@ -205,7 +207,7 @@ contains
          flag = fcvodegetnumrhsevals(memory, count)
          counts%rhs_evaluations = count(1)
          flag = fcvodegetnumjacevals(memory, count)
-         counts%jacobian_evaluations = count(1)
+         counts%jacobian_evaluations = count(1) + self%core%newton%linearizations
          flag = fcvodegetnumerrtestfails(memory, count)
          counts%error_test_failures = count(1)
          flag = fcvodegetnumnonlinsolvconvfails(memory, count)
@@ -219,6 +221,7 @@ contains
       if (.not. associated(self%core)) return
       associate (core => self%core)
          call fcvodefree(core%memory)
+         call core%newton%free()
          call fsunlinsolfreeempty(core%linear_solver)
          call fsunmatdestroy(core%matrix)
          call fn_vdestroy(core%y_vector)
@@ -328,7 +331,6 @@ contains
          x(i) = b(i)
       end do
       call core%model%solve(gamma(1), x, ok)
-      core%correction(:) = x
       solve_callback = merge(0_c_int, 1_c_int, ok)
    end function solve_callback
 end module cvode_integrator

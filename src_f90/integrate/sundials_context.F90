@@ -6,13 +6,17 @@ module sundials_context
 #if SUNDIALS_VERSION_MAJOR >= 7
    use fsundials_core_mod, only: fsuncontext_create, fsuncontext_free, fsuncontext_clearerrhandlers, &
       & sun_comm_null, n_vector, n_vector_ops, fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, &
-      & sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, fsunlinsolfreeempty
+      & sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, fsunlinsolfreeempty, sunnonlinearsolver, &
+      & sunnonlinearsolver_ops, sunnonlinearsolver_rootfind, fsunnonlinsolnewempty, fsunnonlinsolfreeempty, &
+      & sun_nls_conv_recvr
 #else
    use fsundials_context_mod, only: fsuncontext_create, fsuncontext_free
    use fsundials_nvector_mod, only: n_vector, n_vector_ops, fn_vdestroy
    use fsundials_matrix_mod, only: sunmatrix, fsunmatdestroy
    use fsundials_linearsolver_mod, only: sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, &
       & fsunlinsolnewempty, fsunlinsolfreeempty
+   use fsundials_nonlinearsolver_mod, only: sunnonlinearsolver, sunnonlinearsolver_ops, sunnonlinearsolver_rootfind, &
+      & fsunnonlinsolnewempty, fsunnonlinsolfreeempty, sun_nls_conv_recvr
    use fcvode_mod, only: fcvodeseterrfile
 #endif
    use fcvode_mod, only: cv_err_failure, cv_conv_failure, cv_too_much_acc, cv_rhsfunc_fail, cv_first_rhsfunc_err, &
@@ -23,6 +27,8 @@ module sundials_context
    public :: index_kind, new_context, free_context, silence, cvode_failure
    public :: n_vector, n_vector_ops, fn_vdestroy, sunmatrix, fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, &
       & sunlinearsolver_direct, fsunlinsolnewempty, fsunlinsolfreeempty
+   public :: sunnonlinearsolver, sunnonlinearsolver_ops, sunnonlinearsolver_rootfind, fsunnonlinsolnewempty, &
+      & fsunnonlinsolfreeempty, sun_nls_conv_recvr
 
 #ifdef SUNDIALS_INT32_T
    integer, parameter :: index_kind = c_int32_t

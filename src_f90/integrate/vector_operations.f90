@@ -5,7 +5,7 @@ module vector_operations
    use sundials_context, only: index_kind, n_vector, n_vector_ops
    implicit none (type, external)
    private
-   public :: use_own_operations, numbers
+   public :: use_own_operations, numbers, error_norm
 
    !> What a serial vector holds, as nvector_serial.h says.
    type, bind(c) :: serial_content
@@ -84,21 +84,23 @@ contains
       end do
    end subroutine multiply
 
-   !> The root mean square of x w.
+   !> The root mean square of x w, in CVODE with error weights w.
    real(c_double) function weighted_norm(x_vector, w_vector) bind(c)
       type(n_vector), intent(in) :: x_vector, w_vector
-      real(c_double), pointer, contiguous :: x(:), w(:)
+      weighted_norm = error_norm(numbers(x_vector), numbers(w_vector))
+   end function weighted_norm
+
+   pure real(c_double) function error_norm(x, w)
+      real(c_double), intent(in), contiguous :: x(:), w(:)
       real(c_double) :: total
       integer :: i
-      x => numbers(x_vector)
-      w => numbers(w_vector)
       total = 0
       !$omp simd reduction(+: total)
       do i = 1, size(x)
          total = total + (x(i)*w(i))**2
       end do
-      weighted_norm = sqrt(total/size(x))
-   end function weighted_norm
+      error_norm = sqrt(total/size(x))
+   end function error_norm
 
    !> z = a x + y for each of n numbers a, vectors y and vectors z; 0: done.
    integer(c_int) function add_multiples(n, a, x_vector, y_vectors, z_vectors) bind(c)
