@@ -128,6 +128,8 @@ contains
          call statistics%put('film_table', films%looked_up, 'pads looked up in tables in the march')
          call statistics%put('film_cells', films%cells, 'cells of these tables that were built')
          call statistics%put('film_nodes', films%nodes, 'cavitated films that were solved for them')
+         call statistics%put('film_profiles', films%profiles, &
+            & 'profiles of the pressure that were built for highest pressures')
          call statistics%put('film_building_seconds', films%building, 'wall time of building these tables')
          call statistics%put('film_seconds', films%seconds + films%building, 'wall time of the film in the march')
       end associate

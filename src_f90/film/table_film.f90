@@ -4,7 +4,7 @@
 !> share their tables. What no table has, films that nearly close and those that may cavitate with different pressures
 !> around them, is left to the solver whose films are tabulated.
 module table_film
-   use kinds, only: wp
+   use kinds, only: wp, i8
    use film_solver, only: film_motion, film_oil, film_response, film_ok, cavitation_gumbel
    use pad_gap, only: pad_gap_type
    use direct_film, only: direct_film_type
@@ -98,12 +98,14 @@ contains
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response
+      integer(i8) :: solved
+      solved = self%counters%fourier
       associate (pad => self%tabulated(i))
          pad%found = .false.
          if (pad%shape > 0) call pad%look_up(self%shapes(pad%shape), motion, oil, speed, self%cavitates(), &
             & want_derivatives, self%counters, response)
          if (pad%found) then
-            self%counters%looked_up = self%counters%looked_up + 1
+            if (self%counters%fourier == solved) self%counters%looked_up = self%counters%looked_up + 1
          else
             call self%direct_film_type%solve(i, motion, oil, speed, want_derivatives, response)
          end if

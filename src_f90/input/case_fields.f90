@@ -240,8 +240,8 @@ contains
       call v%whole(inputs%film%max_sweeps, 'max_sweeps', 1.0_wp, 1e8_wp, &
          & 'sor: maximum number of sweeps for a film; more is a failure')
       call v%number(inputs%film%table_tolerance, 'table_tolerance', 0.0_wp, 1e-2_wp, '1', &
-         & 'auto: error of forces from tables over that of the film at the onset of cavitation; 0: ' &
-         & //'relative_tolerance, with reynolds 4 times as much; cavitated films keep to 1.2e-6 at best')
+         & 'auto: usual error of forces from tables, over the force itself; 0: ' &
+         & //'relative_tolerance, with reynolds 4 times as much; cavitated films keep to 6e-7 at best')
       call v%word(inputs%film%cavitation, 'cavitation', 'reynolds gumbel none', &
          & 'reynolds: p >= p_cav in the solution; gumbel: clipped after the solution; none: no cavitation')
 

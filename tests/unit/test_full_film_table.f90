@@ -1,5 +1,6 @@
-!> The table of full films: jumps between cells, and that neither the order of visits nor a table that was full changes
-!> a bit. That its films are right is for test_table_film and test_film_accuracy.
+!> The table of full films: continuous between cells; neither the order of visits nor a table that was full matters; a
+!> cell is built once films solved in it have cost as much, and so is a profile of the pressure. That its films are
+!> right is for test_table_film and test_film_accuracy.
 program test_full_film_table
    use kinds, only: wp, degree
    use text, only: to_text
@@ -9,7 +10,7 @@ program test_full_film_table
    use cell_polynomials, only: simd_width
    use cell_index, only: interval, lower_end
    use full_film_table, only: full_film_table_type, new_full_film_table
-   use check, only: runs, expect, between, report
+   use check, only: runs, expect, expect_close, between, report
    use full_film, only: loads
    implicit none (type, external)
 
@@ -24,6 +25,7 @@ program test_full_film_table
    end associate
    if (runs('between_cells')) call between_cells()
    if (runs('full_table')) call full_table()
+   if (runs('built_when_due')) call built_when_due()
    call report()
 
 contains
@@ -37,8 +39,9 @@ contains
       end do
    end function random_edges
 
-   !> On both sides of an end of a cell the values are the same to twice the error. The slope of a polynomial of degree
-   !> n is up to n^2 times its values over half a cell, which is an eighth of the thickness or more (Markov).
+   !> On both sides of an end of a cell the values are the same to rounding where cells are of one size, as here; the
+   !> slopes to their error: that of a polynomial of degree n is up to n^2 times that of its values over half a cell,
+   !> which is an eighth of the thickness or more (Markov).
    subroutine between_cells()
       type(full_film_table_type) :: table
       real(wp) :: edges(2), below(2), worst, worst_slope
@@ -51,7 +54,7 @@ contains
       worst = 0
       worst_slope = 0
       do trial = 1, 40
-         edges = random_edges()
+         edges = [between(0.4_wp, 1.5_wp), between(0.4_wp, 1.5_wp)]
          axis = 1 + mod(trial, 2)
          edges(axis) = lower_end(interval(edges(axis), 1) + 1, 1)
          if (norm2(pad%position(edges)) > 0.95_wp) cycle
@@ -59,25 +62,27 @@ contains
          below(axis) = nearest(edges(axis), -1.0_wp)
          call table%look_up(edges, .true., last, counters, value, slope, good)
          call table%look_up(below, .true., last, counters, value_below, slope_below, good)
-         worst = max(worst, norm2(value(:, 1) - value_below(:, 1))/norm2(value(:, 1)))
+         worst = max(worst, norm2(value(:3, 1) - value_below(:3, 1))/norm2(value(:3, 1)))
          do axis = 1, 2
-            worst_slope = max(worst_slope, edges(axis)*norm2(slope(:, axis, 1) - slope_below(:, axis, 1)) &
-               & /norm2(value(:, 1)))
+            worst_slope = max(worst_slope, edges(axis)*norm2(slope(:3, axis, 1) - slope_below(:3, axis, 1)) &
+               & /norm2(value(:3, 1)))
          end do
       end do
-      call expect(worst > 0, 'there are ends of cells')
-      call expect(worst < 10*tolerance, 'values jump by '//to_text(worst))
+      call expect(worst_slope > 0, 'there are ends of cells')
+      call expect(worst < 1e-11_wp, 'values jump by '//to_text(worst))
       call expect(worst_slope < 2*25*8*tolerance, 'slopes jump by '//to_text(worst_slope))
    end subroutine between_cells
 
-   !> Values, slopes and pressures of a table that is visited in another order and has room for 3 cells alone.
+   !> Values, slopes and pressures of a table that is visited in another order and has room for 3 cells alone, to the
+   !> errors of what is solved where there is no cell.
    subroutine full_table()
       integer, parameter :: n = 40
       type(full_film_table_type) :: table, other
       type(film_counters) :: again
       real(wp) :: edges(2, n), value(simd_width, loads, n), slope(simd_width, 2, loads, n)
       real(wp) :: value_there(simd_width, loads), slope_there(simd_width, 2, loads), pressure(n), pressure_there, w(2)
-      integer :: k, last, different
+      real(wp) :: worst, worst_slope, worst_pressure
+      integer :: k, last
       logical :: good(n), good_there
       w = [1.0_wp, 0.5_wp]
       edges = reshape([(random_edges(), k=1, n)], [2, n])
@@ -87,20 +92,59 @@ contains
       last = 0
       do k = 1, n
          call table%look_up(edges(:, k), .true., last, counters, value(:, :, k), slope(:, :, :, k), good(k))
-         call table%highest_pressure(edges(:, k), w, 0.1_wp, last, counters, pressure(k), good(k))
+         call table%highest_pressure(edges(:, k), w, 0.1_wp, last, counters, pressure(k))
       end do
       other = new_full_film_table(pad, .true., tolerance, 3)
       last = 0
-      different = 0
+      worst = 0
+      worst_slope = 0
+      worst_pressure = 0
       do k = n, 1, -1
          call other%look_up(edges(:, k), .true., last, again, value_there, slope_there, good_there)
-         if (any(abs(value_there - value(:, :, k)) > 0)) different = different + 1
-         if (any(abs(slope_there - slope(:, :, :, k)) > 0)) different = different + 1
-         call other%highest_pressure(edges(:, k), w, 0.1_wp, last, again, pressure_there, good_there)
-         if (abs(pressure_there - pressure(k)) > 0) different = different + 1
-         if (good(k) .neqv. good_there) different = different + 1
+         associate (norm => norm2(value(:3, 1, k)))
+            worst = max(worst, norm2(value_there(:3, 1) - value(:3, 1, k))/norm)
+            worst_slope = max(worst_slope, minval(edges(:, k))*norm2(slope_there(:3, :, 1) - slope(:3, :, 1, k))/norm)
+         end associate
+         call other%highest_pressure(edges(:, k), w, 0.1_wp, last, again, pressure_there)
+         worst_pressure = max(worst_pressure, abs(pressure_there/pressure(k) - 1))
+         call expect(good(k) .and. good_there, 'a film')
       end do
-      call expect(different == 0, to_text(different)//' of '//to_text(n)//' are others')
-      call expect(again%cells > counters%cells, 'cells are built again')
+      call expect_close(worst, 0.0_wp, tolerance, 'values')
+      call expect_close(worst_slope, 0.0_wp, 25*8*tolerance, 'slopes')
+      call expect_close(worst_pressure, 0.0_wp, 1e-3_wp, 'pressures')
    end subroutine full_table
+
+   !> In a table that has built many cells, films of a place are solved until they have cost what a cell costs;
+   !> pressures of a place until they have cost a profile.
+   subroutine built_when_due()
+      type(full_film_table_type) :: table
+      type(film_counters) :: count
+      real(wp) :: value(simd_width, loads), slope(simd_width, 2, loads), solved(simd_width), pressure, pressure_then
+      integer :: k, last
+      logical :: good
+      table = new_full_film_table(pad, .false., tolerance, most)
+      do k = 0, 31
+         last = 0
+         call table%look_up(1.01_wp*lower_end([-4 + k/8, -4 + modulo(k, 8)], 1), .false., last, count, value, slope, &
+            & good)
+      end do
+      call expect(count%cells >= 32 .and. count%fourier < 32, 'the first cells are built at once')
+      count = film_counters()
+      last = 0
+      do k = 1, 100
+         call table%look_up([5.0_wp, 6.0_wp], .true., last, count, value, slope, good)
+         if (k == 1) solved = value(:, 1)
+         call expect(good, 'a film')
+      end do
+      call expect(count%cells == 1, 'a cell of many visits is built')
+      call expect(count%fourier > 10 .and. count%fourier < 36, to_text(int(count%fourier))//' films are solved before')
+      call expect_close(norm2(value(:3, 1) - solved(:3)), 0.0_wp, tolerance*norm2(solved(:3)), 'the same film')
+      do k = 1, 200
+         call table%highest_pressure([5.0_wp, 6.0_wp], [1.0_wp, 2.0_wp], 0.0_wp, last, count, pressure)
+         if (k == 1) pressure_then = pressure
+         if (k == 20) call expect(count%profiles == 0, 'a few pressures are solved')
+      end do
+      call expect(count%profiles == 1, 'a profile of many pressures is built')
+      call expect_close(pressure, pressure_then, 1e-3_wp*pressure, 'the same pressure')
+   end subroutine built_when_due
 end program test_full_film_table

@@ -379,7 +379,8 @@ contains
    end subroutine set_cavitation
 
    !> Highest and lowest pressures in the middle plane against fine modes at 400 angles, over the highest of the film
-   !> that is squeezed: within what a curve through 12 points along the arc tells.
+   !> that is squeezed: within what a curve through 12 points along the arc tells, and where the film cavitates also
+   !> what lies between linear interpolation over 1/16 of T and a parabola, 1e-3.
    subroutine pressures()
       integer, parameter :: n = 400
       type(table_film_type) :: film
@@ -410,7 +411,7 @@ contains
                worst = max(worst, abs([found(1)%max_pressure - highest, found(1)%min_pressure - lowest])/scale)
             end associate
          end do
-         call expect(worst(1) < 3e-3_wp, 'highest, error '//to_text(worst(1)))
+         call expect(worst(1) < merge(4e-3_wp, 3e-3_wp, supply < 0), 'highest, error '//to_text(worst(1)))
          call expect(worst(2) < 3e-3_wp, 'lowest, error '//to_text(worst(2)))
       end do
    end subroutine pressures

@@ -41,8 +41,9 @@ module film_solver
       !> Pads evaluated by axial modes and on finite volumes; passes over these volumes: sweeps of over-relaxation,
       !> or eliminations.
       integer(i8) :: fourier = 0, volumes = 0, passes = 0
-      !> Pads looked up in tables; cells and nodes of cavitated films that were built for them, and the wall time, s.
-      integer(i8) :: looked_up = 0, cells = 0, nodes = 0
+      !> Pads looked up in tables; cells, nodes of cavitated films and profiles of the pressure that were built for
+      !> them, and the wall time, s.
+      integer(i8) :: looked_up = 0, cells = 0, nodes = 0, profiles = 0
       real(wp) :: building = 0
       !> Wall time, s, where the solver's user takes it; without that of building tables.
       real(wp) :: seconds = 0

@@ -1,27 +1,30 @@
-!> The cavitated film of a dimensionless pad: force = S M v, as if the film were full and driven by v = w + |w_1| d,
-!> with d a function of the film thicknesses at both edges and of T, the part of the arc where the film diverges
-!> (docs/theory/film.md). Here d is solved where it is asked for; cavitation_table interpolates it.
+!> The cavitated film of a dimensionless pad: its force is that of the film in the same place that is just full, times
+!> (1 - T)^4 (exp(q) - floor), with complex numbers for forces and q a smooth function of the film thicknesses at both
+!> edges and of T, the part of the arc where the film diverges (docs/theory/film.md). Here q is solved where it is asked
+!> for; cavitation_table interpolates it.
 module cavitated_film
    use kinds, only: wp
    use film_solver, only: film_counters
-   use dimensionless_pad, only: dimensionless_pad_type, thickness_scale
-   use effective_velocity, only: effective_velocity_type, drive_type, new_effective_velocity, least_tolerance
+   use dimensionless_pad, only: dimensionless_pad_type
+   use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver, least_tolerance
    use cell_polynomials, only: simd_width, corner_data
    implicit none (type, external)
    private
    public :: cavitated_film_type, node_type, new_cavitated_film
 
-   !> Film thickness over the clearance above which forces matter less, and are no longer measured by themselves.
-   real(wp), parameter :: thick_film = 1.0_wp
+   !> Powers of 1 - T by which force and highest pressure end with the condition of Reynolds.
+   integer, parameter :: force_power = 4, pressure_power = 3
+   !> T above which a film is not solved any more, but its functions continue along their slopes over T.
+   real(wp), parameter :: last_solved = 0.99_wp
+   !> With Guembel's condition, whose force ends before T = 1 does, added to the ratio before its logarithm.
+   real(wp), parameter :: gumbel_floor = 1e-2_wp
    !> Films that are remembered: of a state of all pads.
    integer, parameter :: memory = 24
 
-   !> Functions: the two components of d, the highest pressure of the full film driven by v over that of the cavitated
-   !> one, and 0. Their values, and derivatives over both thicknesses and T, (function, value or derivative).
+   !> Functions: real and imaginary part of q, the logarithm of the pressure ratio over (1 - T)^3, and 0. Their values,
+   !> and derivatives over both thicknesses and T, (function, value or derivative).
    type :: node_type
       real(wp) :: data(simd_width, corner_data) = 0
-      !> Error of the force over that of the film that is just whole, per error of d.
-      real(wp) :: weight(2, 2) = 0
       !> Whether the film is open and was solved.
       logical :: ok = .false.
    end type node_type
@@ -29,7 +32,8 @@ module cavitated_film
    type :: cavitated_film_type
       private
       type(dimensionless_pad_type) :: pad
-      type(effective_velocity_type) :: drive
+      type(force_ratio_solver) :: ratios
+      real(wp) :: floor = 0
       !> The films looked up last, one after the other, and where.
       type(node_type), allocatable :: remembered(:)
       real(wp), allocatable :: remembered_at(:, :)
@@ -37,6 +41,7 @@ module cavitated_film
    contains
       procedure :: look_up
       procedure :: solve
+      procedure :: set_ratio
       procedure, private :: find
    end type cavitated_film_type
 
@@ -49,12 +54,13 @@ contains
       real(wp), intent(in) :: tolerance
       type(cavitated_film_type) :: films
       films%pad = pad
-      films%drive = new_effective_velocity(pad, gumbel, max(tolerance, least_tolerance))
+      if (gumbel) films%floor = gumbel_floor
+      films%ratios = new_force_ratio_solver(pad, gumbel, max(tolerance, least_tolerance))
    end function new_cavitated_film
 
    !> The functions of node_type and, if they are wanted, their derivatives over both thicknesses and T, (function,
    !> axis), for an open film with these thicknesses at its edges and 0 < T < 1. `last` is the caller's memory of the
-   !> place in a table, 0 at first. `good` is false where d is not as close as it should be: next to a film that closes.
+   !> place in a table, 0 at first. `good` is false where the film has no solution.
    subroutine look_up(self, edges, t, want_slopes, last, counters, value, slope, good)
       class(cavitated_film_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), t
@@ -99,28 +105,41 @@ contains
       real(wp), intent(in) :: edges(2), t
       type(film_counters), intent(inout) :: counters
       type(node_type), intent(out) :: node
-      type(drive_type) :: drive
-      real(wp) :: w(2)
-      node%ok = .true.
-      ! whole
-      if (.not. t > 0) then
-         node%data(3, 1) = 1
-         return
-      end if
-      associate (tangent => self%pad%tangent)
-         w = [1.0_wp, tangent*(1 - 2*t)]
-         ! at T = 1 nothing is left of the film; as it goes to nothing smoothly, only w changes
-         if (t < 1) then
-            counters%nodes = counters%nodes + 1
-            drive = self%drive%at(edges, w(2))
-            node%ok = drive%ok
-            node%data(3, 1) = drive%pressure_ratio
-            node%weight = drive%weight*min(1.0_wp, thickness_scale(edges(1), edges(2)) &
-               & /thickness_scale(thick_film, thick_film))
-         end if
-         node%data(:2, 1) = drive%value - w
-         node%data(:2, 2:3) = drive%slopes(:, :2)
-         node%data(:2, 4) = -2*tangent*(drive%slopes(:, 3) - [0.0_wp, 1.0_wp])
+      type(force_ratio_type) :: ratio
+      complex(wp) :: part, slopes(3)
+      real(wp) :: at, room
+      at = min(t, last_solved)
+      room = 1 - at
+      counters%nodes = counters%nodes + 1
+      ratio = self%ratios%at(edges, self%pad%tangent*(1 - 2*at))
+      node%ok = ratio%ok
+      if (.not. node%ok) return
+      part = ratio%value/room**force_power + self%floor
+      slopes = ratio%slopes/room**force_power/part
+      slopes(3) = -2*self%pad%tangent*slopes(3) + force_power/room*(part - self%floor)/part
+      associate (q => log(part) + (t - at)*slopes(3))
+         node%data(:2, 1) = [real(q), aimag(q)]
       end associate
+      node%data(1, 2:) = real(slopes)
+      node%data(2, 2:) = aimag(slopes)
+      node%data(3, 1) = log(ratio%pressure/room**pressure_power + self%floor)
    end subroutine solve
+
+   !> The force of a film over that of the film that is just full, its derivatives over both thicknesses and T, and the
+   !> same ratio of the highest pressures, from what `look_up` found at a T.
+   pure subroutine set_ratio(self, t, value, slope, force, force_slopes, pressure)
+      class(cavitated_film_type), intent(in) :: self
+      real(wp), intent(in) :: t, value(simd_width), slope(simd_width, 3)
+      complex(wp), intent(out) :: force, force_slopes(3)
+      real(wp), intent(out) :: pressure
+      complex(wp) :: part
+      associate (room => 1 - t)
+         part = room**force_power*exp(cmplx(value(1), value(2), wp))
+         force = part - self%floor*room**force_power
+         force_slopes = part*cmplx(slope(1, :), slope(2, :), wp)
+         force_slopes(3) = force_slopes(3) - force_power/room*force
+         pressure = room**pressure_power*max(0.0_wp, exp(value(3)) - self%floor)
+      end associate
+   end subroutine set_ratio
+
 end module cavitated_film

@@ -1,8 +1,8 @@
 !> Polynomials in the cells of film tables, four functions at once, as many as a vector holds.
 !>
-!> Over a square -1 <= s <= 1: those through values at Chebyshev's nodes. Over a box 0 <= s <= 1 of three variables:
-!> cubics from values and derivatives at its eight corners, along an axis cubic, between its edges linear
-!> ("serendipity"); complete to the third degree, and continuous from box to box.
+!> Over a square -1 <= s <= 1: those through values at the extrema of Chebyshev's polynomials. Over a box 0 <= s <= 1 of
+!> three variables: cubics from values and derivatives at its eight corners, along an axis cubic, between its edges
+!> linear ("serendipity"); complete to the third degree, and continuous from box to box.
 module cell_polynomials
    use kinds, only: wp, pi
    use linear_algebra, only: dgesv
@@ -18,12 +18,12 @@ module cell_polynomials
 
 contains
 
-   !> Places of n nodes.
+   !> Places of n nodes, with both ends.
    pure function node_points(n) result(points)
       integer, intent(in) :: n
       real(wp) :: points(n)
       integer :: i
-      points = [(cos((i - 0.5_wp)*pi/n), i=1, n)]
+      points = [(cos((i - 1)*pi/(n - 1)), i=1, n)]
    end function node_points
 
    !> Coefficients (function, power of the second variable, power of the first) of the polynomials with these values,

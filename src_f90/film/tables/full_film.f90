@@ -1,6 +1,7 @@
 !> The full film of a dimensionless pad: force = S M w, with a symmetric M of three functions of the film thicknesses at
-!> both edges (docs/theory/film.md), and that of a pressure 1 at the leading edge. Here both are solved where
-!> they are asked for, with exact derivatives; full_film_table interpolates them.
+!> both edges (docs/theory/film.md); the highest pressure, over S, of the film that is just full, a fourth; and the
+!> force of a pressure 1 at the leading edge. Here all are solved where they are asked for, the forces with exact
+!> derivatives; full_film_table interpolates them.
 module full_film
    use kinds, only: wp
    use film_solver, only: film_motion, film_response, film_counters, film_ok
@@ -41,11 +42,11 @@ contains
       if (supplied) films%supplied_film = converged_film(pad%gap(1.0_wp), .false., share_of_nodes*tolerance)
    end function new_full_film
 
-   !> By load the functions M_11, M_12, M_22, 0 and, where there is a pressure at the leading edge, the force (along,
-   !> outward, 0, 0) of a pressure 1 there; and, if they are wanted, their derivatives over both thicknesses, (function,
-   !> edge, load): of an open film with these thicknesses at its edges. `last` is the caller's memory of the place in a
-   !> table, 0 at first. `good` is false where the functions are not as close as they should be: next to a film that
-   !> closes.
+   !> By load the functions M_11, M_12, M_22 and the highest pressure at w = (1, tan(half the arc)), both over S; and,
+   !> where there is a pressure at the leading edge, the force (along, outward, 0, 0) of a pressure 1 there. If they are
+   !> wanted, derivatives of the forces over both thicknesses, (function, edge, load). For an open film with these
+   !> thicknesses at its edges. `last` is the caller's memory of the place in a table, 0 at first. `good` is false where
+   !> the film has no solution.
    subroutine look_up(self, edges, want_slopes, last, counters, value, slope, good)
       class(full_film_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2)
@@ -54,21 +55,24 @@ contains
       type(film_counters), intent(inout) :: counters
       real(wp), intent(out) :: value(simd_width, loads), slope(simd_width, 2, loads)
       logical, intent(out) :: good
-      type(film_response) :: along, outward, still
+      type(film_response) :: along, onset, still
       integer :: i
       associate (pad => self%pad, position => self%pad%position(edges), scale => thickness_scale(edges(1), edges(2)))
          call self%film%evaluate_pad(1, film_motion(position, [1.0_wp, 0.0_wp]), unit_oil, 0.0_wp, want_slopes, along)
-         call self%film%evaluate_pad(1, film_motion(position, [0.0_wp, 1.0_wp]), unit_oil, 0.0_wp, want_slopes, outward)
+         call self%film%evaluate_pad(1, film_motion(position, [1.0_wp, pad%tangent]), unit_oil, 0.0_wp, want_slopes, &
+            & onset)
          if (self%supplied) call self%supplied_film%evaluate_pad(1, film_motion(position), unit_oil, 0.0_wp, &
             & want_slopes, still)
          good = along%status == film_ok
-         value(:, 1) = symmetric(along%force, outward%force)/scale
+         value(:, 1) = symmetric(along%force, (onset%force - along%force)/pad%tangent)/scale
+         value(4, 1) = onset%max_pressure/scale
          value(:, 2) = [still%force, 0.0_wp, 0.0_wp]
          slope = 0
          if (.not. want_slopes) return
-         associate (of_along => over_edges(pad, along), of_outward => over_edges(pad, outward))
+         associate (of_along => over_edges(pad, along), of_onset => over_edges(pad, onset))
             do i = 1, 2
-               slope(:, i, 1) = symmetric(of_along(:, i), of_outward(:, i))/scale + 1.5_wp*value(:, 1)/edges(i)
+               slope(:, i, 1) = symmetric(of_along(:, i), (of_onset(:, i) - of_along(:, i))/pad%tangent)/scale &
+                  & + 1.5_wp*value(:, 1)/edges(i)
             end do
          end associate
          slope(:2, :, 2) = over_edges(pad, still)
@@ -76,14 +80,13 @@ contains
    end subroutine look_up
 
    !> The highest pressure in the middle plane, or 0, where the film is open and has these thicknesses at its edges, for
-   !> w and a pressure at the leading edge. `last` and `good` as in `look_up`.
-   subroutine highest_pressure(self, edges, w, supply, last, counters, pressure, good)
+   !> w and a pressure at the leading edge. `last` as in `look_up`.
+   subroutine highest_pressure(self, edges, w, supply, last, counters, pressure)
       class(full_film_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), w(2), supply
       integer, intent(inout) :: last
       type(film_counters), intent(inout) :: counters
       real(wp), intent(out) :: pressure
-      logical, intent(out) :: good
       type(film_response) :: film
       if (abs(supply) > 0) then
          ! that of a pressure 1 at the leading edge, scaled
@@ -94,11 +97,10 @@ contains
          call self%film%evaluate_pad(1, film_motion(self%pad%position(edges), w), unit_oil, 0.0_wp, .false., film)
          pressure = film%max_pressure
       end if
-      good = film%status == film_ok
    end subroutine highest_pressure
 
-   !> M_11, M_12, M_22, 0 from the columns of M, which is symmetric by reciprocity; what the discretisation adds to that
-   !> is shared.
+   !> M_11, M_12, M_22, 0 from the columns of M, which is symmetric by reciprocity; what the discretisation adds is
+   !> shared.
    pure function symmetric(along, outward) result(m)
       real(wp), intent(in) :: along(2), outward(2)
       real(wp) :: m(simd_width)

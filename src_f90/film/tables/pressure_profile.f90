@@ -11,7 +11,7 @@ module pressure_profile
    use cell_polynomials, only: node_points, fitted, patch_values
    implicit none (type, external)
    private
-   public :: pressure_profile_type, new_pressure_profile
+   public :: pressure_profile_type, new_pressure_profile, nodes
 
    !> Points along the arc, without the edges; nodes along either axis of the cell.
    integer, parameter :: points = 12, nodes = 4

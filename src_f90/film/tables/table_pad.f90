@@ -4,7 +4,7 @@ module table_pad
    use film_solver, only: film_motion, film_oil, film_response, film_counters
    use pad_gap, only: pad_gap_type, pad_directions
    use dimensionless_pad, only: dimensionless_pad_type, mid_arc_frame_type, middle_motion, middle_force, &
-      & new_mid_arc_frame
+      & new_mid_arc_frame, thickness_scale
    use cell_polynomials, only: simd_width
    use full_film, only: full_film_type, loads
    use cavitated_film, only: cavitated_film_type
@@ -40,23 +40,19 @@ module table_pad
    contains
       procedure :: look_up
       procedure :: look_up_pressures
-      procedure, private :: set_drive
+      procedure, private :: set_part
       procedure, private :: set_force
+      procedure, private :: set_cavitated_force
+      procedure, private :: cavitated_pressure
    end type table_pad_type
 
-   !> The velocity that drives a film as if it were whole, m/s, and its derivatives over the edges' thicknesses,
-   !> (component, edge), and over w, (component, component of w).
-   type :: pad_drive
-      real(wp) :: value(2), over_edges(2, 2), over_w(2, 2)
-      !> Highest pressure of the full film over that of the cavitated one.
-      real(wp) :: pressure_ratio = 1
-      !> Whether nothing of the film is left.
-      logical :: empty = .false.
-   end type pad_drive
-
-   !> Ratio of pressures below which nothing of a film is left that counts.
-   real(wp), parameter :: least_ratio = 0.01_wp
-   real(wp), parameter :: identity(2, 2) = reshape([1, 0, 0, 1], [2, 2])
+   !> What cavitation leaves of the film that is just full: force and highest pressure over those of that film, forces
+   !> as F_1 + i F_2, and the derivatives of the first over the edges' thicknesses and over w.
+   type :: cavitated_part
+      complex(wp) :: force = 1
+      complex(wp) :: over_edges(2) = 0, over_w(2) = 0
+      real(wp) :: pressure = 1
+   end type cavitated_part
 
 contains
 
@@ -87,66 +83,114 @@ contains
       type(film_response), intent(inout) :: response
       type(middle_motion) :: seen
       type(middle_force) :: force
-      type(pad_drive) :: drive
+      real(wp) :: part
       seen = self%frame%motion(motion, oil, speed)
       ! with different pressures around a film that may cavitate, all of it is solved: the force must not jump between
       ! two solvers where the film begins to diverge
       self%found = all(seen%edges > 0) .and. (self%even_pressure .or. .not. may_cavitate)
       if (.not. self%found) return
-      call self%set_drive(tables, seen, may_cavitate, want_derivatives, counters, drive)
-      if (drive%empty) then
+      part = 0
+      if (may_cavitate) part = diverging_part(tables%pad, seen%w)
+      if (part >= 1) then
          response%force = self%ambient_force
          return
       end if
-      if (self%found) call self%set_force(tables, seen, drive, want_derivatives, counters, force)
+      if (part > 0) then
+         call self%set_cavitated_force(tables, seen, part, want_derivatives, counters, force)
+      else
+         call self%set_force(tables, seen, seen%w, want_derivatives, counters, force)
+      end if
       if (.not. self%found) return
       response%force = self%ambient_force + self%frame%force(force)
       if (want_derivatives) response%derivatives = self%frame%derivatives(seen, force)
    end subroutine look_up
 
-   !> The drive of a film; `found` becomes false where it cavitates and the table does not have it.
-   subroutine set_drive(self, tables, seen, may_cavitate, want_derivatives, counters, drive)
+   !> T, the part of a film that diverges, driven by w: 0 or less where it is full, 1 or more where nothing of it is
+   !> left.
+   pure real(wp) function diverging_part(pad, w)
+      type(dimensionless_pad_type), intent(in) :: pad
+      real(wp), intent(in) :: w(2)
+      associate (room => abs(w(1))*pad%tangent)
+         diverging_part = 0
+         if (w(2) >= room) return
+         diverging_part = 1
+         if (w(2) > -room) diverging_part = 0.5_wp*(1 - w(2)/room)
+      end associate
+   end function diverging_part
+
+   !> The velocity at which the film that is driven by w would be just full.
+   pure function onset(pad, w)
+      type(dimensionless_pad_type), intent(in) :: pad
+      real(wp), intent(in) :: w(2)
+      real(wp) :: onset(2)
+      onset = [w(1), abs(w(1))*pad%tangent]
+   end function onset
+
+   !> What is left of a film, 0 < T < 1; `found` becomes false where the table does not have it.
+   subroutine set_part(self, tables, seen, t, want_derivatives, counters, part)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(middle_motion), intent(in) :: seen
-      logical, intent(in) :: may_cavitate, want_derivatives
+      real(wp), intent(in) :: t
+      logical, intent(in) :: want_derivatives
       type(film_counters), intent(inout) :: counters
-      type(pad_drive), intent(out) :: drive
-      real(wp) :: d(simd_width), slope(simd_width, 3), side(2), along, room
+      type(cavitated_part), intent(out) :: part
+      real(wp) :: value(simd_width), slope(simd_width, 3)
+      complex(wp) :: slopes(3)
       integer :: leading, trailing
-      drive%value = seen%w
-      drive%over_edges = 0
-      drive%over_w = identity
       associate (w => seen%w)
-         along = abs(w(1))
-         room = along*tables%pad%tangent
-         ! T = (1 - w_2/room)/2 > 0 where the film diverges, >= 1 where it does everywhere
-         if (.not. (may_cavitate .and. w(2) < room)) return
-         drive%empty = w(2) <= -room
-         if (drive%empty) return
          ! where w_1 < 0 the film diverges at the leading edge: seen in a mirror, at the trailing one
          leading = merge(1, 2, w(1) > 0)
          trailing = 3 - leading
-         side = [sign(1.0_wp, w(1)), 1.0_wp]
-         call tables%cavitation%look_up(seen%edges([leading, trailing]), 0.5_wp*(1 - w(2)/room), want_derivatives, &
-            & self%cavitation_cell, counters, d, slope, self%found)
-         drive%value = w + (along*side)*d(1:2)
-         drive%pressure_ratio = d(3)
-         if (.not. want_derivatives) return
-         drive%over_edges(:, leading) = (along*side)*slope(1:2, 1)
-         drive%over_edges(:, trailing) = (along*side)*slope(1:2, 2)
-         drive%over_w(:, 1) = identity(:, 1) + (side(1)*side)*(d(1:2) + (w(2)/(2*room))*slope(1:2, 3))
-         drive%over_w(:, 2) = identity(:, 2) - (side/(2*tables%pad%tangent))*slope(1:2, 3)
+         call tables%cavitation%look_up(seen%edges([leading, trailing]), t, want_derivatives, self%cavitation_cell, &
+            & counters, value, slope, self%found)
+         if (.not. self%found) return
+         call tables%cavitation%set_ratio(t, value, slope, part%force, slopes, part%pressure)
+         if (.not. w(1) > 0) then
+            part%force = conjg(part%force)
+            slopes = conjg(slopes)
+         end if
+         part%over_edges([leading, trailing]) = slopes(:2)
+         part%over_w = slopes(3)*[(0.5_wp - t)/w(1), -0.5_wp/(abs(w(1))*tables%pad%tangent)]
       end associate
-   end subroutine set_drive
+   end subroutine set_part
 
-   !> Force of a film with this drive and of the pressure at its leading edge, and its derivatives, unless `found`
-   !> becomes false.
-   subroutine set_force(self, tables, seen, drive, want_derivatives, counters, force)
+   !> Force of a cavitated film, 0 < T < 1, and its derivatives, unless `found` becomes false.
+   subroutine set_cavitated_force(self, tables, seen, t, want_derivatives, counters, force)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(middle_motion), intent(in) :: seen
-      type(pad_drive), intent(in) :: drive
+      real(wp), intent(in) :: t
+      logical, intent(in) :: want_derivatives
+      type(film_counters), intent(inout) :: counters
+      type(middle_force), intent(out) :: force
+      type(cavitated_part) :: part
+      type(middle_force) :: full
+      complex(wp) :: full_force
+      integer :: i
+      call self%set_part(tables, seen, t, want_derivatives, counters, part)
+      if (.not. self%found) return
+      call self%set_force(tables, seen, onset(tables%pad, seen%w), want_derivatives, counters, full)
+      if (.not. self%found) return
+      full_force = complex_of(full%value)
+      force%value = vector_of(part%force*full_force)
+      if (.not. want_derivatives) return
+      do i = 1, 2
+         force%over_edges(:, i) = vector_of(part%force*complex_of(full%over_edges(:, i)) &
+            & + part%over_edges(i)*full_force)
+      end do
+      ! the full film's force is proportional to w_1
+      force%over_w(:, 1) = vector_of((part%force/seen%w(1) + part%over_w(1))*full_force)
+      force%over_w(:, 2) = vector_of(part%over_w(2)*full_force)
+   end subroutine set_cavitated_force
+
+   !> Force of a full film driven by w and by the pressure at its leading edge, and its derivatives, unless `found`
+   !> becomes false.
+   subroutine set_force(self, tables, seen, w, want_derivatives, counters, force)
+      class(table_pad_type), intent(inout) :: self
+      type(shape_tables), intent(inout) :: tables
+      type(middle_motion), intent(in) :: seen
+      real(wp), intent(in) :: w(2)
       logical, intent(in) :: want_derivatives
       type(film_counters), intent(inout) :: counters
       type(middle_force), intent(out) :: force
@@ -155,17 +199,16 @@ contains
       call tables%whole%look_up(seen%edges, want_derivatives, self%whole_cell, counters, value, slope, self%found)
       if (.not. self%found) return
       m = seen%scale*value(:, 1)
-      associate (v => drive%value)
-         force%value = m(1:2)*v(1) + m(2:3)*v(2)
-         if (want_derivatives) then
-            do i = 1, 2
-               force%over_w(:, i) = m(1:2)*drive%over_w(1, i) + m(2:3)*drive%over_w(2, i)
-               ! S falls as the thickness to the power of -3/2
-               force%over_edges(:, i) = seen%scale*(slope(1:2, i, 1)*v(1) + slope(2:3, i, 1)*v(2)) &
-                  & + m(1:2)*drive%over_edges(1, i) + m(2:3)*drive%over_edges(2, i) - (1.5_wp/seen%edges(i))*force%value
-            end do
-         end if
-      end associate
+      force%value = m(1:2)*w(1) + m(2:3)*w(2)
+      if (want_derivatives) then
+         force%over_w(:, 1) = m(1:2)
+         force%over_w(:, 2) = m(2:3)
+         do i = 1, 2
+            ! S falls as the thickness to the power of -3/2
+            force%over_edges(:, i) = seen%scale*(slope(1:2, i, 1)*w(1) + slope(2:3, i, 1)*w(2)) &
+               & - (1.5_wp/seen%edges(i))*force%value
+         end do
+      end if
       if (.not. abs(self%rise) > 0) return
       force%value = force%value + (self%rise*self%square)*value(1:2, 2)
       if (want_derivatives) force%over_edges = force%over_edges + (self%rise*self%square)*slope(1:2, :, 2)
@@ -182,24 +225,55 @@ contains
       type(film_counters), intent(inout) :: counters
       type(film_response), intent(inout) :: response
       type(middle_motion) :: seen
-      type(pad_drive) :: drive
       !> Pressure over that of the unit pad, Pa s/m.
       real(wp) :: unit_pressure
-      real(wp) :: rise, highest, lowest
-      logical :: good
+      real(wp) :: rise, highest, lowest, t
       seen = self%frame%motion(motion, oil, speed)
       unit_pressure = oil%viscosity*self%square/self%gap%machined_clearance**3
       rise = self%rise/unit_pressure
       highest = 0
       lowest = 0
-      call self%set_drive(tables, seen, may_cavitate, .false., counters, drive)
-      if (.not. drive%empty) call tables%whole%highest_pressure(seen%edges, drive%value, rise, self%whole_cell, &
-         & counters, highest, good)
+      t = 0
+      if (may_cavitate) t = diverging_part(tables%pad, seen%w)
+      if (t > 0 .and. t < 1) then
+         highest = self%cavitated_pressure(tables, seen, t, counters)
+      else if (.not. t > 0) then
+         call tables%whole%highest_pressure(seen%edges, seen%w, rise, self%whole_cell, counters, highest)
+      end if
       if (.not. may_cavitate) call tables%whole%highest_pressure(seen%edges, -seen%w, -rise, self%whole_cell, &
-         & counters, lowest, good)
-      highest = highest/max(drive%pressure_ratio, least_ratio)
+         & counters, lowest)
       response%max_pressure = self%gap%ambient_pressure + unit_pressure*highest
       response%min_pressure = min(self%gap%ambient_pressure, self%gap%supply_pressure, &
          & self%gap%ambient_pressure - unit_pressure*lowest)
    end subroutine look_up_pressures
+
+   !> The highest pressure of a cavitated film of the unit pad, 0 < T < 1.
+   real(wp) function cavitated_pressure(self, tables, seen, t, counters)
+      class(table_pad_type), intent(inout) :: self
+      type(shape_tables), intent(inout) :: tables
+      type(middle_motion), intent(in) :: seen
+      real(wp), intent(in) :: t
+      type(film_counters), intent(inout) :: counters
+      type(cavitated_part) :: part
+      real(wp) :: value(simd_width, loads), slope(simd_width, 2, loads)
+      logical :: good
+      call self%set_part(tables, seen, t, .false., counters, part)
+      associate (edges => seen%edges)
+         ! where w_1 < 0 as in a mirror
+         call tables%whole%look_up(merge(edges, edges([2, 1]), seen%w(1) > 0), .false., self%whole_cell, counters, &
+            & value, slope, good)
+         cavitated_pressure = abs(seen%w(1))*thickness_scale(edges(1), edges(2))*value(4, 1)*part%pressure
+      end associate
+   end function cavitated_pressure
+
+   pure complex(wp) function complex_of(vector)
+      real(wp), intent(in) :: vector(2)
+      complex_of = cmplx(vector(1), vector(2), wp)
+   end function complex_of
+
+   pure function vector_of(number) result(vector)
+      complex(wp), intent(in) :: number
+      real(wp) :: vector(2)
+      vector = [real(number), aimag(number)]
+   end function vector_of
 end module table_pad

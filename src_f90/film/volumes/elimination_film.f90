@@ -33,7 +33,7 @@ module elimination_film
       logical, public :: ends_between = .false.
    contains
       procedure :: evaluate
-      procedure :: drive_anew
+      procedure :: differentiate
       procedure :: force_of_cavitation
       procedure :: field
       procedure :: cells
@@ -79,27 +79,17 @@ contains
          if (changed) response%status = film_not_converged
       end associate
       call sum_up(self, response)
-      if (.not. want_derivatives) return
+      if (want_derivatives) call self%differentiate(response)
+   end subroutine evaluate
+
+   !> The derivatives of the last film's forces.
+   subroutine differentiate(self, response)
+      class(elimination_film_type), intent(inout) :: self
+      type(film_response), intent(inout) :: response
       if (self%ends_between .and. self%first <= self%grid%columns) call end_between(self)
       call find_adjoints(self)
       call set_derivatives(self, response)
-   end subroutine evaluate
-
-   !> The last film, which was whole and evaluated with its derivatives, at another velocity in the same position: its
-   !> equations are the same but for their right-hand side.
-   subroutine drive_anew(self, motion, oil, speed, response)
-      class(elimination_film_type), intent(inout) :: self
-      type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
-      real(wp), intent(in) :: speed
-      type(film_response), intent(out) :: response
-      associate (grid => self%grid)
-         call grid%set_motion(motion, oil, speed)
-         call self%solve(-grid%source, -grid%edge_source, self%pressure)
-      end associate
-      call sum_up(self, response)
-      call set_derivatives(self, response)
-   end subroutine drive_anew
+   end subroutine differentiate
 
    !> Pivots and blocks for changes of the pressure in a film that ends between its cells.
    pure subroutine end_between(self)

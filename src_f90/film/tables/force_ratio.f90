@@ -1,0 +1,230 @@
+!> What cavitation leaves of a film's force: the force of the cavitated film over that of the film in the same place
+!> that is just full, both as complex numbers, whose quotient tells how much smaller the force is and how it has turned.
+!>
+!> Both forces come from the same discretisation, so that most of its error is not in the ratio. With the condition of
+!> Reynolds these are finite volumes: half of their columns lie where the film diverges, all of them are narrow where
+!> it is thin, two grids are extrapolated by Richardson's rule, and slopes are those of a film that ends between cells.
+!> Where the film has gone from whole columns at the trailing edge, these are given to what is left of it. With
+!> Guembel's condition they are axial modes. Every film is solved from the same start: the answer does not depend on
+!> what came before.
+module force_ratio
+   use kinds, only: wp
+   use film_solver, only: film_motion, film_response, film_counters, film_ok
+   use dimensionless_pad, only: dimensionless_pad_type, unit_oil
+   use film_grid, only: new_film_grid
+   use elimination_film, only: elimination_film_type, new_elimination_film
+   use fourier_film, only: fourier_film_type, converged_film
+   implicit none (type, external)
+   private
+   public :: force_ratio_solver, force_ratio_type, new_force_ratio_solver, least_tolerance
+
+   !> Columns and rows of the finer grid for a tolerance of 4e-5, and of any; the error of what is extrapolated falls
+   !> with their cubes (test_cavitation_table).
+   integer, parameter :: base_columns = 70, base_rows = 10, least_rows = 6, most_rows = 48
+   real(wp), parameter :: base_tolerance = 4e-5_wp
+   !> What the finest grid keeps to.
+   real(wp), parameter :: least_tolerance = base_tolerance*(real(base_rows, wp)/most_rows)**3
+   !> Share of the columns where the film diverges or has gone, and where it has gone.
+   real(wp), parameter :: diverging_share = 0.5_wp, empty_share = 1.0_wp/32
+   !> This number of columns beside the film count as part of it. Where more than this share of the columns is empty,
+   !> the grid is given anew to what is left of the film, but not more often than this.
+   integer, parameter :: margin = 3, most_narrowed = 8
+   real(wp), parameter :: empty_allowed = 1.0_wp/16
+
+   !> A solver for one pad.
+   type :: force_ratio_solver
+      private
+      type(dimensionless_pad_type) :: pad
+      logical :: gumbel
+      integer :: columns, rows
+      !> The finer and the coarser grid, once they are needed: what the grids of all films have in common.
+      type(elimination_film_type), allocatable :: grids(:)
+      !> The full film, and Guembel's.
+      type(fourier_film_type) :: whole, clipped
+   contains
+      procedure :: at
+   end type force_ratio_solver
+
+   !> The answer for one film.
+   type :: force_ratio_type
+      !> Force over that of the film that is just full, w_2 = tan(half the arc), both as F_1 + i F_2.
+      complex(wp) :: value = 1
+      !> Its derivatives over the thicknesses at both edges and w_2.
+      complex(wp) :: slopes(3) = 0
+      !> Highest pressure over that of the film that is just full.
+      real(wp) :: pressure = 1
+      logical :: ok = .false.
+   end type force_ratio_type
+
+contains
+
+   !> For films of a pad, with the condition of Reynolds or Guembel, to a tolerance over the force.
+   function new_force_ratio_solver(pad, gumbel, tolerance) result(solver)
+      type(dimensionless_pad_type), intent(in) :: pad
+      logical, intent(in) :: gumbel
+      real(wp), intent(in) :: tolerance
+      type(force_ratio_solver) :: solver
+      real(wp) :: refinement
+      solver%pad = pad
+      solver%gumbel = gumbel
+      refinement = (base_tolerance/tolerance)**(1.0_wp/3)
+      solver%rows = max(least_rows, min(most_rows, 2*nint(0.5_wp*base_rows*refinement)))
+      solver%columns = solver%rows*(base_columns/base_rows)
+      solver%whole = converged_film(pad%gap(0.0_wp), .false., tolerance)
+      if (gumbel) solver%clipped = converged_film(pad%gap(0.0_wp), .true., tolerance)
+   end function new_force_ratio_solver
+
+   !> The ratio of a film with these thicknesses at its edges and w = (1, w_2); not ok where it is closed.
+   type(force_ratio_type) function at(self, edges, w_2) result(ratio)
+      class(force_ratio_solver), intent(inout) :: self
+      real(wp), intent(in) :: edges(2), w_2
+      type(film_motion) :: motion
+      motion = film_motion(self%pad%position(edges), [1.0_wp, w_2])
+      associate (gap => self%pad%gap(0.0_wp))
+         if (.not. gap%min_film_thickness(motion, gap%directions()) > 0) return
+      end associate
+      if (.not. w_2 < self%pad%tangent) then
+         ratio = at_onset(self, motion)
+      else if (self%gumbel) then
+         ratio = by_modes(self, motion)
+      else
+         if (.not. allocated(self%grids)) call make_grids(self)
+         ratio = by_volumes(self, motion)
+      end if
+      ratio%slopes(:2) = cmplx(self%pad%over_edges(real(ratio%slopes(:2))), &
+         & self%pad%over_edges(aimag(ratio%slopes(:2))), wp)
+   end function at
+
+   subroutine make_grids(self)
+      class(force_ratio_solver), intent(inout) :: self
+      integer :: part
+      allocate (self%grids(2))
+      do part = 1, 2
+         self%grids(part) = new_elimination_film(self%pad%gap(0.0_wp), self%columns/part, self%rows/part)
+         self%grids(part)%ends_between = .true.
+      end do
+   end subroutine make_grids
+
+   !> The ratio of the film that is just full: what cavitates beyond it changes the force in a higher order.
+   type(force_ratio_type) function at_onset(self, motion) result(ratio)
+      class(force_ratio_solver), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      type(film_response) :: full
+      call self%whole%evaluate_pad(1, motion, unit_oil, 0.0_wp, .true., full)
+      ratio%ok = full%status == film_ok
+      if (ratio%ok) ratio%slopes(3) = complex_of(full%derivatives(:, 4))/complex_of(full%force)
+   end function at_onset
+
+   !> The ratio by finite volumes on two grids, extrapolated; slopes over the position.
+   type(force_ratio_type) function by_volumes(self, motion) result(ratio)
+      type(force_ratio_solver), intent(in) :: self
+      type(film_motion), intent(in) :: motion
+      type(force_ratio_type) :: coarse_ratio
+      type(elimination_film_type) :: coarse, fine
+      type(film_response) :: coarse_cavitated, cavitated
+      type(film_counters) :: unused
+      real(wp) :: line(0:self%columns/2), rim
+      integer :: gone, narrowed, given
+      rim = -self%pad%half_arc
+      given = 0
+      do narrowed = 0, most_narrowed
+         line = angles(self%pad, motion, rim, self%columns/2, 1)
+         call make_grid(self, line, 2, coarse)
+         call coarse%evaluate(motion, unit_oil, 0.0_wp, .true., .false., unused, coarse_cavitated)
+         gone = coarse%empty_columns() - margin - given
+         if (gone <= empty_allowed*self%columns/2) exit
+         rim = line(given + gone)
+         given = ceiling(empty_share*self%columns/2)
+      end do
+      call coarse%differentiate(coarse_cavitated)
+      call make_grid(self, angles(self%pad, motion, rim, self%columns/2, 2), 1, fine)
+      call fine%start_from(coarse)
+      call fine%evaluate(motion, unit_oil, 0.0_wp, .true., .true., unused, cavitated)
+      line = angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 1)
+      call make_grid(self, line, 2, coarse)
+      call make_grid(self, angles(self%pad, motion, -self%pad%half_arc, self%columns/2, 2), 1, fine)
+      call compare(coarse_cavitated, coarse, coarse_ratio)
+      call compare(cavitated, fine, ratio)
+      ratio%ok = ratio%ok .and. coarse_ratio%ok
+      if (.not. ratio%ok) return
+      ! by Richardson's rule, of the logarithms
+      ratio%slopes = 4*ratio%slopes/(3*ratio%value) - coarse_ratio%slopes/(3*coarse_ratio%value)
+      ratio%value = ratio%value*exp(log(ratio%value/coarse_ratio%value)/3)
+      ratio%slopes = ratio%value*ratio%slopes
+   contains
+      subroutine compare(of_cavitated, volumes, found)
+         type(film_response), intent(in) :: of_cavitated
+         type(elimination_film_type), intent(inout) :: volumes
+         type(force_ratio_type), intent(out) :: found
+         type(film_response) :: full
+         call volumes%evaluate(onset(self, motion), unit_oil, 0.0_wp, .false., .true., unused, full)
+         call set_ratio(of_cavitated, full, found)
+      end subroutine compare
+   end function by_volumes
+
+   !> The grid with these angles between its columns, and a part of the columns and rows.
+   subroutine make_grid(self, line, part, grid)
+      type(force_ratio_solver), intent(in) :: self
+      real(wp), intent(in) :: line(0:)
+      integer, intent(in) :: part
+      type(elimination_film_type), intent(out) :: grid
+      grid = self%grids(part)
+      grid%grid = new_film_grid(self%pad%gap(0.0_wp), self%columns/part, self%rows/part, line)
+   end subroutine make_grid
+
+   !> The ratio by axial modes, with Guembel's condition; slopes over the position.
+   type(force_ratio_type) function by_modes(self, motion) result(ratio)
+      class(force_ratio_solver), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      type(film_response) :: cavitated, full
+      call self%whole%evaluate_pad(1, onset(self, motion), unit_oil, 0.0_wp, .true., full)
+      call self%clipped%evaluate_pad(1, motion, unit_oil, 0.0_wp, .true., cavitated)
+      call set_ratio(cavitated, full, ratio)
+   end function by_modes
+
+   !> The motion at which the film in this place is just full.
+   pure type(film_motion) function onset(self, motion)
+      class(force_ratio_solver), intent(in) :: self
+      type(film_motion), intent(in) :: motion
+      onset = film_motion(motion%position, [1.0_wp, self%pad%tangent])
+   end function onset
+
+   !> Ratio of two forces and of their highest pressures; slopes over the position and w_2.
+   pure subroutine set_ratio(cavitated, full, ratio)
+      type(film_response), intent(in) :: cavitated, full
+      type(force_ratio_type), intent(inout) :: ratio
+      ratio%ok = cavitated%status == film_ok .and. full%status == film_ok
+      if (.not. ratio%ok) return
+      associate (whole => complex_of(full%force))
+         ratio%value = complex_of(cavitated%force)/whole
+         ratio%slopes(1:2) = [complex_of(cavitated%derivatives(:, 1)), complex_of(cavitated%derivatives(:, 2))]/whole &
+            & - ratio%value*[complex_of(full%derivatives(:, 1)), complex_of(full%derivatives(:, 2))]/whole
+         ratio%slopes(3) = complex_of(cavitated%derivatives(:, 4))/whole
+      end associate
+      ratio%pressure = cavitated%max_pressure/full%max_pressure
+   end subroutine set_ratio
+
+   pure complex(wp) function complex_of(vector)
+      real(wp), intent(in) :: vector(2)
+      complex_of = cmplx(vector(1), vector(2), wp)
+   end function complex_of
+
+   !> Angles between the columns, rad, from the trailing to the leading edge, where the film has gone up to an angle
+   !> `rim`; this many columns, each cut into this many parts.
+   pure function angles(pad, motion, rim, columns, parts)
+      type(dimensionless_pad_type), intent(in) :: pad
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: rim
+      integer, intent(in) :: columns, parts
+      real(wp) :: angles(0:columns*parts), ends(0:3)
+      integer :: last(0:3), i
+      ! the film's end, and where the source of pressure changes its sign
+      ends = [-pad%half_arc, rim, -atan2(motion%velocity(2), motion%velocity(1)), pad%half_arc]
+      last = [0, merge(ceiling(empty_share*columns), 0, rim > -pad%half_arc), nint(diverging_share*columns), columns]
+      last = parts*last
+      do i = 1, 3
+         if (last(i) == last(i - 1)) cycle
+         angles(last(i - 1):last(i)) = pad%spread_angles(motion%position, ends(i - 1), ends(i), last(i) - last(i - 1))
+      end do
+   end function angles
+end module force_ratio
