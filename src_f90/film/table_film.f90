@@ -21,7 +21,7 @@ module table_film
    !> Pads with half arcs above this, rad, have no table: their film does not follow from its thickness at the edges.
    real(wp), parameter :: largest_half_arc = 1.3_wp
    !> Error of the full film over that of what cavitation changes.
-   real(wp), parameter :: share_of_full = 0.1_wp
+   real(wp), parameter :: share_of_full = 0.3_wp
 
    !> Most cells of full films, and most cells and most nodes of cavitated ones, over all shapes: 0.3 GB.
    integer, parameter :: most_full = 16000, most_cavitated = 100000

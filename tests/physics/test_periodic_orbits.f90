@@ -125,8 +125,9 @@ contains
 
    !> Intervals of a quarter of the length leave an error of the multipliers that is 4^5 times smaller, or, where the
    !> motion is stiff, something between 4^3 (the order of the states inside an interval) and this; measured are 400 and
-   !> more, 170 with LuGre and 90 with Bengisu-Akay, where rounding leaves 1e-9. With switching points beside the ends
-   !> of intervals the first mesh would err by 1e-5 and more. The error is the difference to intervals of an eighth.
+   !> more, and 170 with LuGre. With Bengisu-Akay the first mesh may leave no more than rounding does. With switching
+   !> points beside the ends of intervals the first mesh would err by 1e-5 and more. The error is the difference to
+   !> intervals of an eighth.
    subroutine order(friction, tolerance, factor, limit)
       character(len=*), intent(in) :: friction
       !> Of the march; factor by which the error falls; what is left of it.
@@ -134,6 +135,8 @@ contains
       type(case_type) :: inputs
       type(bearing_model) :: model
       type(periodic_orbit_type) :: found
+      !> Of multipliers whose orbits are closed to 1e-9.
+      real(wp), parameter :: rounding = 1e-8_wp
       complex(wp), allocatable :: coarse(:), fine(:), finest(:)
       real(wp) :: errors(2)
       inputs = paper('tilting_radial', friction)
@@ -143,7 +146,8 @@ contains
       fine = refined(model, found%orbit)
       finest = refined(model, found%orbit)
       errors = [abs(coarse(1)%re - finest(1)%re), abs(fine(1)%re - finest(1)%re)]
-      call expect(all(errors < [5e-6_wp, limit]) .and. factor*errors(2) < errors(1), 'the error falls from ' &
+      call expect(errors(1) < 5e-6_wp .and. errors(2) < limit .and. (factor*errors(2) < errors(1) &
+         & .or. errors(1) < rounding), 'the error falls from ' &
          & //to_text(errors(1))//' to '//to_text(errors(2))//', '//friction)
    end subroutine order
 

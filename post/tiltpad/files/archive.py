@@ -70,7 +70,7 @@ class Archive:
     INTERNAL = (
         *("check_whole", "check_dataset", "scales", "sound", "without", "item", "own", "found", "listed"),
         *("former", "size", "why_not", "end", "in_words", "is_series", "KINDS", "OWN", "GROUPS", "INTERNAL"),
-        *("scale", "scales_of", "today"),
+        *("scale", "today"),
     )
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
     OWN = ("file", "path", "attributes", "former", "found", "listed", "over", "size")
@@ -182,10 +182,10 @@ class Archive:
         """Dimensions of a dataset by the names of their scales; a scale is its own."""
         found = self.item(name)
         if name not in self.over:
-            self.over[name] = self.scales_of(name, found)
+            self.over[name] = self._scales(name, found)
         return self.over[name]
 
-    def scales_of(self, name: str, found: h5py.Dataset) -> tuple[str, ...]:
+    def _scales(self, name: str, found: h5py.Dataset) -> tuple[str, ...]:
         """The same, read from the file."""
         if found.shape == ():
             return ()
@@ -249,7 +249,7 @@ class Archive:
         compressed = found.id.get_create_plist().get_nfilters() > 0
         if claimed > (max(COMPRESSION * self.size, SMALL) if compressed else self.size):
             raise ValueError(f"it claims {claimed} bytes, more than the file holds")
-        scales = self.scales_of(name, found)
+        scales = self._scales(name, found)
         if scales == (name,):
             fits(found.shape[1:], ())
         else:

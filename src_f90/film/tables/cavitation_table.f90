@@ -20,6 +20,8 @@ module cavitation_table
    !> (test_cavitation_table). So often they are halved at most, or doubled for larger tolerances.
    integer, parameter :: base_level = 3, base_parts = 16, most_halved = 4, most_doubled = 2
    real(wp), parameter :: base_tolerance = 4e-5_wp, loaded = 0.25_wp
+   !> Beside a film that closes, where a corner of a cell has none, cells are halved along the thicknesses so often.
+   integer, parameter :: most_beside_closed = 3
 
    type :: cell_type
       real(wp) :: lower(3), upper(3), per_size(3)
@@ -99,11 +101,12 @@ contains
       holds = .false.
       if (number == 0 .or. number > self%cell_index%count) return
       associate (cell => self%cells(number))
-         holds = all(place >= cell%lower .and. place < cell%upper)
+         holds = cell%good .and. all(place >= cell%lower .and. place < cell%upper)
       end associate
    end function holds
 
-   !> The cell that holds this place, built if need be.
+   !> The cell that holds this place, built if need be; beside a film that closes the largest that is good, or the
+   !> smallest.
    subroutine find_cell(self, place, counters, number)
       class(cavitation_table_type), intent(inout) :: self
       real(wp), intent(in) :: place(3)
@@ -111,27 +114,31 @@ contains
       integer, intent(out) :: number
       type(cell_type), allocatable :: more(:)
       real(wp) :: started
-      integer :: at(3)
-      at = [interval(place(:2), self%level), interval_of_t(self, place(3))]
-      associate (key => cell_key(0, at(1), at(2), at(3)), index => self%cell_index)
-         number = index%find(key)
-         if (number > 0) return
-         started = wall_clock()
-         if (index%count == self%most .or. self%node_index%count > self%most - corners) then
-            call index%clear()
-            call self%node_index%clear()
-         end if
-         number = index%count + 1
-         if (number > size(self%cells)) then
-            allocate (more(2*size(self%cells)))
-            more(:size(self%cells)) = self%cells
-            call move_alloc(more, self%cells)
-         end if
-         call self%build(at, counters, self%cells(number))
-         call index%add(key, number)
-         counters%cells = counters%cells + 1
-         counters%building = counters%building + wall_clock() - started
-      end associate
+      integer :: level, at(3)
+      do level = self%level, self%level + most_beside_closed
+         at = [interval(place(:2), level), interval_of_t(self, place(3))]
+         associate (key => cell_key(level, at(1), at(2), at(3)), index => self%cell_index)
+            number = index%find(key)
+            if (number == 0) then
+               started = wall_clock()
+               if (index%count == self%most .or. self%node_index%count > self%most - corners) then
+                  call index%clear()
+                  call self%node_index%clear()
+               end if
+               number = index%count + 1
+               if (number > size(self%cells)) then
+                  allocate (more(2*size(self%cells)))
+                  more(:size(self%cells)) = self%cells
+                  call move_alloc(more, self%cells)
+               end if
+               call self%build(level, at, counters, self%cells(number))
+               call index%add(key, number)
+               counters%cells = counters%cells + 1
+               counters%building = counters%building + wall_clock() - started
+            end if
+         end associate
+         if (self%cells(number)%good) exit
+      end do
    end subroutine find_cell
 
    !> The interval of a T.
@@ -150,23 +157,23 @@ contains
       end associate
    end function lower_t
 
-   !> The cell at a place.
-   subroutine build(self, at, counters, cell)
+   !> The cell at a place of a level.
+   subroutine build(self, level, at, counters, cell)
       class(cavitation_table_type), intent(inout) :: self
-      integer, intent(in) :: at(3)
+      integer, intent(in) :: level, at(3)
       type(film_counters), intent(inout) :: counters
       type(cell_type), intent(inout) :: cell
       type(node_type) :: node
       real(wp) :: data(simd_width, corner_data, 0:corners - 1), size_of(3)
       integer :: corner, i
-      cell%lower = [lower_end(at(:2), self%level), lower_t(self, at(3))]
-      cell%upper = [lower_end(at(:2) + 1, self%level), lower_t(self, at(3) + 1)]
+      cell%lower = [lower_end(at(:2), level), lower_t(self, at(3))]
+      cell%upper = [lower_end(at(:2) + 1, level), lower_t(self, at(3) + 1)]
       size_of = cell%upper - cell%lower
       cell%per_size = 1/size_of
       cell%good = .false.
       if (.not. allocated(self%transform)) self%transform = cubic_transform()
       do corner = 0, corners - 1
-         call self%find_node(at + ibits(corner, [0, 1, 2], 1), counters, node)
+         call self%find_node(level, at + ibits(corner, [0, 1, 2], 1), counters, node)
          if (.not. node%ok) return
          data(:, :, corner) = node%data*spread([1.0_wp, size_of], 1, simd_width)
       end do
@@ -182,15 +189,15 @@ contains
       cell%good = .true.
    end subroutine build
 
-   !> The node at a corner `at` of cells.
-   subroutine find_node(self, at, counters, node)
+   !> The node at a corner `at` of cells of a level.
+   subroutine find_node(self, level, at, counters, node)
       class(cavitation_table_type), intent(inout) :: self
-      integer, intent(in) :: at(3)
+      integer, intent(in) :: level, at(3)
       type(film_counters), intent(inout) :: counters
       type(node_type), intent(out) :: node
       type(node_type), allocatable :: more(:)
       integer :: number
-      associate (key => cell_key(0, at(1), at(2), at(3)), index => self%node_index)
+      associate (key => cell_key(level, at(1), at(2), at(3)), index => self%node_index)
          number = index%find(key)
          if (number > 0) then
             node = self%nodes(number)
@@ -202,7 +209,7 @@ contains
             more(:size(self%nodes)) = self%nodes
             call move_alloc(more, self%nodes)
          end if
-         call self%solve(lower_end(at(:2), self%level), lower_t(self, at(3)), counters, node)
+         call self%solve(lower_end(at(:2), level), lower_t(self, at(3)), counters, node)
          self%nodes(number) = node
          call index%add(key, number)
       end associate

@@ -15,7 +15,7 @@ module full_film
    !> Loads of a film: the velocity w; a pressure at the leading edge.
    integer, parameter :: loads = 2
    !> Error of what is solved over the tolerance.
-   real(wp), parameter :: share_of_nodes = 0.1_wp
+   real(wp), parameter :: share_of_nodes = 0.3_wp
 
    type :: full_film_type
       type(dimensionless_pad_type) :: pad
@@ -26,6 +26,7 @@ module full_film
    contains
       procedure :: look_up
       procedure :: highest_pressure
+      procedure :: is_open
    end type full_film_type
 
 contains
@@ -98,6 +99,15 @@ contains
          pressure = film%max_pressure
       end if
    end subroutine highest_pressure
+
+   !> True where the film with these thicknesses at its edges is open.
+   pure logical function is_open(self, edges)
+      class(full_film_type), intent(in) :: self
+      real(wp), intent(in) :: edges(2)
+      associate (gap => self%pad%gap(0.0_wp), motion => film_motion(self%pad%position(edges)))
+         is_open = gap%min_film_thickness(motion, gap%directions()) > 0
+      end associate
+   end function is_open
 
    !> M_11, M_12, M_22, 0 from the columns of M, which is symmetric by reciprocity; what the discretisation adds is
    !> shared.
