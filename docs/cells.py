@@ -14,8 +14,9 @@ from matplotlib.patches import Rectangle
 from tiltpad.draw.layout import PAGE
 from tiltpad.draw.plots import STYLE
 
-#: Size of an uncut cell: each doubling of film thickness is cut into this number of parts, and T from 0 to 1.
-OCTAVE_PARTS, T_PARTS = 2, 8
+#: Size of an uncut cell: each doubling of film thickness is cut into this number of parts in the table of full
+#: films and of cavitated ones, and T into these, or half of them up to a quarter.
+FULL_PARTS, CAVITATED_PARTS, T_PARTS, LOADED = 2, 8, 16, 0.25
 
 
 def films(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray]:
@@ -50,11 +51,17 @@ def films(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray]:
     return np.stack(edges, -1), 0.5 * (1 - outward / (np.abs(along) * np.tan(half_arc)))
 
 
-def cell(thickness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def cell(thickness: np.ndarray, parts: int) -> tuple[np.ndarray, np.ndarray]:
     """Lower and upper end of the cells in which thicknesses lie."""
     octave = 2.0 ** np.floor(np.log2(thickness))
-    lower = octave * (1 + np.floor(OCTAVE_PARTS * (thickness / octave - 1)) / OCTAVE_PARTS)
-    return lower, lower + octave / OCTAVE_PARTS
+    lower = octave * (1 + np.floor(parts * (thickness / octave - 1)) / parts)
+    return lower, lower + octave / parts
+
+
+def cell_of_share(share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The same for T."""
+    number = np.floor(T_PARTS * (share + np.minimum(share, LOADED)))
+    return tuple(np.maximum(t / 2, t - LOADED) for t in (number / T_PARTS, (number + 1) / T_PARTS))
 
 
 def boxes(ax: Axes, x: tuple[np.ndarray, np.ndarray], y: tuple[np.ndarray, np.ndarray], **look) -> None:
@@ -66,13 +73,12 @@ def boxes(ax: Axes, x: tuple[np.ndarray, np.ndarray], y: tuple[np.ndarray, np.nd
 def draw(run: tiltpad.Run) -> None:
     """Both thicknesses on the left; on the right the trailing one and T, of films that cavitate."""
     edges, share = films(run)
-    lower, upper = cell(edges)
+    lower, upper = cell(edges, FULL_PARTS)
     _, (left, right) = plt.subplots(1, 2, figsize=(PAGE, 3.2))
     cavitated = (share > 0) & (share < 1)
     boxes(left, (lower[..., 0], upper[..., 0]), (lower[..., 1], upper[..., 1]), facecolor="0.93")
-    below = np.floor(share * T_PARTS) / T_PARTS
-    ends = below[cavitated], below[cavitated] + 1 / T_PARTS
-    boxes(right, (lower[cavitated, 1], upper[cavitated, 1]), ends, facecolor="0.93")
+    trailing_ends = cell(edges[cavitated, 1], CAVITATED_PARTS)
+    boxes(right, trailing_ends, cell_of_share(share[cavitated]), facecolor="0.93")
     for i in range(share.shape[1]):
         left.plot(*edges[:, i].T, color=f"C{i}", label=f"pad {i + 1}")
         right.plot(edges[:, i, 1], share[:, i], color=f"C{i}")
