@@ -14,8 +14,8 @@ from matplotlib.patches import Rectangle
 from tiltpad.draw.layout import PAGE
 from tiltpad.draw.plots import STYLE
 
-#: Size of an uncut cell: each doubling of film thickness is cut into this number of parts in the table of full
-#: films and of cavitated ones, and T into these, or half of them up to a quarter.
+#: Size of an uncut cell: each doubling of film thickness is cut into this number of parts, in the table of
+#: full films and of cavitated ones, and T into these, or half of them up to a quarter.
 FULL_PARTS, CAVITATED_PARTS, T_PARTS, LOADED = 2, 8, 16, 0.25
 
 
