@@ -25,6 +25,7 @@ module dimensionless_pad
       real(wp) :: sine = 0, cosine = 0, tangent = 0
    contains
       procedure :: position
+      procedure :: least_film
       procedure :: over_edges
       procedure :: spread_angles
       procedure :: gap
@@ -74,6 +75,15 @@ contains
       real(wp) :: position(2)
       position = [(edges(2) - edges(1))/(2*self%sine), (1 - 0.5_wp*(edges(1) + edges(2)))/self%cosine]
    end function position
+
+   !> The least film thickness between these at the edges, over the clearance; below 0 where the film is closed.
+   pure real(wp) function least_film(self, edges)
+      class(dimensionless_pad_type), intent(in) :: self
+      real(wp), intent(in) :: edges(2)
+      type(pad_gap_type) :: whole
+      whole = self%gap(0.0_wp)
+      least_film = whole%min_film_thickness(film_motion(self%position(edges)), whole%directions())
+   end function least_film
 
    !> Derivatives over the film thicknesses at the edges from those over the position of the journal.
    pure function over_edges(self, over_position)

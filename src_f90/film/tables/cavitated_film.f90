@@ -30,14 +30,13 @@ module cavitated_film
    end type node_type
 
    type :: cavitated_film_type
-      private
       type(dimensionless_pad_type) :: pad
-      type(force_ratio_solver) :: ratios
-      real(wp) :: floor = 0
+      type(force_ratio_solver), private :: ratios
+      real(wp), private :: floor = 0
       !> The films looked up last, one after the other, and where.
-      type(node_type), allocatable :: remembered(:)
-      real(wp), allocatable :: remembered_at(:, :)
-      integer :: remember_next = 0
+      type(node_type), allocatable, private :: remembered(:)
+      real(wp), allocatable, private :: remembered_at(:, :)
+      integer, private :: remember_next = 0
    contains
       procedure :: look_up
       procedure :: solve

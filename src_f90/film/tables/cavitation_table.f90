@@ -20,12 +20,14 @@ module cavitation_table
    !> (test_cavitation_table). So often they are halved at most, or doubled for larger tolerances.
    integer, parameter :: base_level = 3, base_parts = 16, most_halved = 4, most_doubled = 2
    real(wp), parameter :: base_tolerance = 4e-5_wp, loaded = 0.25_wp
-   !> Beside a film that closes, where a corner of a cell has none, cells are halved along the thicknesses so often.
+   !> Beside a film that closes, where the least film thickness at a corner of a cell is below so many of its lengths,
+   !> cells are halved along the thicknesses, up to three times.
+   real(wp), parameter :: least_in_cells = 2
    integer, parameter :: most_beside_closed = 3
 
    type :: cell_type
       real(wp) :: lower(3), upper(3), per_size(3)
-      !> Whether the film is open at every corner.
+      !> Whether there is a film at every corner, which changes little enough between them.
       logical :: good
       real(wp) :: coefficients(simd_width, terms)
    end type cell_type
@@ -170,7 +172,9 @@ contains
       cell%upper = [lower_end(at(:2) + 1, level), lower_t(self, at(3) + 1)]
       size_of = cell%upper - cell%lower
       cell%per_size = 1/size_of
+      ! a film that nearly closes between the edges changes too much in a cell
       cell%good = .false.
+      if (self%pad%least_film(cell%lower(:2)) < least_in_cells*maxval(size_of(:2))) return
       if (.not. allocated(self%transform)) self%transform = cubic_transform()
       do corner = 0, corners - 1
          call self%find_node(level, at + ibits(corner, [0, 1, 2], 1), counters, node)

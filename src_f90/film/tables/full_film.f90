@@ -26,7 +26,6 @@ module full_film
    contains
       procedure :: look_up
       procedure :: highest_pressure
-      procedure :: is_open
    end type full_film_type
 
 contains
@@ -99,15 +98,6 @@ contains
          pressure = film%max_pressure
       end if
    end subroutine highest_pressure
-
-   !> True where the film with these thicknesses at its edges is open.
-   pure logical function is_open(self, edges)
-      class(full_film_type), intent(in) :: self
-      real(wp), intent(in) :: edges(2)
-      associate (gap => self%pad%gap(0.0_wp), motion => film_motion(self%pad%position(edges)))
-         is_open = gap%min_film_thickness(motion, gap%directions()) > 0
-      end associate
-   end function is_open
 
    !> M_11, M_12, M_22, 0 from the columns of M, which is symmetric by reciprocity; what the discretisation adds is
    !> shared.

@@ -164,7 +164,7 @@ contains
                   call move_alloc(more, self%cells)
                end if
                self%cells(number) = cell_type()
-               self%cells(number)%cut = level < last_level .and. .not. self%is_open(lower_end(place, level))
+               self%cells(number)%cut = level < last_level .and. self%pad%least_film(lower_end(place, level)) <= 0
                self%cells(number)%tried = self%cells(number)%cut
                call self%index%add(key, number)
             end if
