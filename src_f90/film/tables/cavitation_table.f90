@@ -17,7 +17,7 @@ module cavitation_table
 
    !> Cells for a tolerance of 4e-5 have an eighth of an octave along the thicknesses (2^level to an octave), and 1/16
    !> along T, half of it up to T = 1/4, where loaded pads are; the error falls with the fourth power of their length
-   !> (test_cavitation_table). So often they are halved at most, or doubled for larger tolerances.
+   !> (test_cavitation_table). For smaller tolerances they are halved up to four times, for larger ones doubled twice.
    integer, parameter :: base_level = 3, base_parts = 16, most_halved = 4, most_doubled = 2
    real(wp), parameter :: base_tolerance = 4e-5_wp, loaded = 0.25_wp
    !> Beside a film that closes, where the least film thickness at a corner of a cell is below so many of its lengths,
