@@ -20,8 +20,8 @@ module cavitation_table
    !> (test_cavitation_table). For smaller tolerances they are halved up to four times, for larger ones doubled twice.
    integer, parameter :: base_level = 3, base_parts = 16, most_halved = 4, most_doubled = 2
    real(wp), parameter :: base_tolerance = 4e-5_wp, loaded = 0.25_wp
-   !> Beside a film that closes, where the least film thickness at a corner of a cell is below so many of its lengths,
-   !> cells are halved along the thicknesses, up to three times.
+   !> Beside a film that closes, where the least film thickness at a corner of a cell is below twice the length of the
+   !> cell, cells are halved along the thicknesses, up to three times.
    real(wp), parameter :: least_in_cells = 2
    integer, parameter :: most_beside_closed = 3
 
