@@ -19,7 +19,7 @@ module factories
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, march_films, static_films, converged_films, quick_films
+   public :: make_film, march_films, static_films, converged_films, quick_films, usual_arc
    public :: new_losses, make_law, make_contact, make_friction, new_asperities, new_pads
 
    !> What films are for: a march; the search for an equilibrium, which goes far and stays nowhere; what is linearised

@@ -241,7 +241,7 @@ contains
          & 'sor: maximum number of sweeps for a film; more is a failure')
       call v%number(inputs%film%table_tolerance, 'table_tolerance', 0.0_wp, 1e-2_wp, '1', &
          & 'auto: usual error of forces from tables, over the force itself; 0: ' &
-         & //'relative_tolerance, with reynolds 4 times as much; cavitated films keep to 6e-7 at best')
+         & //'relative_tolerance, with reynolds 4 times as much; cavitated films keep to 4e-7 at best')
       call v%word(inputs%film%cavitation, 'cavitation', 'reynolds gumbel none', &
          & 'reynolds: p >= p_cav in the solution; gumbel: clipped after the solution; none: no cavitation')
 

@@ -5,7 +5,7 @@
 module film_comparison
    use kinds, only: wp, degree
    use case_inputs, only: case_type
-   use factories, only: converged_films
+   use factories, only: converged_films, usual_arc
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: bearing_model, new_bearing_model
    implicit none (type, external)
@@ -16,7 +16,6 @@ module film_comparison
    real(wp), parameter :: closest = 1e-6_wp, less_close = 1e-5_wp
    !> Even volumes, along an arc up to this, rad, and along half the width, for the second solution of films that have
    !> no tables: those of wide arcs, and of supply pressures where they may cavitate. Four times those of a march.
-   real(wp), parameter :: usual_arc = 120*degree
    integer, parameter :: film_adapted(2) = 0, even(2) = [320, 32]
    !> What a pad carries counts as this share of its weight at least: below, the weight, whose moment about the pivot
    !> is at least that of the tilt (some 1e-3 rad), moves the pad, not the film. Without weight: of the load.

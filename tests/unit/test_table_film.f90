@@ -33,6 +33,8 @@ program test_table_film
    if (runs('closed')) call closed()
    if (runs('set_cavitation')) call set_cavitation()
    if (runs('pressures')) call pressures()
+   if (runs('pushes')) call pushes(reynolds)
+   if (runs('pushes')) call pushes(gumbel)
    call report()
 
 contains
@@ -415,4 +417,31 @@ contains
          call expect(worst(2) < 3e-3_wp, 'lowest, error '//to_text(worst(2)))
       end do
    end subroutine pressures
+
+   !> Pressures above that around the pad push the journal away from the pad, however little of the film is left. With
+   !> Guembel's condition, whose force ends with a bend within a cell: up to 2 % of the floor of its table, 1e-2.
+   subroutine pushes(condition)
+      integer, intent(in) :: condition
+      type(table_film_type) :: film
+      type(pad_gap_type) :: gap
+      type(film_motion) :: motion
+      type(film_response) :: found
+      real(wp) :: allowed
+      integer :: trial, pushing
+      gap = offset_pad()
+      film = tables([gap], condition)
+      pushing = 0
+      do trial = 1, 400
+         motion%position = clearance*[between(-1.2_wp, 1.2_wp), between(-1.0_wp, 0.95_wp)]
+         if (gap%min_film_thickness(motion, gap%directions()) < 1e-2_wp*clearance) cycle
+         motion%velocity = clearance*speed*[between(-1.0_wp, 1.0_wp), between(-1.0_wp, 1.0_wp)]
+         call film%evaluate_pad(1, motion, paper_oil, speed, .false., found)
+         call expect(found%status == film_ok, 'a film')
+         allowed = merge(0.0_wp, 2e-4_wp, condition == reynolds)
+         if (allowed > 0) allowed = allowed*squeezed(gap, motion)
+         call expect(found%force(2) <= allowed, 'radial force '//to_text(found%force(2))//' N')
+         if (found%force(2) < 0) pushing = pushing + 1
+      end do
+      call expect(pushing > 100, to_text(pushing)//' films have a force')
+   end subroutine pushes
 end program test_table_film

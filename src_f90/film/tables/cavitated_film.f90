@@ -46,7 +46,7 @@ module cavitated_film
 
 contains
 
-   !> The films of a pad, with the condition of Reynolds or Guembel: forces to a tolerance, over that at T = 0.
+   !> The films of a pad, with the condition of Reynolds or Guembel: forces to a tolerance, over themselves.
    function new_cavitated_film(pad, gumbel, tolerance) result(films)
       type(dimensionless_pad_type), intent(in) :: pad
       logical, intent(in) :: gumbel
@@ -140,5 +140,4 @@ contains
          pressure = room**pressure_power*max(0.0_wp, exp(value(3)) - self%floor)
       end associate
    end subroutine set_ratio
-
 end module cavitated_film

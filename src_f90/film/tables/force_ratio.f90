@@ -79,10 +79,8 @@ contains
       class(force_ratio_solver), intent(inout) :: self
       real(wp), intent(in) :: edges(2), w_2
       type(film_motion) :: motion
+      if (.not. self%pad%least_film(edges) > 0) return
       motion = film_motion(self%pad%position(edges), [1.0_wp, w_2])
-      associate (gap => self%pad%gap(0.0_wp))
-         if (.not. gap%min_film_thickness(motion, gap%directions()) > 0) return
-      end associate
       if (.not. w_2 < self%pad%tangent) then
          ratio = at_onset(self, motion)
       else if (self%gumbel) then

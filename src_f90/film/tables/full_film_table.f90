@@ -23,9 +23,9 @@ module full_film_table
    real(wp), parameter :: off = 0.92_wp, checks(2, 5) = reshape([-off, -off, off, -off, -off, off, off, off, 0.0_wp, &
       & 0.0_wp], [2, 5])
    !> Cells that are built at the first visit, in all: some 10 ms. Beyond, a cell is built once the films solved in it
-   !> have cost as much as building does, so that both together never cost more than twice the cheaper of them ("ski
-   !> rental": Karlin, Manasse, Rudolph, Sleator, Algorithmica 3, 1988). A visit solves a film at two velocities, with
-   !> derivatives that cost as much again.
+   !> have cost as much as building does, so that both together cost at most twice the cheaper of them, in a cell that
+   !> need not be cut ("ski rental": Karlin, Manasse, Rudolph, Sleator, Algorithmica 3, 1988). A visit solves a film at
+   !> two velocities, with derivatives that cost as much again.
    integer, parameter :: built_at_once = 32, visits_of_cell = nodes**2/2
    !> The same for profiles of the pressure: films solved for one, of which each costs as much as a pressure solved.
    integer, parameter :: visits_of_profile = 2*profile_nodes**2

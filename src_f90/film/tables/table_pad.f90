@@ -172,12 +172,13 @@ contains
       if (.not. self%found) return
       call self%set_force(tables, seen, onset(tables%pad, seen%w), want_derivatives, counters, full)
       if (.not. self%found) return
-      full_force = complex_of(full%value)
+      full_force = cmplx(full%value(1), full%value(2), wp)
       force%value = vector_of(part%force*full_force)
       if (.not. want_derivatives) return
       do i = 1, 2
-         force%over_edges(:, i) = vector_of(part%force*complex_of(full%over_edges(:, i)) &
-            & + part%over_edges(i)*full_force)
+         associate (over_edge => cmplx(full%over_edges(1, i), full%over_edges(2, i), wp))
+            force%over_edges(:, i) = vector_of(part%force*over_edge + part%over_edges(i)*full_force)
+         end associate
       end do
       ! the full film's force is proportional to w_1
       force%over_w(:, 1) = vector_of((part%force/seen%w(1) + part%over_w(1))*full_force)
@@ -265,11 +266,6 @@ contains
          cavitated_pressure = abs(seen%w(1))*thickness_scale(edges(1), edges(2))*value(4, 1)*part%pressure
       end associate
    end function cavitated_pressure
-
-   pure complex(wp) function complex_of(vector)
-      real(wp), intent(in) :: vector(2)
-      complex_of = cmplx(vector(1), vector(2), wp)
-   end function complex_of
 
    pure function vector_of(number) result(vector)
       complex(wp), intent(in) :: number
