@@ -122,8 +122,10 @@ contains
       integer :: i
       do i = 1, size(motion)
          associate (pad => self%tabulated(i))
-            if (pad%found .and. response(i)%status == film_ok) call pad%look_up_pressures(self%shapes(pad%shape), &
-               & motion(i), oil(i), speed, self%cavitates(), self%counters, response(i))
+            if (.not. pad%found .or. response(i)%status /= film_ok) cycle
+            call pad%look_up_pressures(self%shapes(pad%shape), motion(i), oil(i), speed, self%cavitates(), &
+               & self%counters, response(i))
+            if (.not. pad%found) call self%direct_film_type%solve(i, motion(i), oil(i), speed, .false., response(i))
          end associate
       end do
    end subroutine take_pressures

@@ -3,8 +3,13 @@
 !>
 !> Cells have a node at every corner, which neighbours share: across their faces the force is continuous. The film of a
 !> node is solved on its own; so a cell is the same, whatever came before.
+!>
+!> The table answers where it pays. A node costs as much as several films of the solver that does without a table. Cells
+!> are built while films without the table and nodes have cost less than `most_cost` times what all films would have
+!> cost without it; where it has no cell, and beside films that close, it leaves a film to that solver. A table that is
+!> to be closer than that solver answers everywhere.
 module cavitation_table
-   use kinds, only: wp
+   use kinds, only: wp, i8
    use clock, only: wall_clock
    use dimensionless_pad, only: dimensionless_pad_type
    use film_solver, only: film_counters
@@ -24,11 +29,16 @@ module cavitation_table
    !> cell, cells are halved along the thicknesses, up to three times.
    real(wp), parameter :: least_in_cells = 2
    integer, parameter :: most_beside_closed = 3
+   !> Films that cost as much as a node, each solved for itself; what a table may cost over films without it, beyond its
+   !> first nodes: some 10 ms.
+   real(wp), parameter :: films_of_node = 8, most_cost = 1.2_wp
+   integer, parameter :: first_nodes = 128
+   !> Tolerances with the condition of Reynolds and of Guembel, just below those of the default settings, from which on
+   !> the error of the solver without a table would show.
+   real(wp), parameter :: as_close(2) = [3.6e-5_wp, 0.9e-5_wp]
 
    type :: cell_type
       real(wp) :: lower(3), upper(3), per_size(3)
-      !> Whether there is a film at every corner, which changes little enough between them.
-      logical :: good
       real(wp) :: coefficients(simd_width, terms)
    end type cell_type
 
@@ -43,9 +53,14 @@ module cavitation_table
       type(node_type), allocatable :: nodes(:)
       !> Most cells, and most nodes: when either are used up all are forgotten.
       integer :: most
+      !> Whether it is to be closer than the solver that does without a table.
+      logical :: is_closer
+      !> Films that were asked for; of these, answered; nodes that were solved for it.
+      integer(i8) :: asked = 0, answered = 0, solved = 0
    contains
       procedure :: look_up
       procedure, private :: find_cell
+      procedure, private :: pays
       procedure, private :: build
       procedure, private :: find_node
    end type cavitation_table_type
@@ -66,6 +81,7 @@ contains
       table%level = base_level + finer
       table%parts = nint(base_parts*2.0_wp**finer)
       table%most = max(most, corners)
+      table%is_closer = tolerance < merge(as_close(2), as_close(1), gumbel)
       allocate (table%cells(32), table%nodes(128))
    end function new_cavitation_table
 
@@ -80,14 +96,16 @@ contains
       real(wp) :: place(3)
       integer :: axis
       place = [edges, t]
+      self%asked = self%asked + 1
       if (.not. holds(self, last, place)) call self%find_cell(place, counters, last)
+      good = last > 0
+      if (.not. good) then
+         if (self%is_closer) call self%cavitated_film_type%look_up(edges, t, want_slopes, last, counters, value, slope, &
+            & good)
+         return
+      end if
+      self%answered = self%answered + 1
       associate (cell => self%cells(last))
-         good = cell%good
-         if (.not. good) then
-            ! beside a film that closes
-            call self%cavitated_film_type%look_up(edges, t, want_slopes, last, counters, value, slope, good)
-            return
-         end if
          call evaluate_cubic(cell%coefficients, (place - cell%lower)*cell%per_size, want_slopes, value, slope)
          do axis = 1, 3
             slope(:, axis) = slope(:, axis)*cell%per_size(axis)
@@ -103,45 +121,63 @@ contains
       holds = .false.
       if (number == 0 .or. number > self%cell_index%count) return
       associate (cell => self%cells(number))
-         holds = cell%good .and. all(place >= cell%lower .and. place < cell%upper)
+         holds = all(place >= cell%lower .and. place < cell%upper)
       end associate
    end function holds
 
-   !> The cell that holds this place, built if need be; beside a film that closes the largest that is good, or the
-   !> smallest.
+   !> The cell that holds this place, built if that pays; 0: none.
    subroutine find_cell(self, place, counters, number)
       class(cavitation_table_type), intent(inout) :: self
       real(wp), intent(in) :: place(3)
       type(film_counters), intent(inout) :: counters
       integer, intent(out) :: number
       type(cell_type), allocatable :: more(:)
-      real(wp) :: started
+      real(wp) :: started, lower(3), upper(3)
       integer :: level, at(3)
+      logical :: good
+      number = 0
       do level = self%level, self%level + most_beside_closed
          at = [interval(place(:2), level), interval_of_t(self, place(3))]
-         associate (key => cell_key(level, at(1), at(2), at(3)), index => self%cell_index)
-            number = index%find(key)
-            if (number == 0) then
-               started = wall_clock()
-               if (index%count == self%most .or. self%node_index%count > self%most - corners) then
-                  call index%clear()
-                  call self%node_index%clear()
-               end if
-               number = index%count + 1
-               if (number > size(self%cells)) then
-                  allocate (more(2*size(self%cells)))
-                  more(:size(self%cells)) = self%cells
-                  call move_alloc(more, self%cells)
-               end if
-               call self%build(level, at, counters, self%cells(number))
-               call index%add(key, number)
-               counters%cells = counters%cells + 1
-               counters%building = counters%building + wall_clock() - started
-            end if
-         end associate
-         if (self%cells(number)%good) exit
+         lower = corner_place(self, level, at)
+         upper = corner_place(self, level, at + 1)
+         ! a film that nearly closes between the edges changes too much in a cell
+         if (self%pad%least_film(lower(:2)) >= least_in_cells*maxval(upper(:2) - lower(:2))) exit
       end do
+      if (level > self%level + most_beside_closed) return
+      associate (key => cell_key(level, at(1), at(2), at(3)), index => self%cell_index)
+         number = index%find(key)
+         if (number > 0 .or. .not. self%pays()) return
+         started = wall_clock()
+         if (index%count == self%most .or. self%node_index%count > self%most - corners) then
+            call index%clear()
+            call self%node_index%clear()
+         end if
+         number = index%count + 1
+         if (number > size(self%cells)) then
+            allocate (more(2*size(self%cells)))
+            more(:size(self%cells)) = self%cells
+            call move_alloc(more, self%cells)
+         end if
+         self%cells(number)%lower = lower
+         self%cells(number)%upper = upper
+         call self%build(level, at, counters, self%cells(number), good)
+         if (good) then
+            call index%add(key, number)
+            counters%cells = counters%cells + 1
+         else
+            number = 0
+         end if
+         counters%building = counters%building + wall_clock() - started
+      end associate
    end subroutine find_cell
+
+   !> True where a cell is built.
+   pure logical function pays(self)
+      class(cavitation_table_type), intent(in) :: self
+      associate (without => self%asked, with => self%asked - self%answered + films_of_node*(self%solved - first_nodes))
+         pays = self%is_closer .or. with < most_cost*without
+      end associate
+   end function pays
 
    !> The interval of a T.
    pure integer function interval_of_t(self, t)
@@ -159,22 +195,27 @@ contains
       end associate
    end function lower_t
 
-   !> The cell at a place of a level.
-   subroutine build(self, level, at, counters, cell)
+   !> Thicknesses and T at a corner `at` of cells of a level.
+   pure function corner_place(self, level, at) result(place)
+      class(cavitation_table_type), intent(in) :: self
+      integer, intent(in) :: level, at(3)
+      real(wp) :: place(3)
+      place = [lower_end(at(:2), level), lower_t(self, at(3))]
+   end function corner_place
+
+   !> Fills the cell at a place of a level; `good` if there is a film at every corner.
+   subroutine build(self, level, at, counters, cell, good)
       class(cavitation_table_type), intent(inout) :: self
       integer, intent(in) :: level, at(3)
       type(film_counters), intent(inout) :: counters
       type(cell_type), intent(inout) :: cell
+      logical, intent(out) :: good
       type(node_type) :: node
       real(wp) :: data(simd_width, corner_data, 0:corners - 1), size_of(3)
       integer :: corner, i
-      cell%lower = [lower_end(at(:2), level), lower_t(self, at(3))]
-      cell%upper = [lower_end(at(:2) + 1, level), lower_t(self, at(3) + 1)]
+      good = .false.
       size_of = cell%upper - cell%lower
       cell%per_size = 1/size_of
-      ! a film that nearly closes between the edges changes too much in a cell
-      cell%good = .false.
-      if (self%pad%least_film(cell%lower(:2)) < least_in_cells*maxval(size_of(:2))) return
       if (.not. allocated(self%transform)) self%transform = cubic_transform()
       do corner = 0, corners - 1
          call self%find_node(level, at + ibits(corner, [0, 1, 2], 1), counters, node)
@@ -190,7 +231,7 @@ contains
          end do
       end do
       cell%coefficients = matmul(reshape(data, [simd_width, terms]), transpose(self%transform))
-      cell%good = .true.
+      good = .true.
    end subroutine build
 
    !> The node at a corner `at` of cells of a level.
@@ -213,7 +254,10 @@ contains
             more(:size(self%nodes)) = self%nodes
             call move_alloc(more, self%nodes)
          end if
-         call self%solve(lower_end(at(:2), level), lower_t(self, at(3)), counters, node)
+         associate (place => corner_place(self, level, at))
+            call self%solve(place(:2), place(3), counters, node)
+         end associate
+         self%solved = self%solved + 1
          self%nodes(number) = node
          call index%add(key, number)
       end associate

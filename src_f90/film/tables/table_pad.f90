@@ -215,7 +215,8 @@ contains
       if (want_derivatives) force%over_edges = force%over_edges + (self%rise*self%square)*slope(1:2, :, 2)
    end subroutine set_force
 
-   !> Minimum and maximum pressure of a film that was found, in the middle plane.
+   !> Minimum and maximum pressure of a film that was found, in the middle plane; `found` becomes false where the tables
+   !> have forgotten it.
    subroutine look_up_pressures(self, tables, motion, oil, speed, may_cavitate, counters, response)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
@@ -243,12 +244,13 @@ contains
       end if
       if (.not. may_cavitate) call tables%whole%highest_pressure(seen%edges, -seen%w, -rise, self%whole_cell, &
          & counters, lowest)
+      if (.not. self%found) return
       response%max_pressure = self%gap%ambient_pressure + unit_pressure*highest
       response%min_pressure = min(self%gap%ambient_pressure, self%gap%supply_pressure, &
          & self%gap%ambient_pressure - unit_pressure*lowest)
    end subroutine look_up_pressures
 
-   !> The highest pressure of a cavitated film of the unit pad, 0 < T < 1.
+   !> The highest pressure of a cavitated film of the unit pad, 0 < T < 1, unless `found` becomes false.
    real(wp) function cavitated_pressure(self, tables, seen, t, counters)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
@@ -258,7 +260,9 @@ contains
       type(cavitated_part) :: part
       real(wp) :: value(simd_width, loads), slope(simd_width, 2, loads)
       logical :: good
+      cavitated_pressure = 0
       call self%set_part(tables, seen, t, .false., counters, part)
+      if (.not. self%found) return
       associate (edges => seen%edges)
          ! where w_1 < 0 as in a mirror
          call tables%whole%look_up(merge(edges, edges([2, 1]), seen%w(1) > 0), .false., self%whole_cell, counters, &
