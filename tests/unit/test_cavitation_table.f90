@@ -226,8 +226,8 @@ contains
       call expect(found > 0.95_wp, '95 % to 25 times as much: '//to_text(found))
    end subroutine relative_error
 
-   !> Where a film nearly closes between its edges, a closer table answers, too; of the usual one, in cells whose corners may be far nearer to it, the table errs by a
-   !> hundredth of the force at most.
+   !> Where a film nearly closes between its edges, the usual table answers only in cells that are small beside its
+   !> least thickness, and errs by a hundredth of the force at most; a closer table answers everywhere.
    subroutine beside_closed()
       type(cavitation_table_type) :: table, closer
       type(cavitated_film_type) :: reference

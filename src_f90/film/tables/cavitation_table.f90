@@ -100,8 +100,8 @@ contains
       if (.not. holds(self, last, place)) call self%find_cell(place, counters, last)
       good = last > 0
       if (.not. good) then
-         if (self%is_closer) call self%cavitated_film_type%look_up(edges, t, want_slopes, last, counters, value, slope, &
-            & good)
+         if (self%is_closer) call self%cavitated_film_type%look_up(edges, t, want_slopes, last, counters, value, &
+            & slope, good)
          return
       end if
       self%answered = self%answered + 1
