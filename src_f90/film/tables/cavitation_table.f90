@@ -5,11 +5,11 @@
 !> node is solved on its own; so a cell is the same, whatever came before.
 !>
 !> The table answers where it pays. A node costs as much as several films of the solver that does without a table. Cells
-!> are built while films without the table and nodes have cost less than `most_cost` times what all films would have
-!> cost without it; where it has no cell, and beside films that close, it leaves a film to that solver. A table that is
+!> are built while films without the table and nodes have cost less than 1.2 times what all films would have cost
+!> without it; where it has no cell, and beside films that close, it leaves a film to that solver. A table that is
 !> to be closer than that solver answers everywhere.
 module cavitation_table
-   use kinds, only: wp, i8
+   use kinds, only: wp
    use clock, only: wall_clock
    use dimensionless_pad, only: dimensionless_pad_type
    use film_solver, only: film_counters
@@ -29,10 +29,11 @@ module cavitation_table
    !> cell, cells are halved along the thicknesses, up to three times.
    real(wp), parameter :: least_in_cells = 2
    integer, parameter :: most_beside_closed = 3
-   !> Films that cost as much as a node, each solved for itself; what a table may cost over films without it, beyond its
-   !> first nodes: some 10 ms.
-   real(wp), parameter :: films_of_node = 8, most_cost = 1.2_wp
-   integer, parameter :: first_nodes = 128
+   !> Time of a film without the table and of a node, where little of the film diverges and where more does than this T:
+   !> over that of a full film by modes (2 us); a film without it starts from the one before. The time of a table over
+   !> that of the same films without it, beyond what its first nodes may cost: some 10 ms.
+   real(wp), parameter :: film_cost(2) = [1, 5], node_cost(2) = [20, 60], little = 0.2_wp
+   real(wp), parameter :: most_cost = 1.2_wp, first_cost = 100*node_cost(2)
    !> Tolerances with the condition of Reynolds and of Guembel, just below those of the default settings, from which on
    !> the error of the solver without a table would show.
    real(wp), parameter :: as_close(2) = [3.6e-5_wp, 0.9e-5_wp]
@@ -55,8 +56,8 @@ module cavitation_table
       integer :: most
       !> Whether it is to be closer than the solver that does without a table.
       logical :: is_closer
-      !> Films that were asked for; of these, answered; nodes that were solved for it.
-      integer(i8) :: asked = 0, answered = 0, solved = 0
+      !> Cost so far, and that of all films without the table.
+      real(wp) :: cost = 0, cost_without = 0
    contains
       procedure :: look_up
       procedure, private :: find_cell
@@ -96,15 +97,15 @@ contains
       real(wp) :: place(3)
       integer :: axis
       place = [edges, t]
-      self%asked = self%asked + 1
+      self%cost_without = self%cost_without + film_cost(class_of(t))
       if (.not. holds(self, last, place)) call self%find_cell(place, counters, last)
       good = last > 0
       if (.not. good) then
+         self%cost = self%cost + film_cost(class_of(t))
          if (self%is_closer) call self%cavitated_film_type%look_up(edges, t, want_slopes, last, counters, value, &
             & slope, good)
          return
       end if
-      self%answered = self%answered + 1
       associate (cell => self%cells(last))
          call evaluate_cubic(cell%coefficients, (place - cell%lower)*cell%per_size, want_slopes, value, slope)
          do axis = 1, 3
@@ -174,10 +175,14 @@ contains
    !> True where a cell is built.
    pure logical function pays(self)
       class(cavitation_table_type), intent(in) :: self
-      associate (without => self%asked, with => self%asked - self%answered + films_of_node*(self%solved - first_nodes))
-         pays = self%is_closer .or. with < most_cost*without
-      end associate
+      pays = self%is_closer .or. self%cost < first_cost + most_cost*self%cost_without
    end function pays
+
+   !> Which cost is that of a film of a T.
+   pure integer function class_of(t)
+      real(wp), intent(in) :: t
+      class_of = merge(2, 1, t > little)
+   end function class_of
 
    !> The interval of a T.
    pure integer function interval_of_t(self, t)
@@ -256,8 +261,8 @@ contains
          end if
          associate (place => corner_place(self, level, at))
             call self%solve(place(:2), place(3), counters, node)
+            self%cost = self%cost + node_cost(class_of(place(3)))
          end associate
-         self%solved = self%solved + 1
          self%nodes(number) = node
          call index%add(key, number)
       end associate
