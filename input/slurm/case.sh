@@ -56,6 +56,8 @@ finish() {
 }
 # ---- end of what is the same ----
 
+# a name that begins with - is no option
+[[ $1 != -* ]] || set -- "./$1" "${@:2}"
 name=${1##*/}
 run tiltpad --resume "${name%.*}.h5" "$@"
 finish $?

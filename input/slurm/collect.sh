@@ -10,4 +10,6 @@ if [ $# -ne 1 ]; then
    echo "usage: sbatch --dependency=afterany:JOB [sbatch options] collect.sh FOLDER" >&2
    exit 1
 fi
+# a name that begins with - is no option
+[[ $1 != -* ]] || set -- "./$1" "${@:2}"
 exec tiltpad-collect "$1" -o "${1%/}.h5"

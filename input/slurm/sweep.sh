@@ -9,7 +9,7 @@
 #SBATCH --signal=B:USR1@60
 #SBATCH --requeue --open-mode=append
 
-if [ $# -eq 0 ] || [ $# -gt 2 ] || [[ ! ${2:-1} =~ ^[1-9][0-9]*$ ]]; then
+if [ $# -eq 0 ] || [ $# -gt 2 ] || [[ ! ${2:-1} =~ ^[1-9][0-9]{0,8}$ ]]; then
    echo "usage: sbatch [sbatch options] sweep.sh CASE.nml [RUNS_A_TASK]" >&2
    exit 1
 fi
@@ -57,6 +57,8 @@ finish() {
 }
 # ---- end of what is the same ----
 
+# a name that begins with - is no option
+[[ $1 != -* ]] || set -- "./$1" "${@:2}"
 if [ -z "$SLURM_ARRAY_TASK_ID" ]; then
    run tiltpad --jobs "$SLURM_CPUS_ON_NODE" "$1"
    finish $?

@@ -86,7 +86,7 @@ def in_temporary_folder(work: Callable[[Path], Result]) -> Result:
 
 def result_of(case: str | os.PathLike, target: Path, options: Sequence[str]) -> Run | Study:
     """Runs the program."""
-    words = [program(), os.fspath(case), "--output", os.fspath(target), *options]
+    words = [program(), argument(case), "--output", os.fspath(target), *options]
     done = subprocess.run(words, stderr=subprocess.PIPE, text=True)
     said = done.stderr.strip().removeprefix("tiltpad: error: ")
     said = said.replace("--overwrite", "overwrite=True").replace("--output", "output")
@@ -97,6 +97,12 @@ def result_of(case: str | os.PathLike, target: Path, options: Sequence[str]) -> 
     if not target.is_dir():
         return read(target)
     return read_study(collect(target, target / "study.h5").output)
+
+
+def argument(case: str | os.PathLike) -> str:
+    """The name of a case for a command line: one that begins with - is no option."""
+    name = os.fspath(case)
+    return f"./{name}" if name.startswith("-") else name
 
 
 def resolved(case: str | os.PathLike) -> dict[str, dict[str, Any]]:
@@ -110,7 +116,7 @@ def resolved(case: str | os.PathLike) -> dict[str, dict[str, Any]]:
 
 def checked(case: str | os.PathLike, *options: str) -> str:
     """What --check prints, without its remarks."""
-    words = [program(), "--check", *options, os.fspath(case)]
+    words = [program(), "--check", *options, argument(case)]
     done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode == INPUT_ERROR:
         raise ValueError(done.stderr.strip().removeprefix("tiltpad: error: "))

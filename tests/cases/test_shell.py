@@ -155,6 +155,60 @@ def test_completion_takes_no_word_for_a_command(completed, typed, line):
     assert completed(typed) == line
 
 
+#: Stands for Slurm: sbatch [options] SCRIPT ARGUMENT... runs the job, or all tasks of the array, at once.
+SBATCH = """#!/bin/bash
+for option; do
+   [[ $option == -* ]] || break
+   [[ $option != *\\;* ]] || exit
+   [[ $option == --array=1-* ]] && tasks=${option#--array=1-}
+   shift
+done
+for ((k = 1; k <= ${tasks%%%*}; k++)); do
+   SLURM_ARRAY_TASK_ID=$k "$@" >&2 || exit
+done
+[[ $tasks ]] || "$@" >&2 || exit
+echo "7;here"
+"""
+
+
+@pytest.fixture
+def job(root, program, tmp_path):
+    """job(script, *arguments): runs one of the job scripts in tmp_path/here; gives the names of all files."""
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin/sbatch").write_text(SBATCH)
+    (tmp_path / "bin/sbatch").chmod(0o755)
+    scripts = tmp_path / "scripts of\na job"
+    shutil.copytree(root / "input/slurm", scripts)
+    folder = tmp_path / "here"
+    folder.mkdir()
+    path = f"{tmp_path}/bin:{Path(program).parent}:{root}/build/venv/bin:{os.environ['PATH']}"
+    environment = os.environ | {"PATH": path, "SLURM_CPUS_ON_NODE": "2"}
+
+    def run(script, *arguments):
+        done = subprocess.run(
+            [scripts / script, *arguments],
+            cwd=folder, env=environment, text=True, capture_output=True,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        return {str(each.relative_to(folder)) for each in folder.rglob("*") if each.is_file()}
+
+    return run
+
+
+@pytest.mark.parametrize(
+    "name", ["-d", "--quiet", "my case", "two\nlines", "$(touch WRONG)`touch WRONG`;'\"*&"]
+)
+def test_jobs_take_any_name(job, tmp_path, name):
+    case = tmp_path / f"here/{name}.nml"
+    case.write_text("&operation duration=0.01 /\n")
+    assert job("case.sh", case.name, "--set", "operation%speed_rpm=5000") == {case.name, f"{name}.h5"}
+    (tmp_path / f"here/{name}.h5").unlink()
+    case.write_text("&operation duration=0.01 /\n&sweep operation%speed_rpm=5000, 6000, 7000 /\n")
+    runs = {f"{name}/000{k}.h5" for k in (1, 2, 3)}
+    assert job("sweep.sh", case.name) == {case.name, *runs}
+    assert job("submit.sh", case.name, "2") == {case.name, *runs, f"{name}.h5"}
+
+
 def test_the_manual_page_has_every_option(root, tiltpad):
     said = tiltpad("--help", cwd=root).stdout
     page = subprocess.run(

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import tiltpad
-from tiltpad import figures, plots
+from tiltpad import command, figures, plots
 from tiltpad.files import namelist
 
 pytestmark = pytest.mark.usefixtures("closed_figures")
@@ -34,6 +34,17 @@ def test_a_case_in_a_file_and_a_result_in_a_file(tmp_path):
         tiltpad.run(case, tmp_path / "mine.h5", operation={"speed_rpm": 4000})
     with tiltpad.run(case, tmp_path / "mine.h5", overwrite=True, operation={"speed_rpm": 4000}) as run:
         assert run.speed[0] == pytest.approx(4000 * np.pi / 30)
+
+
+def test_the_name_of_a_case_is_no_option(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    tiltpad.write_case(tmp_path / "--quiet", SHORT)
+    with tiltpad.run("--quiet", "-d.h5") as run:
+        assert run.time[-1] == 0.01
+    assert {each.name for each in tmp_path.iterdir()} == {"--quiet", "-d.h5"}
+    assert command.main(["bearing", "-o", "bearing.svg", "--", "--quiet"]) == 3
+    tiltpad.write_case(tmp_path / "-d.nml", SHORT)
+    assert command.main(["bearing", "-o", "bearing.svg", "--", "-d.nml"]) == 0
 
 
 def test_a_result_runs_again_from_its_input():
