@@ -15,14 +15,19 @@ PYTHON ?= python3
 ifeq ($(origin FC),default)
 FC := gfortran
 endif
-export FC CC LAPACK ARCHIVES
+# names of files and of tests, which may have any character, reach the shell through the environment alone
+export FC CC LAPACK ARCHIVES PREFIX DESTDIR ONLY RECORD
 # all processors, unless -j says otherwise
 ifeq ($(MAKELEVEL)$(filter -j% --jobs%,$(MAKEFLAGS)),0)
 MAKEFLAGS += --jobs=$(shell nproc)
 endif
 
+# what only tells (make -n, make -q, make help) or needs nothing built writes nothing
+only_tells := $(or $(findstring n,$(firstword -$(MAKEFLAGS))),$(findstring q,$(firstword -$(MAKEFLAGS))),\
+              $(if $(filter-out help uninstall,$(MAKECMDGOALS)),,yes))
+
 # two in one tree would write the same files: the second waits until the first has ended
-ifneq ($(filter-out help,$(MAKECMDGOALS)),)
+ifeq ($(only_tells),)
 ifeq ($(MAKELEVEL),0)
 $(shell mkdir -p build; if command -v flock >/dev/null; then exec 9>>build/lock; \
    flock -w 1 9 || { echo 'make: another make works in this folder; waiting' >&2; flock 9; }; \
@@ -90,6 +95,10 @@ endif
 
 # ---- libraries ---------------------------------------------------------------------------------
 prefixes := $(SUNDIALS_PREFIX) $(HDF5_PREFIX) $(FFTW_PREFIX)
+# they are words of the compiler's command lines
+$(foreach name,SUNDIALS_PREFIX HDF5_PREFIX FFTW_PREFIX,$(if $(word 2,$($(name)))$(strip $(foreach sign,\
+   ' " ` $$ \ ; & | < > ( ) { } * ? [ ] ! ~,$(findstring $(sign),$($(name))))),$(error $(name)=$($(name)): must have no \
+   blanks, quotes or other signs of the shell; take a link of another name)))
 # folders of a prefix are looked for; Debian's are not, as they may be installed only now
 modules  := $(if $(SUNDIALS_PREFIX),$(wildcard $(addprefix $(SUNDIALS_PREFIX)/,include/sundials/fortran fortran include)),\
              /usr/include/sundials/fortran) \
@@ -114,11 +123,10 @@ wrapper := post/wrap/library.f90
 sources := $(sort $(shell find src_f90 tests -name '*.[fF]90')) $(wrapper)
 c_sources := $(sort $(shell find src_f90 -name '*.c'))
 object = $(patsubst %,$(B)/obj/%.o,$1)
-# what a program is linked from: the modules that it uses (build/depend.mk), so that a test builds what it needs alone
+# what a program is linked from: the modules that it uses (linked.NAME), so that a test builds what it needs alone
 objects_of = $(call object,$(linked.$1) $(basename $(notdir $(c_sources)))) $(B)/lib/unused.o
 # which modules each source uses, and which say that they have arrays as long as a run
-$(shell mkdir -p $(B)/obj $(B)/mod; awk -f src_f90/dependencies.awk $(sources) > $(B)/depend.mk)
-include $(B)/depend.mk
+$(foreach line,$(shell awk -f src_f90/dependencies.awk $(sources)),$(eval $(subst ;, ,$(line))))
 # such arrays are not on the stack, wherever FFLAGS puts the short ones of the march
 run_long := $(sort $(heap) $(basename $(notdir $(filter $(addprefix src_f90/,$(addsuffix /%.f90,\
             system input storage results app)),$(sources)))))
@@ -143,10 +151,14 @@ module build_info
    character(len=*), parameter :: program_flags = ''$(foreach flag,$(FFLAGS), &$(newline)     & //' $(subst ','',$(flag))')
 end module build_info
 endef
-$(file >$(B)/obj/build_info.new,$(build_info))
-$(file >$(B)/flags.new,$(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) long:$($(family).heap) $(run_long))
-$(shell for f in $(B)/obj/build_info.f90:$(B)/obj/build_info.new $(B)/flags:$(B)/flags.new; do \
-   cmp -s $${f#*:} $${f%:*} && rm $${f#*:} || mv $${f#*:} $${f%:*}; done)
+flags := $(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) long:$($(family).heap) $(run_long)
+ifeq ($(only_tells),)
+$(shell mkdir -p $(B)/obj $(B)/mod)
+# $1: a file, $2: what it must say
+renewed = $(if $(and $(findstring x$(file <$1)x,x$2x),$(findstring x$2x,x$(file <$1)x)),,$(file >$1,$2))
+$(call renewed,$(B)/obj/build_info.f90,$(build_info))
+$(call renewed,$(B)/flags,$(flags))
+endif
 
 vpath %.F90 $(sort $(dir $(sources)))
 vpath %.c $(sort $(dir $(c_sources)))
@@ -157,7 +169,7 @@ venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
 .PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress realistic fuzz bench paper \
-        unit test-programs lint format docs install install-plots uninstall clean
+        unit test-programs lint format docs install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
 
@@ -179,8 +191,8 @@ help:
 	@echo 'make wheel    packs build/wheel/tiltpad-*.whl: program, plots, library, for any Linux of this age or later'
 	@echo 'make lint     checks style, the order of the floors, words and that no name is unused; make format corrects some of it'
 	@echo 'make docs     writes the generated pages of docs (inputs, modules, api, gallery, verification) and docs/images'
-	@echo 'make install  puts program, plot commands, manual pages and completion into PREFIX ($(PREFIX)); PLOTS=no: no Python'
-	@echo 'make uninstall  removes them again'
+	@echo 'make install  puts program, plot commands, manual pages and completion into PREFIX ('"$$PREFIX"'); PLOTS=no: no Python'
+	@echo 'make uninstall  removes what make install has written there'
 	@echo 'make clean    removes build/'
 
 # ---- the two commands --------------------------------------------------------------------------
@@ -188,16 +200,16 @@ run: build python
 	@mkdir -p build/run
 	$(B)/bin/tiltpad input/paper/steady_lugre.nml --overwrite --output build/run/steady_lugre.h5
 	@for plot in orbit spectrum hysteresis; do \
-	   $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; done
+	   $(venv_python) $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; done
 
 test: build python build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B)/stress/global_search
 	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input
-	@TILTPAD=$(abspath $(B)/bin/tiltpad) ONLY='$(ONLY)' tests/run_all $(VENV)/bin/python \
+	@TILTPAD="$$PWD/$(B)/bin/tiltpad" tests/run_all $(VENV)/bin/python \
 	   $(addprefix build/debug/tests/,$(test_names))
 
 # starts munged, slurmctld and slurmd in a temporary folder, and stops them
 test-slurm: build python build/deps-slurm
-	@TILTPAD=$(abspath $(B)/bin/tiltpad) $(venv_python) -m pytest -q -rs -p no:cacheprovider tests/slurm
+	@TILTPAD="$$PWD/$(B)/bin/tiltpad" $(venv_python) -m pytest -q -rs -p no:cacheprovider tests/slurm
 
 # the two commands and the wheel on another release of Debian, from nothing (as root)
 test-debian13:
@@ -216,7 +228,7 @@ stress: build python $(B)/stress/global_search
 BEARINGS ?= 200
 realistic: build python
 	PYTHONPATH=post:tests/stress $(venv_python) tests/realistic/realistic.py $(B)/bin/tiltpad \
-	   --bearings $(BEARINGS) --seed $(SEED) $(if $(RECORD),--record $(RECORD)) --report docs/realistic.md
+	   --bearings $(BEARINGS) --seed $(SEED) $(if $(RECORD),--record "$$RECORD") --report docs/realistic.md
 
 # MINUTES and SEED choose what is drawn
 MINUTES ?= 5
@@ -266,12 +278,13 @@ build/wrap/library: $$(call objects_of,library) $(VENV)/ready
 # compiles it, in MODE=wrap, for the Python of VENV into FOLDER
 f2py = $(B)/f2py/$(FOLDER)
 python_library: $$(call objects_of,library)
-	@rm -rf $(f2py) && mkdir -p $(f2py)
-	cd $(f2py) && $(abspath $(venv_python)) -m numpy.f2py --quiet -m _library $(abspath $(wrapper)) >log 2>&1 || { cat log; exit 1; }
+	@rm -rf $(f2py) && mkdir -p $(f2py) && cp $(wrapper) $(f2py)
+	root=$$PWD; cd $(f2py) && "$$root/$(venv_python)" -m numpy.f2py --quiet -m _library $(notdir $(wrapper)) >log 2>&1 || \
+	   { cat log; exit 1; }
 	set -e; eval "$$($(venv_python) post/wrap/paths.py)"; \
 	$(COMPILE) -c $(f2py)/_library-f2pywrappers2.f90 -o $(f2py)/wrappers.o; \
-	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $(f2py)/_librarymodule.c -o $(f2py)/module.o; \
-	$(CC) -O2 -fPIC -w -I$$python -I$$numpy -I$$f2py -c $$f2py/fortranobject.c -o $(f2py)/fortranobject.o; \
+	for source in $(f2py)/_librarymodule.c "$$f2py/fortranobject.c"; do \
+	   $(CC) -O2 -fPIC -w -I"$$python" -I"$$numpy" -I"$$f2py" -c "$$source" -o $(f2py)/$$(basename "$$source").o; done; \
 	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $^ $(LIBS) -o $(FOLDER)/_library$$suffix
 
 $(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/deps-checked
@@ -303,7 +316,7 @@ wheel-%:
 	grep -E '^(numpy|setuptools|wheel)=' post/requirements.txt | build/wheel/$*/venv/bin/pip install -q -r /dev/stdin
 	@$(MAKE) --no-print-directory MODE=wrap python_library VENV=build/wheel/$*/venv FOLDER=build/wheel/$*/source/tiltpad
 	build/wheel/$*/venv/bin/pip wheel -q --no-build-isolation --no-deps -w build/wheel/$*/raw build/wheel/$*/source
-	PATH=$(abspath $(VENV)/bin):$$PATH auditwheel repair -w build/wheel build/wheel/$*/raw/*.whl
+	PATH="$$PWD/$(VENV)/bin:$$PATH" $(venv_python) -m auditwheel repair -w build/wheel build/wheel/$*/raw/*.whl
 	tests/wheel/try_wheel build/wheel $* build/wheel/$*/try
 
 $(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
@@ -334,6 +347,9 @@ $(B)/obj/%.o: %.F90 $$(call object,$$(uses.$$*)) $(B)/flags | build/deps-checked
 $(B)/obj/%.o: %.c $(B)/flags | build/deps-checked
 	$(CC) -O2 -fPIC -Wall -Wextra -c $< -o $@
 
+# written above; to make -n new, where they are not there
+$(B)/flags $(B)/obj/build_info.f90: ;
+
 $(B)/lib/flags: src_f90/libraries.sh $(B)/flags | build/deps-checked
 	@mkdir -p $(@D)
 	src_f90/libraries.sh $(@D) $(prefixes) > $@
@@ -346,7 +362,7 @@ $(call object,$(run_long)): private override FFLAGS += $($(family).heap)
 test-programs: $(test_programs)
 
 unit:
-ifeq ($(filter $(NAME),$(test_names)),)
+ifneq ($(words $(NAME)) $(filter $(NAME),$(test_names)),1 $(NAME))
 	@echo 'make unit NAME=test_x: NAME is one of'; printf '   %s\n' $(test_names); exit 1
 else
 	@$(MAKE) -s --no-print-directory MODE=debug build/debug/tests/$(NAME)
@@ -387,32 +403,13 @@ docs: run $(addprefix $(B)/tests/,test_film_accuracy test_fixed_pads test_losses
 	$(venv_python) docs/cells.py build/run/steady_lugre.h5 docs/images/cells.png
 	$(venv_python) docs/verify.py $(B)/bin/tiltpad > build/verification.md && mv build/verification.md docs/
 
-# Program, manual pages, completion for bash, and the plot commands with an environment of their own, PREFIX/lib/tiltpad.
+# Program, manual pages, completion for bash, and the plot commands with an environment of their own (PREFIX/lib/tiltpad).
 # PLOTS=no leaves these out, as on a cluster: the program needs no Python.
-plot_commands := $(if $(filter no,$(PLOTS)),,tiltpad-plot tiltpad-report tiltpad-collect)
-destination := $(DESTDIR)$(PREFIX)
-completions := $(destination)/share/bash-completion/completions
-install: build $(if $(plot_commands),python)
-	install -d '$(destination)/bin' '$(destination)/share/man/man1' '$(completions)'
-	install -m 755 $(B)/bin/tiltpad '$(destination)/bin/tiltpad'
-	install -m 644 post/shell/tiltpad.bash '$(completions)/tiltpad'
-	@$(if $(plot_commands),$(MAKE) --no-print-directory install-plots)
-	@for command in tiltpad $(plot_commands); do \
-	   PATH=$(abspath $(B)/bin):$(abspath $(VENV)/bin):$$PATH $$command --help | awk -f post/shell/man_page.awk -v name=$$command \
-	      >'$(destination)/share/man/man1/'$$command.1 || exit 1; done
-
-install-plots:
-	$(PYTHON) -m venv '$(destination)/lib/tiltpad'
-	rm -rf build/install && cp -r post build/install
-	'$(destination)/lib/tiltpad/bin/python' -m pip install -q --disable-pip-version-check ./build/install
-	@for command in $(plot_commands); do \
-	   sed -i '1s|^#!$(DESTDIR)|#!|' '$(destination)/lib/tiltpad/bin/'$$command; \
-	   ln -sf ../lib/tiltpad/bin/$$command '$(destination)/bin/'$$command; ln -sf tiltpad '$(completions)/'$$command; done
+install: build $(if $(filter no,$(PLOTS)),,python)
+	@post/shell/install.sh $(B)/bin/tiltpad $(if $(filter no,$(PLOTS)),,$(PYTHON))
 
 uninstall:
-	rm -rf '$(destination)/lib/tiltpad'
-	rm -f $(foreach command,tiltpad tiltpad-plot tiltpad-report tiltpad-collect,'$(destination)/bin/$(command)' \
-	   '$(completions)/$(command)' '$(destination)/share/man/man1/$(command).1')
+	@post/shell/install.sh --remove
 
 clean:
 	rm -rf build post/tiltpad/_library.*

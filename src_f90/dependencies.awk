@@ -1,4 +1,4 @@
-# Writes for make what each Fortran source uses (a file has the name of its module):
+# Writes for make what each Fortran source uses (a file has the name of its module), with ; for blanks:
 #   uses.NAME     the modules that it names, whose objects its own object depends on
 #   linked.NAME   itself and all modules that it uses directly or through others: what a program is linked from
 #   heap          those with a comment "! heap: why"
@@ -17,13 +17,18 @@ tolower($1) == "use" {
 }
 /^ *! heap: / { heap = heap " " name }
 END {
-   print "heap :=" heap
+   tell("heap", heap)
    uses["build_info"] = ""
    for (name in uses) {
-      print "uses." name " :=" own(uses[name])
+      tell("uses." name, own(uses[name]))
       split("", found)
-      print "linked." name " :=" linked(name, found)
+      tell("linked." name, linked(name, found))
    }
+}
+
+function tell(variable, names) {
+   gsub(/ /, ";", names)
+   print variable ":=" names
 }
 
 # those of some modules that are files here

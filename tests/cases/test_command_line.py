@@ -281,19 +281,6 @@ def test_quiet_on_a_terminal(program, tmp_path, loaded):
     assert on_a_terminal(program, ["--quiet", "case.nml"], tmp_path, loaded(FAST_CLOCK)) == ("", 0)
 
 
-def test_install_into_folders_with_blanks(root, program, tmp_path):
-    """What is installed is the program of the default build; nothing is built if that is not up to date."""
-    names = [f"DESTDIR={tmp_path}/a b", "PREFIX=/c d"]
-    commands = subprocess.run(
-        ["make", "-n", "-o", "build", "install", *names], cwd=root, capture_output=True, text=True, check=True
-    ).stdout
-    lines = [line for line in commands.splitlines() if line.startswith("install ")]
-    for line in lines:
-        subprocess.run(line.replace("build/bin/tiltpad", program, 1), cwd=root, shell=True, check=True)
-    assert (tmp_path / "a b/c d/bin/tiltpad").is_file()
-    assert [path.name for path in tmp_path.iterdir()] == ["a b"]
-
-
 def test_the_input_reference_is_up_to_date(tiltpad, root):
     said = tiltpad("--reference").stdout
     head = (root / "docs/inputs_head.md").read_text()
