@@ -313,9 +313,9 @@ wheel-%:
 	mv build/wheel/$*/programs build/wheel/$*/source/
 	cp LICENSE build/wheel/$*/source && post/wheel/licences.sh build/any/lib/flags build/wheel/$*/source
 	$* -m venv build/wheel/$*/venv
-	grep -E '^(numpy|setuptools|wheel)=' post/requirements.txt | build/wheel/$*/venv/bin/pip install -q -r /dev/stdin
+	grep -E '^(numpy|setuptools|wheel)=' post/requirements.txt | build/wheel/$*/venv/bin/python -m pip install -q -r /dev/stdin
 	@$(MAKE) --no-print-directory MODE=wrap python_library VENV=build/wheel/$*/venv FOLDER=build/wheel/$*/source/tiltpad
-	build/wheel/$*/venv/bin/pip wheel -q --no-build-isolation --no-deps -w build/wheel/$*/raw build/wheel/$*/source
+	build/wheel/$*/venv/bin/python -m pip wheel -q --no-build-isolation --no-deps -w build/wheel/$*/raw build/wheel/$*/source
 	PATH="$$PWD/$(VENV)/bin:$$PATH" $(venv_python) -m auditwheel repair -w build/wheel build/wheel/$*/raw/*.whl
 	tests/wheel/try_wheel build/wheel $* build/wheel/$*/try
 

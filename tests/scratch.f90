@@ -4,7 +4,7 @@ module scratch
    use processes, only: process_id
    implicit none (type, external)
    private
-   public :: scratch_path, file_there, write_bytes, bytes_of
+   public :: scratch_path, for_shell, file_there, write_bytes, bytes_of
 
 contains
 
@@ -15,8 +15,21 @@ contains
       character(len=200) :: folder
       call get_environment_variable('TMPDIR', folder)
       if (folder == '') folder = '/tmp'
-      path = trim(folder)//'/tiltpad_test_'//to_text(process_id())//'_'//name
+      path = trim(folder)//'/tiltpad''s test '//to_text(process_id())//'_'//name
    end function scratch_path
+
+   !> A path as one word of a shell.
+   function for_shell(path) result(word)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: word
+      integer :: i
+      word = "'"
+      do i = 1, len(path)
+         word = word//path(i:i)
+         if (path(i:i) == "'") word = word//"\''"
+      end do
+      word = word//"'"
+   end function for_shell
 
    logical function file_there(path)
       character(len=*), intent(in) :: path

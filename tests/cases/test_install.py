@@ -55,9 +55,12 @@ def checkout(root, program, tmp_path):
 def make(checkout, tmp_path):
     """make(*words): what it does in the checkout, where program and environment are up to date."""
 
-    def run(*words, status=0, **options):
+    def run(*words, status=0):
         words = ["make", "-o", "build", "-o", "python", f"PYTHON={tmp_path}/python", *words]
-        done = subprocess.run(words, cwd=checkout, text=True, capture_output=True, **options)
+        # of a make around the tests
+        own = ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "PREFIX", "DESTDIR", "PLOTS")
+        environment = {name: value for name, value in os.environ.items() if name not in own}
+        done = subprocess.run(words, cwd=checkout, env=environment, text=True, capture_output=True)
         assert done.returncode == status, done.stderr
         return done.stdout + done.stderr
 

@@ -6,7 +6,7 @@ program test_files
       & end_with_parent, ended, stop_process, record_length, open_pipe, close_pipe, send_record, receive_record, &
       & wait_for_record, pause_seconds
    use system_texts, only: system_reason
-   use scratch, only: scratch_path, file_there, write_bytes, bytes_of
+   use scratch, only: scratch_path, for_shell, file_there, write_bytes, bytes_of
    use text, only: to_text
    use stop_signals, only: catch_signals, stop_requested, stop_reason
    use check, only: runs, expect, report
@@ -70,7 +70,7 @@ contains
       call delete_file(path)
       call write_bytes(path, 'x')
       call expect(file_identity(path) /= first, 'a later file, though it may have the same inode')
-      call execute_command_line('ln -s '//path//' '//other)
+      call execute_command_line('ln -s '//for_shell(path)//' '//for_shell(other))
       call expect(file_identity(other) == '-', 'a link is not followed')
       call delete_file(other)
    end subroutine identities
@@ -87,7 +87,7 @@ contains
       call expect(logical(.not. copy_file(scratch_path('none'), other)), 'what is not there cannot be copied')
       call delete_file(other)
       call expect(logical(.not. copy_file(path, other)), 'nor into one that is not there')
-      call execute_command_line('ln -s '//scratch_path('none')//' '//other)
+      call execute_command_line('ln -s '//for_shell(scratch_path('none'))//' '//for_shell(other))
       call expect(logical(.not. create_file(other)), 'a link to nothing is not followed')
       call expect(.not. file_there(scratch_path('none')), 'and nothing is made')
    end subroutine copies
@@ -118,12 +118,13 @@ contains
       second = scratch_path('second')
       folder = path(:index(path, '/', back=.true.))
       call write_bytes(path, 'x')
-      call execute_command_line('ln -sf '//path//' '//first//' && ln -sf '//first(len(folder) + 1:)//' '//second)
+      call execute_command_line('ln -sf '//for_shell(path)//' '//for_shell(first))
+      call execute_command_line('ln -sf '//for_shell(first(len(folder) + 1:))//' '//for_shell(second))
       call expect(real_path(second) == real_path(path), 'a link to a link: '//real_path(second))
       call delete_file(path)
       call expect(real_path(second) == path, 'to nothing: '//real_path(second))
       call expect(real_path(folder//'./'//'.'//'/') == real_path(folder), 'a folder')
-      call execute_command_line('ln -sf '//second//' '//first)
+      call execute_command_line('ln -sf '//for_shell(second)//' '//for_shell(first))
       call expect(len(real_path(second)) > 0, 'a circle')
       call delete_file(first)
       call delete_file(second)

@@ -4,7 +4,7 @@ program test_working_file
    use errors, only: error_type, system_error
    use files, only: delete_file, file_identity, rename_file
    use processes, only: host_name, process_id, new_process, stop_process, ended, pause_seconds
-   use scratch, only: scratch_path, file_there, write_bytes, bytes_of
+   use scratch, only: scratch_path, for_shell, file_there, write_bytes, bytes_of
    use working_file, only: working_file_type
    use text, only: to_text
    use file_lock, only: file_lock_type
@@ -245,12 +245,12 @@ contains
       type(working_file_type) :: work
       integer :: status
       call begin(work, 'new')
-      call execute_command_line('mkdir '//path//' && touch '//path//'/file', exitstat=status)
+      call execute_command_line('mkdir '//for_shell(path)//' && touch '//for_shell(path//'/file'), exitstat=status)
       call expect_unpublished(work, 'cannot rename '//path//'.part, which is whole', 'a folder in the way')
       call expect(work%stranded, 'the part is all there is')
       call work%release()
       call expect(bytes_of(path//'.part') == 'new', 'and stays')
-      call execute_command_line('rm -r '//path, exitstat=status)
+      call execute_command_line('rm -r '//for_shell(path), exitstat=status)
    end subroutine cannot_be_renamed
 
    !> The file that a link leads to is replaced, and the link stays.
@@ -262,7 +262,7 @@ contains
       call clear()
       link = scratch_path('link')
       call write_bytes(path, 'before')
-      call execute_command_line('ln -s '//path//' '//link, exitstat=status)
+      call execute_command_line('ln -s '//for_shell(path)//' '//for_shell(link), exitstat=status)
       call work%claim(link, error)
       call expect_no_error(error, 'a link is claimed')
       call expect(work%path == path .and. work%part == path//'.part', 'for the file that it leads to: '//work%path)
@@ -270,7 +270,7 @@ contains
       call publish(work, .false.)
       call work%release()
       call expect_files('new', '(none)', 'behind the link')
-      call execute_command_line('test -L '//link, exitstat=status)
+      call execute_command_line('test -L '//for_shell(link), exitstat=status)
       call expect(status == 0, 'the link is still one')
       call delete_file(link)
    end subroutine behind_a_link
