@@ -123,8 +123,9 @@ wrapper := post/wrap/library.f90
 sources := $(sort $(shell find src_f90 tests -name '*.[fF]90')) $(wrapper)
 c_sources := $(sort $(shell find src_f90 -name '*.c'))
 object = $(patsubst %,$(B)/obj/%.o,$1)
-# what a program is linked from: the modules that it uses (linked.NAME), so that a test builds what it needs alone
-objects_of = $(call object,$(linked.$1) $(basename $(notdir $(c_sources)))) $(B)/lib/unused.o
+# what a program is linked from: the modules that it uses (linked.NAME), so that a test builds what it needs alone;
+# C of src_f90/app is the main program's alone
+objects_of = $(call object,$(linked.$1) $(basename $(notdir $(filter-out src_f90/app/%,$(c_sources))))) $(B)/lib/unused.o
 # which modules each source uses, and which say that they have arrays as long as a run
 $(foreach line,$(shell awk -f src_f90/dependencies.awk $(sources)),$(eval $(subst ;, ,$(line))))
 # such arrays are not on the stack, wherever FFLAGS puts the short ones of the march
@@ -337,6 +338,8 @@ $(programs): $$(call objects_of,$$(@F))
 	@mkdir -p $(@D)
 	@echo 'linking $@'
 	@$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
+
+$(B)/bin/tiltpad: $(B)/obj/program_start.o
 
 $(B)/obj/%.o: %.f90 $$(call object,$$(uses.$$*)) $(B)/flags | build/deps-checked
 	$(COMPILE) -c $< -o $@

@@ -195,7 +195,7 @@ contains
          & '  --output FILE           names the result file; default: the case''s name with .h5, in this folder', &
          & '                          (for a study: names the folder of the files 0001.h5, ...; default: the', &
          & '                          case''s name)', &
-         & '  --overwrite             replaces the result of another case, which is refused without it', &
+         & '  --overwrite             replaces a checkpoint, or the result of another case: refused without it', &
          & '  --resume FILE           continues a run that was stopped or killed, from its last checkpoint;', &
          & '                          with a CASE, starts the run if FILE does not exist', &
          & '  --set group%name=value  overrides one value of the case; may be repeated', &

@@ -28,7 +28,7 @@ contains
       real(wp), intent(in) :: x
       character(len=:), allocatable :: digits
       character(len=24) :: buffer
-      write (buffer, '(g0.10)') x
+      write (buffer, '(ss,g0.10)') x
       digits = trim(buffer)
    end function precise
 

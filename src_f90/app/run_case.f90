@@ -1,11 +1,15 @@
 !> A run from case to result file: opens the file, has the case's task done, closes the file.
 module run_case
-   use errors, only: error_type, raise, input_error, numerics_error, stopped
+   use kinds, only: i8
+   use errors, only: error_type, raise, input_error, numerics_error, system_error, stopped
    use case_inputs, only: case_type
+   use result_size, only: memory_bytes, memory_advice, bytes_text
    use parameter_study, only: run_tag
    use equations_of_motion, only: new_bearing_model
    use restart, only: restart_type, read_result, refuse_other_case
    use files, only: is_regular
+   use processes, only: can_have
+   use working_file, only: clear_leftovers
    use case_run, only: case_run_type, begin_run
    use run_start, only: start_at_equilibrium
    use coefficients_task, only: run_coefficients
@@ -25,9 +29,9 @@ contains
 
    !> Runs a valid case and writes its result file. On a numerics error the file holds what was computed and is
    !> marked incomplete. With `go_on` a result of the same case that is there already is completed, from its
-   !> checkpoint; else it is replaced. The result of another case is replaced only with `overwrite`, and what is no
-   !> result never. `tag` says which run of a study it is, if any. Of a complete run the films in this number of states,
-   !> `verified_states`, are solved closely.
+   !> checkpoint; else it is replaced. A checkpoint, and the result of another case, are replaced only with `overwrite`,
+   !> and what is no result never. `tag` says which run of a study it is, if any. Of a complete run the films in this
+   !> number of states, `verified_states`, are solved closely.
    subroutine run_task(inputs, path, tag, verified_states, go_on, overwrite, quiet, error)
       type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: path
@@ -39,6 +43,7 @@ contains
       logical :: complete
 
       if (verified_states > 0) call check_verification(inputs, verified_states, error)
+      if (.not. allocated(error)) call check_memory(inputs, error)
       if (allocated(error)) return
       call begin_run(run, inputs, path, tag, verified_states, quiet)
       call open_file(run, go_on, overwrite, complete, error)
@@ -48,6 +53,15 @@ contains
       if (.not. complete) call perform(run, error)
       if (run%verified_states > 0 .and. .not. allocated(error)) call verify_films(run, complete, error)
    end subroutine run_task
+
+   !> Refuses a run whose memory the system does not have, before it computes anything.
+   subroutine check_memory(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(out) :: error
+      if (can_have(int(memory_bytes(inputs), i8))) return
+      call raise(error, system_error, 'out of memory: the run needs '//bytes_text(memory_bytes(inputs)) &
+         & //memory_advice(inputs))
+   end subroutine check_memory
 
    !> Has the task of a case done, and closes its file.
    subroutine perform(run, error)
@@ -79,6 +93,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       ! before the lock, as a complete file may be in a place that cannot be written
       call look_at_file(run, go_on, overwrite, complete, error)
+      if (complete .and. run%verified_states == 0) call clear_leftovers(run%path)
       if (complete .or. allocated(error)) return
       call run%file%claim(run%path, error)
       if (allocated(error)) return
@@ -120,7 +135,11 @@ contains
          end if
          return
       end if
-      if (.not. go_on) return
+      if (.not. go_on) then
+         if (found%can_go_on() .and. .not. overwrite) call raise(error, system_error, run%path//': has a checkpoint ' &
+            & //'of this case; --resume '//run%path//' goes on from it, and --overwrite starts anew')
+         return
+      end if
       call found%refuse_end(run%path, error)
       complete = found%complete
       run%resumed = .not. complete

@@ -29,7 +29,7 @@ module study_child
    !> Runs that a child runs before a new one replaces it, so that what they may leave in memory does not add up.
    integer, parameter :: runs_a_child = 50
    !> In the report of a run: its number, its status, and whether its child stays; its message follows.
-   character(len=*), parameter :: head_format = '(2i12,l1,a)'
+   character(len=*), parameter :: head_format = '(ss,2i12,l1,a)'
    integer, parameter :: head = 25
 
    !> What a child reports of a run that has ended.
@@ -62,7 +62,7 @@ contains
       integer, intent(in) :: k
       character(len=record_length) :: record
       child%run = k
-      write (record, '(i12)') k
+      write (record, '(ss,i12)') k
       call send_record(child%orders(2), record)
    end subroutine order
 

@@ -6,7 +6,7 @@ module study_folder
    use parameter_study, only: study_type, run_tag
    use files, only: is_regular, make_folder, remove_folder, other_number
    use processes, only: process_id
-   use restart, only: restart_type, read_result, refuse_other_case
+   use restart, only: restart_type, read_result, refuse_other_case, is_of_other_study
    use run_case, only: way_out
    use stop_signals, only: stop_requested, stop_reason
    implicit none (type, external)
@@ -82,16 +82,14 @@ contains
       character(len=*), intent(in) :: folder
       integer, intent(in) :: k
       type(error_type), allocatable, intent(out) :: error
-      type(restart_type) :: found
       type(run_tag) :: tag
       character(len=:), allocatable :: path
       integer :: i
       do i = max(1, k - 1), min(study%runs, k + 1)
-         path = result_path(folder, i, study%runs)
          if (i == k) cycle
-         if (.not. is_readable(path, found)) cycle
+         path = result_path(folder, i, study%runs)
          call study%tag(i, tag)
-         if (found%tag%number == i .and. found%tag%same_up_to(tag)) cycle
+         if (.not. is_of_other_study(path, tag)) cycle
          call raise(error, system_error, path//': is of another study than run '//to_text(k)//way_out)
          return
       end do

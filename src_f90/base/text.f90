@@ -11,6 +11,10 @@ module text
    !> Most words that a message proposes; where more are as much alike, none helps.
    integer, parameter :: most_proposed = 3
 
+   !> Decimals in a format, which no number that a runtime writes may tell: it can be told to write signs.
+   character(len=2), parameter :: decimals_in_format(0:20) = ['0 ', '1 ', '2 ', '3 ', '4 ', '5 ', '6 ', '7 ', '8 ', &
+      & '9 ', '10', '11', '12', '13', '14', '15', '16', '17', '18', '19', '20']
+
    !> A number as short text, for messages: `to_text(3)`, `to_text(0.1_wp)`.
    interface to_text
       module procedure integer_text, long_text, real_text
@@ -28,7 +32,7 @@ contains
       integer(i8), intent(in) :: i
       character(len=:), allocatable :: string
       character(len=24) :: buffer
-      write (buffer, '(i0)') i
+      write (buffer, '(ss,i0)') i
       string = trim(buffer)
    end function long_text
 
@@ -78,7 +82,7 @@ contains
          string = '0'
          return
       end if
-      write (buffer, '(es32.'//integer_text(digits - 1)//'e3)') x
+      write (buffer, '(ss,es32.'//decimals_in_format(digits - 1)//'e3)') x
       buffer = adjustl(buffer)
       e = scan(buffer, 'E')
       if (e == 0) then
@@ -123,7 +127,7 @@ contains
       integer, intent(in) :: decimals
       character(len=:), allocatable :: string
       character(len=40) :: buffer
-      write (buffer, '(f40.'//integer_text(decimals)//')') x
+      write (buffer, '(ss,f40.'//decimals_in_format(decimals)//')') x
       string = trim(adjustl(buffer))
    end function fixed_text
 

@@ -1,16 +1,18 @@
-!> How many samples a march takes, and how large its file becomes.
+!> How many samples a march takes, how large its file becomes, and which memory its figures take.
 module result_size
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use case_inputs, only: case_type
    implicit none (type, external)
    private
-   public :: sample_interval, sample_count, result_bytes, bytes_text, size_note
+   public :: sample_interval, sample_count, result_bytes, memory_bytes, memory_advice, bytes_text, size_note
 
    !> From this number of bytes on, the size is printed before a run.
    real(wp), parameter :: large = 100e6_wp
    !> Bytes of a value, and of a file without samples.
    real(wp), parameter :: of_value = 8, of_frame = 1e5_wp
+   !> Bytes of memory of a run but its figures; the examples take 3 to 6 MB.
+   real(wp), parameter :: of_run = 8e6_wp
 
 contains
 
@@ -40,6 +42,37 @@ contains
       if (inputs%asperity%model /= 'none') of_pad = of_pad + 1
       bytes = of_frame + of_value*(7 + of_pad*inputs%pad_count())*max(0.0_wp, real(sample_count(inputs), wp))
    end function result_bytes
+
+   !> Bytes of memory that a run takes at most beyond those of its start; the figures of its last revolutions, where it
+   !> has samples, are the only part that a case can make large.
+   pure real(wp) function memory_bytes(inputs) result(bytes)
+      type(case_type), intent(in) :: inputs
+      real(wp) :: samples
+      bytes = of_run
+      associate (output => inputs%output)
+         samples = 1 + real(output%spectrum_revolutions, wp)*output%samples_per_revolution
+         select case (inputs%about%task)
+         case ('march')
+            samples = min(samples, real(sample_count(inputs), wp))
+         case ('periodic')
+            samples = min(samples, 1 + real(inputs%periodic%revolutions, wp)*output%samples_per_revolution)
+         case default
+            return
+         end select
+      end associate
+      ! two series of the pads are held at once, and besides them those of the journal and a spectrum, which takes most
+      ! where the number of samples is prime
+      bytes = bytes + of_value*(2*inputs%pad_count() + 17)*max(0.0_wp, samples)
+   end function memory_bytes
+
+   !> What makes it less, where the figures take most of it.
+   pure function memory_advice(inputs) result(advice)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: advice
+      advice = ''
+      if (memory_bytes(inputs) > 2*of_run) advice = '; fewer output%spectrum_revolutions or ' &
+         & //'output%samples_per_revolution need less'
+   end function memory_advice
 
    !> "540 MB".
    pure function bytes_text(bytes) result(text)

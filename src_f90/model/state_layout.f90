@@ -3,6 +3,7 @@
 !> state that a model lacks is left out: fixed pads have none.
 module state_layout
    use kinds, only: wp
+   use text, only: to_text
    use kinematics, only: pad_state, columns, journal_columns
    implicit none (type, external)
    private
@@ -96,7 +97,7 @@ contains
       names(:self%rotor/2) = ['y', 'z']
       do i = 1, self%pads
          do k = 1, self%motion/2
-            write (names(self%first_position(i) + k - 1), '(a,"_",i0)') trim(of_pad(k)), i
+            names(self%first_position(i) + k - 1) = trim(of_pad(k))//'_'//to_text(i)
          end do
       end do
    end function position_names

@@ -247,6 +247,7 @@ contains
          call file%last_samples('asperity_force', n, asperity)
          found%rubbing = count(asperity > 0, dim=2)/real(n, wp)
          call put_figure(file, 'pad_rubbing', found%rubbing, '1', 'share of the time in which the surfaces touch')
+         deallocate (asperity)
       end if
       if (inputs%tilting()) then
          call file%last_samples('pivot_load', n, contact)

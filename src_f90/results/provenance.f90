@@ -98,7 +98,7 @@ contains
       character(len=25) :: now
       integer :: clock(8)
       call date_and_time(values=clock)
-      write (now, '(i4.4,2("-",i2.2),"T",i2.2,2(":",i2.2),sp,i3.2,":",ss,i2.2)') clock(1:3), clock(5:7), &
+      write (now, '(ss,i4.4,2("-",i2.2),"T",i2.2,2(":",i2.2),sp,i3.2,":",ss,i2.2)') clock(1:3), clock(5:7), &
          & clock(4)/60, mod(abs(clock(4)), 60)
    end function now
 end module provenance

@@ -11,13 +11,14 @@ module restart
    use hdf5_file, only: hdf5_type
    use summary_group, only: figure
    use verification_results, only: states_figure
-   use guarded_open, only: try_reading
+   use guarded_open, only: try_reading, new_reader
+   use processes, only: end_child, exit_status
    use provenance, only: format_version
    use parameter_study, only: run_tag
    use files, only: is_regular
    implicit none (type, external)
    private
-   public :: restart_type, read_restart, read_result, open_result, refuse_other_case
+   public :: restart_type, read_restart, read_result, open_result, refuse_other_case, is_of_other_study
 
    type :: restart_type
       !> Resolved namelist of the run.
@@ -35,6 +36,7 @@ module restart
       logical, private :: checkpoint = .false.
    contains
       procedure :: refuse_end
+      procedure :: can_go_on
    end type restart_type
 
    character(len=*), parameter :: newline = achar(10)
@@ -68,12 +70,7 @@ contains
       found%reason = ''
       if (file%has_attribute('exit_status')) call file%get_flag('exit_status', found%status)
       if (found%status /= 0) call file%get_text('reason', found%reason)
-      if (file%has_attribute('run')) then
-         call file%get_flag('run', found%tag%number)
-         call file%get_text('sweep', found%tag%study)
-         found%tag%marks = ''
-         if (file%has_attribute('study_marks')) call file%get_text('study_marks', found%tag%marks)
-      end if
+      call read_tag(file, found%tag)
       if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       call file%close()
       if (allocated(error)) return
@@ -84,6 +81,49 @@ contains
       end if
       found%complete = complete == 1
    end subroutine read_result
+
+   !> Which run of a study a result is, if any.
+   subroutine read_tag(file, tag)
+      type(hdf5_type), intent(inout) :: file
+      type(run_tag), intent(out) :: tag
+      if (.not. file%has_attribute('run')) return
+      call file%get_flag('run', tag%number)
+      call file%get_text('sweep', tag%study)
+      tag%marks = ''
+      if (file%has_attribute('study_marks')) call file%get_text('study_marks', tag%marks)
+   end subroutine read_tag
+
+   !> True for a result that can be read and is not this run of this study, of which it may have fewer. Nothing is read
+   !> but that, by a child process, so that it costs little beside a short run.
+   logical function is_of_other_study(path, tag) result(other)
+      character(len=*), intent(in) :: path
+      type(run_tag), intent(in) :: tag
+      integer, parameter :: is_other = 100
+      type(hdf5_type) :: file
+      type(run_tag) :: found
+      type(error_type), allocatable :: error
+      integer :: child
+      other = .false.
+      if (.not. is_regular(path)) return
+      child = new_reader()
+      if (child < 0) return
+      if (child == 0) then
+         call open_known(path, file, error)
+         if (.not. allocated(error)) then
+            call read_tag(file, found)
+            other = .not. allocated(file%failure)
+            if (other .and. found%number == tag%number) other = .not. found%same_up_to(tag)
+         end if
+         call end_child(merge(is_other, 0, other))
+      end if
+      other = exit_status(child) == is_other
+   end function is_of_other_study
+
+   !> True for a run that ended at a checkpoint.
+   pure logical function can_go_on(self)
+      class(restart_type), intent(in) :: self
+      can_go_on = self%checkpoint .and. .not. self%complete .and. self%status /= numerics_error
+   end function can_go_on
 
    !> Refuses to continue a run that cannot be continued.
    subroutine refuse_end(self, path, error)
@@ -105,8 +145,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> True where it is refused because an earlier version wrote it.
       logical, intent(out), optional :: older
-      character(len=:), allocatable :: program, refusal
-      integer :: version
+      character(len=:), allocatable :: refusal
       logical :: exists
       if (present(older)) older = .false.
       inquire (file=path, exist=exists)
@@ -119,12 +158,25 @@ contains
          return
       end if
       call try_reading(path, refusal)
-      if (refusal == '') then
-         call file%open(path, writing=.false.)
-         if (file%id < 0) refusal = 'not a result file (HDF5); tiltpad CASE.nml runs a case'
-      end if
       if (refusal /= '') then
          call raise(error, system_error, path//': '//refusal)
+      else
+         call open_known(path, file, error, older)
+      end if
+   end subroutine open_result
+
+   !> The same of a file that may crash the program or has been tried.
+   subroutine open_known(path, file, error, older)
+      character(len=*), intent(in) :: path
+      class(hdf5_type), intent(inout) :: file
+      type(error_type), allocatable, intent(out) :: error
+      logical, intent(out), optional :: older
+      character(len=:), allocatable :: program
+      integer :: version
+      if (present(older)) older = .false.
+      call file%open(path, writing=.false.)
+      if (file%id < 0) then
+         call raise(error, system_error, path//': not a result file (HDF5); tiltpad CASE.nml runs a case')
          return
       end if
       program = ''
@@ -145,7 +197,7 @@ contains
       if (.not. allocated(error) .and. allocated(file%failure)) call raise(error, system_error, path//': damaged: ' &
          & //file%failure)
       if (allocated(error)) call file%close()
-   end subroutine open_result
+   end subroutine open_known
 
    !> Refuses a case that is not that of the file, and names the variable. Only the time between checkpoints may
    !> differ. A run of a study must have been this one also; the study may have grown. What belongs to no study may be

@@ -1,15 +1,15 @@
-!> Tries in a child process whether an HDF5 file can be read at all: if it is damaged, the library may crash or run
-!> for ever.
+!> Reads an HDF5 file in a child process first: if it is damaged, the library may crash or run for ever.
 module guarded_open
    use hdf5, only: h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f
    use kinds, only: wp
+   use hdf5_base, only: start_hdf5
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
-   use processes, only: new_process, end_child, limit_child, ended
+   use processes, only: new_process, end_child, limit_child, exit_status
    use system_texts, only: system_reason
    implicit none (type, external)
    private
-   public :: try_reading
+   public :: try_reading, new_reader
 
    !> Seconds of time, and of the processor's time, after which the reading is given up, and megabytes that it may take.
    integer, parameter :: seconds = 60, work = 3, room = 300
@@ -23,22 +23,27 @@ contains
    subroutine try_reading(path, refusal)
       character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(out) :: refusal
-      character(len=:), allocatable :: how
       integer :: child
-      child = new_process()
+      child = new_reader()
       if (child < 0) then
          refusal = 'not looked at, as no process could be started for it: '//system_reason()
          return
       else if (child == 0) then
-         ! the library and the runtime would report the crash
-         call limit_child(seconds, work, room)
          call read_all(path)
          call end_child(0)
       end if
-      refusal = 'no HDF5 file, or damaged'
-      if (.not. ended(child, .true., how)) return
-      if (index(how, 'status 0 ') > 0) refusal = ''
+      refusal = ''
+      if (exit_status(child) /= 0) refusal = 'no HDF5 file, or damaged'
    end subroutine try_reading
+
+   !> Starts a child that may read any file: 0 in the child, which ends itself; else as `new_process`.
+   integer function new_reader() result(child)
+      ! done here once, it saves each child the time
+      call start_hdf5()
+      child = new_process()
+      ! the library and the runtime would report the crash
+      if (child == 0) call limit_child(seconds, work, room)
+   end function new_reader
 
    subroutine read_all(path)
       character(len=*), intent(in) :: path

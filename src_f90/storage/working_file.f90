@@ -6,18 +6,18 @@
 !> last stretch.
 !>
 !> Only files that this program has made are written, renamed or deleted. The lock file keeps their identities, so that
-!> the next run recognises the part of a run that was killed. If NAME.part is something else, it is left alone, and the
-!> part is NAME.part2, and so on.
+!> the next run recognises the part of a run that was killed, or could not rename or delete it. If NAME.part is
+!> something else, it is left alone, and the part is NAME.part2, and so on.
 module working_file
    use text, only: to_text
    use errors, only: error_type, raise, system_error
    use files, only: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, &
-      & real_path, is_regular, file_identity
+      & real_path, is_regular, file_identity, untold
    use system_texts, only: system_reason
    use file_lock, only: file_lock_type
    implicit none (type, external)
    private
-   public :: working_file_type
+   public :: working_file_type, clear_leftovers
 
    !> Names tried for the part.
    integer, parameter :: most_parts = 99
@@ -42,7 +42,7 @@ module working_file
       procedure :: publish
       !> Has the system begin to write the part to the disk.
       procedure :: begin_sync => begin_part
-      !> Deletes the part; frees the lock.
+      !> Deletes the part; frees the lock, whose file stays where the part does.
       procedure :: release
       procedure, private :: choose_part
       !> An error where the part must not be written any more; to be asked before it is opened.
@@ -70,8 +70,33 @@ contains
       call self%lock%acquire(self%path, error)
       if (allocated(error)) return
       call self%choose_part()
-      self%there = file_identity(self%path)
+      call identify(self%path, self%there, error)
+      if (allocated(error)) call self%lock%release()
    end subroutine claim
+
+   !> Deletes what a run that was killed has left beside a complete file, unless somebody else may use it.
+   subroutine clear_leftovers(path)
+      character(len=*), intent(in) :: path
+      type(working_file_type) :: work
+      type(error_type), allocatable :: ignored
+      logical :: exists
+      inquire (file=real_path(path)//'.lock', exist=exists)
+      if (.not. exists) return
+      ! whoever holds it may still be there
+      work%lock%watch_held = 0
+      call work%claim(path, ignored)
+      if (.not. allocated(ignored)) call work%release()
+   end subroutine clear_leftovers
+
+   !> The identity of a file, or the system's reason for not telling it.
+   subroutine identify(path, identity, error)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable, intent(out) :: identity
+      type(error_type), allocatable, intent(out) :: error
+      identity = file_identity(path)
+      if (identity == untold) call raise(error, system_error, 'cannot write '//path//': the system does not say ' &
+         & //'which file it is: '//system_reason())
+   end subroutine identify
 
    !> The first name of a part that is free, once the parts of a dead run are deleted.
    subroutine choose_part(self)
@@ -86,6 +111,8 @@ contains
          found = file_identity(self%part)
          if (found == '') return
          left = among(found, self%lock%files_left)
+         ! noted where its time of birth was not known
+         if (.not. left) left = among(found(:index(found, ':'))//'0.0', self%lock%files_left)
          inquire (file=self%part, size=length)
          if (length == 0 .and. found /= '-') left = left .or. among(about_to_be, self%lock%files_left)
          if (.not. left) cycle
@@ -103,6 +130,7 @@ contains
    subroutine make_part(self, error)
       class(working_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
+      type(error_type), allocatable :: lost
       character(len=:), allocatable :: published
       ! what this run has published becomes the part when the names are exchanged
       published = ''
@@ -114,7 +142,13 @@ contains
          call raise(error, system_error, 'cannot write '//self%part//': '//system_reason())
          return
       end if
-      self%made = file_identity(self%part)
+      call identify(self%part, self%made, error)
+      if (allocated(error)) then
+         self%made = ''
+         call self%check_lock(lost)
+         if (.not. allocated(lost)) call delete_file(self%part)
+         return
+      end if
       call self%lock%note_files(self%made//published)
       ! it may have stood still for long at any of these lines
       call self%check_part(error)
@@ -133,9 +167,11 @@ contains
    subroutine check_part(self, error)
       class(working_file_type), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: found
       call self%check_lock(error)
+      if (.not. allocated(error)) call identify(self%part, found, error)
       if (allocated(error)) return
-      if (file_identity(self%part) /= self%made) call raise(error, system_error, 'cannot write '//self%path//': ' &
+      if (found /= self%made) call raise(error, system_error, 'cannot write '//self%path//': ' &
          & //self%part//' was removed or replaced by something else')
    end subroutine check_part
 
@@ -166,7 +202,8 @@ contains
       if (.not. allocated(error) .and. reason /= '') call raise(error, system_error, 'cannot write '//self%path//': ' &
          & //reason)
       if (allocated(error)) return
-      found = file_identity(self%path)
+      call identify(self%path, found, error)
+      if (allocated(error)) return
       if (found /= '' .and. found /= self%there) then
          self%stranded = .true.
          call raise(error, system_error, 'cannot rename '//self%part//', which is whole, to '//self%path &
@@ -196,12 +233,14 @@ contains
       call begin_sync(self%part)
    end subroutine begin_part
 
-   !> Deletes the part if it is the one that this run has made.
+   !> Deletes the part if it is the one that this run has made; what stays so stays in the lock.
    subroutine delete_part(self)
       class(working_file_type), intent(inout) :: self
+      character(len=:), allocatable :: found
       if (self%made == '') return
       if (file_identity(self%part) == self%made) call delete_file(self%part)
-      self%made = ''
+      found = file_identity(self%part)
+      if (found /= self%made .and. found /= untold) self%made = ''
    end subroutine delete_part
 
    subroutine release(self)
@@ -210,6 +249,8 @@ contains
       if (.not. self%stranded) then
          if (self%lock%is_ours()) call self%delete_part()
       end if
-      call self%lock%release()
+      if (self%made /= '') call self%lock%note_files(self%made)
+      call self%lock%release(files_left=self%made /= '')
+      self%made = ''
    end subroutine release
 end module working_file

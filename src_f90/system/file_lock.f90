@@ -292,10 +292,14 @@ contains
       ok = write_start(self%descriptor, line)
    end function write_beat
 
-   !> Deletes the lock file, if it is ours, and frees the lock.
-   subroutine release(self)
+   !> Frees the lock, and deletes its file if it is ours and no file that it notes is left.
+   subroutine release(self, files_left)
       class(file_lock_type), intent(inout) :: self
-      if (self%is_ours()) call delete_file(self%path)
+      logical, intent(in), optional :: files_left
+      logical :: delete
+      delete = self%is_ours()
+      if (present(files_left)) delete = delete .and. .not. files_left
+      if (delete) call delete_file(self%path)
       if (self%descriptor < 0) return
       call close_lock(self)
    end subroutine release

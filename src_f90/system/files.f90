@@ -5,7 +5,10 @@ module files
    implicit none (type, external)
    private
    public :: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync
-   public :: real_path, is_regular, file_identity, make_folder, remove_folder, other_number
+   public :: real_path, is_regular, file_identity, untold, make_folder, remove_folder, other_number
+
+   !> Stands for the identity that the system does not tell.
+   character(len=*), parameter :: untold = '?'
 
    interface
       !> Renames a file at once, replacing one of the new name.
@@ -88,8 +91,8 @@ module files
 contains
 
    !> Tells the file of this name from every other of its folder, later ones too: "inode:birth", with birth 0 where the
-   !> file system does not know it. Empty where there is nothing, "-" for what is no ordinary file; links are not
-   !> followed.
+   !> file system does not know it. Empty where there is nothing, "-" for what is no ordinary file, `untold`
+   !> where the system gives a reason for not saying; links are not followed.
    function file_identity(path) result(identity)
       character(len=*), intent(in) :: path
       character(len=:), allocatable :: identity

@@ -1,13 +1,14 @@
 !> This process, its output and its children: what the runner of many runs asks of the system.
 module processes
-   use, intrinsic :: iso_c_binding, only: c_bool, c_char, c_int, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_bool, c_char, c_int, c_long, c_ptr
    use, intrinsic :: iso_fortran_env, only: output_unit
    use text, only: to_text
    use system_texts, only: fortran_text
    implicit none (type, external)
    private
-   public :: process_id, process_alive, host_name, pause_seconds, set_environment, processors, is_terminal, write_output
-   public :: new_process, end_child, limit_child, end_with_parent, ended, stop_process
+   public :: process_id, process_alive, host_name, pause_seconds, set_environment, processors, can_have
+   public :: is_terminal, write_output
+   public :: new_process, end_child, limit_child, end_with_parent, ended, exit_status, stop_process
    public :: record_length, open_pipe, close_pipe, send_record, receive_record, wait_for_record
 
    !> Bytes of a record; a pipe keeps up to 4096 together.
@@ -40,6 +41,12 @@ module processes
       integer(c_int) function processors() bind(c, name='tiltpad_processors')
          import :: c_int
       end function processors
+
+      !> Whether the system gives this much memory, bytes, now.
+      logical(c_bool) function can_have(bytes) bind(c, name='tiltpad_can_have')
+         import :: c_bool, c_long
+         integer(c_long), value :: bytes
+      end function can_have
 
       !> True where standard output is a terminal.
       logical(c_bool) function is_terminal() bind(c, name='tiltpad_is_terminal')
@@ -126,7 +133,7 @@ module processes
 
 contains
 
-   !> Name of this machine.
+   !> Name of this machine, a word.
    function host_name()
       character(len=:), allocatable :: host_name
       host_name = fortran_text(c_host_name())
@@ -157,4 +164,12 @@ contains
          ended = .false.
       end select
    end function ended
+
+   !> Waits for the end of a child: its exit status, or -1 where it ended otherwise.
+   integer function exit_status(process) result(status)
+      integer, intent(in) :: process
+      integer(c_int) :: code
+      code = 0
+      status = merge(int(code), -1, c_child_state(process, 1_c_int, code) == 1)
+   end function exit_status
 end module processes

@@ -3,6 +3,7 @@
    errno says why not. Texts that they return last until the next call. */
 #define _GNU_SOURCE
 #define _FILE_OFFSET_BITS 64
+#include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -14,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/sendfile.h>
@@ -100,20 +102,26 @@ const char *tiltpad_real_path(const text_t *path)
 }
 
 /* Tells one file from every other of its folder, also from one that gets its inode later: "inode:birth". Empty where
-   nothing has the name, "-" for what is no ordinary file; a link is not followed. */
+   nothing has the name, "-" for what is no ordinary file, "?" where the system does not say; a link is not followed. */
 const char *tiltpad_identity(const text_t *path)
 {
    static char identity[60];
-   struct statx found;
+   static bool no_statx;
+   struct statx found = {0};
+   struct stat status;
    C_STRING(name, path);
-   strcpy(identity, "-");
-   if (statx(AT_FDCWD, name, AT_SYMLINK_NOFOLLOW, STATX_TYPE | STATX_INO | STATX_BTIME, &found) != 0) {
-      if (errno == ENOENT || errno == ENOTDIR) *identity = 0;
-   } else if (S_ISREG(found.stx_mode)) {
-      if (!(found.stx_mask & STATX_BTIME)) memset(&found.stx_btime, 0, sizeof found.stx_btime);
-      snprintf(identity, sizeof identity, "%llu:%lld.%u", (unsigned long long)found.stx_ino,
-               (long long)found.stx_btime.tv_sec, (unsigned)found.stx_btime.tv_nsec);
+   /* a container that is older than statx refuses it */
+   no_statx = no_statx || (statx(AT_FDCWD, name, AT_SYMLINK_NOFOLLOW, STATX_TYPE | STATX_INO | STATX_BTIME, &found) != 0
+                           && errno == EPERM);
+   if (no_statx && lstat(name, &status) == 0) {
+      found.stx_mode = status.st_mode;
+      found.stx_ino = status.st_ino;
    }
+   if (!found.stx_mode) return errno == ENOENT || errno == ENOTDIR ? "" : "?";
+   if (!S_ISREG(found.stx_mode)) return "-";
+   if (!(found.stx_mask & STATX_BTIME)) memset(&found.stx_btime, 0, sizeof found.stx_btime);
+   snprintf(identity, sizeof identity, "%llu:%lld.%u", (unsigned long long)found.stx_ino,
+            (long long)found.stx_btime.tv_sec, (unsigned)found.stx_btime.tv_nsec);
    return identity;
 }
 
@@ -127,8 +135,13 @@ bool tiltpad_exchange(const text_t *one_path, const text_t *other_path)
 bool tiltpad_create(const text_t *path)
 {
    C_STRING(name, path);
-   int file = open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-   return file >= 0 && close(file) == 0;
+   int file = open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666), reason;
+   if (file < 0) return false;
+   if (close(file) == 0) return true;
+   reason = errno;
+   unlink(name);
+   errno = reason;
+   return false;
 }
 
 /* Copies within the kernel into a file that is there, in place of what it contains. */
@@ -257,10 +270,13 @@ bool tiltpad_write_start(int file, const text_t *text)
 
 /* ---- processes --------------------------------------------------------------------------------- */
 
+/* A word, as it is one of the line in a lock file. */
 const char *tiltpad_host_name(void)
 {
    static char name[HOST_NAME_MAX + 1];
-   if (gethostname(name, sizeof name) != 0) strcpy(name, "unknown");
+   if (gethostname(name, sizeof name) != 0 || !*name) strcpy(name, "unknown");
+   for (char *letter = name; *letter; letter++)
+      if (!isgraph((unsigned char)*letter)) *letter = '_';
    return name;
 }
 
@@ -287,6 +303,12 @@ int tiltpad_processors(void)
 bool tiltpad_is_alive(int process)
 {
    return kill(process, 0) == 0 || errno != ESRCH;
+}
+
+bool tiltpad_can_have(long bytes)
+{
+   void *memory = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+   return memory != MAP_FAILED && munmap(memory, bytes) == 0;
 }
 
 bool tiltpad_is_terminal(void)

@@ -285,6 +285,23 @@ def test_resume_takes_no_other_output(tiltpad, stopped):
         tiltpad("--resume", "case.h5", *arguments, cwd=stopped, status=1)
 
 
+def test_a_checkpoint_is_not_discarded_unasked(tiltpad, stopped):
+    """The same command again says what goes on; a study, whose runs go on, needs no such word."""
+    before = (stopped / "case.h5").read_bytes()
+    own = ["case.nml", "-q", *EVERY_STEP]
+    done = tiltpad(*own, cwd=stopped, status=3)
+    assert done.stderr == (
+        "tiltpad: error: case.h5: has a checkpoint of this case; --resume case.h5 goes on from it, "
+        "and --overwrite starts anew\n"
+    )
+    assert (stopped / "case.h5").read_bytes() == before
+    tiltpad("case.nml", "-q", "--overwrite", cwd=stopped, status=0)
+    with h5py.File(stopped / "case.h5") as file:
+        assert (file.attrs["complete"], file.attrs["resumes"]) == (1, 0)
+    # a complete result is calculated anew
+    tiltpad("case.nml", "-q", cwd=stopped, status=0)
+
+
 def test_check_prints_the_case_of_a_file(tiltpad, stopped):
     done = tiltpad("--resume", "case.h5", "--check", cwd=stopped, status=0)
     with h5py.File(stopped / "case.h5") as file:

@@ -1,8 +1,9 @@
-"""What the system may do: no processes, a quota, clocks that jump, stops longer than the lock's beat.
+"""What the system may do: no processes, a quota, clocks that jump, long stops, calls that fail.
 
 A small library, compiled here and loaded before the system's own, stands for each of them.
 """
 
+import errno
 import os
 import re
 import shutil
@@ -98,6 +99,40 @@ int gethostname(char *name, size_t size) { strncpy(name, getenv("HOST"), size); 
 unsigned sleep(unsigned seconds) { usleep(1000 * seconds); return 0; }
 """
 
+#: The call number CALL of a function fails with ERROR, or, without one, does not return.
+FAILS = """
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
+static int fails(const char *name)
+{
+   static long calls;
+   if (strcmp(name, getenv("FUNCTION")) != 0 || ++calls != atol(getenv("CALL"))) return 0;
+   if (!getenv("ERROR")) kill(getpid(), SIGKILL);
+   errno = atoi(getenv("ERROR"));
+   return 1;
+}
+int statx(int folder, const char *restrict path, int flags, unsigned mask, struct statx *restrict found)
+{
+   return fails("statx") ? -1 : NEXT(statx)(folder, path, flags, mask, found);
+}
+int close(int file)
+{
+   int result = NEXT(close)(file);
+   return fails("close") ? -1 : result;
+}
+int rename(const char *from, const char *to) { return fails("rename") ? -1 : NEXT(rename)(from, to); }
+int renameat2(int a, const char *from, int b, const char *to, unsigned flags)
+{
+   return fails("renameat2") ? -1 : NEXT(renameat2)(a, from, b, to, flags);
+}
+int fsync(int file) { return fails("fsync") ? -1 : NEXT(fsync)(file); }
+int unlink(const char *path) { return fails("unlink") ? -1 : NEXT(unlink)(path); }
+"""
+#: A machine with this name.
+NAMED = """
+int gethostname(char *name, size_t size) { strncpy(name, getenv("HOST"), size); return 0; }
+"""
 #: A file system that knows no times of birth.
 NO_BIRTHS = """
 #include <fcntl.h>
@@ -363,6 +398,102 @@ def test_a_stopped_writer_elsewhere(start, case, loaded, when):
         assert len({len(file[name]) for name in ("time", "journal_y", "pad_tilt", "max_pressure")}) == 1
         assert np.ptp(np.diff(file["time"][:])) < 1e-9
     assert names(case) == ["case.h5", "case.nml"]
+
+
+# ---- calls that fail ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("function", ["statx", "close", "rename", "renameat2", "fsync", "unlink"])
+@pytest.mark.parametrize("error", ["ESTALE", "EPERM"])
+def test_one_call_that_fails(tiltpad, case, loaded, function, error):
+    """Whichever it is: the run says so or is whole, and what it leaves is gone after the next run."""
+    number = getattr(errno, error)
+    environment = loaded(FAILS, FUNCTION=function, ERROR=str(number))
+    shared = "case.nml", "-q", "--set", "operation%duration=0.02", *EVERY_STEP
+    calls = failed = missed = 0
+    while missed < 3 and calls < 25:
+        calls += 1
+        done = tiltpad(*shared, cwd=case, env=environment | {"CALL": str(calls)})
+        if done.returncode != 0:
+            refused(done, "cannot")
+            failed += 1
+        left = set(names(case)) - {"case.h5", "case.nml", "case.h5.lock"}
+        # a part is whole, or the lock tells the next run of it
+        assert not left or "which is whole" in done.stderr or (case / "case.h5.lock").exists()
+        missed = 0 if done.returncode != 0 or left else missed + 1
+        tiltpad(*shared, "--overwrite", cwd=case, status=0)
+        assert names(case) == ["case.h5", "case.nml"]
+        (case / "case.h5").unlink()
+    # where the names cannot be exchanged, they are changed one after the other; what is not deleted stays
+    assert failed > 0 or function in ("renameat2", "unlink") or error == "EPERM"
+
+
+def test_a_kill_behind_the_last_rename(tiltpad, case, loaded):
+    """What it leaves beside the complete result goes when the run is to go on."""
+    for call in 1, 2:
+        environment = loaded(FAILS, FUNCTION="unlink", CALL=str(call))
+        tiltpad("case.nml", "-q", *EVERY_STEP, "--set", "operation%duration=0.02", cwd=case, env=environment)
+        with h5py.File(case / "case.h5") as file:
+            assert file.attrs["complete"] == 1
+        assert "case.h5.lock" in names(case)
+        assert ("case.h5.part" in names(case)) == (call == 1)
+        done = tiltpad("--resume", "case.h5", cwd=case, status=0)
+        assert done.stdout == "case.h5: complete already, nothing to do\n"
+        assert names(case) == ["case.h5", "case.nml"]
+        (case / "case.h5").unlink()
+
+
+@pytest.mark.parametrize("host", ["two words", "two\nlines", "\tx\x7f", "", "h\u00f4te"])
+def test_names_of_machines(start, tiltpad, case, loaded, host):
+    """A killed run's lock is known as one, whatever the machine is called."""
+    environment = loaded(NAMED, HOST=host)
+    run = start(case, "-q", "case.nml", *ENDLESS, env=environment)
+    wait_for_checkpoint(case / "case.h5", run)
+    run.kill()
+    run.wait()
+    tiltpad("case.nml", "-q", "--overwrite", cwd=case, env=environment, status=0)
+    assert names(case) == ["case.h5", "case.nml"]
+
+
+def test_a_container_without_statx(start, tiltpad, case, loaded):
+    """One that is older than this call refuses it; a killed run's part is then known by its inode."""
+    refuses = "#include <sys/stat.h>\nint statx(int a, const char *restrict b, int c, unsigned d, "
+    environment = loaded(refuses + "struct statx *restrict e) { errno = EPERM; return -1; }")
+    for next_one in (environment, None):
+        run = start(case, "-q", "case.nml", *ENDLESS, env=environment)
+        wait_for(lambda: all((case / name).exists() for name in ("case.h5", "case.h5.part")), run)
+        run.kill()
+        run.wait()
+        tiltpad("case.nml", "-q", "--overwrite", cwd=case, env=next_one, status=0)
+        assert names(case) == ["case.h5", "case.nml"]
+        (case / "case.h5").unlink()
+
+
+# ---- the runtime's variables -------------------------------------------------------------------
+
+
+RUNTIME = (
+    "OPTIONAL_PLUS=1 STDIN_UNIT=6 STDOUT_UNIT=7 STDERR_UNIT=9 UNBUFFERED_ALL=1 SHOW_LOCUS=0 DEFAULT_RECL=10 "
+    "FORMATTED_BUFFER_SIZE=1 UNFORMATTED_BUFFER_SIZE=1 LIST_SEPARATOR=xx CONVERT_UNIT=swap ERROR_BACKTRACE=1"
+)
+
+
+@pytest.mark.parametrize("variable", RUNTIME.split())
+def test_variables_of_the_runtime(tiltpad, case, variable):
+    """They change neither results nor messages."""
+    (case / "sweep.nml").write_text(f"{CASE}&sweep operation%speed_rpm=4000,5000 /\n")
+    environment = os.environ | dict([("GFORTRAN_" + variable).split("=")])
+    said = []
+    for own in (environment, None):
+        tiltpad("case.nml", "-q", "--overwrite", cwd=case, env=own, status=0)
+        tiltpad("sweep.nml", "-q", "--jobs", 1, "--overwrite", cwd=case, env=own, status=0)
+        checked = tiltpad("case.nml", "--check", cwd=case, env=own, status=0)
+        wrong = tiltpad("case.nml", "--set", "rotor%mass=-1", cwd=case, env=own, status=1)
+        said.append((checked.stdout, wrong.stderr, arrays(case / "case.h5", "statistics"), names(case)))
+    ours, usual = said
+    assert (ours[0], ours[1], ours[3]) == (usual[0], usual[1], usual[3])
+    assert all(np.array_equal(ours[2][name], each, equal_nan=True) for name, each in usual[2].items())
+    assert names(case / "sweep") == ["0001.h5", "0002.h5"]
 
 
 # ---- what is opened, made, deleted, and never done ---------------------------------------------

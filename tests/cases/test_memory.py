@@ -1,0 +1,116 @@
+"""Out of memory: one line and status 3, whoever asks for it; known before a march where the case can tell."""
+
+import os
+import re
+import resource
+import subprocess
+
+import pytest
+from conftest import TIMEOUT
+
+CASE = "&friction model='lugre' / &operation duration=0.02 /\n"
+#: From the request number CALL on the system has no memory left; with ONCE, then only.
+NO_MEMORY = """
+static int refused(void)
+{
+   static long calls, first;
+   if (!first) first = atol(getenv("CALL"));
+   if (++calls < first || (getenv("ONCE") && calls > first)) return 0;
+   errno = ENOMEM;
+   return 1;
+}
+#define OWN(name, declared, given) \\
+void *name declared \\
+{ \\
+   static __typeof__(name) *next; \\
+   if (!next) next = (__typeof__(name) *)dlsym(RTLD_NEXT, #name); \\
+   return refused() ? NULL : next given; \\
+}
+OWN(malloc, (size_t size), (size))
+OWN(calloc, (size_t count, size_t size), (count, size))
+OWN(realloc, (void *memory, size_t size), (memory, size))
+"""
+#: Tasks whose requests differ: what they write, read, solve and integrate.
+TASKS = {
+    "march": CASE,
+    "coefficients": "&case task='coefficients' /\n",
+    "periodic": "&case task='periodic' /\n",
+    "branch": "&case task='branch' /\n"
+    "&branch of='equilibrium', parameter='rotor%mass', last=2300, step=100 /\n",
+}
+
+
+def limited(kilobytes):
+    """As `ulimit -v` of a shell."""
+    size = 1024 * kilobytes
+    return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size))}
+
+
+@pytest.mark.parametrize("once", [False, True], ids=["from then on", "once"])
+@pytest.mark.parametrize("task", TASKS)
+def test_no_memory_at_any_request(tiltpad, tmp_path, loaded, task, once):
+    """Whichever it is: one line, and the next run goes its way."""
+    (tmp_path / "case.nml").write_text(TASKS[task])
+    environment = loaded(NO_MEMORY, **({"ONCE": "1"} if once else {}))
+    call, refused = 1, 0
+    while True:
+        done = tiltpad("case.nml", "-q", cwd=tmp_path, env=environment | {"CALL": str(int(call))})
+        if done.returncode == 0:
+            break
+        assert (done.returncode, done.stdout, done.stderr) == (3, "", "tiltpad: error: out of memory\n"), call
+        refused += 1
+        call = 1 + 1.2 * call
+    assert refused > 40
+    assert sorted(os.listdir(tmp_path)) == ["case.h5", "case.nml", "own.so"]
+
+
+def test_no_memory_for_the_program(start, tmp_path):
+    """Where it can start at all, and where a run of a study has none."""
+    (tmp_path / "case.nml").write_text(CASE)
+    for kilobytes in range(18000, 26000, 500):
+        done = start(tmp_path, "case.nml", "-q", **limited(kilobytes))
+        message = done.communicate(timeout=TIMEOUT)[1]
+        # the system's loader has its own
+        assert done.returncode in (0, 3, 127)
+        assert done.returncode == 0 or message.count("\n") == 1
+
+
+#: Two revolutions whose figures are of many samples: a prime, for which a transform takes most.
+LARGE = "&operation duration=0.02 / &output samples_per_revolution=200003, spectrum_revolutions=1 /\n"
+
+
+def test_figures_that_do_not_fit(start, tmp_path):
+    """They are refused before anything is calculated, or the run has the memory that it needs."""
+    (tmp_path / "case.nml").write_text(LARGE)
+    low, high = 20000, 120000
+    while high - low > 500:
+        kilobytes = (low + high) // 2
+        run = start(tmp_path, "case.nml", "-q", **limited(kilobytes))
+        message = run.communicate(timeout=TIMEOUT)[1]
+        if run.returncode == 0:
+            high = kilobytes
+            (tmp_path / "case.h5").unlink()
+            continue
+        assert run.returncode == 3
+        assert re.fullmatch(
+            r"tiltpad: error: out of memory: the run needs \d+ MB; fewer output%spectrum_revolutions or "
+            r"output%samples_per_revolution need less\n",
+            message,
+        )
+        assert sorted(os.listdir(tmp_path)) == ["case.nml"]
+        low = kilobytes
+    assert high < 120000
+
+
+def test_memory_does_not_grow_with_the_run(program, tmp_path):
+    """Ten times the samples take the same, but for the places of their chunks in the file."""
+    (tmp_path / "case.nml").write_text("&output samples_per_revolution=5000, spectrum_revolutions=2 /\n")
+    largest = []
+    for duration in ("0.05", "0.5"):
+        words = ["case.nml", "-q", "--overwrite", "--set", f"operation%duration={duration}"]
+        process = subprocess.Popen([program, *words], cwd=tmp_path)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = status
+        assert status == 0
+        largest.append(usage.ru_maxrss)
+    assert largest[1] - largest[0] < 3000  # kB
