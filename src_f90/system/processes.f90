@@ -3,6 +3,7 @@ module processes
    use, intrinsic :: iso_c_binding, only: c_bool, c_char, c_int, c_long, c_ptr
    use, intrinsic :: iso_fortran_env, only: output_unit
    use text, only: to_text
+   use errors, only: system_error
    use system_texts, only: fortran_text
    implicit none (type, external)
    private
@@ -157,6 +158,8 @@ contains
       select case (c_child_state(process, merge(1_c_int, 0_c_int, wait), code))
       case (1)
          how = 'ended with status '//to_text(code)//' and without a report'
+         ! the one end of a child with this status (program_start.c)
+         if (code == system_error) how = 'out of memory'
       case (2)
          how = 'ended by signal '//to_text(code)
       case default

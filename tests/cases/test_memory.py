@@ -64,8 +64,27 @@ def test_no_memory_at_any_request(tiltpad, tmp_path, loaded, task, once):
     assert sorted(os.listdir(tmp_path)) == ["case.h5", "case.nml", "own.so"]
 
 
+def test_no_memory_for_a_run_of_a_study(tiltpad, tmp_path, loaded):
+    """It is told as others are that fail, and the next study does what is missing."""
+    (tmp_path / "case.nml").write_text(CASE + "&sweep operation%speed_rpm=4000,5000 /\n")
+    call, said = 1000, [""]
+    while not said[-1].endswith("2 runs failed"):
+        done = tiltpad(
+            "case.nml", "-q", "--jobs", 1, cwd=tmp_path, env=loaded(NO_MEMORY, CALL=str(call), ONCE="1")
+        )
+        assert done.returncode == 3
+        *lines, said = done.stderr.splitlines()
+        said = [*sorted(lines), said]
+        call *= 2
+    failed = [line for line in said if " run " in line]
+    assert said[:-1] == ["tiltpad: error: out of memory"] * len(failed) + failed
+    assert all(line.endswith("000): out of memory") for line in failed)
+    tiltpad("case.nml", "-q", cwd=tmp_path, status=0)
+    assert sorted(os.listdir(tmp_path / "case")) == ["0001.h5", "0002.h5"]
+
+
 def test_no_memory_for_the_program(start, tmp_path):
-    """Where it can start at all, and where a run of a study has none."""
+    """Where it can start at all."""
     (tmp_path / "case.nml").write_text(CASE)
     for kilobytes in range(18000, 26000, 500):
         done = start(tmp_path, "case.nml", "-q", **limited(kilobytes))
