@@ -75,7 +75,7 @@ link_if_there hdf5_serial_f90cstub hdf5_f90cstub
 link hdf5_serial hdf5
 # an HDF5 that works with MPI calls it in earnest, and its user links with MPI
 ! grep -qs MPI_Initialized "$file" || unused=
-if [ -n "$archives" ]; then for name in sz aec z; do link_if_there $name; done; flags="$flags -ldl -lpthread"; fi
+if [ -n "$archives" ]; then for name in sz aec z; do link_if_there $name; done; flags="$flags -lpthread"; fi
 unused="$unused $(wanted '\(curl\|EVP\|aws\)_[A-Za-z0-9_]*\|HMAC\|SHA256')"
 all_flags="$all_flags $flags" flags=
 
@@ -98,4 +98,5 @@ if [ -n "$missing" ]; then
    exit 1
 fi
 for symbol in $(printf '%s\n' $unused | sort -u); do echo "int $symbol(void) { return 0; }"; done > "$folder/unused.c"
-echo "-Wl,--start-group $all_flags -Wl,--end-group $flags"
+# HDF5 and program_start.c look up functions
+echo "-Wl,--start-group $all_flags -Wl,--end-group $flags -ldl"
