@@ -536,6 +536,19 @@ def test_all_that_the_program_touches(start, tiltpad, case, loaded, tmp_path):
     }  # fmt: skip
 
 
+def test_neighbours_are_opened_once(tiltpad, case, loaded, tmp_path):
+    """A single run of a study opens them only in a child, and a member that writes its file is not tried."""
+    (case / "case.nml").write_text(
+        "&case task='equilibrium' /\n&sweep operation%speed_rpm=4000,5000,6000 /\n"
+    )
+    for run in 1, 3:
+        tiltpad("case.nml", "-q", "--run", run, cwd=case, status=0)
+    log = tmp_path / "log"
+    tiltpad("case.nml", "-q", "--run", 2, cwd=case, env=loaded(NOTES, LOG=str(log)), status=0)
+    read = [line for line in log.read_text().splitlines() if line.startswith("r ") and line.endswith(".h5")]
+    assert sorted(path[-7:] for path in read) == ["0001.h5", "0003.h5"]
+
+
 def test_all_that_the_commands_touch(tiltpad, case, loaded, tmp_path):
     """Beside what they are asked for: caches of Matplotlib at most; no connection, no program but uname."""
     (case / "results").mkdir()
