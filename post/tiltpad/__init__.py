@@ -62,6 +62,7 @@ from tiltpad.files.namelist import write_case
 from tiltpad.files.read import IncompleteRunWarning, Run, of_run, read
 from tiltpad.files.study import Study, read_study
 from tiltpad.running import MissingProgramError, run
+from tiltpad.sampling import sample
 from tiltpad.up_and_down import brute_force
 
 __all__ = [
@@ -115,6 +116,7 @@ __all__ = [
     "response",
     "revolutions",
     "run",
+    "sample",
     "sliding_velocity",
     "spectrum",
     "stick_fraction",

@@ -49,6 +49,7 @@ def run(
         run = tiltpad.run("mine.nml", "faster.h5", operation={"speed_rpm": 9000})
         run = tiltpad.run({"operation": {"speed_rpm": 3000}, "friction": {"model": "lugre"}})
         study = tiltpad.run("mine.nml", sweep={"operation%speed_rpm": "1000:6000:500"})
+        study = tiltpad.run("mine.nml", sweep={"file": "members.csv"})
 
     `case` is a namelist file, or groups of variables as for `write_case`; without it all have their defaults.
     Each further keyword is a group with values of its own. A parameter study gives the study of its runs. The
@@ -61,15 +62,24 @@ def run(
     options = ["--overwrite"] * overwrite + ["--quiet"] * quiet + ["--verify", f"{verify}"] * (verify != 0)
     for group, values in overrides.items():
         for name, value in namelist.variables(group, values).items():
-            options += ["--set", f"{group}%{name}={namelist.written(value, group == namelist.STUDY)}"]
+            options += ["--set", f"{group}%{name}={namelist.written(value, namelist.is_varied(group, name))}"]
 
     def started(folder: Path) -> Run | Study:
-        path = case
-        if not isinstance(path, str | os.PathLike):
-            path = namelist.write_case(folder / "case.nml", path or {"case": {}})
-        return result_of(path, Path(output) if output is not None else folder / "result.h5", options)
+        target = Path(output) if output is not None else folder / "result.h5"
+        return result_of(case_file(case, folder), target, options)
 
     return in_temporary_folder(started)
+
+
+def case_file(case: "str | os.PathLike | Groups | None", folder: Path) -> str | os.PathLike:
+    """The file of a case; groups are written to one in the folder. A table of theirs stays where it is."""
+    if isinstance(case, str | os.PathLike):
+        return case
+    groups = dict(case or {"case": {}})
+    study = namelist.variables(namelist.STUDY, groups.get(namelist.STUDY, {}))
+    if isinstance(study.get(namelist.TABLE), str | os.PathLike):
+        groups[namelist.STUDY] = {**study, namelist.TABLE: os.path.abspath(study[namelist.TABLE])}
+    return namelist.write_case(folder / "case.nml", groups)
 
 
 def in_temporary_folder(work: Callable[[Path], Result]) -> Result:

@@ -31,9 +31,21 @@ contains
    pure function long_text(i) result(string)
       integer(i8), intent(in) :: i
       character(len=:), allocatable :: string
-      character(len=24) :: buffer
-      write (buffer, '(ss,i0)') i
-      string = trim(buffer)
+      character(len=20) :: digits
+      integer(i8) :: rest
+      integer :: at
+      ! not by a write statement, which a quarter of the time of checking a case went into
+      rest = i
+      at = len(digits)
+      do
+         ! the remainder has the sign of the number: the lowest number has no positive twin
+         digits(at:at) = achar(iachar('0') + abs(int(mod(rest, 10_i8))))
+         rest = rest/10
+         if (rest == 0) exit
+         at = at - 1
+      end do
+      string = digits(at:)
+      if (i < 0) string = '-'//string
    end function long_text
 
    !> Six significant digits, without needless zeros: 0.019, 1e-4, -1.25e9.

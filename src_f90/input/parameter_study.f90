@@ -1,15 +1,12 @@
 !> Parameter studies: in a case with the group &sweep variables have several values; the case describes many runs.
 module parameter_study
    use kinds, only: i8
-   use text, only: to_text, lower_case, checksum
-   use errors, only: error_type, raise, require, input_error
+   use text, only: to_text, checksum
+   use errors, only: error_type
    use case_inputs, only: case_type
-   use assignments, only: namelist_type, assignment_type, put_assignment, undoes, assignment_text, target_text, &
-      & value_text, study_group
-   use varied_values, only: varied_values_type, read_varied_values
+   use assignments, only: namelist_type, assignment_type, put_assignment, study_group
+   use swept_variables, only: swept_variables_type
    use case_text, only: read_text, parse_case
-   use case_fields, only: title_variable
-   use variable_names, only: meant_variable
    use case_namelist, only: case_from_namelist, fill_case
    use namelist_writer, only: namelist_of
    use checked_case, only: marked_text, derived_text
@@ -17,15 +14,7 @@ module parameter_study
    private
    public :: study_type, run_tag, read_study, study_from_text
 
-   !> Most runs of a study, and variables that a message lists.
-   integer, parameter :: most_runs = 100000, most_listed = 8
    character(len=*), parameter :: newline = achar(10)
-
-   !> A varied variable: its assignment without values, and the values.
-   type :: variable_type
-      type(assignment_type) :: target
-      type(varied_values_type) :: values
-   end type variable_type
 
    !> Which run of a study a run is.
    type :: run_tag
@@ -45,8 +34,7 @@ module parameter_study
       logical :: given = .false.
       integer :: runs = 1
       type(namelist_type), private :: base
-      logical, private :: zip = .false.
-      type(variable_type), allocatable, private :: variables(:)
+      type(swept_variables_type), private :: swept
       !> Checksums of the base and of the runs up to the k-th, k = 0, ..., runs.
       integer(i8), allocatable, private :: marks(:)
    contains
@@ -55,7 +43,6 @@ module parameter_study
       procedure :: tag
       procedure :: resolved
       procedure :: checked
-      procedure, private :: value_of_run
       procedure, private :: namelist_of_run
    end type study_type
 
@@ -80,7 +67,7 @@ contains
       type(namelist_type) :: parsed
       character(len=:), allocatable :: origin
       integer :: i
-      allocate (study%variables(0))
+      call study%swept%begin()
       call parse_case(text, file, overrides, parsed, error)
       if (allocated(error)) return
       do i = 1, size(parsed%groups)
@@ -93,94 +80,12 @@ contains
       do i = 1, size(parsed%assignments)
          if (parsed%assignments(i)%group /= study_group) cycle
          if (.not. allocated(origin)) origin = parsed%assignments(i)%origin
-         call read_variable(parsed%assignments(i), study, error)
+         call study%swept%read(parsed%assignments(i), study%base, error)
          if (allocated(error)) return
       end do
       study%given = allocated(origin)
-      if (study%given) call count_runs(origin, study, error)
+      if (study%given) call study%swept%count_runs(origin, study%runs, error)
    end subroutine study_from_text
-
-   !> One assignment of the group &sweep.
-   subroutine read_variable(given, study, error)
-      type(assignment_type), intent(in) :: given
-      type(study_type), intent(inout) :: study
-      type(error_type), allocatable, intent(out) :: error
-      type(variable_type) :: new
-      character(len=:), allocatable :: order, name
-      integer :: percent, i
-      if (given%name == 'order') then
-         order = lower_case(trim(adjustl(given%values(1)%text)))
-         call require(size(given%values) == 1 .and. given%subscript == 0 .and. any(order == ['product', 'zip    ']), &
-            & given%origin//': '//assignment_text(given)//': must be one of ''product'', ''zip''', error)
-         study%zip = order == 'zip'
-         return
-      end if
-      percent = index(given%name, '%')
-      name = given%name(percent + 1:)
-      if (percent <= 1 .or. name == '' .or. index(name, '%') > 0) then
-         call raise(error, input_error, given%origin//': unknown variable '//given%group//'%'//given%name &
-            & //meant_variable('', name)//'; expected order or group%name = values')
-         return
-      end if
-      new%target = given
-      new%target%group = given%name(:percent - 1)
-      new%target%name = name
-      new%target%overrides = .true.
-      call require(new%target%group /= study_group .and. given%name /= title_variable, given%origin//': '//given%name &
-         & //' cannot be swept', error)
-      do i = 1, size(study%variables)
-         associate (other => study%variables(i)%target)
-            call require(.not. (undoes(new%target, other) .or. undoes(other, new%target)), given%origin//': ' &
-               & //given%name//' is swept twice, first at '//other%origin, error)
-         end associate
-      end do
-      do i = 1, size(study%base%assignments)
-         associate (a => study%base%assignments(i))
-            call require(a%origin /= '--set' .or. .not. undoes(new%target, a), '--set '//assignment_text(a) &
-               & //': is swept ('//given%origin//'); give the study other values with --set sweep%'//given%name &
-               & //'=...', error)
-         end associate
-      end do
-      if (allocated(error)) return
-      call read_varied_values(given%values, given%origin//': '//study_group//'%'//given%name, new%values, error)
-      if (allocated(error)) return
-      deallocate (new%target%values)
-      study%variables = [study%variables, new]
-   end subroutine read_variable
-
-   !> How many runs there are; `origin` of the study is for messages.
-   subroutine count_runs(origin, study, error)
-      character(len=*), intent(in) :: origin
-      type(study_type), intent(inout) :: study
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: list
-      integer(i8) :: runs
-      integer :: i
-      if (size(study%variables) == 0) then
-         call raise(error, input_error, origin//': &sweep sweeps nothing; expected group%name = values')
-         return
-      end if
-      list = ''
-      runs = 1
-      do i = 1, size(study%variables)
-         associate (v => study%variables(i))
-            if (i > 1 .and. i <= most_listed + 1) list = list//', '
-            if (i <= most_listed) list = list//v%target%group//'%'//v%target%name//' has '//to_text(v%values%count())
-            if (i == most_listed + 1) list = list//'...'
-            if (study%zip) then
-               runs = v%values%count()
-            else
-               runs = min(runs*v%values%count(), 2_i8*most_runs)
-            end if
-         end associate
-      end do
-      if (study%zip .and. any([(study%variables(i)%values%count() /= runs, i=1, size(study%variables))])) then
-         call raise(error, input_error, origin//': &sweep with order = ''zip'' needs as many values of each: '//list)
-      else if (runs > most_runs) then
-         call raise(error, input_error, origin//': &sweep has more than '//to_text(most_runs)//' runs: '//list)
-      end if
-      study%runs = int(runs)
-   end subroutine count_runs
 
    !> The case of the k-th run, everything checked; messages name the run.
    subroutine case_of_run(self, k, inputs, error)
@@ -197,15 +102,12 @@ contains
    subroutine mark(self, base)
       class(study_type), intent(inout) :: self
       character(len=*), intent(in) :: base
-      integer(i8) :: marks(0:self%runs)
-      type(run_tag) :: found
       integer :: k
-      marks(0) = checksum(base, 0_i8)
+      allocate (self%marks(0:self%runs))
+      self%marks(0) = checksum(base, 0_i8)
       do k = 1, self%runs
-         call self%tag(k, found)
-         marks(k) = checksum(found%study//newline, marks(k - 1))
+         self%marks(k) = checksum(self%swept%values_text(k)//newline, self%marks(k - 1))
       end do
-      allocate (self%marks(0:self%runs), source=marks)
    end subroutine mark
 
    !> True where two tags of one number are of studies that have the same runs up to it, or where that is not known.
@@ -227,16 +129,9 @@ contains
       class(study_type), intent(in) :: self
       integer, intent(in) :: k
       type(run_tag), intent(out) :: found
-      type(assignment_type) :: a
-      integer :: i
       found%number = k
       found%runs = self%runs
-      found%study = ''
-      do i = 1, size(self%variables)
-         if (i > 1) found%study = found%study//newline
-         call self%value_of_run(i, k, a)
-         found%study = found%study//target_text(a)//' = '//value_text(a%values(1))
-      end do
+      found%study = self%swept%values_text(k)
       found%marks = ''
       if (allocated(self%marks)) found%marks = to_text(self%marks(k - 1))//' '//to_text(self%marks(k))//' ' &
          & //to_text(self%marks(self%runs))
@@ -264,18 +159,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
       type(case_type) :: inputs
-      integer :: i
       call self%namelist_of_run(1, parsed)
       call fill_case(parsed, inputs, error)
       if (allocated(error)) return
-      text = namelist_of(inputs)//'&'//study_group//newline//'  order = '''//trim(merge('zip    ', 'product', &
-         & self%zip))//''''//newline
-      do i = 1, size(self%variables)
-         associate (v => self%variables(i))
-            text = text//'  '//target_text(v%target)//' = '//v%values%text()//newline
-         end associate
-      end do
-      text = text//'/'//newline
+      text = namelist_of(inputs)//self%swept%text()
    end subroutine resolved
 
    !> The case's assignments with those of the k-th run.
@@ -287,8 +174,8 @@ contains
       integer :: i
       parsed = self%base
       if (.not. self%given) return
-      do i = 1, size(self%variables)
-         call self%value_of_run(i, k, new)
+      do i = 1, self%swept%number()
+         call self%swept%assignment(i, k, new)
          call put_assignment(new, parsed)
       end do
       parsed%file = parsed%file//', run '//to_text(k)
@@ -298,22 +185,4 @@ contains
          end associate
       end do
    end subroutine namelist_of_run
-
-   !> The k-th run's assignment to the i-th varied variable. The first variable changes slowest.
-   subroutine value_of_run(self, i, k, found)
-      class(study_type), intent(in) :: self
-      integer, intent(in) :: i, k
-      type(assignment_type), intent(out) :: found
-      integer :: at, j
-      at = k - 1
-      if (.not. self%zip) then
-         do j = size(self%variables), i + 1, -1
-            at = at/self%variables(j)%values%count()
-         end do
-         at = mod(at, self%variables(i)%values%count())
-      end if
-      found = self%variables(i)%target
-      allocate (found%values(1))
-      call self%variables(i)%values%value(at + 1, found%values(1))
-   end subroutine value_of_run
 end module parameter_study

@@ -10,7 +10,7 @@ module varied_values
    public :: varied_values_type, read_varied_values
 
    !> Most values of a range.
-   integer, parameter :: most_values = 100000
+   integer, parameter :: most_values = 1000000
    !> Part of a stride by which the last value of a range may miss its end.
    real(wp), parameter :: rounding = 1e-6_wp
    !> Numbers of a range are 0 or between these in size, so that nothing overflows on the way.

@@ -73,7 +73,7 @@ def speed(path):
         (varied("operation%speed_rpm = 1000:10000:500"), 19),
         (varied("rotor%mass=1:3:1", "friction%model='none','lugre'", "pads%arc_deg(1)=60,65"), 12),
         (varied("order='zip'", "rotor%mass=1:3:1", "rotor%unbalance=0.1:0.3:0.1"), 3),
-        (varied("rotor%mass = 1:100000:1"), 100000),
+        (varied("rotor%mass = 1:1000000:1"), 1000000),
     ],
 )
 def test_count(tiltpad, case, text, runs):
@@ -254,6 +254,121 @@ def test_file_names_have_the_digits_of_the_last_member(tiltpad, case):
     result(tiltpad("--quiet", "--run", 7, "case.nml", cwd=folder))
     result(tiltpad("--quiet", "--run", 20000, "case.nml", cwd=folder))
     assert files(folder / "case") == ["00007.h5", "20000.h5"]
+
+
+# ---- tables --------------------------------------------------------------------------------------
+TABLE = "operation%speed_rpm,friction%model\n3000,none\n4000,lugre\n"
+
+
+@pytest.fixture
+def tabled(case):
+    """tabled(text, line): a case with a table in the folder `cases`, and the folder above it."""
+
+    def write(text=TABLE, line="file = 'members.csv'"):
+        folder = case(varied(line))
+        (folder / "cases").mkdir()
+        (folder / "case.nml").rename(folder / "cases/case.nml")
+        (folder / "cases/members.csv").write_text(text)
+        return folder
+
+    return write
+
+
+def test_a_table_lies_beside_its_case(tiltpad, tabled):
+    """That of --set lies where the program is called."""
+    folder = tabled()
+    assert result(tiltpad("--count", "cases/case.nml", cwd=folder)) == ("2\n", [])
+    (folder / "members.csv").write_text(TABLE + "5000,none\n")
+    for name in ("members.csv", folder / "members.csv", "cases/../members.csv"):
+        three = ("--set", f"sweep%file='{name}'")
+        assert result(tiltpad("--count", "cases/case.nml", *three, cwd=folder)) == ("3\n", [])
+
+
+def test_rows_are_runs(tiltpad, tabled):
+    """Beside a list; the files say all of it, whether or not the table is still there."""
+    folder = tabled(line="file = 'members.csv' rotor%mass = 1900, 2000")
+    stdout, _ = result(tiltpad("cases/case.nml", "--output", "out", cwd=folder))
+    assert stdout.startswith("4 runs: 4 done, 0 failed; ")
+    (folder / "cases/members.csv").unlink()
+    expected = [
+        (rpm, model, mass) for rpm, model in ((3000, "none"), (4000, "lugre")) for mass in (1900, 2000)
+    ]
+    for k, (rpm, model, mass) in enumerate(expected, 1):
+        with h5py.File(folder / f"out/000{k}.h5") as file:
+            lines = f"operation%speed_rpm = {rpm}\nfriction%model = '{model}'\nrotor%mass = {mass}"
+            assert (file.attrs["run"], file.attrs["runs"], file.attrs["sweep"]) == (k, 4, lines)
+            assert speed(folder / f"out/000{k}.h5") == rpm
+            assert case_value(file.attrs["input"], "friction", "model") == f"'{model}'"
+    line = "cases/case.nml line 3: sweep%file: cases/members.csv: no such file"
+    assert result(tiltpad("cases/case.nml", "--output", "out", cwd=folder), status=1) == ("", [line])
+
+
+def test_a_checked_case_finds_its_table_from_anywhere(tiltpad, tabled):
+    folder = tabled()
+    text, _ = result(tiltpad("--check", "cases/case.nml", cwd=folder))
+    (folder / "again.nml").write_text(text)
+    assert result(tiltpad("--check", "again.nml", cwd=folder)) == (text, [])
+    for k in (1, 2):
+        first, second = (
+            result(tiltpad("--check", "--run", k, name, cwd=folder))[0]
+            for name in ("cases/case.nml", "again.nml")
+        )
+        assert plain(first) == plain(second)
+
+
+def test_a_table_that_has_changed_is_noticed(tiltpad, tabled):
+    """As a list: its runs are others'; rows at the end are new runs."""
+    folder = tabled()
+    result(tiltpad("cases/case.nml", cwd=folder))
+    before = (folder / "case/0001.h5").read_bytes()
+    (folder / "cases/members.csv").write_text(TABLE.replace("4000", "4500"))
+    _, errors = result(tiltpad("cases/case.nml", cwd=folder), status=3)
+    other = "is the result of another case; operation%speed_rpm = 4000 there, 4500 here"
+    assert errors == [f"case/0002.h5: {other}{WAY_OUT}"]
+    # a single run looks at its neighbours
+    _, errors = result(tiltpad("--run", 1, "cases/case.nml", cwd=folder), status=3)
+    assert errors == [f"case/0002.h5: is of another study than run 1{WAY_OUT}"]
+    # however it is written
+    (folder / "cases/members.csv").write_text(TABLE.replace("\n", "\r\n") + '5000,"none"\r\n')
+    assert result(tiltpad("cases/case.nml", cwd=folder))[0].startswith("3 runs: 3 done")
+    assert (folder / "case/0001.h5").read_bytes() == before
+
+
+@pytest.mark.parametrize("options", [(), ("--check",), ("--count",), ("--run", "1")], ids=" ".join)
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("", ["members.csv: is empty"]),
+        (TABLE.replace(",", ";"), ["members.csv line 1, column 1", "commas must separate the columns"]),
+        (TABLE + "5000", ["members.csv line 4", "1 values for 2 columns", "friction%model has none"]),
+        (TABLE + "5000,5,none", ["members.csv line 4", "3 values for 2 columns", "decimals have a point"]),
+        (TABLE.replace("speed_rpm", "speed"), ["column 1: unknown variable operation%speed", "speed_rpm"]),
+        ("\0", ["members.csv: not a text file"]),
+    ],
+    ids=["empty", "semicolons", "missing", "too many", "unknown", "no text"],
+)
+def test_table_refused(tiltpad, tabled, text, names, options):
+    folder = tabled(text)
+    stdout, (line,) = result(tiltpad("cases/case.nml", *options, cwd=folder), status=1)
+    assert stdout == ""
+    assert all(name in line for name in names), line
+    assert files(folder) == ["cases"]
+
+
+def test_a_bad_cell_is_named_and_nothing_runs(tiltpad, tabled):
+    folder = tabled(TABLE + "fast,none\n")
+    _, errors = result(tiltpad("cases/case.nml", cwd=folder), status=1)
+    where = "cases/members.csv line 4, run 3: operation%speed_rpm = 'fast'"
+    assert errors == [f"{where}: must be a number, 0.001 to 1e6"]
+    assert files(folder) == ["cases"]
+
+
+def test_a_table_that_is_too_large(tiltpad, tabled):
+    """It is refused before it is read."""
+    folder = tabled()
+    os.truncate(folder / "cases/members.csv", 1_000_000_001)
+    _, errors = result(tiltpad("--count", "cases/case.nml", cwd=folder), status=1)
+    assert errors[0].endswith("cases/members.csv: 1000000001 bytes; a table has at most 1000000000")
 
 
 # ---- runs that fail ---------------------------------------------------------------------------

@@ -69,6 +69,11 @@ def test_varied_values_make_a_study(speeds):
         assert np.isfinite(study.equilibrium_journal_y).all()
 
 
+def test_varied_words_need_no_quotes():
+    with tiltpad.run({"case": {"task": "equilibrium"}}, sweep={"friction%model": "none, lugre"}) as study:
+        assert list(study.model) == ["none", "lugre"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -72,7 +72,7 @@ contains
       type(error_type), allocatable :: error
       call expect_bytes(repeat('!', 100000), 'the longest file')
       call read_back(repeat('!', 100001), text, error)
-      call expect_error(error, input_error, path//': 100001 bytes; an input file has at most 100000', 'a longer one')
+      call expect_error(error, input_error, path//': 100001 bytes; a case has at most 100000', 'a longer one')
    end subroutine longest
 
    subroutine no_case()

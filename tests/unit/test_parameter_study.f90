@@ -158,11 +158,11 @@ contains
    end subroutine to_the_last_bit
 
    subroutine longest()
-      call expect_count('1:100000:1', 100000)
-      call expect_wrong('1:100001:1', 'more than 100000 values')
-      call expect_wrong('0:1:1e-100', 'more than 100000 values')
-      call expect_wrong('-1e100:1e100:1e-100', 'more than 100000 values')
-      call expect_wrong('1:1e99:*1.0000001', 'more than 100000 values')
+      call expect_count('1:1000000:1', 1000000)
+      call expect_wrong('1:1000001:1', 'more than 1000000 values')
+      call expect_wrong('0:1:1e-100', 'more than 1000000 values')
+      call expect_wrong('-1e100:1e100:1e-100', 'more than 1000000 values')
+      call expect_wrong('1:1e99:*1.0000001', 'more than 1000000 values')
    end subroutine longest
 
    subroutine expect_wrong(words, reason)
@@ -378,13 +378,13 @@ contains
       call expect_refused('&sweep order = ''zip'', ''zip'', rotor%mass = 1/', '''product'', ''zip''')
       call expect_refused('&sweep order(1) = ''zip'', rotor%mass = 1/', '''product'', ''zip''')
       call expect_refused('&sweep mass = 1/', &
-         & 'unknown variable sweep%mass (did you mean rotor%mass or pads%mass?); expected order or group%name')
-      call expect_refused('&sweep rotor% = 1/', 'expected order or group%name')
-      call expect_refused('&sweep %mass = 1/', 'expected order or group%name')
-      call expect_refused('&sweep rotor%mass%x = 1/', 'expected order or group%name')
-      call expect_refused('&sweep rotor%%mass = 1/', 'expected order or group%name')
+         & 'unknown variable sweep%mass (did you mean rotor%mass or pads%mass?); expected order, file or group%name')
+      call expect_refused('&sweep rotor% = 1/', 'expected order, file or group%name')
+      call expect_refused('&sweep %mass = 1/', 'expected order, file or group%name')
+      call expect_refused('&sweep rotor%mass%x = 1/', 'expected order, file or group%name')
+      call expect_refused('&sweep rotor%%mass = 1/', 'expected order, file or group%name')
       call expect_refused('&sweep sweep%order = ''zip''/', 'sweep%order cannot be swept')
-      call expect_refused('&sweep sweep%rotor%mass = 1/', 'expected order or group%name')
+      call expect_refused('&sweep sweep%rotor%mass = 1/', 'expected order, file or group%name')
       call expect_refused('&sweep case%title = ''a'', ''b''/', 'case%title cannot be swept')
       call expect_refused('&sweep rotor%mass = 1 rotor%mass = 2/', 'given twice')
       call expect_refused('&sweep rotor%mass = 1 ROTOR%MASS = 2/', 'given twice')
@@ -393,10 +393,10 @@ contains
       call expect_refused('&sweep rotor%mass = /', 'a value is missing')
       call expect_refused('&sweep rotor%mass = 1:2/', range)
       call expect_refused('&sweep rotor%mass = 1 : 2 : 1/', range)
-      call expect_refused('&sweep rotor%mass = 1:1000:1 rotor%gravity = 0:100:1/', &
-         & 'more than 100000 runs: rotor%mass has 1000, rotor%gravity has 101')
-      call expect_refused('&sweep rotor%mass = 1:90000:1 rotor%gravity = 1:90000:1 rotor%unbalance = 1:90000:1' &
-         & //' bearing%viscosity = 1:90000:1 /', 'more than 100000 runs')
+      call expect_refused('&sweep rotor%mass = 1:1000:1 rotor%gravity = 0:1000:1/', &
+         & 'more than 1000000 runs: rotor%mass has 1000, rotor%gravity has 1001')
+      call expect_refused('&sweep rotor%mass = 1:900000:1 rotor%gravity = 1:900000:1 rotor%unbalance = 1:900000:1' &
+         & //' bearing%viscosity = 1:900000:1 /', 'more than 1000000 runs')
       call expect_refused('&sweep order=''zip'' rotor%mass = 1, 2 rotor%gravity = 1, 2, 3/', &
          & 'rotor%mass has 2, rotor%gravity has 3')
       call expect_refused('&sweep rotor%mass = 1, 2/', 'rotor%mass = 3: is swept (case.nml line 1)', ['rotor%mass=3'])

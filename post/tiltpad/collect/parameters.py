@@ -1,5 +1,6 @@
 """Parameters of a study: the varied variables, or those in which the inputs differ."""
 
+import re
 from collections import Counter
 from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple
@@ -8,6 +9,9 @@ import numpy as np
 
 from tiltpad.calculate.differences import by_variable, shared
 from tiltpad.files import namelist, units
+
+#: A text without quotes.
+WORD = re.compile(r"[a-z_]\w*", re.ASCII | re.IGNORECASE)
 
 
 class Parameter(NamedTuple):
@@ -28,9 +32,12 @@ class Parameter(NamedTuple):
 
 
 def varied_values(text: str) -> dict[str, Any]:
-    """Values by variable from the attribute `sweep` of a run: a line "operation%speed_rpm = 1500" each."""
-    lines = [line.partition("=") for line in text.splitlines() if line.strip()]
-    return {variable.strip(): namelist.value_of(value.strip()) for variable, _, value in lines}
+    """Values by variable from the attribute `sweep` of a run: a line "operation%speed_rpm = 1500" each.
+
+    A text may stand there without quotes, as in the case.
+    """
+    lines = [[part.strip() for part in line.partition("=")] for line in text.splitlines() if line.strip()]
+    return {name: value if WORD.fullmatch(value) else namelist.value_of(value) for name, _, value in lines}
 
 
 def differing(inputs: Sequence[dict[str, dict[str, Any]]]) -> list[dict[str, Any]]:

@@ -17,7 +17,7 @@ from tiltpad.files.study import POINTS, REVOLUTIONS
 #: Exit status of a run that was done, and those of one that did not end: running or killed, stopped.
 DONE, UNENDED = 0, (-1, 4)
 #: Most runs of a study.
-MOST = 100_000
+MOST = 1_000_000
 #: Names as the program writes them: of a varied variable, and of a dataset.
 VARIABLE = re.compile(r"[a-z]\w*%[a-z]\w*(\(\d+\))?", re.ASCII)
 DATASET = re.compile(r"[a-z]\w*", re.ASCII)

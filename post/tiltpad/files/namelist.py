@@ -13,6 +13,8 @@ ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^\s+(?P<name>\w+) = (?P<value>.*)$", 
 
 #: The group whose values are those of other variables.
 STUDY = "sweep"
+#: Its variable that names a table of values.
+TABLE = "file"
 #: Truth values as the program writes them.
 TRUTH = {".true.": True, ".false.": False}
 #: The range of no variable reaches beyond it.
@@ -81,13 +83,15 @@ def number_of(word: str) -> int | float:
 def write_case(path: str | os.PathLike, groups: Mapping[str, Mapping[str, Any]]) -> Path:
     """Writes a case for the program: {"operation": {"speed_rpm": 3000}, ...}; gives its path.
 
-    Values are numbers, texts, truth values, or sequences of them. The input of a result, `run.input`, is such
-    a dictionary. Raises ValueError for anything else.
+    Values are numbers, texts, paths, truth values, or sequences of them. The input of a result,
+    `run.input`, is such a dictionary. Raises ValueError for anything else.
     """
     lines = []
     for group, values in groups.items():
         own = variables(group, values).items()
-        lines += [f"&{group}", *(f"  {name} = {written(value, group == STUDY)}" for name, value in own), "/"]
+        lines.append(f"&{group}")
+        lines += [f"  {name} = {written(value, is_varied(group, name))}" for name, value in own]
+        lines.append("/")
     target = Path(path)
     target.write_text("\n".join([*lines, ""]), encoding="utf-8")
     return target
@@ -100,8 +104,15 @@ def variables(group: str, values: Any) -> Mapping[str, Any]:
     return values
 
 
+def is_varied(group: str, name: str) -> bool:
+    """True for what a study varies; a text there may be a range."""
+    return group == STUDY and name != TABLE
+
+
 def written(value: Any, varied: bool = False) -> str:
     """A value as a namelist has it; a text of varied values as it is ("1000:6000:500")."""
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
     if isinstance(value, str):
         return value if varied else "'" + value.replace("'", "''") + "'"
     if isinstance(value, bool | np.bool_):

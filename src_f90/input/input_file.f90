@@ -1,0 +1,63 @@
+!> Reads the text of an input file whole.
+module input_file
+   use kinds, only: i8
+   use text, only: to_text
+   use errors, only: error_type, raise, require, input_error
+   use files, only: is_regular
+   implicit none (type, external)
+   private
+   public :: read_input
+
+contains
+
+   !> The text of a file. `what` it should be, "case", and hints for a folder and for a result in its place are for
+   !> messages.
+   subroutine read_input(file, what, longest, folder_hint, result_hint, text, error)
+      character(len=*), intent(in) :: file, what, folder_hint, result_hint
+      !> Most bytes.
+      integer, intent(in) :: longest
+      character(len=:), allocatable, intent(out) :: text
+      type(error_type), allocatable, intent(out) :: error
+      character(len=200) :: message
+      logical :: exists
+      integer :: unit, status
+      integer(i8) :: length
+      ! Fortran leaves blanks at the end of a name away
+      call require(len_trim(file) == len(file), file//': the name of a '//what//' must not end in a blank', error)
+      inquire (file=file, exist=exists)
+      call require(exists, file//': no such file', error)
+      call require(logical(is_regular(file)), file//': a directory, device or pipe, where a '//what//' belongs' &
+         & //folder_hint, error)
+      if (allocated(error)) return
+      open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', &
+         & iostat=status, iomsg=message)
+      if (status == 0) then
+         inquire (unit=unit, size=length)
+         if (starts_as_result(unit, length)) then
+            call raise(error, input_error, file//': a result or study (an HDF5 file), where a '//what//' belongs' &
+               & //result_hint)
+         else if (length > longest) then
+            call raise(error, input_error, file//': '//to_text(length)//' bytes; a '//what//' has at most ' &
+               & //to_text(longest))
+         else
+            allocate (character(len=max(length, 0_i8)) :: text)
+            if (length > 0) read (unit, pos=1, iostat=status, iomsg=message) text
+         end if
+         close (unit)
+      end if
+      if (status /= 0) call raise(error, input_error, file//': cannot be read: '//trim(message))
+   end subroutine read_input
+
+   !> True for an HDF5 file, by its first bytes.
+   logical function starts_as_result(unit, length)
+      integer, intent(in) :: unit
+      integer(i8), intent(in) :: length
+      character(len=*), parameter :: signature = char(137)//'HDF'
+      character(len=len(signature)) :: first
+      integer :: status
+      starts_as_result = .false.
+      if (length < len(signature)) return
+      read (unit, pos=1, iostat=status) first
+      if (status == 0) starts_as_result = first == signature
+   end function starts_as_result
+end module input_file

@@ -1,0 +1,266 @@
+!> The group &sweep: which variables are varied, and their values in each run of a study, from lists, ranges and a
+!> table.
+module swept_variables
+   use kinds, only: i8
+   use text, only: to_text, lower_case
+   use errors, only: error_type, raise, require, input_error
+   use assignments, only: namelist_type, assignment_type, token_type, undoes, assignment_text, target_text, &
+      & value_text, study_group
+   use varied_values, only: varied_values_type, read_varied_values
+   use study_table, only: study_table_type, read_table
+   use case_fields, only: title_variable
+   use variable_names, only: meant_variable
+   use files, only: real_path
+   implicit none (type, external)
+   private
+   public :: swept_variables_type
+
+   !> Most runs of a study, and variables that a message lists.
+   integer, parameter :: most_runs = 1000000, most_listed = 8
+   character(len=*), parameter :: newline = achar(10)
+
+   !> A varied variable: its assignment without values, and where its values come from.
+   type :: variable_type
+      type(assignment_type) :: target
+      !> A list, or the column of the table where that is not 0.
+      type(varied_values_type) :: values
+      integer :: column = 0
+      !> Which of the factors it belongs to: variables of one change together.
+      integer :: factor = 0
+   end type variable_type
+
+   type :: swept_variables_type
+      private
+      !> True where all factors change together.
+      logical :: zip = .false.
+      type(variable_type), allocatable :: variables(:)
+      !> How many values each factor has; every list is one, and so is the table.
+      integer, allocatable :: counts(:)
+      type(study_table_type) :: table
+   contains
+      procedure, public :: begin
+      procedure, public :: read => read_assignment
+      procedure, public :: count_runs
+      procedure, public :: number
+      procedure, public :: assignment
+      procedure, public :: values_text
+      procedure, public :: text => group_text
+      procedure :: add
+      procedure :: read_file
+      procedure :: value
+   end type swept_variables_type
+
+contains
+
+   !> Nothing is varied yet.
+   subroutine begin(self)
+      class(swept_variables_type), intent(out) :: self
+      allocate (self%variables(0), self%counts(0))
+   end subroutine begin
+
+   !> One assignment of the group. `base` has those of the case; its folder is that of a table.
+   subroutine read_assignment(self, given, base, error)
+      class(swept_variables_type), intent(inout) :: self
+      type(assignment_type), intent(in) :: given
+      type(namelist_type), intent(in) :: base
+      type(error_type), allocatable, intent(out) :: error
+      type(variable_type) :: new
+      character(len=:), allocatable :: order
+      integer :: percent
+      select case (given%name)
+      case ('order')
+         order = lower_case(trim(adjustl(given%values(1)%text)))
+         call require(size(given%values) == 1 .and. given%subscript == 0 .and. any(order == ['product', 'zip    ']), &
+            & given%origin//': '//assignment_text(given)//': must be one of ''product'', ''zip''', error)
+         self%zip = order == 'zip'
+      case ('file')
+         call self%read_file(given, base, error)
+      case default
+         percent = index(given%name, '%')
+         new%target = given
+         new%target%group = given%name(:max(0, percent - 1))
+         new%target%name = given%name(percent + 1:)
+         if (percent <= 1 .or. new%target%name == '' .or. index(new%target%name, '%') > 0) then
+            call raise(error, input_error, given%origin//': unknown variable '//given%group//'%'//given%name &
+               & //meant_variable('', new%target%name)//'; expected order, file or group%name = values')
+            return
+         end if
+         call read_varied_values(given%values, given%origin//': '//study_group//'%'//given%name, new%values, error)
+         if (allocated(error)) return
+         deallocate (new%target%values)
+         self%counts = [self%counts, new%values%count()]
+         call self%add(new, base, '; give the study other values with --set sweep%'//given%name//'=...', error)
+      end select
+   end subroutine read_assignment
+
+   !> Reads the table: in the folder of the case where the case names it, for --set in the working folder.
+   subroutine read_file(self, given, base, error)
+      class(swept_variables_type), intent(inout) :: self
+      type(assignment_type), intent(in) :: given
+      type(namelist_type), intent(in) :: base
+      type(error_type), allocatable, intent(out) :: error
+      type(variable_type) :: new
+      character(len=:), allocatable :: path
+      integer :: i
+      path = given%values(1)%text
+      call require(size(given%values) == 1 .and. given%subscript == 0 .and. path /= '' &
+         & .and. (given%values(1)%quoted .or. given%overrides), given%origin//': '//assignment_text(given) &
+         & //': must be the name of one file, in quotes', error)
+      if (allocated(error)) return
+      if (.not. given%overrides .and. path(1:1) /= '/') path = base%file(:index(base%file, '/', back=.true.))//path
+      call read_table(path, self%table, error)
+      if (allocated(error)) then
+         error%message = given%origin//': '//study_group//'%file: '//error%message
+         return
+      end if
+      self%counts = [self%counts, self%table%rows]
+      do i = 1, size(self%table%columns)
+         new%target = self%table%columns(i)
+         new%column = i
+         call self%add(new, base, '', error)
+         if (allocated(error)) return
+      end do
+   end subroutine read_file
+
+   !> Adds a variable of the last factor. `advice` is for who gives it another value by --set.
+   subroutine add(self, new, base, advice, error)
+      class(swept_variables_type), intent(inout) :: self
+      type(variable_type), intent(inout) :: new
+      type(namelist_type), intent(in) :: base
+      character(len=*), intent(in) :: advice
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i
+      new%factor = size(self%counts)
+      new%target%overrides = .true.
+      associate (name => new%target%group//'%'//new%target%name)
+         call require(new%target%group /= study_group .and. name /= title_variable, new%target%origin//': '//name &
+            & //' cannot be swept', error)
+         do i = 1, size(self%variables)
+            associate (other => self%variables(i)%target)
+               if (undoes(new%target, other) .or. undoes(other, new%target)) call require(.false., &
+                  & new%target%origin//': '//name//' is swept twice, first at '//other%origin, error)
+            end associate
+         end do
+      end associate
+      do i = 1, size(base%assignments)
+         associate (a => base%assignments(i))
+            if (a%origin == '--set' .and. undoes(new%target, a)) call require(.false., '--set '//assignment_text(a) &
+               & //': is swept ('//new%target%origin//')'//advice, error)
+         end associate
+      end do
+      if (.not. allocated(error)) self%variables = [self%variables, new]
+   end subroutine add
+
+   !> How many variables are varied.
+   pure integer function number(self)
+      class(swept_variables_type), intent(in) :: self
+      number = size(self%variables)
+   end function number
+
+   !> How many runs there are; `origin` of the study is for messages.
+   subroutine count_runs(self, origin, found, error)
+      class(swept_variables_type), intent(in) :: self
+      character(len=*), intent(in) :: origin
+      integer, intent(out) :: found
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: list
+      integer(i8) :: runs
+      integer :: i, first
+      found = 1
+      if (size(self%variables) == 0) then
+         call raise(error, input_error, origin//': &sweep sweeps nothing; expected group%name = values')
+         return
+      end if
+      list = ''
+      runs = 1
+      do i = 1, size(self%counts)
+         if (i > 1 .and. i <= most_listed + 1) list = list//', '
+         first = findloc(self%variables%factor, i, dim=1)
+         if (i == most_listed + 1) then
+            list = list//'...'
+         else if (i <= most_listed .and. self%variables(first)%column > 0) then
+            list = list//self%table%file//' has '//to_text(self%counts(i))
+         else if (i <= most_listed) then
+            list = list//self%variables(first)%target%group//'%'//self%variables(first)%target%name//' has ' &
+               & //to_text(self%counts(i))
+         end if
+         runs = merge(int(self%counts(i), i8), min(runs*self%counts(i), 2_i8*most_runs), self%zip)
+      end do
+      if (self%zip .and. any(self%counts /= runs)) then
+         call raise(error, input_error, origin//': &sweep with order = ''zip'' needs as many values of each: '//list)
+      else if (runs > most_runs) then
+         call raise(error, input_error, origin//': &sweep has more than '//to_text(most_runs)//' runs: '//list)
+      end if
+      found = int(runs)
+   end subroutine count_runs
+
+   !> The value of the i-th variable in the k-th run. The first factor changes slowest.
+   subroutine value(self, i, k, token, row)
+      class(swept_variables_type), intent(in) :: self
+      integer, intent(in) :: i, k
+      type(token_type), intent(out) :: token
+      !> Which value of its factor that is.
+      integer, intent(out) :: row
+      integer :: j
+      associate (v => self%variables(i))
+         row = k - 1
+         if (.not. self%zip) then
+            do j = size(self%counts), v%factor + 1, -1
+               row = row/self%counts(j)
+            end do
+            row = mod(row, self%counts(v%factor))
+         end if
+         row = row + 1
+         if (v%column > 0) then
+            call self%table%value(row, v%column, token)
+         else
+            call v%values%value(row, token)
+         end if
+      end associate
+   end subroutine value
+
+   !> The k-th run's assignment to the i-th variable.
+   subroutine assignment(self, i, k, found)
+      class(swept_variables_type), intent(in) :: self
+      integer, intent(in) :: i, k
+      type(assignment_type), intent(out) :: found
+      integer :: row
+      found = self%variables(i)%target
+      allocate (found%values(1))
+      call self%value(i, k, found%values(1), row)
+      if (self%variables(i)%column > 0) found%origin = self%table%origin(row)
+   end subroutine assignment
+
+   !> The values of the k-th run, a line for each variable.
+   function values_text(self, k) result(text)
+      class(swept_variables_type), intent(in) :: self
+      integer, intent(in) :: k
+      character(len=:), allocatable :: text
+      type(token_type) :: token
+      integer :: i, row
+      text = ''
+      do i = 1, size(self%variables)
+         if (i > 1) text = text//newline
+         call self%value(i, k, token, row)
+         text = text//target_text(self%variables(i)%target)//' = '//value_text(token)
+      end do
+   end function values_text
+
+   !> The group as namelist text; of a table the name of its file, which holds in any folder.
+   function group_text(self) result(text)
+      class(swept_variables_type), intent(in) :: self
+      character(len=:), allocatable :: text
+      integer :: i
+      text = '&'//study_group//newline//'  order = '''//trim(merge('zip    ', 'product', self%zip))//''''//newline
+      do i = 1, size(self%variables)
+         associate (v => self%variables(i))
+            if (v%column == 1) then
+               text = text//'  file = '//value_text(token_type(real_path(self%table%file), .true.))//newline
+            else if (v%column == 0) then
+               text = text//'  '//target_text(v%target)//' = '//v%values%text()//newline
+            end if
+         end associate
+      end do
+      text = text//'/'//newline
+   end function group_text
+end module swept_variables
