@@ -5,7 +5,7 @@
 module errors
    implicit none (type, external)
    private
-   public :: error_type, raise, require, add_context, asked_to_stop, asked
+   public :: error_type, raise, require, refuse, add_context, asked_to_stop, asked
    public :: input_error, numerics_error, system_error, stopped
 
    !> What is wrong, and the exit status that belongs to it.
@@ -38,8 +38,16 @@ contains
       logical, intent(in) :: met
       character(len=*), intent(in) :: message
       type(error_type), allocatable, intent(inout) :: error
-      if (.not. met .and. .not. allocated(error)) call raise(error, input_error, message)
+      if (.not. met) call refuse(message, error)
    end subroutine require
+
+   !> The same of one that is not met. A study checks very many cases, and a message with numbers takes much longer to
+   !> write than numbers to check: it is written only `if (...) call refuse(...)`.
+   pure subroutine refuse(message, error)
+      character(len=*), intent(in) :: message
+      type(error_type), allocatable, intent(inout) :: error
+      if (.not. allocated(error)) call raise(error, input_error, message)
+   end subroutine refuse
 
    !> Puts "context: " in front of the message of a set error; does nothing to an unset one.
    pure subroutine add_context(error, context)

@@ -2,7 +2,7 @@
 module case_checks
    use kinds, only: wp, degree
    use text, only: to_text
-   use errors, only: error_type, require
+   use errors, only: error_type, require, refuse
    use case_inputs, only: case_type, clearance_range, is_set
    implicit none (type, external)
    private
@@ -36,15 +36,15 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       integer :: most
       associate (f => inputs%film, cells => inputs%film%circumferential_cells)
-         call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = ' &
-            & //to_text(cells)//': must be even, and 0 or at least 8', error)
+         if (mod(cells, 2) /= 0 .or. cells /= 0 .and. cells < 8) call refuse( &
+            & 'film%circumferential_cells = '//to_text(cells)//': must be even, and 0 or at least 8', error)
          call require(f%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough', error)
          call require(f%solver /= 'fourier' .or. f%cavitation /= 'reynolds', 'film%solver = ''fourier''' &
             & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''', error)
          ! where films cavitate, elimination keeps a block of (axial cells/2)**2 values a column and pad;
          ! 0 stands for some 100 columns
          most = int(sqrt(most_in_blocks/(max(cells, 100)*inputs%pad_count())))
-         call require(f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most, &
+         if (.not. (f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most)) call refuse( &
             & 'film%axial_cells = '//to_text(f%axial_cells)//': must be at most '//to_text(most) &
             & //' with film%circumferential_cells = '//to_text(cells)//' and '//to_text(inputs%pad_count()) &
             & //' pads, or film%solver = ''sor''', error)
@@ -57,19 +57,19 @@ contains
       real(wp) :: ratio
       associate (b => inputs%bearing)
          ratio = b%machined_clearance/b%journal_radius
-         call require(ratio >= clearance_range(1) .and. ratio <= clearance_range(2), 'bearing%machined_clearance = ' &
-            & //to_text(b%machined_clearance)//': must be '//to_text(clearance_range(1))//' to ' &
-            & //to_text(clearance_range(2))//' of bearing%journal_radius = '//to_text(b%journal_radius) &
-            & //' (both in m)', error)
-         call require(b%assembled_clearance <= 2*b%machined_clearance, 'bearing%assembled_clearance = ' &
+         if (.not. (ratio >= clearance_range(1) .and. ratio <= clearance_range(2))) call refuse( &
+            & 'bearing%machined_clearance = '//to_text(b%machined_clearance)//': must be ' &
+            & //to_text(clearance_range(1))//' to '//to_text(clearance_range(2))//' of bearing%journal_radius = ' &
+            & //to_text(b%journal_radius)//' (both in m)', error)
+         if (.not. (b%assembled_clearance <= 2*b%machined_clearance)) call refuse('bearing%assembled_clearance = ' &
             & //to_text(b%assembled_clearance)//': must be at most twice bearing%machined_clearance = ' &
             & //to_text(b%machined_clearance), error)
          ratio = b%axial_length/b%journal_radius
-         call require(ratio >= 0.02_wp .and. ratio <= 50, 'bearing%axial_length = '//to_text(b%axial_length) &
-            & //': must be 0.02 to 50 times bearing%journal_radius = '//to_text(b%journal_radius) &
-            & //' (both in m)', error)
-         call require(b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
-            & .or. inputs%film%cavitation == 'none', 'bearing%cavitation_pressure = ' &
+         if (.not. (ratio >= 0.02_wp .and. ratio <= 50)) call refuse('bearing%axial_length = ' &
+            & //to_text(b%axial_length)//': must be 0.02 to 50 times bearing%journal_radius = ' &
+            & //to_text(b%journal_radius)//' (both in m)', error)
+         if (.not. (b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
+            & .or. inputs%film%cavitation == 'none')) call refuse('bearing%cavitation_pressure = ' &
             & //to_text(b%cavitation_pressure)//': must not exceed bearing%supply_pressure = ' &
             & //to_text(b%supply_pressure)//' and bearing%ambient_pressure = '//to_text(b%ambient_pressure), error)
       end associate
@@ -95,7 +95,7 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       associate (f => inputs%friction)
-         call require(f%dynamic_coefficient <= f%static_coefficient, 'friction%dynamic_coefficient = ' &
+         if (.not. (f%dynamic_coefficient <= f%static_coefficient)) call refuse('friction%dynamic_coefficient = ' &
             & //to_text(f%dynamic_coefficient)//': must not exceed friction%static_coefficient = ' &
             & //to_text(f%static_coefficient), error)
          call require(f%model /= 'lugre' .or. f%dynamic_coefficient > 0, &
@@ -109,7 +109,7 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       associate (v => inputs%pivot)
-         call require(v%radius_difference <= 0.5_wp*v%socket_radius, 'pivot%radius_difference = ' &
+         if (.not. (v%radius_difference <= 0.5_wp*v%socket_radius)) call refuse('pivot%radius_difference = ' &
             & //to_text(v%radius_difference)//': must be at most half of pivot%socket_radius = ' &
             & //to_text(v%socket_radius), error)
          call require(v%law /= 'hertz' .or. v%radius_difference > 0, &
@@ -125,13 +125,14 @@ contains
             & //'''file''', error)
          call require(s%from == 'file' .or. s%file == '', 'start%file = '''//s%file//''': needs start%from = ' &
             & //'''file'', not '''//s%from//'''', error)
-         call require(inputs%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0), 'start%pad_tilt = ' &
-            & //to_text(s%pad_tilt(1))//', pad_tilt_rate = '//to_text(s%pad_tilt_rate(1)) &
+         if (.not. (inputs%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0))) call refuse( &
+            & 'start%pad_tilt = '//to_text(s%pad_tilt(1))//', pad_tilt_rate = '//to_text(s%pad_tilt_rate(1)) &
             & //': must be 0 for pads%motion = ''fixed''', error)
-         call require(inputs%tilting_radial() .or. all(abs([s%pivot_deflection, s%pivot_deflection_rate]) <= 0), &
+         if (.not. (inputs%tilting_radial() &
+            & .or. all(abs([s%pivot_deflection, s%pivot_deflection_rate]) <= 0))) call refuse( &
             & 'start%pivot_deflection = '//to_text(s%pivot_deflection(1))//', pivot_deflection_rate = ' &
-            & //to_text(s%pivot_deflection_rate(1))//': must be 0 for pads%motion = '''//inputs%pads%motion//'''', &
-               & error)
+            & //to_text(s%pivot_deflection_rate(1))//': must be 0 for pads%motion = '''//inputs%pads%motion &
+            & //'''', error)
       end associate
    end subroutine check_start
 
@@ -140,13 +141,14 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       associate (periodic => inputs%integration%stop_when_periodic)
-         call require(periodic <= 0 .or. inputs%is_steady(), 'integration%stop_when_periodic = '//to_text(periodic) &
+         if (.not. (periodic <= 0 .or. inputs%is_steady())) call refuse('integration%stop_when_periodic = ' &
+            & //to_text(periodic) &
             & //': must be 0 where operation%final_speed_rpm differs from operation%speed_rpm', error)
       end associate
       associate (output => inputs%output, duration => inputs%operation%duration)
-         call require(output%start_time <= duration, 'output%start_time = '//to_text(output%start_time) &
+         if (.not. (output%start_time <= duration)) call refuse('output%start_time = '//to_text(output%start_time) &
             & //': must not exceed operation%duration = '//to_text(duration), error)
-         call require(duration*inputs%highest_speed()/360/degree*output%samples_per_revolution < 1e9_wp, &
+         if (.not. (duration*inputs%highest_speed()/360/degree*output%samples_per_revolution < 1e9_wp)) call refuse( &
             & 'operation%duration = '//to_text(duration) &
             & //': more than 1e9 samples at output%samples_per_revolution = ' &
             & //to_text(output%samples_per_revolution), error)
@@ -162,10 +164,10 @@ contains
          do i = 1, inputs%pad_count()
             call require_room(inputs, i, error)
             if (.not. inputs%tilting()) cycle
-            call require(p%arc_deg(i) <= longest_arc, 'pads%arc_deg = '//to_text(p%arc_deg(i))//': must be at most ' &
-               & //to_text(longest_arc)//' for pads that tilt', error)
+            if (.not. (p%arc_deg(i) <= longest_arc)) call refuse('pads%arc_deg = '//to_text(p%arc_deg(i)) &
+               & //': must be at most '//to_text(longest_arc)//' for pads that tilt', error)
             smallest = p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2)
-            call require(p%inertia(i) > smallest, 'pads%inertia = '//to_text(p%inertia(i)) &
+            if (.not. (p%inertia(i) > smallest)) call refuse('pads%inertia = '//to_text(p%inertia(i)) &
                & //': must exceed mass times the squared distance of the centre of gravity from the pivot, ' &
                & //to_text(smallest)//' (pad '//to_text(i)//')', error)
          end do
@@ -184,9 +186,9 @@ contains
             if (i == j) cycle
             ! from pivot i on to pivot j, going up
             distance = modulo(p%pivot_angle_deg(j) - p%pivot_angle_deg(i), 360.0_wp)
-            call require(distance > p%pivot_ratio(i)*p%arc_deg(i) + (1 - p%pivot_ratio(j))*p%arc_deg(j), &
-               & 'pads%pivot_angle_deg = '//to_text(p%pivot_angle_deg(i))//', ' &
-               & //to_text(p%pivot_angle_deg(j))//': pads '//to_text(i)//' and '//to_text(j) &
+            if (.not. (distance > p%pivot_ratio(i)*p%arc_deg(i) + (1 - p%pivot_ratio(j))*p%arc_deg(j))) call refuse( &
+               & 'pads%pivot_angle_deg = '//to_text(p%pivot_angle_deg(i))//', '//to_text(p%pivot_angle_deg(j)) &
+               & //': pads '//to_text(i)//' and '//to_text(j) &
                & //' overlap; the pivots must be further apart or pads%arc_deg smaller', error)
          end do
       end associate
@@ -202,24 +204,26 @@ contains
          if (task == 'march' .or. task == 'equilibrium') return
          also = ''
          if (task == 'coefficients') also = '; a study varies the speed'
-         call require(inputs%is_steady(), 'operation%final_speed_rpm = '//to_text(o%final_speed_rpm) &
-            & //': must be operation%speed_rpm = '//to_text(o%speed_rpm)//' with case%task = '''//task//''''//also, &
-            & error)
+         if (.not. inputs%is_steady()) call refuse('operation%final_speed_rpm = '//to_text(o%final_speed_rpm) &
+            & //': must be operation%speed_rpm = '//to_text(o%speed_rpm)//' with case%task = '''//task//'''' &
+            & //also, error)
          without = ': has no effect with case%task = '''//task//''''
          if (inputs%seeks_orbits()) then
-            call require(.not. inputs%output%start_time > 0, 'output%start_time = ' &
+            if (inputs%output%start_time > 0) call refuse('output%start_time = ' &
                & //to_text(inputs%output%start_time)//without, error)
-            call require(.not. inputs%integration%stop_when_periodic > 0, 'integration%stop_when_periodic = ' &
-               & //to_text(inputs%integration%stop_when_periodic)//without, error)
+            if (inputs%integration%stop_when_periodic > 0) call refuse( &
+               & 'integration%stop_when_periodic = '//to_text(inputs%integration%stop_when_periodic) &
+               & //without, error)
             return
          end if
          if (task == 'branch') without = ': has no effect on a branch of equilibria'
          call require(s%from == 'equilibrium', 'start%from = '''//s%from//''''//without, error)
-         call require(.not. inputs%is_disturbed(), 'start%journal = '//to_text(s%journal(1))//', ...: a disturbance' &
-            & //without, error)
-         call require(.not. c%threshold_up_to_rpm > 0 .or. c%threshold_up_to_rpm > o%speed_rpm, &
+         if (inputs%is_disturbed()) call refuse('start%journal = '//to_text(s%journal(1)) &
+            & //', ...: a disturbance'//without, error)
+         if (c%threshold_up_to_rpm > 0 .and. c%threshold_up_to_rpm <= o%speed_rpm) call refuse( &
             & 'coefficients%threshold_up_to_rpm = '//to_text(c%threshold_up_to_rpm) &
-            & //': must be 0 or above operation%speed_rpm = '//to_text(o%speed_rpm)//', where the search starts', error)
+            & //': must be 0 or above operation%speed_rpm = '//to_text(o%speed_rpm) &
+            & //', where the search starts', error)
       end associate
    end subroutine check_tasks
 
@@ -233,7 +237,7 @@ contains
             & //'''operation%speed_rpm''', error)
          call require(is_set(b%last), 'branch%last: must be given, the last value of '//b%parameter, error)
          call require(is_set(b%step), 'branch%step: must be given, the first change of '//b%parameter, error)
-         call require(.not. b%max_step > 0 .or. b%max_step >= abs(b%step), 'branch%max_step = ' &
+         if (b%max_step > 0 .and. b%max_step < abs(b%step)) call refuse('branch%max_step = ' &
             & //to_text(b%max_step)//': must be 0 or at least the size of branch%step = '//to_text(b%step), error)
          call require(b%switch .or. b%of == 'periodic', 'branch%switch = .false.: has no effect on a branch of ' &
             & //'equilibria', error)

@@ -3,7 +3,7 @@
 module case_completion
    use kinds, only: wp, degree
    use text, only: to_text, list_text
-   use errors, only: error_type, raise, require, input_error
+   use errors, only: error_type, raise, require, refuse, input_error
    use case_inputs, only: case_type, bearing_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
       & clearance_range, temperature_range, viscosity_range
    use oil_properties, only: reference_viscosity, density, grades
@@ -164,7 +164,7 @@ contains
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: value, range(2)
       type(error_type), allocatable, intent(inout) :: error
-      call require(value >= range(1) .and. value <= range(2), 'pads%'//name//' = '//to_text(value) &
+      if (.not. (value >= range(1) .and. value <= range(2))) call refuse('pads%'//name//' = '//to_text(value) &
          & //', from the size of the pad: must be '//to_text(range(1))//' to '//to_text(range(2)), error)
    end subroutine require_range
 
@@ -208,9 +208,10 @@ contains
          end select
          if (allocated(error)) return
          associate (mu => reference_viscosity(inputs))
-            call require(mu >= viscosity_range(1) .and. mu <= viscosity_range(2), 'oil%supply_temperature = ' &
-               & //to_text(oil%supply_temperature)//': the oil''s viscosity there is '//to_text(mu) &
-               & //' Pa s; must be '//to_text(viscosity_range(1))//' to '//to_text(viscosity_range(2)), error)
+            if (.not. (mu >= viscosity_range(1) .and. mu <= viscosity_range(2))) call refuse( &
+               & 'oil%supply_temperature = '//to_text(oil%supply_temperature)//': the oil''s viscosity there is ' &
+               & //to_text(mu)//' Pa s; must be '//to_text(viscosity_range(1))//' to ' &
+               & //to_text(viscosity_range(2)), error)
          end associate
       end associate
    end subroutine complete_oil
@@ -243,7 +244,7 @@ contains
       subroutine only_of(law, name, value)
          character(len=*), intent(in) :: law, name
          real(wp), intent(in) :: value
-         call require(.not. is_set(value) .or. inputs%oil%law == law, name//' = '//to_text(value) &
+         if (is_set(value) .and. inputs%oil%law /= law) call refuse(name//' = '//to_text(value) &
             & //': belongs to oil%law = '''//law//''', but this case has oil%law = '''//inputs%oil%law &
             & //'''; take it out of the case', error)
       end subroutine only_of
@@ -255,22 +256,23 @@ contains
       type(oil_type) :: default
       associate (nu => oil%kinematic_viscosity, t => oil%at_temperature)
          if (is_set(oil%grade)) then
-            call require(any(abs(grades - oil%grade) <= 0), 'oil%grade = '//to_text(oil%grade)//': must be one of ' &
-               & //'the ISO viscosity grades '//list_text(real(grades, wp)), error)
-            call require(.not. any(is_set(nu)), 'oil%grade = '//to_text(oil%grade)//': oil%kinematic_viscosity = ' &
-               & //to_text(maxval(nu))//' is given too; give one of them', error)
-            call require(all(abs(t - default%at_temperature) <= 0), 'oil%at_temperature = '//list_text(t) &
+            if (.not. any(abs(grades - oil%grade) <= 0)) call refuse('oil%grade = '//to_text(oil%grade) &
+               & //': must be one of the ISO viscosity grades '//list_text(real(grades, wp)), error)
+            if (any(is_set(nu))) call refuse('oil%grade = '//to_text(oil%grade) &
+               & //': oil%kinematic_viscosity = '//to_text(maxval(nu))//' is given too; give one of them', error)
+            if (.not. all(abs(t - default%at_temperature) <= 0)) call refuse('oil%at_temperature = '//list_text(t) &
                & //': a grade has its two points at 40 and 100 C; leave it out', error)
          else
             call require(all(is_set(nu)), 'oil%law = ''walther'': needs oil%grade, or two values of ' &
                & //'oil%kinematic_viscosity', error)
-            call require(t(2) > t(1), 'oil%at_temperature = '//list_text(t) &
+            if (.not. (t(2) > t(1))) call refuse('oil%at_temperature = '//list_text(t) &
                & //': the second must be above the first', error)
-            call require(nu(2) <= nu(1), 'oil%kinematic_viscosity = '//list_text(nu) &
+            if (.not. (nu(2) <= nu(1))) call refuse('oil%kinematic_viscosity = '//list_text(nu) &
                & //': must not rise with the temperature', error)
          end if
       end associate
-      call require(density(oil, temperature_range(2)) > 0, 'oil%density_slope = '//to_text(oil%density_slope) &
-         & //': the density must be above 0 up to '//to_text(temperature_range(2))//' C', error)
+      if (.not. (density(oil, temperature_range(2)) > 0)) call refuse('oil%density_slope = ' &
+         & //to_text(oil%density_slope)//': the density must be above 0 up to '//to_text(temperature_range(2)) &
+         & //' C', error)
    end subroutine check_walther
 end module case_completion

@@ -5,7 +5,7 @@ module parameter_study
    use errors, only: error_type
    use case_inputs, only: case_type
    use assignments, only: namelist_type, assignment_type, put_assignment, study_group
-   use swept_variables, only: swept_variables_type
+   use study_variables, only: study_variables_type
    use case_text, only: read_text, parse_case
    use case_namelist, only: case_from_namelist, fill_case
    use namelist_writer, only: namelist_of
@@ -34,7 +34,7 @@ module parameter_study
       logical :: given = .false.
       integer :: runs = 1
       type(namelist_type), private :: base
-      type(swept_variables_type), private :: swept
+      type(study_variables_type), private :: varied
       !> Checksums of the base and of the runs up to the k-th, k = 0, ..., runs.
       integer(i8), allocatable, private :: marks(:)
    contains
@@ -67,7 +67,7 @@ contains
       type(namelist_type) :: parsed
       character(len=:), allocatable :: origin
       integer :: i
-      call study%swept%begin()
+      call study%varied%begin()
       call parse_case(text, file, overrides, parsed, error)
       if (allocated(error)) return
       do i = 1, size(parsed%groups)
@@ -80,11 +80,11 @@ contains
       do i = 1, size(parsed%assignments)
          if (parsed%assignments(i)%group /= study_group) cycle
          if (.not. allocated(origin)) origin = parsed%assignments(i)%origin
-         call study%swept%read(parsed%assignments(i), study%base, error)
+         call study%varied%read(parsed%assignments(i), study%base, error)
          if (allocated(error)) return
       end do
       study%given = allocated(origin)
-      if (study%given) call study%swept%count_runs(origin, study%runs, error)
+      if (study%given) call study%varied%count_runs(origin, study%runs, error)
    end subroutine study_from_text
 
    !> The case of the k-th run, everything checked; messages name the run.
@@ -106,7 +106,7 @@ contains
       allocate (self%marks(0:self%runs))
       self%marks(0) = checksum(base, 0_i8)
       do k = 1, self%runs
-         self%marks(k) = checksum(self%swept%values_text(k)//newline, self%marks(k - 1))
+         self%marks(k) = checksum(self%varied%values_text(k)//newline, self%marks(k - 1))
       end do
    end subroutine mark
 
@@ -131,7 +131,7 @@ contains
       type(run_tag), intent(out) :: found
       found%number = k
       found%runs = self%runs
-      found%study = self%swept%values_text(k)
+      found%study = self%varied%values_text(k)
       found%marks = ''
       if (allocated(self%marks)) found%marks = to_text(self%marks(k - 1))//' '//to_text(self%marks(k))//' ' &
          & //to_text(self%marks(self%runs))
@@ -162,7 +162,7 @@ contains
       call self%namelist_of_run(1, parsed)
       call fill_case(parsed, inputs, error)
       if (allocated(error)) return
-      text = namelist_of(inputs)//self%swept%text()
+      text = namelist_of(inputs)//self%varied%text()
    end subroutine resolved
 
    !> The case's assignments with those of the k-th run.
@@ -174,8 +174,8 @@ contains
       integer :: i
       parsed = self%base
       if (.not. self%given) return
-      do i = 1, self%swept%number()
-         call self%swept%assignment(i, k, new)
+      do i = 1, self%varied%number()
+         call self%varied%assignment_of_run(i, k, new)
          call put_assignment(new, parsed)
       end do
       parsed%file = parsed%file//', run '//to_text(k)

@@ -70,10 +70,11 @@ contains
       end if
       call read_names(table%text(table%first(1):table%last(1)), table, error)
       do at = 1, table%rows
-         if (.not. allocated(error)) call check_row(table%text(table%first(at + 1):table%last(at + 1)), at, table, error)
+         if (allocated(error)) return
+         call check_row(table%text(table%first(at + 1):table%last(at + 1)), at, table, error)
       end do
-      if (.not. allocated(error) .and. table%rows == 0) call raise(error, input_error, file//': has no rows of values ' &
-         & //'below its first line')
+      if (.not. allocated(error) .and. table%rows == 0) call raise(error, input_error, file//': has no rows of ' &
+         & //'values below its first line')
    end subroutine table_from_text
 
    !> Finds the lines; blank ones at the end are none.
@@ -120,7 +121,7 @@ contains
       integer, intent(in) :: row, column
       type(token_type), intent(out) :: token
       call find_value(self%text(self%first(row + 1):self%last(row + 1)), column, token%text)
-      token%quoted = self%is_text(column) .or. verify(token%text, '+-0123456789.eEdD') > 0
+      token%quoted = self%is_text(column) .or. verify(token%text, '0123456789.-eE+dD') > 0
    end subroutine value
 
    subroutine find_value(line, column, value)
@@ -212,7 +213,7 @@ contains
       new%group = name(:max(0, percent - 1))
       if (scan(name, ';'//tab) > 0) then
          fault = 'commas must separate the columns, not semicolons or tabs; decimals have a point'
-      else if (.not. ok .or. new%group == '' .or. new%name == '') then
+      else if (.not. ok .or. new%group == '' .or. new%name == '' .or. index(name, ' ') > 0) then
          fault = ''''//shortened(name)//''': expected a variable, group%name or group%name(element)' &
             & //meant_variable('', new%name)
       else if (all([(known%variables(i)%group /= new%group, i=1, known%count)])) then

@@ -11,8 +11,9 @@ import faults
 import mutate
 import spelling
 import studies
+import tables
 from harness import Case, Crash, Hang, Harness, Reply
-from judge import findings
+from judge import findings, line
 from reference import Variable, variables
 
 # longest case that others are made from
@@ -51,6 +52,9 @@ class Campaign:
     def one(self, dice: Random) -> None:
         """One case of any kind."""
         kind = dice.random()
+        if kind < 0.05:
+            self.one_table(dice)
+            return
         if self.corpus and kind < 0.6:
             self.check(mutate.mutated(dice, self.corpus), "changed", back=dice.random() < 0.2)
             return
@@ -65,6 +69,26 @@ class Campaign:
             varied = {item.key.removeprefix("sweep%") for item in study.items}
             inputs = {key: value for key, value in inputs.items() if key not in varied}
             self.check(spelling.case(dice, inputs, self.variables, study), "valid study", intended=count)
+
+    def one_table(self, dice: Random) -> None:
+        """One table, right or changed."""
+        valid = dice.random() < 0.3
+        case = tables.draw(dice, self.variables)
+        case = case if valid else tables.changed(dice, case)
+        self.count["valid table" if valid else "changed table"] += 1
+        try:
+            reply = self.harness.table(case)
+        except (Crash, Hang) as error:
+            wrong, said = [f"{type(error).__name__.lower()}: {error}"], ""
+        else:
+            wrong = [] if reply.status == 0 else line(reply, ("members.csv",))
+            wrong += tables.findings(case, reply, self.variables, valid)
+            said = f"{reply.status}: {reply.text[:300].decode(errors='replace')}"
+        for what in wrong:
+            sort = f"table: {sort_of(what)}"
+            if sort not in self.found:
+                self.found[sort] = Finding(case, f"table: {what}", said)
+                print(f"FOUND: table: {what[:2000]}\n   {case!r:.1500}\n   {said}", flush=True)
 
     def check(self, case: Case, kind: str, words=None, intended=None, back: bool = True) -> None:
         """Reads and judges a case."""

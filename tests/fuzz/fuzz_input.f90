@@ -6,11 +6,15 @@
 !> case or the error. Every number has four bytes. A resolved case that does not read back to itself, where that is
 !> asked for, gives the status `not_itself` and both texts. Of a study the text is the number of runs, the resolved
 !> case and some runs, the first ones and the last, with a zero byte behind each.
+!> Of a table of values it is the number of rows, the names, and the values of the same rows, with a zero byte behind
+!> each.
 program fuzz_input
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_size_t
    use errors, only: error_type
    use text, only: printable, to_text
    use case_inputs, only: case_type
+   use assignments, only: token_type, target_text, value_text
+   use study_table, only: study_table_type, table_from_text
    use parameter_study, only: study_type, study_from_text
    use namelist_writer, only: namelist_of, reference_text
    use processes, only: write_output
@@ -38,7 +42,7 @@ program fuzz_input
    end type text_type
 
    !> What to do, and the status that no error has.
-   integer, parameter :: to_read = 0, to_read_back = 1, to_give_reference = 2
+   integer, parameter :: to_read = 0, to_read_back = 1, to_give_reference = 2, to_read_table = 3
    integer, parameter :: not_itself = 99
    !> Runs of a study that are looked at, with the last.
    integer, parameter :: most_runs = 3
@@ -59,6 +63,8 @@ program fuzz_input
          call answer(parts(1)%text, parts(2:), task == to_read_back)
       case (to_give_reference)
          call reply(0, 0, reference_text())
+      case (to_read_table)
+         call answer_table(parts(1)%text)
       case default
          stop 3
       end select
@@ -130,6 +136,35 @@ contains
          said = resolved
       end if
    end subroutine resolve
+
+   !> Reads one table and says what is in it.
+   subroutine answer_table(text)
+      character(len=:), allocatable, intent(inout) :: text
+      type(study_table_type) :: table
+      type(error_type), allocatable :: error
+      type(token_type) :: token
+      character(len=:), allocatable :: said
+      integer :: i, k, news
+      call coverage_start()
+      call table_from_text(text, 'members.csv', table, error)
+      news = coverage_news()
+      if (allocated(error)) then
+         call reply(error%status, news, printable(error%message))
+         return
+      end if
+      said = to_text(table%rows)//achar(0)
+      do i = 1, size(table%columns)
+         said = said//target_text(table%columns(i))//achar(0)
+      end do
+      do k = 1, table%rows
+         if (k > most_runs .and. k < table%rows) cycle
+         do i = 1, size(table%columns)
+            call table%value(k, i, token)
+            said = said//value_text(token)//achar(0)
+         end do
+      end do
+      call reply(0, news, said)
+   end subroutine answer_table
 
    subroutine reply(status, news, text)
       integer, intent(in) :: status, news

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 # what the harness can do, and what it says of a resolved case that does not read back to itself
-READ, READ_BACK, REFERENCE = range(3)
+READ, READ_BACK, REFERENCE, TABLE = range(4)
 NOT_ITSELF = 99
 # faster than the defaults: what is freed is kept for a short while, and known by where it was made alone
 SANITIZER = "quarantine_size_mb=1:malloc_context_size=1:max_malloc_fill_size=0:detect_leaks="
@@ -69,6 +69,10 @@ class Harness:
     def read(self, case: Case, back: bool = True) -> Reply:
         """What the program makes of a case, and whether that reads back to itself; raises Crash or Hang."""
         return self._exchange(case.request(READ_BACK if back else READ))
+
+    def table(self, case: Case) -> Reply:
+        """What the program makes of a table of values; raises Crash or Hang."""
+        return self._exchange(case.request(TABLE))
 
     def close(self) -> None:
         """Ends the process as it ends by itself, so that it can count what it reached."""

@@ -41,8 +41,8 @@ def findings(case: Case, reply: Reply, variables: dict[str, Variable], words=Non
     return found
 
 
-def line(reply: Reply) -> list[str]:
-    """What is wrong with the line of a refusal."""
+def line(reply: Reply, places: tuple[str, ...] = ("case.nml", "--set")) -> list[str]:
+    """What is wrong with the line of a refusal, which begins with one of the places."""
     found = []
     if reply.status != 1:
         found.append(f"exit status {reply.status}")
@@ -52,7 +52,7 @@ def line(reply: Reply) -> list[str]:
         return [*found, "the message is not UTF-8"]
     if CONTROL.search(text):
         found.append("the message has control characters")
-    if not text.startswith(("case.nml", "--set")):
+    if not text.startswith(places):
         found.append("the message does not say where")
     if len(text) > LONGEST:
         found.append(f"the message is longer than {LONGEST} characters")

@@ -13,6 +13,9 @@ SOURCES = (
     "input/assigned_values",
     "input/assignments",
     "input/parameter_study",
+    "input/study_variables",
+    "input/study_table",
+    "input/csv_line",
     "input/namelist_writer",
     "input/case_fields",
     "input/variable_table",
@@ -41,6 +44,9 @@ A refusal is exit status 1 and one printable line of limited length that says wh
 is accepted, the program prints it, and reading this text must give the same text again. A study must have
 the number of runs that the second reader counts, and the runs must have the values that it finds. If
 there is no answer within {limit:g} s, the test counts a hang.
+
+**Tables** of the values of a study are drawn in any spelling (quotes, blanks, line ends), and most of them
+changed in some bytes. A second reader of tables judges them in the same way.
 
 **Commands** run the program itself, with any bytes after `--set`, any names of cases and results, and
 options in any order and number. The `extremes` are short runs of cases at the limits of the allowed

@@ -7,7 +7,7 @@ from harness import Case
 from reader import LONGEST_NUMBER, NUMBER, STUDY, Assignment, Refused, read, resolve, resolved
 from reference import Variable
 
-MOST_RUNS = 100000
+MOST_RUNS = 1000000
 # the runs that the harness shows, with the last
 SHOWN = 3
 # part of a stride by which the last value of a range may miss its end; sizes of its numbers

@@ -111,7 +111,7 @@ def wrong(dice: Random, groups: list[Group], variables: dict[str, Variable]) -> 
         return group, b"&sweep"
     if kind == 5:
         many = dice.sample(variable_alone(variables), 3)
-        group.items = [Item(f"sweep%{v.key}", v.key.encode(), [b"1:99:1"]) for v in many]
+        group.items = [Item(f"sweep%{v.key}", v.key.encode(), [b"1:101:1"]) for v in many]
         return group, b"runs"
     group.items = [good, Item(good.key, good.target + dice.choice((b"(1)", b"")), [b"1"])]
     return group.items[1], number.key.encode()

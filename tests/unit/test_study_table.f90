@@ -110,6 +110,7 @@ contains
       call expect_wrong('1000,2000'//newline//'1,1', 'column 1: ''1000'': expected a variable')
       call expect_wrong('rotor%mass,'//newline//'1,', 'column 2: '''': expected a variable')
       call expect_wrong('pads%mass(0)'//newline//'1', '''pads%mass(0)'': expected a variable')
+      call expect_wrong('pads%mass (1)'//newline//'1', '''pads%mass (1)'': expected a variable')
       call expect_wrong('pads%mass(x)'//newline//'1', '''pads%mass(x)'': expected a variable')
       call expect_wrong('rotor%mass;rotor%gravity'//newline//'1;2', 'column 1: commas must separate the columns')
       call expect_wrong('rotor%mass'//achar(9)//'rotor%gravity'//newline//'1 2', 'not semicolons or tabs')
@@ -149,12 +150,12 @@ contains
    end subroutine no_files
 
    !> The study of a case in a folder of its own, with a table beside it.
-   subroutine read_study(sweep, lines, study, error)
-      character(len=*), intent(in) :: sweep, lines
+   subroutine read_study(assignments, lines, study, error)
+      character(len=*), intent(in) :: assignments, lines
       type(study_type), intent(out) :: study
       type(error_type), allocatable, intent(out) :: error
       call write_bytes(scratch_path('members.csv'), lines)
-      call study_from_text('&sweep '//sweep//'/', scratch_path('case.nml'), [character(len=1) ::], study, error)
+      call study_from_text('&sweep '//assignments//'/', scratch_path('case.nml'), [character(len=1) ::], study, error)
       call delete_file(scratch_path('members.csv'))
    end subroutine read_study
 
@@ -179,7 +180,8 @@ contains
       type(study_type) :: study
       type(error_type), allocatable :: error
       type(case_type) :: inputs
-      character(len=*), parameter :: lines = 'rotor%mass,pads%mass(2)'//newline//'10,1'//newline//'20,2'//newline//'30,3'
+      character(len=*), parameter :: lines = 'rotor%mass,pads%mass(2)'//newline//'10,1'//newline//'20,2'//newline &
+         & //'30,3'
       call read_study('operation%speed_rpm = 1000, 2000 '//table_name()//' rotor%gravity = 5:6:1', lines, study, error)
       call expect_no_error(error, 'a table between lists')
       call expect(study%runs == 12, 'product of 2, 3 and 2')
@@ -256,7 +258,7 @@ contains
       call read_study(table_name(), 'rotor%mass,rotor%mass'//newline//'1,2', study, error)
       call expect_error(error, input_error, 'line 1, column 2: rotor%mass is swept twice, first at ', 'two columns')
       call read_study(table_name(), 'pads%mass(1),pads%mass'//newline//'1,2', study, error)
-      call expect_error(error, input_error, 'line 1, column 2: pads%mass is swept twice, first at ', 'an element and all')
+      call expect_error(error, input_error, 'line 1, column 2: pads%mass is swept twice, first at ', 'an element, all')
       call read_study(table_name()//'rotor%mass = 1, 2', 'rotor%mass'//newline//'1', study, error)
       call expect_error(error, input_error, 'line 1: rotor%mass is swept twice, first at ', 'a column and a list')
       call read_study(table_name(), 'case%title'//newline//'a', study, error)

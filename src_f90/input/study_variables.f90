@@ -1,9 +1,9 @@
 !> The group &sweep: which variables are varied, and their values in each run of a study, from lists, ranges and a
 !> table.
-module swept_variables
+module study_variables
    use kinds, only: i8
    use text, only: to_text, lower_case
-   use errors, only: error_type, raise, require, input_error
+   use errors, only: error_type, raise, require, refuse, input_error
    use assignments, only: namelist_type, assignment_type, token_type, undoes, assignment_text, target_text, &
       & value_text, study_group
    use varied_values, only: varied_values_type, read_varied_values
@@ -13,7 +13,7 @@ module swept_variables
    use files, only: real_path
    implicit none (type, external)
    private
-   public :: swept_variables_type
+   public :: study_variables_type
 
    !> Most runs of a study, and variables that a message lists.
    integer, parameter :: most_runs = 1000000, most_listed = 8
@@ -29,7 +29,7 @@ module swept_variables
       integer :: factor = 0
    end type variable_type
 
-   type :: swept_variables_type
+   type :: study_variables_type
       private
       !> True where all factors change together.
       logical :: zip = .false.
@@ -42,25 +42,25 @@ module swept_variables
       procedure, public :: read => read_assignment
       procedure, public :: count_runs
       procedure, public :: number
-      procedure, public :: assignment
+      procedure, public :: assignment_of_run
       procedure, public :: values_text
       procedure, public :: text => group_text
       procedure :: add
       procedure :: read_file
       procedure :: value
-   end type swept_variables_type
+   end type study_variables_type
 
 contains
 
    !> Nothing is varied yet.
    subroutine begin(self)
-      class(swept_variables_type), intent(out) :: self
+      class(study_variables_type), intent(out) :: self
       allocate (self%variables(0), self%counts(0))
    end subroutine begin
 
    !> One assignment of the group. `base` has those of the case; its folder is that of a table.
    subroutine read_assignment(self, given, base, error)
-      class(swept_variables_type), intent(inout) :: self
+      class(study_variables_type), intent(inout) :: self
       type(assignment_type), intent(in) :: given
       type(namelist_type), intent(in) :: base
       type(error_type), allocatable, intent(out) :: error
@@ -95,7 +95,7 @@ contains
 
    !> Reads the table: in the folder of the case where the case names it, for --set in the working folder.
    subroutine read_file(self, given, base, error)
-      class(swept_variables_type), intent(inout) :: self
+      class(study_variables_type), intent(inout) :: self
       type(assignment_type), intent(in) :: given
       type(namelist_type), intent(in) :: base
       type(error_type), allocatable, intent(out) :: error
@@ -124,7 +124,7 @@ contains
 
    !> Adds a variable of the last factor. `advice` is for who gives it another value by --set.
    subroutine add(self, new, base, advice, error)
-      class(swept_variables_type), intent(inout) :: self
+      class(study_variables_type), intent(inout) :: self
       type(variable_type), intent(inout) :: new
       type(namelist_type), intent(in) :: base
       character(len=*), intent(in) :: advice
@@ -137,14 +137,14 @@ contains
             & //' cannot be swept', error)
          do i = 1, size(self%variables)
             associate (other => self%variables(i)%target)
-               if (undoes(new%target, other) .or. undoes(other, new%target)) call require(.false., &
+               if (undoes(new%target, other) .or. undoes(other, new%target)) call refuse( &
                   & new%target%origin//': '//name//' is swept twice, first at '//other%origin, error)
             end associate
          end do
       end associate
       do i = 1, size(base%assignments)
          associate (a => base%assignments(i))
-            if (a%origin == '--set' .and. undoes(new%target, a)) call require(.false., '--set '//assignment_text(a) &
+            if (a%origin == '--set' .and. undoes(new%target, a)) call refuse('--set '//assignment_text(a) &
                & //': is swept ('//new%target%origin//')'//advice, error)
          end associate
       end do
@@ -153,13 +153,13 @@ contains
 
    !> How many variables are varied.
    pure integer function number(self)
-      class(swept_variables_type), intent(in) :: self
+      class(study_variables_type), intent(in) :: self
       number = size(self%variables)
    end function number
 
    !> How many runs there are; `origin` of the study is for messages.
    subroutine count_runs(self, origin, found, error)
-      class(swept_variables_type), intent(in) :: self
+      class(study_variables_type), intent(in) :: self
       character(len=*), intent(in) :: origin
       integer, intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
@@ -196,7 +196,7 @@ contains
 
    !> The value of the i-th variable in the k-th run. The first factor changes slowest.
    subroutine value(self, i, k, token, row)
-      class(swept_variables_type), intent(in) :: self
+      class(study_variables_type), intent(in) :: self
       integer, intent(in) :: i, k
       type(token_type), intent(out) :: token
       !> Which value of its factor that is.
@@ -220,8 +220,8 @@ contains
    end subroutine value
 
    !> The k-th run's assignment to the i-th variable.
-   subroutine assignment(self, i, k, found)
-      class(swept_variables_type), intent(in) :: self
+   subroutine assignment_of_run(self, i, k, found)
+      class(study_variables_type), intent(in) :: self
       integer, intent(in) :: i, k
       type(assignment_type), intent(out) :: found
       integer :: row
@@ -229,11 +229,11 @@ contains
       allocate (found%values(1))
       call self%value(i, k, found%values(1), row)
       if (self%variables(i)%column > 0) found%origin = self%table%origin(row)
-   end subroutine assignment
+   end subroutine assignment_of_run
 
    !> The values of the k-th run, a line for each variable.
    function values_text(self, k) result(text)
-      class(swept_variables_type), intent(in) :: self
+      class(study_variables_type), intent(in) :: self
       integer, intent(in) :: k
       character(len=:), allocatable :: text
       type(token_type) :: token
@@ -248,7 +248,7 @@ contains
 
    !> The group as namelist text; of a table the name of its file, which holds in any folder.
    function group_text(self) result(text)
-      class(swept_variables_type), intent(in) :: self
+      class(study_variables_type), intent(in) :: self
       character(len=:), allocatable :: text
       integer :: i
       text = '&'//study_group//newline//'  order = '''//trim(merge('zip    ', 'product', self%zip))//''''//newline
@@ -263,4 +263,4 @@ contains
       end do
       text = text//'/'//newline
    end function group_text
-end module swept_variables
+end module study_variables
