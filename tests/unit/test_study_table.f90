@@ -4,7 +4,7 @@ program test_study_table
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, input_error
-   use assignments, only: token_type, target_text
+   use assignments, only: token_type, target_text, value_text
    use case_inputs, only: case_type
    use study_table, only: study_table_type, table_from_text, read_table
    use parameter_study, only: study_type, run_tag, study_from_text
@@ -163,7 +163,7 @@ contains
    function table_name() result(assignment)
       character(len=:), allocatable :: assignment, path
       path = scratch_path('members.csv')
-      assignment = 'file = '''//path(index(path, '/', back=.true.) + 1:)//''' '
+      assignment = 'file = '//value_text(token_type(path(index(path, '/', back=.true.) + 1:), .true.))//' '
    end function table_name
 
    subroutine expect_tag(study, k, expected)
@@ -219,7 +219,8 @@ contains
       call study%resolved(text, error)
       call expect_no_error(error, 'resolved')
       call expect(index(text, '&sweep'//newline//'  order = ''product'''//newline//'  rotor%gravity = 5, 6'//newline &
-         & //'  file = '''//real_path(scratch_path('members.csv'))//''''//newline//'/') > 0, 'the file: '//text)
+         & //'  file = '//value_text(token_type(real_path(scratch_path('members.csv')), .true.))//newline//'/') > 0, &
+         & 'the file: '//text)
       call study_from_text(text, 'elsewhere/case.nml', [character(len=1) ::], again, error)
       call expect_error(error, input_error, 'sweep%file: '//real_path(scratch_path('members.csv'))//': no such file', &
          & 'the file is not there any more')
