@@ -7,6 +7,7 @@ Writes the pictures, checks.csv and README.md, the page, into the docs folder.
 
 import argparse
 import csv
+import io
 import os
 import subprocess
 import time
@@ -17,6 +18,8 @@ from pathlib import Path
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 from tiltpad.draw.plots import STYLE
+from tiltpad.files.processes import begin_worker
+from tiltpad.files.writing import write
 
 from paper import laws, lost, settings, sticking, studies
 from paper.claims import check
@@ -59,22 +62,25 @@ def draw(name: str, folder: Path, docs: Path) -> None:
     picture, runs = PICTURES[name]
     with plt.style.context(STYLE), Runs(folder / runs) as found:
         fig = picture(found)
-        fig.savefig(docs / f"{name}.png", dpi=200)
+        content = io.BytesIO()
+        fig.savefig(content, dpi=200)
+        write(docs / f"{name}.png", content.getbuffer())
         plt.close(fig)
 
 
 def write_checks(checked: list[Checked], path: Path) -> None:
     """The check table, a row a claim."""
-    with path.open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        head = "where", "claim", "measured", "number", "sense", "limit", "holds", "refined", "rule_26"
-        writer.writerow(head)
-        for each in checked:
-            claim, verdict = each.claim, each.verdict
-            holds = "pass" if verdict.holds else "fail"
-            numbers = f"{verdict.value:.6g}", verdict.sense, f"{verdict.limit:g}", holds
-            others = (f"{other.value:.6g}" for other in (each.refined, each.rule))
-            writer.writerow([claim.where, claim.statement, claim.measure, *numbers, *others])
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    head = "where", "claim", "measured", "number", "sense", "limit", "holds", "refined", "rule_26"
+    writer.writerow(head)
+    for each in checked:
+        claim, verdict = each.claim, each.verdict
+        holds = "pass" if verdict.holds else "fail"
+        numbers = f"{verdict.value:.6g}", verdict.sense, f"{verdict.limit:g}", holds
+        others = (f"{other.value:.6g}" for other in (each.refined, each.rule))
+        writer.writerow([claim.where, claim.statement, claim.measure, *numbers, *others])
+    write(path, text.getvalue())
 
 
 def main() -> None:
@@ -89,7 +95,7 @@ def main() -> None:
             run_all(options.program, jobs)
             marches.result()
         print(f"{len(jobs)} runs: {time.monotonic() - started:.0f} s", flush=True)
-    with ProcessPoolExecutor() as pool:
+    with ProcessPoolExecutor(initializer=begin_worker) as pool:
         drawn = [pool.submit(draw, name, options.folder, options.docs) for name in PICTURES]
         paper, refined, rule, studied = (Runs(options.folder / name) for name in FOLDERS)
         checked = check(paper, refined, rule)
@@ -99,7 +105,7 @@ def main() -> None:
     version = subprocess.check_output([options.program, "--version"], text=True).strip()
     spent = None if options.keep else time.monotonic() - started
     text = page(checked, paper, studied, machine(version, spent))
-    (options.docs / "README.md").write_text(text)
+    write(options.docs / "README.md", text)
     failed = [each for each in checked if not each.verdict.holds]
     for each in failed:
         print(f"does not hold: {each.claim.where}: {each.claim.statement}")

@@ -1,12 +1,12 @@
 """Runs of the program, side by side on the cores present, and their result files."""
 
 import os
-import subprocess
 from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import tiltpad
+from tiltpad.files.processes import run_program
 
 from paper.settings import ROOT, Case
 
@@ -63,7 +63,7 @@ def run(program: Path, case: Case, folder: Path) -> Path:
     path = folder / f"{case.name}.h5"
     options = [word for each in case.overrides for word in ("--set", each)]
     command = [program, ROOT / case.case, "--quiet", "--overwrite", "--output", path, *options]
-    done = subprocess.run(command, text=True, capture_output=True, timeout=LIMIT)
+    done = run_program(command, capture_output=True, timeout=LIMIT)
     if done.returncode:
         raise RuntimeError(f"{case.name}: {done.stderr.strip()}")
     return path

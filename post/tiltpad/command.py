@@ -2,11 +2,14 @@
 
 import argparse
 import errno
+import io
+import logging
 import os
+import signal
 import sys
 import warnings
-from collections.abc import Callable, Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -18,6 +21,7 @@ from tiltpad.collect.collect import collect as collected
 from tiltpad.files.archive import NotInRunError, RunError, meant
 from tiltpad.files.read import IncompleteRunWarning, Run, read
 from tiltpad.files.study import Study, read_either, read_study
+from tiltpad.files.writing import write
 from tiltpad.running import resolved
 
 FORMATS = ("png", "pdf", "svg")
@@ -122,7 +126,7 @@ def tell(result: object) -> None:
 def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
     """Does the work and gives the exit status; errors and warnings are a line each."""
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), signals_stop():
             warnings.simplefilter("ignore")
             for category in (IncompleteRunWarning, RunWarning):
                 warnings.simplefilter("always", category)
@@ -143,13 +147,31 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else error
         return complain(command, f"{output}: cannot be written: {reason}", FILE_ERROR)
-    except KeyboardInterrupt:
-        return complain(command, "stopped", 130)
+    except MemoryError:
+        return complain(command, "not enough memory", FILE_ERROR)
+    except KeyboardInterrupt as stop:
+        return complain(command, "stopped", 128 + (stop.args or (signal.SIGINT,))[0])
     except Exception as error:
         said = " ".join(f"{error}".split())
         text = f"please report this error of the program: {type(error).__name__}: {said}"
         return complain(command, text, FILE_ERROR)
     return 0
+
+
+@contextmanager
+def signals_stop() -> Iterator[None]:
+    """Lets the signals that end a process stop the work as Ctrl-C does, so that nothing is left of it."""
+
+    def stop(number: int, _: object) -> NoReturn:
+        raise KeyboardInterrupt(number)
+
+    ending = (each for each in (signal.SIGTERM, signal.SIGHUP) if signal.getsignal(each) == signal.SIG_DFL)
+    former = {each: signal.signal(each, stop) for each in ending}
+    try:
+        yield
+    finally:
+        for each, handler in former.items():
+            signal.signal(each, handler)
 
 
 def draw(options: argparse.Namespace, output: Path) -> None:
@@ -187,7 +209,14 @@ def draw(options: argparse.Namespace, output: Path) -> None:
             more |= {"where": kept(options)}
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
         stack.callback(plots.plt.close, figure)
-        figure.savefig(output, format=form)
+        save(figure, output, form)
+
+
+def save(figure: Any, output: Path, form: str) -> None:
+    """Writes a picture, made in memory."""
+    content = io.BytesIO()
+    figure.savefig(content, format=form)
+    write(output, content.getbuffer())
 
 
 def write_table(options: argparse.Namespace, output: Path) -> None:
@@ -208,7 +237,7 @@ def draw_bearing(options: argparse.Namespace, output: Path, form: str) -> None:
         case = resolved(path) if path.suffix == ".nml" else stack.enter_context(read(path))
         figure = bearing.bearing(case)
         stack.callback(plots.plt.close, figure)
-        figure.savefig(output, format=form)
+        save(figure, output, form)
 
 
 def draw_movie(options: argparse.Namespace, output: Path, form: str) -> None:
@@ -235,7 +264,7 @@ def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:
         figure = figures.study(
             studies, options.show, options.over, options.kind, where, options.pad, options.pivot
         )
-        figure.savefig(output, format=form)
+        save(figure, output, form)
         plots.plt.close(figure)
 
 
@@ -256,7 +285,7 @@ def write_report(path: str, output: Path) -> None:
 
     with read_either(path) as found:
         page = study_report(found) if isinstance(found, Study) else report(found)
-    output.write_text(page, encoding="utf-8")
+    write(output, page)
 
 
 def needs_suffix(output: Path, allowed: Sequence[str]) -> str:
@@ -272,6 +301,7 @@ def needs_suffix(output: Path, allowed: Sequence[str]) -> str:
 
 def matplotlib_for_files() -> Any:
     """matplotlib without a display; loaded only when a picture is drawn, as that takes a second."""
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
     import matplotlib as mpl
 
     mpl.use("agg")

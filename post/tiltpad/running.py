@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 from tiltpad.collect.collect import collect
 from tiltpad.files import namelist
 from tiltpad.files.archive import RunError
+from tiltpad.files.processes import run_program
 from tiltpad.files.read import Run, read
 from tiltpad.files.study import Study, read_study
 
@@ -97,7 +98,7 @@ def in_temporary_folder(work: Callable[[Path], Result]) -> Result:
 def result_of(case: str | os.PathLike, target: Path, options: Sequence[str]) -> Run | Study:
     """Runs the program."""
     words = [program(), argument(case), "--output", os.fspath(target), *options]
-    done = subprocess.run(words, stderr=subprocess.PIPE, text=True)
+    done = run_program(words, stderr=subprocess.PIPE)
     said = done.stderr.strip().removeprefix("tiltpad: error: ")
     said = said.replace("--overwrite", "overwrite=True").replace("--output", "output")
     if done.returncode == INPUT_ERROR:
@@ -127,7 +128,7 @@ def resolved(case: str | os.PathLike) -> dict[str, dict[str, Any]]:
 def checked(case: str | os.PathLike, *options: str) -> str:
     """What --check prints, without its remarks."""
     words = [program(), "--check", *options, argument(case)]
-    done = subprocess.run(words, capture_output=True, text=True)
+    done = run_program(words, capture_output=True)
     if done.returncode == INPUT_ERROR:
         raise ValueError(done.stderr.strip().removeprefix("tiltpad: error: "))
     if done.returncode:

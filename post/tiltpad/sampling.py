@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from tiltpad.files import namelist
+from tiltpad.files.writing import replacing
 from tiltpad.running import Groups, case_file, checked
 
 #: The numbers that each distribution takes.
@@ -141,6 +142,6 @@ def parts(name: str, given: Any) -> tuple[str, dict[str, float]]:
 
 def write(path: Path, names: Sequence[str], values: np.ndarray) -> None:
     """Writes the table, every number with all its bits."""
-    with path.open("w", encoding="utf-8") as file:
-        file.write(",".join(names) + "\n")
-        file.writelines(",".join(map(repr, row)) + "\n" for row in values.tolist())
+    with replacing(path) as file:
+        file.write(",".join(names).encode() + b"\n")
+        file.writelines(",".join(map(repr, row)).encode() + b"\n" for row in values.tolist())

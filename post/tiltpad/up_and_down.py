@@ -7,11 +7,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import h5py
-
 from tiltpad.collect.collect import collect
 from tiltpad.files.namelist import written
 from tiltpad.files.study import REVOLUTIONS, Study, read_study
+from tiltpad.files.writing import hdf5
 from tiltpad.running import Groups, in_temporary_folder, run
 
 #: Parameter of the study that tells its two ways, and their names.
@@ -78,7 +77,7 @@ def marched(
         with warnings.catch_warnings(action="ignore"), run(case, path, overwrite=True, **own) as result:
             if result.complete:
                 own.setdefault("start", {}).update({"from": "file", "file": os.fspath(path.resolve())})
-        with h5py.File(path, "r+") as file:
-            varied = "\n".join(f"{each} = {written(of)}" for each, of in ((parameter, value), (WAY, way)))
+        varied = "\n".join(f"{each} = {written(of)}" for each, of in ((parameter, value), (WAY, way)))
+        with hdf5(path, "r+") as file:
             file.attrs.update({"run": number, "runs": len(runs), "sweep": varied})
     return read_study(collect(folder, folder / "study.h5").output)

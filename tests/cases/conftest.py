@@ -46,9 +46,9 @@ int clock_gettime(clockid_t clock, struct timespec *now)
 """
 
 
-def wait_for(condition, process=None):
+def wait_for(condition, process=None, seconds=TIMEOUT):
     """Until the condition holds. A process, where one is given, must not end before."""
-    end = time.monotonic() + TIMEOUT
+    end = time.monotonic() + seconds
     while not condition():
         assert process is None or process.poll() is None, process.communicate()
         assert time.monotonic() < end

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 import tiltpad
 from tiltpad import command
+from tiltpad.files import heaps
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "stress"))
 from limited import limited  # noqa: E402
@@ -94,6 +95,23 @@ def chunks_of_two_gigabytes(**options):
     return edit
 
 
+def many(kind, group="/"):
+    """Far more attributes or datasets than a result has; each costs time where it is looked at."""
+
+    def edit(file):
+        for number in range(40_000 if kind == "attributes" else 10_000):
+            if kind == "attributes":
+                file[group].attrs[f"attribute {number}"] = "of nobody"
+            else:
+                file[f"{group}/a{number}"] = np.int32(1)
+
+    return edit
+
+
+def more_input(text):
+    return lambda file: file.attrs.modify("input", file.attrs["input"] + text)
+
+
 def root_in(name):
     def edit(file):
         file[name] = file["/"]
@@ -142,6 +160,11 @@ FALSE = {
     "texts for numbers": replaced("journal_y", dtype="S3"),
     "chunks of two gigabytes": chunks_of_two_gigabytes(),
     "deflated chunks of two gigabytes": chunks_of_two_gigabytes(compression="gzip"),
+    "many attributes": many("attributes"),
+    "many datasets": many("datasets"),
+    "many figures": many("datasets", "summary"),
+    "many lines": more_input("\n" * 60_000),
+    "many variables": more_input("&more\n" + "".join(f"  a{k} = 1\n" for k in range(400_000))),
 }
 #: They are refused by whoever uses what they touch; the others may be read, where that is possible.
 ATTACKS = OUTSIDE | FALSE
@@ -275,6 +298,19 @@ def test_a_filter_that_is_a_library(result, program, tmp_path):
     assert not (tmp_path / "loaded").exists()
 
 
+def test_heaps_in_each_other(result, tmp_path):
+    """Each claims the same million objects, and HDF5 would read none of them."""
+    path = tmp_path / "hostile.h5"
+    length, index, least = ((number).to_bytes(8, "little") for number in (1 << 22, 1, heaps.HEAD))
+    path.write_bytes(result("lugre").read_bytes() + 120_000 * (heaps.SIGNATURE + length + index + least))
+
+    def work():
+        with tiltpad.read(path) as run:
+            return int(len(run.time) == 0)
+
+    assert within_limits(work) == 0
+
+
 @pytest.mark.parametrize("name", ["20000000000000000000.h5", "b\udcff.h5", "\u0663.h5"])
 def test_names_of_members(result, name, tmp_path):
     """A number of twenty digits, bytes that are no text, digits of another script."""
@@ -287,15 +323,3 @@ def test_names_of_members(result, name, tmp_path):
     assert within_limits(lambda: command.collect([str(folder), "-o", str(study)])) == 0
     with tiltpad.read_study(study) as found:
         assert sorted(np.isnan(found.status)) == [False, True]
-
-
-def test_what_is_in_the_way_of_a_study(result, tmp_path, monkeypatch, capsys):
-    """The temporary file of a collect is made anew; a link of its name leads nowhere."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "target").write_bytes(b"precious")
-    link = tmp_path / f"study.h5.part{os.getpid()}"
-    link.symlink_to("target")
-    assert command.collect([str(result("lugre")), "-o", "study.h5"]) == 3
-    assert "is in the way" in capsys.readouterr().err
-    assert (tmp_path / "target").read_bytes() == b"precious"
-    assert link.is_symlink()

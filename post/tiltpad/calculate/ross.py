@@ -15,6 +15,7 @@ from tiltpad.calculate.coefficients import Series, at_frequencies, series
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
+from tiltpad.files.writing import write
 
 #: Row and column (0: y, 1: z) of ROSS's elements, and their signs.
 ELEMENTS = {"xx": (1, 1, 1), "xy": (1, 0, -1), "yx": (0, 1, -1), "yy": (0, 0, 1)}
@@ -64,7 +65,7 @@ def to_ross(
     keywords |= {"speed": speed} if over != "frequency" else {}
     keywords |= {"frequency": whirl[0]} if over != "speed" else {}
     if path is not None:
-        write(Path(path), keywords, node)
+        write_element(Path(path), keywords, node)
     return keywords
 
 
@@ -106,7 +107,7 @@ def check(source: Run | Study, over: str, frequency: Sequence[float] | None, fou
         )
 
 
-def write(path: Path, keywords: Mapping[str, np.ndarray], node: int) -> None:
+def write_element(path: Path, keywords: Mapping[str, np.ndarray], node: int) -> None:
     """The file that ROSS loads an element from."""
     if path.suffix != ".toml":
         raise ValueError(f"{path}: the name must end in .toml")
@@ -116,4 +117,4 @@ def write(path: Path, keywords: Mapping[str, np.ndarray], node: int) -> None:
     ]
     lines += [f"n = {node}", 'tag = "tiltpad"']
     lines += [f"{name} = {values.tolist()}" for name, values in keywords.items()]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write(path, "\n".join(lines) + "\n")

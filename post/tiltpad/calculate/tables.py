@@ -1,6 +1,7 @@
 """Tables of coefficients, for spreadsheets and other programs."""
 
 import csv
+import io
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 from tiltpad.calculate.coefficients import Coefficients, coefficients
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
+from tiltpad.files.writing import write
 
 #: Elements of the matrices in the order of the columns.
 ELEMENTS = ("yy", "yz", "zy", "zz")
@@ -33,10 +35,11 @@ def write_coefficients(
     names = [first.pivot] if pivot else [str(each) for each in source["pivot"]]
     found = [coefficients(source, each, where=where) for each in names]
     if target.suffix == ".csv":
-        with target.open("w", newline="", encoding="utf-8") as file:
-            csv.writer(file, lineterminator="\n").writerows(table(found))
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows(table(found))
+        write(target, text.getvalue())
     elif target.suffix == ".toml":
-        target.write_text("\n".join(sections(found)), encoding="utf-8")
+        write(target, "\n".join(sections(found)))
     else:
         raise ValueError(f"{target}: the name must end in .csv or .toml")
 

@@ -8,7 +8,6 @@ have their series over time.
 import os
 import warnings
 from collections.abc import Sequence
-from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
@@ -18,13 +17,14 @@ import numpy as np
 from tiltpad.collect.runs import DONE, UNENDED, StudyRun, one_run, planned
 from tiltpad.collect.study_file import ranges, write
 from tiltpad.files.archive import RunError, opened, plain
+from tiltpad.files.processes import side_by_side
 from tiltpad.files.read import IncompleteRunWarning
 
 PathLike = str | os.PathLike
 
 
-#: Number of files from which on a further process saves time, and of files that a process takes at a time.
-WORTH_A_PROCESS, CHUNK = 100, 20
+#: Number of files from which on a further process saves time.
+WORTH_A_PROCESS = 100
 
 
 class RunWarning(UserWarning):
@@ -89,18 +89,18 @@ def gathered(files: Sequence[Path]) -> list[StudyRun]:
     """The runs of the files, read by as many processes as there are processors."""
     jobs = min(len(os.sched_getaffinity(0)), len(files) // WORTH_A_PROCESS)
     if jobs < 2:
-        return [silent_run(file) for file in files]
+        return silent_runs(files)
     try:
-        with ProcessPoolExecutor(jobs) as pool:
-            return list(pool.map(silent_run, files, chunksize=CHUNK))
-    except BrokenExecutor as error:
-        raise RunError(f"{files[0].parent}: reading its files ended a process: {error}") from error
+        parts = side_by_side(silent_runs, [files[k::jobs] for k in range(jobs)])
+    except EOFError as error:
+        raise RunError(f"{files[0].parent}: reading its files ended a process") from error
+    return [parts[k % jobs][k // jobs] for k in range(len(files))]
 
 
-def silent_run(path: Path) -> StudyRun:
-    """The run of a file, without the warning for an incomplete run, which its status shows."""
+def silent_runs(paths: Sequence[Path]) -> list[StudyRun]:
+    """The runs of files, without the warning for an incomplete run, which its status shows."""
     with warnings.catch_warnings(action="ignore", category=IncompleteRunWarning):
-        return one_run(path)
+        return [one_run(path) for path in paths]
 
 
 def default_output(given: Sequence[Path]) -> Path:

@@ -15,6 +15,7 @@ from tiltpad.collect.runs import StudyRun, planned
 from tiltpad.files.archive import FORMAT_VERSION, RunError, plain
 from tiltpad.files.read import read
 from tiltpad.files.study import RUN
+from tiltpad.files.writing import hdf5
 
 
 class Column(NamedTuple):
@@ -48,20 +49,11 @@ TEXTS = {"reason": "reason of the failure", "file": "result file, relative to th
 
 
 def write(target: Path, runs: Sequence[StudyRun], missing: Sequence[int]) -> None:
-    """Writes the file under a temporary name, which nothing had before, and renames it when it is whole."""
+    """Writes the file."""
     if not target.parent.is_dir():
         raise RunError(f"{target.parent}: no such folder")
-    temporary = target.with_name(f"{target.name}.part{os.getpid()}")
-    try:
-        temporary.open("xb").close()
-    except FileExistsError:
-        raise RunError(f"{temporary}: is in the way; remove or rename it") from None
-    try:
-        with h5py.File(temporary, "w") as file:
-            fill(file, runs, missing, target.resolve().parent)
-        os.replace(temporary, target)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with hdf5(target) as file:
+        fill(file, runs, missing, target.resolve().parent)
 
 
 def fill(file: h5py.File, runs: Sequence[StudyRun], missing: Sequence[int], folder: Path) -> None:

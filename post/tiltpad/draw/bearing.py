@@ -4,6 +4,7 @@ The journal is drawn with radius 1; distances from it, films and its own displac
 makes the bearing clearance CLEARANCE.
 """
 
+import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -19,8 +20,11 @@ from tiltpad.calculate import geometry, signals
 from tiltpad.calculate.geometry import Case, State
 from tiltpad.draw.layout import PAGE, plain, width
 from tiltpad.draw.plots import STYLE, polar
+from tiltpad.files.archive import RunError
+from tiltpad.files.archive import plain as printable
 from tiltpad.files.read import Run, needs_run
 from tiltpad.files.units import SHOWN, digits
+from tiltpad.files.writing import replacing
 
 #: Bearing clearance and thickness of the pads in the picture, over the journal's radius.
 CLEARANCE, BACK = 0.16, 0.22
@@ -199,7 +203,11 @@ def movie(run: Run, path: str | Path, last: float | None = None) -> None:
         fig.draw_without_rendering()
         fig.set_layout_engine("none")  # it would lay out every frame
         try:
-            FuncAnimation(fig, frame, frames=len(states), blit=False).save(path, writer=writer, dpi=110)
+            with replacing(path) as file:
+                FuncAnimation(fig, frame, frames=len(states), blit=False).save(file.name, writer, dpi=110)
+        except subprocess.CalledProcessError as error:
+            said = f"{error.stderr}".strip().splitlines() or [f"status {error.returncode}"]
+            raise RunError(f"{path}: cannot be written: ffmpeg: {printable(said[-1])}") from error
         finally:
             plt.close(fig)
 

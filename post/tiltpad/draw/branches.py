@@ -22,7 +22,7 @@ from tiltpad.files import units
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
-from tiltpad.files.units import SHOWN
+from tiltpad.files.units import SHOWN, literal
 
 #: Lines of what is unstable, marks of bifurcation points, and marches below.
 UNSTABLE = {"linestyle": (0, (4, 2)), "linewidth": 0.9}
@@ -63,7 +63,7 @@ def response(
                 for ax in panels.values():
                     ax.axvline(each.speed_rpm, color=line["color"], linestyle=":", linewidth=0.8)
             words = f"${direction}$" + (f": {'; '.join(map(in_words, peaks))}" if peaks else "")
-            entries.append((f"{one.text}, {words}" if one.text else words, line))
+            entries.append((f"{literal(one.text)}, {words}" if one.text else words, line))
     text, unit = units.named(own.parameter)
     panels["amplitude"].set(ylabel=f"{size.text}, order 1 ({size.unit})", ylim=(0, None))
     panels["phase"].set(ylabel="phase lag, order 1 (deg)", xlabel=units.Shown(text, 1, unit).label)
@@ -102,7 +102,7 @@ def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | No
         ax.set(ylabel=SHOWN[name].label + whose, xlabel=parameter_of(found[0]).label)
         ax.margins(y=0.1)
     if several:
-        names = [(text, {"color": f"C{k}"}) for k, text in enumerate(layout.labels(found))]
+        names = [(literal(text), {"color": f"C{k}"}) for k, text in enumerate(layout.labels(found))]
     else:
         numbers = np.unique(found[0]["branch"]).astype(int)
         names = [(f"branch {each}", {"color": color_of(each)}) for each in numbers if len(numbers) > 1]
@@ -110,7 +110,8 @@ def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | No
     marks: list[tuple[str, dict[str, Any]]]
     frozen = " at frozen viscosity" if any("viscosity" in run for run in found) else ""
     marks = [(f"stable{frozen}", {"color": "0.3"}), ("unstable", {"color": "0.3"} | UNSTABLE)]
-    marks += [(": ".join(branches.KINDS.get(each, (each, ""))), MARK | {"color": "0.3"}) for each in kinds]
+    words = [literal(": ".join(branches.KINDS.get(each, (each, "")))) for each in kinds]
+    marks += [(each, MARK | {"color": "0.3"}) for each in words]
     marks += [("marches", MARCHED | {"markersize": 5})] if len(found) < len(runs) else []
     layout.heading(fig, [*names, *marks], title(found))
     return fig
@@ -127,9 +128,8 @@ def draw_branches(run: Run, ax: Axes, name: str, pad: int | None, color: str | N
         for point in special:
             at = (point.parameter, values[point.point])
             ax.plot(*at, **MARK | {"color": color or color_of(point.branch)})
-            ax.annotate(
-                point.letters, at, xytext=(0, 4), textcoords="offset points", ha="center", size="x-small"
-            )
+            place = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"}
+            ax.annotate(literal(point.letters), at, **place, size="x-small")
 
 
 def draw_marches(study: Study, ax: Axes, run: Run, name: str, pad: int | None) -> None:
@@ -146,7 +146,7 @@ def draw_marches(study: Study, ax: Axes, run: Run, name: str, pad: int | None) -
 def parameter_of(run: Run) -> units.Shown:
     """The parameter of branches in words, with its unit."""
     text, unit = units.named(f"{run.attributes['branch_parameter']}".partition("(")[0])
-    return units.Shown(text, 1, unit)
+    return units.Shown(literal(text), 1, unit)
 
 
 def color_of(branch: int) -> str:

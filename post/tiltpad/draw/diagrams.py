@@ -17,7 +17,7 @@ from tiltpad.draw.layout import DENSE, dots, part_color
 from tiltpad.draw.plots import on_axes
 from tiltpad.files import units
 from tiltpad.files.study import PIVOTS, POINTS, Study
-from tiltpad.files.units import Shown, described
+from tiltpad.files.units import Shown, described, literal
 
 #: Kinds of diagrams.
 KINDS = ("lines", "map", "bifurcation")
@@ -80,7 +80,7 @@ def of_pivot(study: Study, name: str, pivot: str | None) -> Result:
     """A result of pivots, (run,): of the ones that are asked for, or of the first."""
     own, k = chosen_pivot(study, pivot)
     shown = described(study, name)
-    return study[name][:, k], shown._replace(text=f"{shown.text}, pivots {own}")
+    return study[name][:, k], shown._replace(text=f"{shown.text}, pivots {literal(own)}")
 
 
 def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
@@ -94,7 +94,7 @@ def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
         whole = study.done[order]
         text = text if np.isfinite(values[order][whole]).any() else f"{text}: none"
         color = part_color(number, len(groups))
-        line = {"color": color, "label": text} | dots(len(order))
+        line = {"color": color, "label": literal(text)} | dots(len(order))
         if not selection.is_number(study, over):
             # there are no values between texts
             line |= {"linestyle": "", "marker": "o", "markersize": 3}
@@ -168,7 +168,7 @@ def bifurcation(
             "markeredgewidth": 0,
             "color": color,
         }
-        ax.plot(x.ravel(), points.ravel(), label=text, **dots)
+        ax.plot(x.ravel(), points.ravel(), label=literal(text), **dots)
         mark_failed(ax, place[part][~study.done[part]], color if len(groups) > 1 else None)
     ax.set(xlabel=at.label, ylabel=fill(f"{shown.label} once a revolution", LABEL))
     explain(study, ax, others, chosen)
@@ -216,19 +216,19 @@ def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Resul
 def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarray]:
     """Unit of a parameter, positions of the runs along its axis, (run,); sets scale and ticks."""
     values = study[name]
-    text = study.about(name, "long_name") or name
+    text = literal(study.about(name, "long_name") or name)
     if not selection.is_number(study, name):
         names = selection.distinct(values)
         place = np.array([names.index(value) if value in names else np.nan for value in values], dtype=float)
         ax.set(
             **{
                 f"{which}ticks": range(len(names)),
-                f"{which}ticklabels": [*map(selection.written, names)],
+                f"{which}ticklabels": [literal(selection.written(each)) for each in names],
             }
         )
         ax.set(**{f"{which}lim": (-0.5, len(names) - 0.5)})
         return Shown(text, 1, ""), place
-    shown = units.shown(text, study.about(name, "units"), values)
+    shown = units.shown(text, literal(study.about(name, "units")), values)
     if spread_in_ratio(selection.distinct(values)):
         ax.set(**{f"{which}scale": "log"})
     else:
@@ -285,7 +285,7 @@ def explain(
         columns = max(1, 45 // (max(map(len, texts)) + 6))
         title = ", ".join(label(study, name) for name in others)
         place = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": columns}
-        ax.legend(handles, texts, title=title or None, **place)
+        ax.legend(handles, texts, title=literal(title) or None, **place)
 
 
 def label(study: Study, name: str) -> str:

@@ -22,7 +22,7 @@ from tiltpad.draw.vibrations import campbell, coefficients, stability
 from tiltpad.draw.warm import temperatures
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
-from tiltpad.files.units import SHOWN, in_words
+from tiltpad.files.units import SHOWN, in_words, literal
 
 
 @layout.of_several
@@ -179,7 +179,7 @@ def study(
 
 def over_each_other(studies: Sequence[Study], names: Sequence[str], ax: Axes, *arguments: Any) -> None:
     """Diagrams of studies on the same axes: a colour for each study, dashes for the lines within one."""
-    seen = set()
+    seen, handles = set(), []
     for k, (each, name) in enumerate(zip(studies, names, strict=True)):
         before = len(ax.get_lines())
         diagrams.diagram(each, ax, *arguments)
@@ -192,12 +192,12 @@ def over_each_other(studies: Sequence[Study], names: Sequence[str], ax: Axes, *a
         results = (line for line in mine if line.get_gid() != diagrams.NOT_DONE["gid"])
         for part, line in enumerate(results):
             own = f"{line.get_label()}"
-            line.set_label(name if own.startswith("_") or not own else f"{name}, {own}")
+            line.set_label(literal(name) + ("" if own.startswith("_") or not own else f", {own}"))
+            handles.append(line)
             if line.get_linestyle() != "None":
                 line.set_linestyle(layout.DASHES[part % len(layout.DASHES)])
         for line in mine:
             line.set_color(f"C{k}")
-    handles = [line for line in ax.get_lines() if not f"{line.get_label()}".startswith("_")]
     ax.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 

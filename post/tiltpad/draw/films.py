@@ -41,7 +41,7 @@ def pressure(
             plots.pressure(run, ax, time, k, film, levels=levels)
             peak = SHOWN["pressure"].factor * film.pressure[k - 1].max()
             words = f"pad {k}: at most {digits(peak, 3)} {SHOWN['pressure'].unit}"
-            ax.set_title(words if len(runs) == 1 else f"{name}\n{words}")
+            ax.set_title(words if len(runs) == 1 else f"{layout.plain(name, 50)}\n{words}")
             used.append(ax)
         for ax in axes[len(own[i]) :]:
             ax.remove()

@@ -19,6 +19,7 @@ from matplotlib.patches import ConnectionPatch, Rectangle
 from tiltpad.calculate import differences, signals
 from tiltpad.files.read import Run, needs_run
 from tiltpad.files.study import Study
+from tiltpad.files.units import literal
 
 Name = TypeVar("Name", bound=Hashable)
 COLUMN, PAGE = 3.35, 6.9  # widths in a paper, inches
@@ -164,17 +165,17 @@ def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str
         )
         heading(fig, marks, "")
         return
-    names = labels(runs) if len(runs) > 1 else [runs[0].title]
-    names = [plain(name, width(fig)) for name in names]
     if len(runs) > 1:
+        names = [plain(name, width(fig)) for name in labels(runs)]
         looks = [own | {"color": color} for color in colors(runs)]
         heading(fig, [*zip(names, looks, strict=True), *marks], "")
     else:
-        heading(fig, marks, names[0])
+        heading(fig, marks, runs[0].title)
 
 
 def heading(fig: Figure, entries: Sequence[tuple[str, dict[str, Any]]], title: str) -> None:
-    """Above the panels: a title (may be empty), and lines and marks with their meaning."""
+    """Above the panels: a title of the user (may be empty), and lines and marks with their meaning."""
+    title = plain(title, width(fig))
     if not entries:
         fig.suptitle(title)
         return
@@ -198,8 +199,8 @@ def columns_of(texts: Sequence[str], characters: int) -> int:
 
 
 def plain(text: str, characters: int) -> str:
-    """A text in lines of a number of characters, in which a dollar sign does not start a formula."""
-    return textwrap.fill(text.replace("$", r"\$"), characters)
+    """A text that is not the package's own, in lines of a number of characters."""
+    return literal(textwrap.fill(text, characters))
 
 
 def width(fig: Figure) -> int:

@@ -14,7 +14,7 @@ from tiltpad.calculate.response import Peak, aligned, peaks_of
 from tiltpad.draw import layout, plots
 from tiltpad.draw.branches import in_words as critical
 from tiltpad.files.read import Run
-from tiltpad.files.units import SHOWN, in_words
+from tiltpad.files.units import SHOWN, in_words, literal
 
 #: Orders whose amplitudes are drawn.
 ORDERS = (1, 2, 3)
@@ -130,7 +130,7 @@ def waterfall(
         for ax, name in zip(column, names, strict=True):
             plots.waterfall(run, ax, name, pad, orders or 5, by, decades)
         if len(runs) > 1:
-            column[0].set_title(label, wrap=True)
+            column[0].set_title(literal(label), wrap=True)
     if len(runs) == 1:
         layout.legend(fig, runs, [])
         for ax in panels[:-1, 0]:

@@ -23,7 +23,7 @@ from tiltpad.files import units
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
-from tiltpad.files.units import SHOWN
+from tiltpad.files.units import SHOWN, literal
 
 #: Elements of the matrices, and the columns of the panels in which they are.
 DIRECT, CROSS = {"yy": (0, 0), "zz": (1, 1)}, {"yz": (0, 1), "zy": (1, 0)}
@@ -78,7 +78,9 @@ def coefficients(
             ax.set_ylabel(f"{SHOWN[name].text} {', '.join(elements)} ({SHOWN[name].unit})")
     for ax in panels[-1]:
         ax.set_xlabel(axis_label(found))
-    texts = [(text, {"color": part_color(k, len(lines))}) for k, (text, *_) in enumerate(lines) if text]
+    texts = [
+        (literal(text), {"color": part_color(k, len(lines))}) for k, (text, *_) in enumerate(lines) if text
+    ]
     dashed = [("yy or yz", {"color": "0.3"}), ("zz or zy", {"color": "0.3", "linestyle": DASHES[1]})]
     heading(fig, [*texts, *dashed], title(runs))
     return fig
@@ -301,13 +303,14 @@ def axis_label(found: Sequence[Part]) -> str:
     source = found[0].source
     if isinstance(source, Run):
         return "whirl frequency over shaft speed"
-    text, unit = (source.about(found[0].over, each) for each in ("long_name", "units"))
-    return units.Shown(text or found[0].over, 1, "" if unit == "1" else unit).label
+    text, unit = (literal(source.about(found[0].over, each)) for each in ("long_name", "units"))
+    return units.Shown(text or literal(found[0].over), 1, "" if unit == "1" else unit).label
 
 
 def names(found: Sequence[Part]) -> list[tuple[str, dict[str, Any]]]:
     """Entries of the legend, with the colours of the parts."""
-    return [(one.text, {"color": part_color(k, len(found))}) for k, one in enumerate(found) if one.text]
+    colors = [part_color(k, len(found)) for k in range(len(found))]
+    return [(literal(one.text), {"color": own}) for one, own in zip(found, colors, strict=True) if one.text]
 
 
 def title(sources: Sequence[Run | Study]) -> str:

@@ -152,7 +152,7 @@ def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
         [*texts, *more[1]],
         loc="outside upper center",
         ncols=5,
-        title=title(runs) or None,
+        title=layout.plain(title(runs), layout.width(fig)) or None,
     )
     return fig
 

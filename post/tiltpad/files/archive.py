@@ -8,7 +8,7 @@ behalf: links, external storage, virtual datasets and filters of others are refu
 import math
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence, Sized
 from contextlib import contextmanager
 from difflib import get_close_matches
 from typing import Any, Self
@@ -36,6 +36,9 @@ COMPRESSION, SMALL = 20, 1 << 24
 SCALES = h5t.vlen_create(h5t.STD_REF_OBJ).encode()
 #: Longest attribute in the list of attributes itself, bytes; texts of variable length stand elsewhere.
 LONGEST = 1 << 16
+#: Most attributes of a file, and most datasets of a group: many times what results and studies have, which is
+#: up to 30 and 130. The links of a study to its runs are as many as these.
+MOST_NAMES, UNLIMITED = 1000, ("runs",)
 
 
 class RunError(Exception):
@@ -85,6 +88,7 @@ class Archive:
         try:
             with reading(self.path, "attributes"):
                 attrs = self.file.attrs
+                few_enough(attrs)
                 self.attributes: dict[str, Any] = {
                     plain(name): plain(attrs[name]) for name in attrs if simple(attrs, name)
                 }
@@ -131,6 +135,8 @@ class Archive:
         if group not in self.listed:
             found = self.item(group) if group else self.file
             with reading(self.path, group or "the list of datasets"):
+                if group not in UNLIMITED:
+                    few_enough(found)
                 there = [plain(name) for name in found] if isinstance(found, h5py.Group) else []
             self.listed[group] = sorted(self.today(f"{group}/{own}".lstrip("/")) for own in there)
         return self.listed[group]
@@ -258,6 +264,12 @@ class Archive:
     def sound(self, name: str, values: Any) -> Any:
         """The values that were read; ValueError where they are impossible."""
         return values
+
+
+def few_enough(names: Sized) -> None:
+    """Raises ValueError for attributes or datasets that are more than a file of the program has."""
+    if len(names) > MOST_NAMES:
+        raise ValueError(f"{len(names)} names")
 
 
 def check_storage(creation: h5py.h5p.PropDCID) -> None:

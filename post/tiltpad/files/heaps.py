@@ -25,24 +25,29 @@ def endless(path: str) -> bool:
         for start, length in parts:
             stream.seek(start)
             content = stream.read(length)
-            if any(stands_still(content, heap) for heap in heaps(content)):
-                return True
+            # the heap that ends last comes first: what it shares with another is then known to its end
+            known: set[int] = set()
+            for stop, first in sorted(heaps(content), reverse=True):
+                if stands_still(content, first, stop, known):
+                    return True
     return False
 
 
-def heaps(content: bytes) -> Iterator[int]:
-    """First bytes of the heaps."""
+def heaps(content: bytes) -> Iterator[tuple[int, int]]:
+    """End of each heap, and the first byte of its first object."""
     start = content.find(SIGNATURE)
     while start >= 0:
-        yield start
+        yield min(len(content), start + number(content, start + len(SIGNATURE), 8)), start + HEAD
         start = content.find(SIGNATURE, start + len(SIGNATURE))
 
 
-def stands_still(content: bytes, start: int) -> bool:
-    """True where an object of the heap has the length 0, so that the next object is the same one."""
-    stop = min(len(content), start + number(content, start + len(SIGNATURE), 8))
-    first = start + HEAD
-    while first + HEAD <= stop:
+def stands_still(content: bytes, first: int, stop: int, known: set[int]) -> bool:
+    """True where an object of the heap has the length 0, so that the next object is the same one.
+
+    Adds the objects to those that are known to have another length.
+    """
+    while first + HEAD <= stop and first not in known:
+        known.add(first)
         length = number(content, first + 8, 8)
         # object 0 is the free space, whose length includes its own head
         if number(content, first, 2) != 0:

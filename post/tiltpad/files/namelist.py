@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 
-ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^\s+(?P<name>\w+) = (?P<value>.*)$", re.MULTILINE)
+from tiltpad.files.writing import write
+
+ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^[ \t]+(?P<name>\w+) = (?P<value>.*)$", re.MULTILINE)
 
 #: The group whose values are those of other variables.
 STUDY = "sweep"
@@ -19,6 +21,8 @@ TABLE = "file"
 TRUTH = {".true.": True, ".false.": False}
 #: The range of no variable reaches beyond it.
 LARGEST = 1e30
+#: The program writes some thousand characters.
+LONGEST = 1 << 20
 
 #: Variables that the package uses: those of one number, those of one or several numbers, texts.
 ONE_NUMBER = (
@@ -34,6 +38,8 @@ TEXTS = ("friction%model", "pads%motion")
 
 def resolved(text: str) -> dict[str, dict[str, Any]]:
     """Groups of the namelist text of a result; ValueError where a variable that is used is missing."""
+    if len(text) > LONGEST:
+        raise ValueError(f"{len(text)} characters")
     groups = parse(text)
     for names, kinds in ((ONE_NUMBER, int | float), (NUMBERS, int | float | tuple), (TEXTS, str)):
         for group, _, name in (each.partition("%") for each in names):
@@ -92,9 +98,8 @@ def write_case(path: str | os.PathLike, groups: Mapping[str, Mapping[str, Any]])
         lines.append(f"&{group}")
         lines += [f"  {name} = {written(value, is_varied(group, name))}" for name, value in own]
         lines.append("/")
-    target = Path(path)
-    target.write_text("\n".join([*lines, ""]), encoding="utf-8")
-    return target
+    write(path, "\n".join([*lines, ""]))
+    return Path(path)
 
 
 def variables(group: str, values: Any) -> Mapping[str, Any]:

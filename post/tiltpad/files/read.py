@@ -12,6 +12,7 @@ import numpy as np
 
 from tiltpad.files import namelist
 from tiltpad.files.archive import Archive, NotInRunError, RunError, damaged, meant, plain, reading, shown
+from tiltpad.files.writing import replacing
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
@@ -102,7 +103,8 @@ class Run(Archive):
             if name != "time":
                 head += [name] if values.ndim == 1 else [f"{name}_{k + 1}" for k in range(values.shape[1])]
                 columns += [values] if values.ndim == 1 else list(values.T)
-        np.savetxt(path, np.column_stack(columns), "%.17g", ",", header=",".join(head), comments="")
+        with replacing(path) as file:
+            np.savetxt(file, np.column_stack(columns), "%.17g", ",", header=",".join(head), comments="")
 
     def is_series(self, name: str) -> bool:
         """True for datasets over the time."""

@@ -1,6 +1,7 @@
 """Studies: the file that tiltpad-collect writes, results of many runs over their parameters."""
 
 import csv
+import io
 import os
 from typing import Any, NamedTuple
 
@@ -8,6 +9,7 @@ import numpy as np
 
 from tiltpad.files.archive import Archive, RunError, damaged, plain, reading
 from tiltpad.files.read import Run, StudyError, read
+from tiltpad.files.writing import write
 
 #: The dimension of all arrays, and of what has a value for each of the pivots in small vibrations.
 RUN, PIVOTS = ("run",), ("run", "pivot")
@@ -82,10 +84,11 @@ class Study(Archive):
         there = [name for name in self.names() if name not in others]
         single = [name for name in there if self.scales(name) == RUN]
         names = ["run", *self.parameters, *single]
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            rows = csv.writer(file, lineterminator="\n")
-            rows.writerow(names)
-            rows.writerows(zip(*(self[name] for name in names), strict=True))
+        text = io.StringIO()
+        rows = csv.writer(text, lineterminator="\n")
+        rows.writerow(names)
+        rows.writerows(zip(*(self[name] for name in names), strict=True))
+        write(path, text.getvalue())
 
     @property
     def parameters(self) -> list[str]:

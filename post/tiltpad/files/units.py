@@ -111,6 +111,11 @@ UNITS = {
 UNITS_BY_GROUP = {"branch%max_step": ""}
 
 
+def literal(text: str) -> str:
+    """A text that is not the package's own, for a picture: no dollar sign in it starts a formula."""
+    return text.replace("$", r"\$")
+
+
 def named(name: str) -> tuple[str, str]:
     """Text and unit (may be empty) of "group%name"."""
     if name in UNITS_BY_GROUP:
@@ -134,7 +139,7 @@ def described(file: Archive, name: str, quantity: str = "") -> Shown:
     own = name.rpartition("/")[2]
     if known := SHOWN.get(quantity or own):
         return known
-    unit, text = file.about(name, "units"), file.about(name, "long_name") or own
+    unit, text = literal(file.about(name, "units")), literal(file.about(name, "long_name") or own)
     if unit == "1" and text.startswith("share "):
         return Shown(text, 100, "%")
     return Shown(text, *((180 / pi, "deg") if own.endswith(IN_DEGREES) else UNITS_SHOWN.get(unit, (1, unit))))
