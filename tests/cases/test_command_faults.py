@@ -143,6 +143,20 @@ def test_writers_in_python(folder, size):
         assert ((folder / name).read_bytes() == content) == (outcomes.get(name) != "written"), name
 
 
+def test_a_movie_whose_program_fails(folder, tmp_path):
+    """What ffmpeg says last is told."""
+    fake = tmp_path / "bin/ffmpeg"
+    fake.parent.mkdir()
+    fake.write_text("#!/bin/sh\ncat >/dev/null\necho first >&2\necho no space >&2\nexit 1\n")
+    fake.chmod(0o755)
+    (folder / "movie.mp4").write_bytes(b"precious")
+    environment = os.environ | {"PATH": f"{fake.parent}:{os.environ['PATH']}"}
+    status, said = ended(folder, "movie.gif", "movie.mp4", env=environment)
+    assert (status, said) == (3, "tiltpad-plot: error: movie.mp4: cannot be written: ffmpeg: no space\n")
+    assert (folder / "movie.mp4").read_bytes() == b"precious"
+    assert names(folder) == ["movie.mp4"]
+
+
 @pytest.fixture
 def small_disk(tmp_path):
     """small_disk(12): a folder that is a disk of this size."""

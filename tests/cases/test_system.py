@@ -537,7 +537,7 @@ def test_all_that_the_program_touches(start, tiltpad, case, loaded, tmp_path):
 
 
 def test_neighbours_are_opened_once(tiltpad, case, loaded, tmp_path):
-    """A single run of a study opens them only in a child, and a member that writes its file is not tried."""
+    """A single run of a study opens them only in a child, and a run that writes its own file is not tried."""
     (case / "case.nml").write_text(
         "&case task='equilibrium' /\n&sweep operation%speed_rpm=4000,5000,6000 /\n"
     )
