@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from tiltpad.files import namelist
-from tiltpad.files.writing import replacing
+from tiltpad.files.writing import write
 from tiltpad.running import Groups, case_file, checked
 
 #: The numbers that each distribution takes.
@@ -79,17 +79,16 @@ def sample(
             raise ValueError(f"{name}: {variables[name]!r} has values that are no finite numbers")
     target = Path(file)
     with tempfile.TemporaryDirectory(prefix="tiltpad-") as folder:
-        table = target.with_name(f"{target.name}.part")
+        table = Path(folder, "table.csv")
+        content = lines(list(distributions), values)
+        write(table, content)
+        option = f"{namelist.STUDY}%{namelist.TABLE}"
         try:
-            write(table, list(distributions), values)
-            text = namelist.written(table.absolute())
-            checked(case_file(case, Path(folder)), "--set", f"{namelist.STUDY}%{namelist.TABLE}={text}")
-            table.replace(target)
+            checked(case_file(case, Path(folder)), "--set", f"{option}={namelist.written(table)}")
         except ValueError as error:
-            said = f"{error}".removeprefix(f"--set: {namelist.STUDY}%{namelist.TABLE}: ")
-            raise ValueError(said.replace(f"{table.absolute()}", f"{target}")) from None
-        finally:
-            table.unlink(missing_ok=True)
+            said = f"{error}".removeprefix(f"--set: {option}: ")
+            raise ValueError(said.replace(f"{table}", f"{target}")) from None
+        write(target, content)
     return target
 
 
@@ -140,8 +139,7 @@ def parts(name: str, given: Any) -> tuple[str, dict[str, float]]:
     return kind, dict(zip(names, map(float, numbers), strict=True))
 
 
-def write(path: Path, names: Sequence[str], values: np.ndarray) -> None:
-    """Writes the table, every number with all its bits."""
-    with replacing(path) as file:
-        file.write(",".join(names).encode() + b"\n")
-        file.writelines(",".join(map(repr, row)).encode() + b"\n" for row in values.tolist())
+def lines(names: Sequence[str], values: np.ndarray) -> str:
+    """The table as text, every number with all its bits."""
+    rows = (",".join(map(repr, row)) for row in values.tolist())
+    return "\n".join([",".join(names), *rows, ""])
