@@ -169,8 +169,8 @@ VENV := build/venv
 venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
-.PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress realistic fuzz bench paper \
-        unit test-programs lint format docs install uninstall clean
+.PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress realistic fuzz faults \
+        bench paper unit test-programs lint format docs install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
 
@@ -184,6 +184,7 @@ help:
 	@echo 'make stress   runs random cases, half an hour; writes docs/stability.md (CASES=300 SEED=1)'
 	@echo 'make realistic   marches bearings as they are built, 25 minutes; writes docs/realistic.md (BEARINGS=200 SEED=1)'
 	@echo 'make fuzz     tries random cases and arguments, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'
+	@echo 'make faults   injects faults from outside into all commands, 20 minutes; writes docs/faults.md (FAULTS=1500 SEED=1)'
 	@echo 'make bench    measures run time against error, and other programs, a quarter of an hour; writes docs/benchmarks.md'
 	@echo 'make paper    makes the figures and checks the claims of the paper, a minute or two; writes docs/paper'
 	@echo 'make build    builds build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
@@ -238,6 +239,11 @@ fuzz: python
 	@$(MAKE) --no-print-directory MODE=debug build
 	$(venv_python) tests/fuzz/fuzz.py build/fuzz/fuzz/fuzz_input build/fuzz/bin/tiltpad build/debug/bin/tiltpad \
 	   --minutes $(MINUTES) --seed $(SEED) --report docs/fuzzing.md
+
+# FAULTS and SEED choose what is drawn
+FAULTS ?= 1500
+faults: build python
+	$(venv_python) tests/faults/inject.py $(B)/bin/tiltpad --faults $(FAULTS) --seed $(SEED) --report docs/faults.md
 
 # PARTS='films pads' runs these alone and takes the others from their last run
 bench: build python $(VENV)/ready-bench $(ross)/ready $(B)/bench/film_bench

@@ -1,0 +1,24 @@
+"""A sample of the injected faults (make faults): every command, other faults than those of the page."""
+
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "faults"))
+from faulty_commands import COMMANDS  # noqa: E402
+from inject import campaign  # noqa: E402
+
+#: Faults of a command: two minutes on two cores, in all.
+FAULTS = {"collect": 12, "collect, with workers": 3, "report": 6, "plot": 3}
+SEED = 2
+
+
+@pytest.mark.skipif(not (shutil.which("cc") or shutil.which("gcc")), reason="no C compiler")
+@pytest.mark.parametrize("command", COMMANDS, ids=[each.name.replace(", ", " ") for each in COMMANDS])
+def test_faults(program, command):
+    """Told or without effect; what was there stays, and the next command comes to the undisturbed result."""
+    outcomes = list(campaign(Path(program), [command], FAULTS.get(command.name, 24), SEED))
+    assert not [(each.name, each.wrong) for each in outcomes if each.wrong]
+    assert sum(each.reached for each in outcomes) > 0.7 * len(outcomes)
