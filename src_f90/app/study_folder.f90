@@ -5,7 +5,6 @@ module study_folder
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag
    use files, only: is_regular, make_folder, remove_folder, other_number
-   use processes, only: process_id
    use restart, only: restart_type, read_result, refuse_other_case, is_of_other_study
    use run_case, only: way_out
    use stop_signals, only: stop_requested, stop_reason
@@ -35,12 +34,12 @@ contains
       character(len=*), intent(in) :: folder
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: refusal, trial
-      logical :: made
-      trial = folder//'/.part'//to_text(process_id())
+      ! one name for all, so that what a killed program leaves is removed by the next
+      trial = folder//'/.tiltpad.part'
       call make_folder(folder, refusal)
       if (refusal == '') then
-         call make_folder(trial, refusal, made)
-         if (made) call remove_folder(trial)
+         call make_folder(trial, refusal)
+         call remove_folder(trial)
       end if
       if (refusal /= '') call raise(error, system_error, 'cannot write into the folder '//folder//': '//refusal)
    end subroutine prepare_folder

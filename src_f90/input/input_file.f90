@@ -2,7 +2,7 @@
 module input_file
    use kinds, only: i8
    use text, only: to_text
-   use errors, only: error_type, raise, require, input_error
+   use errors, only: error_type, raise, require, input_error, system_error
    use files, only: is_regular
    implicit none (type, external)
    private
@@ -33,19 +33,22 @@ contains
          & iostat=status, iomsg=message)
       if (status == 0) then
          inquire (unit=unit, size=length)
-         if (starts_as_result(unit, length)) then
+         if (length < 0) then
+            status = -1
+            message = 'the system does not tell its size'
+         else if (starts_as_result(unit, length)) then
             call raise(error, input_error, file//': a result or study (an HDF5 file), where a '//what//' belongs' &
                & //result_hint)
          else if (length > longest) then
             call raise(error, input_error, file//': '//to_text(length)//' bytes; a '//what//' has at most ' &
                & //to_text(longest))
          else
-            allocate (character(len=max(length, 0_i8)) :: text)
+            allocate (character(len=length) :: text)
             if (length > 0) read (unit, pos=1, iostat=status, iomsg=message) text
          end if
          close (unit)
       end if
-      if (status /= 0) call raise(error, input_error, file//': cannot be read: '//trim(message))
+      if (status /= 0) call raise(error, system_error, file//': cannot be read: '//trim(message))
    end subroutine read_input
 
    !> True for an HDF5 file, by its first bytes.

@@ -75,8 +75,8 @@ module files
          character(kind=c_char, len=*), intent(in) :: path
       end function c_real_path
 
-      integer(c_int) function c_make_folder(path) bind(c, name='tiltpad_make_folder')
-         import :: c_char, c_int
+      logical(c_bool) function c_make_folder(path) bind(c, name='tiltpad_make_folder')
+         import :: c_bool, c_char
          character(kind=c_char, len=*), intent(in) :: path
       end function c_make_folder
 
@@ -107,16 +107,11 @@ contains
    end function real_path
 
    !> Makes a folder unless something of its name is there; `refusal` is the system's reason, empty if all is well.
-   !> `made` is true if it was not there.
-   subroutine make_folder(path, refusal, made)
+   subroutine make_folder(path, refusal)
       character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(out) :: refusal
-      logical, intent(out), optional :: made
-      integer(c_int) :: found
-      found = c_make_folder(path)
       refusal = ''
-      if (found == 0) refusal = system_reason()
-      if (present(made)) made = found == 1
+      if (.not. c_make_folder(path)) refusal = system_reason()
    end subroutine make_folder
 
    !> A name in a folder that is a number with '.h5', but not one from 1 to `last` with this number of digits; empty

@@ -185,12 +185,11 @@ void tiltpad_begin_sync(const text_t *path)
    close(file);
 }
 
-/* Makes a folder; 2 where something of its name is there, 0 where it cannot be made. */
-int tiltpad_make_folder(const text_t *path)
+/* Makes a folder, unless something of its name is there. */
+bool tiltpad_make_folder(const text_t *path)
 {
    C_STRING(name, path);
-   if (mkdir(name, 0777) == 0) return 1;
-   return errno == EEXIST ? 2 : 0;
+   return mkdir(name, 0777) == 0 || errno == EEXIST;
 }
 
 void tiltpad_remove_folder(const text_t *path)

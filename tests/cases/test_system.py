@@ -530,7 +530,9 @@ def test_all_that_the_program_touches(start, tiltpad, case, loaded, tmp_path):
     tiltpad("case.nml", "-q", cwd=case, env=environment, status=0)
     own = {f"{what} case/N.h5.{side}" for what in "wd" for side in ("part", "lock")} - {"d case/N.h5.part"}
     found = touched(log, case)
-    assert {line for line in found if line[0] != "r"} == own | {"m case", "m case/.partN", "d case/.partN"}
+    assert {line for line in found if line[0] != "r"} == own | {
+        "m case", "m case/.tiltpad.part", "d case/.tiltpad.part"
+    }  # fmt: skip
     assert {"r case.nml"} < {line for line in found if line[0] == "r"} <= {
         f"r {name}" for name in ("case.nml", "case", "case/.", "case/N.h5.part")
     }  # fmt: skip
