@@ -69,7 +69,11 @@ contains
       end if
       call self%lock%acquire(self%path, error)
       if (allocated(error)) return
-      call self%choose_part()
+      call self%choose_part(error)
+      if (allocated(error)) then
+         call self%lock%release(files_left=.true.)
+         return
+      end if
       call identify(self%path, self%there, error)
       if (allocated(error)) call self%lock%release()
    end subroutine claim
@@ -99,8 +103,9 @@ contains
    end subroutine identify
 
    !> The first name of a part that is free, once the parts of a dead run are deleted.
-   subroutine choose_part(self)
+   subroutine choose_part(self, error)
       class(working_file_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: found
       logical :: left
       integer :: k, length
@@ -117,6 +122,8 @@ contains
          if (length == 0 .and. found /= '-') left = left .or. among(about_to_be, self%lock%files_left)
          if (.not. left) cycle
          call delete_file(self%part)
+         if (file_identity(self%part) /= '') call raise(error, system_error, 'cannot write '//self%path//': ' &
+            & //self%part//', which a killed run has left, cannot be deleted: '//system_reason())
          return
       end do
    end subroutine choose_part

@@ -101,6 +101,13 @@ const char *tiltpad_real_path(const text_t *path)
    return found;
 }
 
+/* What the system says of a file that tells it from others; false unless it is not allowed to say. */
+static bool is_refused(const char *name, struct statx *found)
+{
+   const unsigned wanted = STATX_TYPE | STATX_INO | STATX_BTIME;
+   return statx(AT_FDCWD, name, AT_SYMLINK_NOFOLLOW, wanted, found) != 0 && errno == EPERM;
+}
+
 /* Tells one file from every other of its folder, also from one that gets its inode later: "inode:birth". Empty where
    nothing has the name, "-" for what is no ordinary file, "?" where the system does not say; a link is not followed. */
 const char *tiltpad_identity(const text_t *path)
@@ -110,9 +117,8 @@ const char *tiltpad_identity(const text_t *path)
    struct statx found = {0};
    struct stat status;
    C_STRING(name, path);
-   /* a container that is older than statx refuses it */
-   no_statx = no_statx || (statx(AT_FDCWD, name, AT_SYMLINK_NOFOLLOW, STATX_TYPE | STATX_INO | STATX_BTIME, &found) != 0
-                           && errno == EPERM);
+   /* a container that is older than statx refuses it, and not only once */
+   no_statx = no_statx || (is_refused(name, &found) && is_refused(name, &found));
    if (no_statx && lstat(name, &status) == 0) {
       found.stx_mode = status.st_mode;
       found.stx_ino = status.st_ino;
