@@ -62,7 +62,8 @@ contains
       integer, intent(in) :: k
       character(len=record_length) :: record
       child%run = k
-      write (record, '(ss,i12)') k
+      ! the bits of the number: a child needs no memory to read that there is nothing more to do
+      record = transfer(k, repeat(' ', storage_size(k)/8))
       call send_record(child%orders(2), record)
    end subroutine order
 
@@ -144,7 +145,7 @@ contains
          if (wait_for_record(orders, merge(0, pause, stop_now))) exit
          if (stop_now) return
       end do
-      if (receive_record(orders, record)) read (record, '(i12)') k
+      if (receive_record(orders, record)) k = transfer(record, k)
    end subroutine receive_order
 
    !> Performs a run and sends its report, with whether the child stays for another.

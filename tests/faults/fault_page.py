@@ -16,8 +16,9 @@ PAGE = """\
 A small library (`tests/faults/injector.c`), loaded before the system's own, counts the calls of a kind that
 a command and its children make, and lets the k-th fail, or this one and all after it, or kills the process
 there, or all processes of the command. Calls for files count where these are in the folder of the work;
-memory and new processes count from the first file on that is opened there. Which call it is, and how it fails,
-is drawn: anywhere in the run, or close to its begin or end. Each fault has a folder of its own. These must hold:
+memory and new processes count from the first file on that is opened there. Which call it is, and how it
+fails, is drawn: anywhere in the run, or close to its begin or end. Each fault has a folder of its own. These
+must hold:
 
 - The command ends within {limit} s: with status 0 and the bits of the undisturbed command, or with one line
   and status 3 (of a study one line for each run that failed, and one for all). A Python command may also
@@ -27,7 +28,7 @@ is drawn: anywhere in the run, or close to its begin or end. Each fault has a fo
   one bit for bit, or a checkpoint, whose samples or points are the first of the undisturbed run, bit for bit.
 - The next command, without a fault (`--resume`, or the same command again), ends with status 0. Its result is
   that of the undisturbed command, bit for bit; of a march that goes on from a checkpoint bit for bit up to
-  there, and behind it within a thousandth of the largest value of each array, as CVODE starts anew. No part,
+  there, and behind it within a hundredth of the largest value of each array, as CVODE starts anew. No part,
   no lock, no other file and no process is left.
 
 `make test` injects some others (`tests/cases/test_fault_sample.py`). [security.md](security.md) says what is
