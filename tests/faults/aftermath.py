@@ -10,7 +10,7 @@ from faulty_commands import Command, Ended
 from injector import Fault
 
 #: Difference of a resumed march from one that was not stopped, over the largest value of each array: CVODE
-#: starts anew. Against relative_tolerance = 1e-8 these marches err by up to 1e-3 (tilt rates), resumed or not.
+#: starts anew. Against relative_tolerance = 1e-8 each errs by up to 1e-3, in the tilt rates.
 RESUMED = 1e-2
 #: Groups of a result that two runs of one case need not have in common.
 OWN_GROUPS = ("statistics",)

@@ -23,7 +23,7 @@ from faulty_commands import COMMANDS, Command, Place
 from injector import Fault, Injector, counted, draw
 
 #: Faults of a command for one of the others: those in Python take seconds, and so does their next command.
-SHARES = {"collect, with workers": 0.15, "report": 0.3, "plot": 0.2, "collect": 0.6}
+SHARES = {"collect": 0.45, "collect, with workers": 0.08, "report": 0.2, "plot": 0.15}
 
 
 @dataclass
