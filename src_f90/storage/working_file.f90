@@ -139,12 +139,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: lost
       character(len=:), allocatable :: published
+      logical :: noted
       ! what this run has published becomes the part when the names are exchanged
       published = ''
       if (self%published) published = ' '//self%there
       call self%check_lock(error)
       if (allocated(error)) return
-      call self%lock%note_files(about_to_be//published)
+      call self%lock%note_files(about_to_be//published, noted)
+      if (.not. noted) then
+         call raise(error, system_error, 'cannot write '//self%path//': its lock cannot be written: '//system_reason())
+         return
+      end if
       if (.not. create_file(self%part)) then
          call raise(error, system_error, 'cannot write '//self%part//': '//system_reason())
          return

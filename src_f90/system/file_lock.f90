@@ -273,13 +273,17 @@ contains
       ignored = self%write_beat()
    end subroutine beat
 
-   subroutine note_files(self, identities)
+   subroutine note_files(self, identities, noted)
       class(file_lock_type), intent(inout) :: self
       character(len=*), intent(in) :: identities
-      logical :: ignored
-      if (.not. self%is_ours()) return
-      self%files = trim(adjustl(identities))
-      ignored = self%write_beat()
+      logical, intent(out), optional :: noted
+      logical :: ok
+      ok = self%is_ours()
+      if (ok) then
+         self%files = trim(adjustl(identities))
+         ok = self%write_beat()
+      end if
+      if (present(noted)) noted = ok
    end subroutine note_files
 
    !> True if it could be written.

@@ -75,11 +75,13 @@ void tiltpad_delete(const text_t *path)
    unlink(name);
 }
 
+/* Whatever the system does not tell for another reason than the name is told by opening it. */
 bool tiltpad_is_regular(const text_t *path)
 {
    struct stat status;
    C_STRING(name, path);
-   return stat(name, &status) == 0 && S_ISREG(status.st_mode);
+   if (stat(name, &status) == 0) return S_ISREG(status.st_mode);
+   return errno != ENOENT && errno != ENOTDIR && errno != ELOOP && errno != ENAMETOOLONG && errno != EACCES;
 }
 
 /* The path without links; where nothing is there, that at which the links end, at most 40 of them. */

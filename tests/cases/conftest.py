@@ -10,10 +10,15 @@ import re
 import select
 import shutil
 import subprocess
+import sys
 import time
+from pathlib import Path
 
 import h5py
 import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "faults"))
+from injector import Fault, Injector  # noqa: E402
 
 #: Seconds after which a test gives up what it waits for: many times what it takes on a loaded machine.
 TIMEOUT = 300
@@ -162,6 +167,17 @@ def loaded(tmp_path):
         return {**os.environ, "LD_PRELOAD": str(library), **variables}
 
     return environment
+
+
+@pytest.fixture
+def failing(tmp_path):
+    """failing("write", 12, "ENOSPC"): the environment in which it fails; `always`: all after it, too."""
+    if not (shutil.which("cc") or shutil.which("gcc")):
+        pytest.skip("no C compiler")
+    folder = tmp_path / "injector"
+    folder.mkdir()
+    injector = Injector(folder)
+    return lambda *fault, always=False: injector.environment(folder / "counts", Fault(*fault, always))
 
 
 @pytest.fixture

@@ -9,27 +9,6 @@ import pytest
 from conftest import TIMEOUT
 
 CASE = "&friction model='lugre' / &operation duration=0.02 /\n"
-#: From the request number CALL on the system has no memory left; with ONCE, then only.
-NO_MEMORY = """
-static int refused(void)
-{
-   static long calls, first;
-   if (!first) first = atol(getenv("CALL"));
-   if (++calls < first || (getenv("ONCE") && calls > first)) return 0;
-   errno = ENOMEM;
-   return 1;
-}
-#define OWN(name, declared, given) \\
-void *name declared \\
-{ \\
-   static __typeof__(name) *next; \\
-   if (!next) next = (__typeof__(name) *)dlsym(RTLD_NEXT, #name); \\
-   return refused() ? NULL : next given; \\
-}
-OWN(malloc, (size_t size), (size))
-OWN(calloc, (size_t count, size_t size), (count, size))
-OWN(realloc, (void *memory, size_t size), (memory, size))
-"""
 #: Tasks whose requests differ: what they write, read, solve and integrate.
 TASKS = {
     "march": CASE,
@@ -48,30 +27,29 @@ def limited(kilobytes):
 
 @pytest.mark.parametrize("once", [False, True], ids=["from then on", "once"])
 @pytest.mark.parametrize("task", TASKS)
-def test_no_memory_at_any_request(tiltpad, tmp_path, loaded, task, once):
+def test_no_memory_at_any_request(tiltpad, tmp_path, failing, task, once):
     """Whichever it is: one line, and the next run goes its way."""
     (tmp_path / "case.nml").write_text(TASKS[task])
-    environment = loaded(NO_MEMORY, **({"ONCE": "1"} if once else {}))
     call, refused = 1, 0
     while True:
-        done = tiltpad("case.nml", "-q", cwd=tmp_path, env=environment | {"CALL": str(int(call))})
+        done = tiltpad(
+            "case.nml", "-q", cwd=tmp_path, env=failing("memory", int(call), "ENOMEM", always=not once)
+        )
         if done.returncode == 0:
             break
         assert (done.returncode, done.stdout, done.stderr) == (3, "", "tiltpad: error: out of memory\n"), call
         refused += 1
         call = 1 + 1.2 * call
     assert refused > 40
-    assert sorted(os.listdir(tmp_path)) == ["case.h5", "case.nml", "own.so"]
+    assert sorted(os.listdir(tmp_path)) == ["case.h5", "case.nml", "injector"]
 
 
-def test_no_memory_for_a_run_of_a_study(tiltpad, tmp_path, loaded):
+def test_no_memory_for_a_run_of_a_study(tiltpad, tmp_path, failing):
     """It is told as others are that fail, and the next study does what is missing."""
     (tmp_path / "case.nml").write_text(CASE + "&sweep operation%speed_rpm=4000,5000 /\n")
     call, said = 1000, [""]
     while not said[-1].endswith("2 runs failed"):
-        done = tiltpad(
-            "case.nml", "-q", "--jobs", 1, cwd=tmp_path, env=loaded(NO_MEMORY, CALL=str(call), ONCE="1")
-        )
+        done = tiltpad("case.nml", "-q", "--jobs", 1, cwd=tmp_path, env=failing("memory", call, "ENOMEM"))
         assert done.returncode == 3
         *lines, said = done.stderr.splitlines()
         said = [*sorted(lines), said]

@@ -3,7 +3,6 @@
 A small library, compiled here and loaded before the system's own, stands for each of them.
 """
 
-import errno
 import os
 import re
 import shutil
@@ -17,7 +16,6 @@ import pytest
 from conftest import ENDLESS, EVERY_STEP, TIMEOUT, arrays, one_error, shorten, wait_for, wait_for_checkpoint
 
 CASE = "&friction model='lugre' / &operation duration=0.3 / &output checkpoint_seconds=0.01 /\n"
-NO_PROCESSES = "pid_t fork(void) { errno = EAGAIN; return -1; }"
 #: The calendar jumps by years at every look, there and back.
 JUMPING_CLOCK = """
 static long jump(void) { static long k; return (++k % 3 - 1) * 100000000; }
@@ -40,12 +38,12 @@ time_t time(time_t *now)
    return result;
 }
 """
-#: No more than QUOTA bytes are written, in all; where SYNC is set, that is told when they go to the disk.
+#: No more than QUOTA bytes are written, in all.
 QUOTA = """
 static size_t written;
 static int beyond(size_t size)
 {
-   if (getenv("SYNC") || (written += size) <= strtoul(getenv("QUOTA"), NULL, 10)) return 0;
+   if ((written += size) <= strtoul(getenv("QUOTA"), NULL, 10)) return 0;
    errno = EDQUOT;
    return 1;
 }
@@ -61,35 +59,6 @@ ssize_t pwrite64(int file, const void *bytes, size_t size, off64_t place)
 {
    return beyond(size) ? -1 : NEXT(pwrite64)(file, bytes, size, place);
 }
-int fsync(int file)
-{
-   static int syncs;
-   if (!getenv("SYNC") || ++syncs < atoi(getenv("SYNC"))) return NEXT(fsync)(file);
-   errno = EDQUOT;
-   return -1;
-}
-"""
-#: The write number WRITE is refused, as on a disk that is full in this moment.
-REFUSES_ONE = """
-static int refused(void)
-{
-   static long writes;
-   if (++writes != atol(getenv("WRITE"))) return 0;
-   errno = ENOSPC;
-   return 1;
-}
-ssize_t write(int file, const void *bytes, size_t size)
-{
-   return file > 2 && refused() ? -1 : NEXT(write)(file, bytes, size);
-}
-ssize_t pwrite(int file, const void *bytes, size_t size, off_t place)
-{
-   return refused() ? -1 : NEXT(pwrite)(file, bytes, size, place);
-}
-ssize_t pwrite64(int file, const void *bytes, size_t size, off64_t place)
-{
-   return refused() ? -1 : NEXT(pwrite64)(file, bytes, size, place);
-}
 """
 #: Another machine with the same files and without locks, on which seconds are short.
 ELSEWHERE = """
@@ -99,36 +68,6 @@ int gethostname(char *name, size_t size) { strncpy(name, getenv("HOST"), size); 
 unsigned sleep(unsigned seconds) { usleep(1000 * seconds); return 0; }
 """
 
-#: The call number CALL of a function fails with ERROR, or, without one, does not return.
-FAILS = """
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/stat.h>
-static int fails(const char *name)
-{
-   static long calls;
-   if (strcmp(name, getenv("FUNCTION")) != 0 || ++calls != atol(getenv("CALL"))) return 0;
-   if (!getenv("ERROR")) kill(getpid(), SIGKILL);
-   errno = atoi(getenv("ERROR"));
-   return 1;
-}
-int statx(int folder, const char *restrict path, int flags, unsigned mask, struct statx *restrict found)
-{
-   return fails("statx") ? -1 : NEXT(statx)(folder, path, flags, mask, found);
-}
-int close(int file)
-{
-   int result = NEXT(close)(file);
-   return fails("close") ? -1 : result;
-}
-int rename(const char *from, const char *to) { return fails("rename") ? -1 : NEXT(rename)(from, to); }
-int renameat2(int a, const char *from, int b, const char *to, unsigned flags)
-{
-   return fails("renameat2") ? -1 : NEXT(renameat2)(a, from, b, to, flags);
-}
-int fsync(int file) { return fails("fsync") ? -1 : NEXT(fsync)(file); }
-int unlink(const char *path) { return fails("unlink") ? -1 : NEXT(unlink)(path); }
-"""
 #: A machine with this name.
 NAMED = """
 int gethostname(char *name, size_t size) { strncpy(name, getenv("HOST"), size); return 0; }
@@ -224,17 +163,16 @@ def names(folder):
 # ---- processes ---------------------------------------------------------------------------------
 
 
-def test_no_process_for_a_trial(tiltpad, case, loaded):
+def test_no_process_for_a_trial(tiltpad, case, failing):
     """A file that nobody has tried is not read."""
     tiltpad("case.nml", "-q", cwd=case, status=0)
     before = (case / "case.h5").read_bytes()
-    environment = loaded(NO_PROCESSES)
     for arguments in (
         ["--resume", "case.h5"],
         ["--resume", "case.h5", "--check"],
         ["case.nml", "--overwrite"],
     ):
-        done = tiltpad(*arguments, cwd=case, env=environment)
+        done = tiltpad(*arguments, cwd=case, env=failing("fork", 1, "EAGAIN", always=True))
         refused(
             done, "case.h5: not looked at, as no process could be started for it: resource temporarily unav"
         )
@@ -295,9 +233,10 @@ def test_a_quota(tiltpad, case, loaded, kilobytes):
 
 
 @pytest.mark.parametrize("syncs", [1, 2, 3, 6])
-def test_a_quota_that_is_told_late(tiltpad, case, loaded, syncs):
+def test_a_quota_that_is_told_late(tiltpad, case, failing, syncs):
     """By the disk, as network file systems do."""
-    done = tiltpad("case.nml", "-q", *ENDLESS, cwd=case, env=loaded(QUOTA, QUOTA="0", SYNC=f"{syncs}"))
+    environment = failing("sync", syncs, "EDQUOT", always=True)
+    done = tiltpad("case.nml", "-q", *ENDLESS, cwd=case, env=environment)
     refused(done, "cannot write", "case.h5", "disk quota exceeded")
     whole_and_going_on(tiltpad, case, there=syncs > 1)
 
@@ -324,17 +263,17 @@ BRANCH = (
 
 
 @pytest.mark.parametrize("text", [COEFFICIENTS, BRANCH], ids=["coefficients", "branch"])
-def test_one_refused_write(tiltpad, tmp_path, loaded, text):
+def test_one_refused_write(tiltpad, tmp_path, failing, text):
     """Whichever it is, it is told, or nothing is missing in the result: what HDF5 writes late, too."""
     (tmp_path / "case.nml").write_text(text)
-    path, library = tmp_path / "case.h5", loaded(REFUSES_ONE)
+    path = tmp_path / "case.h5"
     tiltpad("case.nml", "-q", "-o", "whole.h5", cwd=tmp_path, status=0)
     whole = arrays(tmp_path / "whole.h5", "statistics")
     told = missed = write = 0
     # the lock is noted without one write or another: three in a row behind the last are not reached
     while missed < 3:
         write += 1
-        done = tiltpad("case.nml", "-q", cwd=tmp_path, env=library | {"WRITE": str(write)})
+        done = tiltpad("case.nml", "-q", cwd=tmp_path, env=failing("write", write, "ENOSPC"))
         if done.returncode != 0:
             refused(done, "tiltpad: error: cannot write")
             # a newer HDF5 may tell of a head that was not written only when it opens the file again
@@ -403,22 +342,19 @@ def test_a_stopped_writer_elsewhere(start, case, loaded, when):
 # ---- calls that fail ---------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("function", ["statx", "close", "rename", "renameat2", "fsync", "unlink"])
-@pytest.mark.parametrize("error", ["ESTALE", None])
-def test_one_call_that_fails(tiltpad, case, loaded, function, error):
+@pytest.mark.parametrize("kind", ["stat", "close", "rename", "sync", "delete"])
+@pytest.mark.parametrize("error", ["ESTALE", "kill"])
+def test_one_call_that_fails(tiltpad, case, failing, kind, error):
     """Whichever it is, or kills: the run says so or is whole; what it leaves is gone after the next run."""
-    environment = loaded(FAILS, FUNCTION=function)
-    if error:
-        environment["ERROR"] = str(getattr(errno, error))
     shared = "case.nml", "-q", "--set", "operation%duration=0.02"
     calls = failed = missed = 0
-    while missed < 3 and calls < 20:
+    while missed < 8 and calls < 20:
         calls += 1
-        done = tiltpad(*shared, *EVERY_STEP, cwd=case, env=environment | {"CALL": str(calls)})
+        done = tiltpad(*shared, *EVERY_STEP, cwd=case, env=failing(kind, calls, error))
         if done.returncode != 0:
-            assert error or done.returncode == -signal.SIGKILL
-            if error:
-                refused(done, "cannot")
+            assert error == "kill" or done.returncode == 3
+            if error != "kill":
+                refused(done)
             failed += 1
         left = set(names(case)) - {"case.h5", "case.nml", "case.h5.lock"}
         # a part is whole, or the lock tells the next run of it
@@ -427,14 +363,14 @@ def test_one_call_that_fails(tiltpad, case, loaded, function, error):
         tiltpad(*shared, "--overwrite", cwd=case, status=0)
         assert names(case) == ["case.h5", "case.nml"]
         (case / "case.h5").unlink()
-    # where the names cannot be exchanged, they are changed one after the other; what is not deleted stays
-    assert failed > 0 or function in ("renameat2", "unlink")
+    # what is not deleted stays
+    assert failed > 0 or kind == "delete"
 
 
-def test_a_kill_behind_the_last_rename(tiltpad, case, loaded):
+def test_a_kill_behind_the_last_rename(tiltpad, case, failing):
     """What it leaves beside the complete result goes when the run is to go on."""
     for call in 1, 2:
-        environment = loaded(FAILS, FUNCTION="unlink", CALL=str(call))
+        environment = failing("delete", call, "kill")
         tiltpad("case.nml", "-q", *EVERY_STEP, "--set", "operation%duration=0.02", cwd=case, env=environment)
         with h5py.File(case / "case.h5") as file:
             assert file.attrs["complete"] == 1

@@ -154,7 +154,7 @@ class Place:
             entry = name.removeprefix("tiltpad-").replace("plot", "main")
             code = f"import sys; from tiltpad import command; sys.exit(command.{entry}(sys.argv[1:]))"
             start = [sys.executable, "-P", "-c", code]
-        environment = self.injector.environment(self.work.resolve(), self.counts, fault)
+        environment = self.injector.environment(self.counts, fault, self.work.resolve())
         environment["PYTHONPATH"] = str(PACKAGE)
         # pages have the same bits at any time
         environment |= {

@@ -1,7 +1,8 @@
 /* Stands before the system's own functions (LD_PRELOAD), counts the calls of each kind, and lets one fail, or kills.
 
    FAULT_COUNTS   a file of zeros, as many bytes as struct counts has: the calls of all processes together
-   FAULT_FOLDER   calls for files count where these are in this folder, and all from the first one on that is opened
+   FAULT_FOLDER   calls for files count where these are in this folder, and all from the first one on that is opened;
+                  without it all calls count, for whichever file
    FAULT          "KIND CALL ACTION MODE", or nothing: the calls are counted only. ACTION: a number of an error,
                   kill (the process), killall (its group), short (half of it is written), torn (the same, and then
                   killed). MODE: once, or always (from this call on) */
@@ -45,8 +46,8 @@ __attribute__((constructor)) static void begin(void)
    const char *path = getenv("FAULT_COUNTS"), *fault = getenv("FAULT"), *where = getenv("FAULT_FOLDER");
    void *shared;
    int file;
-   if (!path || !where) return;
-   snprintf(folder, sizeof folder, "%s/", where);
+   if (!path) return;
+   snprintf(folder, sizeof folder, "%s/", where ? where : "");
    if (fault && sscanf(fault, "%19s %ld %19s %19s", kind, &first, action, mode) == 4) {
       for (faulty = 0; faulty < KINDS && strcmp(kind, names[faulty]) != 0; faulty++);
       always = strcmp(mode, "always") == 0;
@@ -54,7 +55,9 @@ __attribute__((constructor)) static void begin(void)
    file = open(path, O_RDWR | O_CLOEXEC);
    shared = mmap(NULL, sizeof *counts, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
    close(file);
-   if (shared != MAP_FAILED) counts = shared;
+   if (shared == MAP_FAILED) return;
+   counts = shared;
+   if (!where) counts->begun = 1;
 }
 
 /* Counts a call, and gives whether it has the fault; what kills does not return. */

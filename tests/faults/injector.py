@@ -68,10 +68,11 @@ class Injector:
         words = [compiler, "-shared", "-fPIC", "-O1", SOURCE, "-o", self.library, "-ldl"]
         subprocess.run(words, check=True)
 
-    def environment(self, folder: Path, counts: Path, fault: Fault | None = None) -> dict[str, str]:
-        """In which the calls for files in a folder, and all others from the first of them on, are counted."""
+    def environment(self, counts: Path, fault: Fault | None, folder: Path | None = None) -> dict[str, str]:
+        """In which a fault waits and calls are counted: for files in a folder, from the first one on."""
         counts.write_bytes(bytes(8 * (len(KINDS) + 2)))
-        found = {"LD_PRELOAD": str(self.library), "FAULT_COUNTS": str(counts), "FAULT_FOLDER": str(folder)}
+        found = {"LD_PRELOAD": str(self.library), "FAULT_COUNTS": str(counts)}
+        found |= {"FAULT_FOLDER": str(folder)} if folder else {}
         return {**os.environ, **found, "FAULT": fault.words() if fault else ""}
 
 
