@@ -75,7 +75,7 @@ void tiltpad_delete(const text_t *path)
    unlink(name);
 }
 
-/* Whatever the system does not tell for another reason than the name is told by opening it. */
+/* What the system does not tell for another reason than the name is left to opening it. */
 bool tiltpad_is_regular(const text_t *path)
 {
    struct stat status;

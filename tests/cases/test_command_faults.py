@@ -15,7 +15,6 @@ from pathlib import Path
 
 import pytest
 from conftest import wait_for, wait_for_checkpoint
-from test_system import REFUSES_ONE
 
 #: Seconds within which nothing of a killed command may run any more.
 SOON = 5
@@ -184,13 +183,13 @@ def test_a_full_disk(folder, small_disk, kilobytes):
         assert names(disk) == []
 
 
-def test_one_refused_write(folder, loaded):
+def test_one_refused_write(folder, failing):
     """Whichever it is, it is told, and the study that was there stays."""
-    before, library = old(folder, "study.h5"), loaded(REFUSES_ONE)
+    before = old(folder, "study.h5")
     told = write = 0
     while True:
         write += 1
-        status, said = ended(folder, "study.h5", env=library | {"WRITE": str(write)})
+        status, said = ended(folder, "study.h5", env=failing("write", write, "ENOSPC"))
         if status == 0:
             break
         told += 1
