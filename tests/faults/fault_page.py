@@ -6,6 +6,8 @@ from collections import Counter
 from faulty_commands import COMMANDS, GRACE, LIMIT
 from injector import ERRORS, KILLS, KINDS
 
+#: As it is in the quoted text of a message.
+NEWLINE = r"\n"
 PAGE = """\
 # Faults from outside
 
@@ -56,7 +58,8 @@ in any order.
 def page(outcomes: list, seed: int) -> str:
     """The page, Markdown."""
     bad = [each for each in outcomes if each.wrong]
-    lines = "\n".join(f"- {each.name}: {'; '.join(each.wrong)[:300]}" for each in bad)
+    # without what a library says behind the first line
+    lines = "\n".join(f"- {each.name}: {'; '.join(each.wrong)[:300].partition(NEWLINE)[0]}" for each in bad)
     return PAGE.format(
         faults=len(outcomes),
         seed=seed,
