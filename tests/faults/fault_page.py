@@ -25,7 +25,8 @@ must hold:
 - The command ends within {limit} s: with status 0 and the bits of the undisturbed command, or with one line
   and status 3 (of a study one line for each run that failed, and one for all). A Python command may also
   say in lines of warnings which results could not be read. It never ends by a signal of its own, and prints
-  no traceback. None of its processes is left after {grace} s.
+  no traceback. None of its processes is left after {grace} s. How a Python command ends without memory is
+  left to its libraries; what follows holds then, too.
 - What was there before is there, byte for byte. The file that the command makes is the former one, the new
   one bit for bit, or a checkpoint, whose samples or points are the first of the undisturbed run, bit for bit.
 - The next command, without a fault (`--resume`, or the same command again), ends with status 0. Its result is

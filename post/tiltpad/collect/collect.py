@@ -8,7 +8,6 @@ have their series over time.
 import os
 import warnings
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,7 +15,7 @@ import numpy as np
 
 from tiltpad.collect.runs import DONE, UNENDED, StudyRun, one_run, planned
 from tiltpad.collect.study_file import ranges, write
-from tiltpad.files.archive import RunError, opened, plain
+from tiltpad.files.archive import RunError, opened, plain, reading
 from tiltpad.files.processes import side_by_side
 from tiltpad.files.read import IncompleteRunWarning
 
@@ -122,14 +121,17 @@ def results(path: Path, target: Path) -> list[Path]:
 
 
 def check_replaceable(target: Path) -> None:
-    """Refuses to replace a file that is not a study, such as the result of a run."""
+    """Refuses to replace a file that is not a study, such as the result of a run, or that cannot be read."""
     if target.suffix != ".h5":
         raise ValueError(f"{target}: the name must end in .h5")
     if target.exists():
-        with suppress(RunError), opened(os.fspath(target)) as file:
-            if file.attrs.get("task") == "study":
-                return
-        raise ValueError(f"{target}: it exists and is not a study; remove it, or give the study another name")
+        try:
+            with opened(os.fspath(target)) as file, reading(os.fspath(target), "attribute 'task'"):
+                task = file.attrs.get("task")
+        except RunError as error:
+            raise RunError(f"{error}; it is not replaced") from error
+        if task != "study":
+            raise ValueError(f"{target}: it exists and is not a study; remove it, or give the study another name")
 
 
 def check_one_study(runs: Sequence[StudyRun]) -> None:

@@ -9,7 +9,7 @@ import math
 import os
 import re
 from collections.abc import Iterable, Iterator, Sequence, Sized
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from difflib import get_close_matches
 from typing import Any, Self
 
@@ -321,6 +321,14 @@ def shown(name: str) -> str:
     return " ".join(plain(name).split())[:80]
 
 
+class FileToRead(h5py.File):
+    """An HDF5 file that is only read: what the system says when it is closed tells nothing of what was read."""
+
+    def close(self) -> None:
+        with suppress(OSError, RuntimeError):
+            super().close()
+
+
 def opened(path: str) -> h5py.File:
     """The HDF5 file of that name."""
     if not os.path.exists(path):
@@ -338,7 +346,7 @@ def opened(path: str) -> h5py.File:
             raise RunError(f"{path}: not an HDF5 file{'; a case: tiltpad runs it' if is_case(path) else ''}")
         if heaps.endless(path):
             raise damaged(path, "attributes", "an object without length in their heap")
-        return h5py.File(path, "r")
+        return FileToRead(path, "r")
     except OSError as error:
         told = " ".join(str(error).split())
         raise RunError(f"{path}: cannot be opened, damaged or still being written ({told})") from error
