@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "faults"))
 from faulty_commands import COMMANDS  # noqa: E402
 from inject import campaign  # noqa: E402
 
-#: Faults of a command of the program, and of Python's, each of which takes longer: two minutes on two cores, in all.
+#: Faults of a command of the program, and of Python's, which take longer: two minutes on two cores in all.
 FAULTS, PYTHON_FAULTS, SEED = 48, 4, 2
 SAMPLE = [each for each in COMMANDS if each.name != "collect, with workers"]
 

@@ -131,7 +131,9 @@ def check_replaceable(target: Path) -> None:
         except RunError as error:
             raise RunError(f"{error}; it is not replaced") from error
         if task != "study":
-            raise ValueError(f"{target}: it exists and is not a study; remove it, or give the study another name")
+            raise ValueError(
+                f"{target}: it exists and is not a study; remove it, or give the study another name"
+            )
 
 
 def check_one_study(runs: Sequence[StudyRun]) -> None:

@@ -322,7 +322,7 @@ def shown(name: str) -> str:
 
 
 class FileToRead(h5py.File):
-    """An HDF5 file that is only read: what the system says when it is closed tells nothing of what was read."""
+    """An HDF5 file that is only read: what the system says at its close tells nothing of what was read."""
 
     def close(self) -> None:
         with suppress(OSError, RuntimeError):
