@@ -171,8 +171,10 @@ contains
    !> Waits for the end of a child: its exit status, or -1 where it ended otherwise.
    integer function exit_status(process) result(status)
       integer, intent(in) :: process
-      integer(c_int) :: code
+      integer(c_int) :: code, state
       code = 0
-      status = merge(int(code), -1, c_child_state(process, 1_c_int, code) == 1)
+      ! a line of its own, as the order in which the arguments of a function are evaluated is free
+      state = c_child_state(process, 1_c_int, code)
+      status = merge(int(code), -1, state == 1)
    end function exit_status
 end module processes
