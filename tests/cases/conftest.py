@@ -9,6 +9,7 @@ import pty
 import re
 import select
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -19,6 +20,9 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "faults"))
 from injector import Fault, Injector  # noqa: E402
+
+# what a shell runs in the background ignores Ctrl-C, and so would the commands that are tested
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 #: Seconds after which a test gives up what it waits for: many times what it takes on a loaded machine.
 TIMEOUT = 300

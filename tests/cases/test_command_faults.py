@@ -233,7 +233,11 @@ def test_a_pipe_is_written_as_it_is(folder):
 
 
 #: A command that comes to the point where its part is whole, and waits there.
-WAITS = 'int fsync(int file) { creat(getenv("REACHED"), 0600); pause(); return 0; }\n#include <fcntl.h>\n'
+WAITS = """#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+int fsync(int file) { creat(getenv("REACHED"), 0600); pause(); return 0; }
+"""
 
 
 @pytest.mark.parametrize("name", ["study.h5", "picture.png", "movie.gif"])
