@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import wait_for, wait_for_checkpoint
+from conftest import TIMEOUT, wait_for, wait_for_checkpoint
 
 #: Seconds within which nothing of a killed command may run any more.
 SOON = 5
@@ -232,11 +232,17 @@ def test_a_pipe_is_written_as_it_is(folder):
     assert (folder / "page.html").is_fifo()
 
 
-#: A command that comes to the point where its part is whole, and waits there.
+#: A command that comes to where its part is whole says so by a file, and waits there until the file is gone.
 WAITS = """#include <fcntl.h>
 #include <stdlib.h>
 #include <unistd.h>
-int fsync(int file) { creat(getenv("REACHED"), 0600); pause(); return 0; }
+int fsync(int file)
+{
+   const char *reached = getenv("REACHED");
+   close(creat(reached, 0600));
+   while (access(reached, F_OK) == 0) usleep(1000);
+   return 0;
+}
 """
 
 
@@ -247,7 +253,6 @@ def test_parts_of_killed_commands(folder, loaded, tmp_path, name):
     reached, environment = tmp_path / "reached", loaded(WAITS, REACHED=str(tmp_path / "reached"))
 
     def waiting():
-        reached.unlink(missing_ok=True)
         process = begun(folder, name, env=environment)
         wait_for(reached.exists, process)
         return process
@@ -262,7 +267,8 @@ def test_parts_of_killed_commands(folder, loaded, tmp_path, name):
         with waiting() as process:
             assert len(names(folder)) == len(others) + 2
             process.send_signal(end)
-            said = process.communicate()[1]
+            reached.unlink()
+            said = process.communicate(timeout=TIMEOUT)[1]
         if end == signal.SIGKILL:
             assert len(names(folder)) == len(others) + 2
             before = old(folder, name)
