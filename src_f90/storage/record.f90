@@ -1,0 +1,308 @@
+!> The results of a run in memory: datasets by path with units, meaning and scales, and texts and numbers that are root
+!> attributes. The file of a run is written from it, and the row of a study is made of it.
+!>
+!> A record may be used again for another run: its datasets are not there then, but they keep their places, so that
+!> nothing is described anew.
+module record
+   use kinds, only: wp, i8
+   implicit none (type, external)
+   private
+   public :: record_type, dataset_type, attribute_type
+
+   !> What a dataset holds: numbers, a whole number, or texts.
+   integer, parameter, public :: of_reals = 1, of_counts = 2, of_texts = 3
+
+   type :: dataset_type
+      character(len=:), allocatable :: path, units, long_name
+      !> Names of its scales as in hdf5_file: slowest dimension first, separated by blanks; its own path where it is a
+      !> scale.
+      character(len=:), allocatable :: scales
+      integer :: kind = of_reals
+      !> Its size in each dimension, the fastest first; empty for a single number.
+      integer, allocatable :: extents(:)
+      !> The numbers; none of a dataset of texts, which are each followed by a new line.
+      real(wp), allocatable :: values(:)
+      character(len=:), allocatable :: texts
+      !> Whether the run has it, and whether its file has not.
+      logical :: there = .false., unwritten = .false.
+   contains
+      procedure :: group
+   end type dataset_type
+
+   type :: attribute_type
+      character(len=:), allocatable :: name, text
+      integer :: flag = 0
+      logical :: is_flag = .false., there = .false., unwritten = .false.
+   end type attribute_type
+
+   type :: record_type
+      !> The first `count` of them are in use.
+      type(dataset_type), allocatable :: datasets(:)
+      integer :: count = 0
+      !> Rises with every change of what the datasets are; their numbers do not count.
+      integer :: version = 0
+      !> Where the next dataset is looked for first.
+      integer, private :: next = 1
+      type(attribute_type), allocatable :: attributes(:)
+      !> Groups and datasets that were ever deleted, each followed by a new line: the file may still have them.
+      character(len=:), allocatable :: deleted
+   contains
+      !> Datasets by path; one of the name is replaced.
+      procedure :: put_count
+      procedure :: put_real
+      procedure :: put_list
+      procedure :: put_table
+      procedure :: put_array
+      procedure :: put_labels
+      !> A dataset with all that it has.
+      procedure :: put
+      !> Root attributes; one of the name is replaced.
+      procedure :: put_text
+      procedure :: put_flag
+      !> Whether there is a dataset, or a group with one.
+      procedure :: has
+      !> What was put; 0 or empty where there is none.
+      procedure :: get_real
+      procedure :: get_list
+      procedure :: list_size
+      procedure :: get_text
+      !> Forgets a dataset or all of a group; forgets everything.
+      procedure :: delete
+      procedure :: clear
+      procedure, private :: find
+   end type record_type
+
+   integer, parameter :: first_room = 64
+   character(len=*), parameter :: newline = achar(10)
+
+contains
+
+   !> The part of its path before the last slash.
+   pure function group(self)
+      class(dataset_type), intent(in) :: self
+      character(len=:), allocatable :: group
+      group = self%path(:index(self%path, '/', back=.true.) - 1)
+   end function group
+
+   subroutine put_count(self, path, value, long_name)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, long_name
+      integer(i8), intent(in) :: value
+      call self%put(path, of_counts, [real(value, wp)], [integer ::], '1', long_name, '', '')
+   end subroutine put_count
+
+   subroutine put_real(self, path, value, units, long_name)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, units, long_name
+      real(wp), intent(in) :: value
+      call self%put(path, of_reals, [value], [integer ::], units, long_name, '', '')
+   end subroutine put_real
+
+   subroutine put_list(self, path, values, units, long_name, scales)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, units, long_name, scales
+      real(wp), intent(in) :: values(:)
+      call self%put(path, of_reals, values, [size(values)], units, long_name, scales, '')
+   end subroutine put_list
+
+   subroutine put_table(self, path, values, units, long_name, scales)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, units, long_name, scales
+      real(wp), intent(in) :: values(:, :)
+      call self%put(path, of_reals, [values], shape(values), units, long_name, scales, '')
+   end subroutine put_table
+
+   !> Values in the order of Fortran, with this size in each dimension, the fastest first.
+   subroutine put_array(self, path, values, extents, units, long_name, scales)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, units, long_name, scales
+      real(wp), intent(in) :: values(:)
+      integer, intent(in) :: extents(:)
+      call self%put(path, of_reals, values, extents, units, long_name, scales, '')
+   end subroutine put_array
+
+   !> A scale of texts.
+   subroutine put_labels(self, path, texts, long_name)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, texts(:), long_name
+      character(len=:), allocatable :: joined
+      integer :: i
+      joined = ''
+      do i = 1, size(texts)
+         joined = joined//trim(texts(i))//newline
+      end do
+      call self%put(path, of_texts, [real(wp) ::], [size(texts)], '1', long_name, path, joined)
+   end subroutine put_labels
+
+   subroutine put(self, path, kind, values, extents, units, long_name, scales, texts)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, units, long_name, scales, texts
+      integer, intent(in) :: kind, extents(:)
+      real(wp), intent(in) :: values(:)
+      integer :: k
+      logical :: same
+      k = self%find(path)
+      same = k > 0
+      if (.not. same) then
+         call add_dataset(self)
+         k = self%count
+      end if
+      self%next = k + 1
+      associate (own => self%datasets(k))
+         if (same) same = size(own%extents) == size(extents)
+         if (same) same = all(own%extents == extents) .and. own%kind == kind .and. own%scales == scales
+         if (same .and. kind == of_texts) same = own%texts == texts
+         own%there = .true.
+         own%unwritten = .true.
+         own%values = values
+         if (same) return
+         own%path = path
+         own%kind = kind
+         own%extents = extents
+         own%units = units
+         own%long_name = long_name
+         own%scales = scales
+         own%texts = texts
+      end associate
+      self%version = self%version + 1
+   end subroutine put
+
+   !> Room for one more dataset, behind the others.
+   subroutine add_dataset(self)
+      class(record_type), intent(inout) :: self
+      type(dataset_type), allocatable :: more(:)
+      if (.not. allocated(self%datasets)) allocate (self%datasets(first_room))
+      if (self%count == size(self%datasets)) then
+         allocate (more(2*self%count))
+         more(:self%count) = self%datasets
+         call move_alloc(more, self%datasets)
+      end if
+      self%count = self%count + 1
+   end subroutine add_dataset
+
+   !> The place of a dataset, whether it is there or was in an earlier run; 0 for an unknown one. They come in the same
+   !> order again and again.
+   integer function find(self, path)
+      class(record_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      integer :: k
+      find = 0
+      do k = self%next, self%next + self%count - 1
+         find = 1 + modulo(k - 1, self%count)
+         if (self%datasets(find)%path == path) return
+      end do
+      find = 0
+   end function find
+
+   subroutine put_text(self, name, text)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: name, text
+      call put_attribute(self, attribute_type(name, text, 0, .false., .true., .true.))
+   end subroutine put_text
+
+   subroutine put_flag(self, name, value)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: value
+      call put_attribute(self, attribute_type(name, '', value, .true., .true., .true.))
+   end subroutine put_flag
+
+   subroutine put_attribute(self, new)
+      class(record_type), intent(inout) :: self
+      type(attribute_type), intent(in) :: new
+      integer :: k
+      k = place_of_attribute(self, new%name)
+      if (k > 0) then
+         self%attributes(k) = new
+      else
+         self%attributes = [self%attributes, new]
+      end if
+   end subroutine put_attribute
+
+   pure integer function place_of_attribute(self, name) result(k)
+      class(record_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      if (allocated(self%attributes)) then
+         do k = 1, size(self%attributes)
+            if (self%attributes(k)%name == name) return
+         end do
+      end if
+      k = 0
+   end function place_of_attribute
+
+   logical function has(self, path)
+      class(record_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      integer :: k
+      k = self%find(path)
+      has = k > 0
+      if (has) has = self%datasets(k)%there
+      if (k > 0) return
+      do k = 1, self%count
+         if (self%datasets(k)%there .and. index(self%datasets(k)%path, path//'/') == 1) has = .true.
+      end do
+   end function has
+
+   real(wp) function get_real(self, path)
+      class(record_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      integer :: k
+      get_real = 0
+      k = self%find(path)
+      if (k == 0) return
+      if (self%datasets(k)%there) get_real = self%datasets(k)%values(1)
+   end function get_real
+
+   !> A list of this size.
+   subroutine get_list(self, path, values)
+      class(record_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      real(wp), intent(out) :: values(:)
+      integer :: k
+      values = 0
+      k = self%find(path)
+      if (k == 0) return
+      if (self%datasets(k)%there .and. size(self%datasets(k)%values) == size(values)) values = self%datasets(k)%values
+   end subroutine get_list
+
+   integer function list_size(self, path)
+      class(record_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      integer :: k
+      list_size = 0
+      k = self%find(path)
+      if (k == 0) return
+      if (self%datasets(k)%there) list_size = product(self%datasets(k)%extents)
+   end function list_size
+
+   subroutine get_text(self, name, text)
+      class(record_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable, intent(out) :: text
+      integer :: k
+      text = ''
+      k = place_of_attribute(self, name)
+      if (k == 0) return
+      if (self%attributes(k)%there) text = self%attributes(k)%text
+   end subroutine get_text
+
+   subroutine delete(self, path)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      integer :: k
+      if (.not. allocated(self%deleted)) self%deleted = newline
+      if (index(self%deleted, newline//path//newline) == 0) self%deleted = self%deleted//path//newline
+      do k = 1, self%count
+         if (self%datasets(k)%path == path .or. index(self%datasets(k)%path, path//'/') == 1) &
+            & self%datasets(k)%there = .false.
+      end do
+   end subroutine delete
+
+   subroutine clear(self)
+      class(record_type), intent(inout) :: self
+      if (self%count > 0) self%datasets(:self%count)%there = .false.
+      if (allocated(self%attributes)) self%attributes%there = .false.
+      if (allocated(self%deleted)) deallocate (self%deleted)
+      self%next = 1
+   end subroutine clear
+end module record
