@@ -144,7 +144,7 @@ contains
       type(error_type), allocatable :: damage
       real(wp) :: ignored
       logical :: ok
-      call run%file%resume(ignored, run%earlier, error)
+      call run%file%resume(run%inputs, ignored, run%earlier, error)
       if (allocated(error)) return
       run%computed = .true.
       call b%begin_anywhere(run%model)

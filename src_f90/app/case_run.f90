@@ -64,6 +64,8 @@ contains
       run%tag = tag
       run%verified_states = verified_states
       run%quiet = quiet
+      ! a run of a study may be a row of it alone
+      run%file%filed = tag%number == 0 .or. inputs%output%keep /= 'summary'
       run%started = wall_clock()
       run%last_checkpoint = run%started
    end subroutine begin_run
@@ -133,7 +135,7 @@ contains
          call statistics%put('film_building_seconds', films%building, 'wall time of building these tables')
          call statistics%put('film_seconds', films%seconds + films%building, 'wall time of the film in the march')
       end associate
-      call statistics%put('output_seconds', self%sampling + self%file%writing_seconds, 'wall time of sampling')
+      call statistics%put('output_seconds', self%sampling + self%file%writing_seconds(), 'wall time of sampling')
       call statistics%put('checkpoint_seconds', self%checkpoints, 'wall time of the checkpoints before the last')
       call statistics%put('wall_seconds', wall_clock() - self%started, 'wall time of the run')
       call statistics%add(self%earlier)

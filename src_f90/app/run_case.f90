@@ -95,10 +95,10 @@ contains
       call look_at_file(run, go_on, overwrite, complete, error)
       if (complete .and. run%verified_states == 0) call clear_leftovers(run%path)
       if (complete .or. allocated(error)) return
-      call run%file%claim(run%path, error)
+      call run%file%hdf5%claim(run%path, error)
       if (allocated(error)) return
-      if (.not. run%quiet .and. run%file%taken_from() /= '') print '(a)', run%path//': ' &
-         & //run%file%taken_from()//', which wrote it, has ended'
+      if (.not. run%quiet .and. run%file%hdf5%taken_from() /= '') print '(a)', run%path//': ' &
+         & //run%file%hdf5%taken_from()//', which wrote it, has ended'
       ! and behind it, as another run may have written meanwhile
       call look_at_file(run, go_on, overwrite, complete, error)
       if (allocated(error) .or. complete) call run%file%abandon()

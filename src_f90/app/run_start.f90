@@ -178,7 +178,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       allocate (y(run%model%n))
       run%earlier = run%statistics()
-      call run%file%resume(t, run%earlier, error, y)
+      call run%file%resume(run%inputs, t, run%earlier, error, y)
       if (.not. allocated(error)) call take_oil(run, run%inputs%start%from == 'partial', error)
       if (allocated(error)) return
       run%computed = .true.

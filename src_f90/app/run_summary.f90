@@ -10,7 +10,7 @@ module run_summary
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use equilibrium, only: equilibrium_type
    use heat_balance_equations, only: static_figures_type
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    use summary_group, only: figure, pad_figures, has_figure
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
@@ -107,7 +107,7 @@ contains
 
    !> Figures of the last revolution (or of what there is), and what is unusual.
    subroutine print_march(file, inputs)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: before, after, diagnosis
       integer :: i
@@ -173,7 +173,7 @@ contains
 
    !> Which pads touched the journal in the whole run, how hard and how long.
    subroutine print_asperities(file)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       character(len=:), allocatable :: of_load
       integer :: i
       associate (force => pad_figures(file, 'pad_asperity_force'), share => pad_figures(file, 'pad_asperity_share'), &

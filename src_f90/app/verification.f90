@@ -55,7 +55,7 @@ contains
       type(film_difference), allocatable :: found(:, :)
       real(wp), allocatable :: time(:)
       character(len=:), allocatable :: lines
-      call file%claim(run%path, error)
+      call file%hdf5%claim(run%path, error)
       if (allocated(error)) return
       call file%reopen(error)
       if (.not. allocated(error)) call file%begin_series('time', 0_i8)
@@ -102,7 +102,7 @@ contains
          sample = sample_of(k, n, file%samples, run%inputs%output%samples_per_revolution)
          call file%part_of_samples('time', sample, 1, at)
          time(k) = at(1, 1)
-         call read_states(file, run%model%layout, sample, journal, pads)
+         call read_states(file%hdf5, run%model%layout, sample, journal, pads)
          call file%error_of(error)
          if (.not. allocated(error) .and. .not. all_finite(journal, pads)) call raise(error, system_error, run%path &
             & //': damaged: a state is not a number')

@@ -152,6 +152,8 @@ contains
             & 'operation%duration = '//to_text(duration) &
             & //': more than 1e9 samples at output%samples_per_revolution = ' &
             & //to_text(output%samples_per_revolution), error)
+         call require(inputs%about%task /= 'branch' .or. output%keep == 'all', 'output%keep = '''//output%keep &
+            & //''': must be ''all'' with case%task = ''branch'', whose results are its points', error)
       end associate
    end subroutine check_output
 

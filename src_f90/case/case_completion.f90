@@ -1,5 +1,5 @@
-!> What a case may leave out, because it follows from other variables: final speed, pad clearance, law of the oil,
-!> and mass, inertia and centre of gravity of the pads.
+!> What a case may leave out, because it follows from other variables: final speed, pad clearance, law of the oil, which
+!> samples are kept, and mass, inertia and centre of gravity of the pads.
 module case_completion
    use kinds, only: wp, degree
    use text, only: to_text, list_text
@@ -33,6 +33,7 @@ contains
       inputs%bearing%machined_clearance = unset
       inputs%bearing%viscosity = unset
       inputs%oil%law = ''
+      inputs%output%keep = ''
       associate (pads => inputs%pads)
          pads%mass(:) = unset
          pads%inertia(:) = unset
@@ -47,6 +48,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: i
       call inputs%set_final_speed()
+      ! what has no samples is a row of a study alone, unless a file of each run is asked for
+      if (inputs%output%keep == '') inputs%output%keep = trim(merge('summary', 'all    ', &
+         & any(inputs%about%task == ['equilibrium ', 'coefficients'])))
       call set_clearance(inputs, error)
       if (.not. allocated(error)) call complete_oil(inputs, error)
       do i = 1, inputs%pad_count()

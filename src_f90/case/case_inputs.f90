@@ -152,6 +152,8 @@ module case_inputs
       integer :: spectrum_revolutions = 50
       !> Wall time between checkpoints, s; 0: only when a signal asks for the end.
       real(wp) :: checkpoint_seconds = 300
+      !> Which samples stay in the results.
+      character(len=:), allocatable :: keep
    end type output_type
 
    type :: coefficients_type
@@ -229,6 +231,7 @@ contains
       inputs%oil%law = 'constant'
       inputs%thermal%model = 'none'
       inputs%thermal%march = 'frozen'
+      inputs%output%keep = 'all'
       inputs%pads%pivot_angle_deg = [-45.0_wp, 225.0_wp]
       inputs%pads%arc_deg = [69.3_wp, 69.3_wp]
       inputs%pads%pivot_ratio = [0.5_wp, 0.5_wp]

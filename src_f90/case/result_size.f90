@@ -5,7 +5,7 @@ module result_size
    use case_inputs, only: case_type
    implicit none (type, external)
    private
-   public :: sample_interval, sample_count, result_bytes, memory_bytes, memory_advice, bytes_text, size_note
+   public :: sample_interval, sample_count, figure_samples, result_bytes, memory_bytes, memory_advice, bytes_text, size_note
 
    !> From this number of bytes on, the size is printed before a run.
    real(wp), parameter :: large = 100e6_wp
@@ -28,41 +28,62 @@ contains
       samples = 1 + floor((inputs%operation%duration - inputs%output%start_time)/sample_interval(inputs) + 1e-6_wp, i8)
    end function sample_count
 
+   !> Samples that the figures of the last revolutions are of at most, as many revolutions as spectra cover, and one more.
+   pure integer(i8) function figure_samples(inputs) result(samples)
+      type(case_type), intent(in) :: inputs
+      real(wp) :: angle, last, acceleration, square, time
+      samples = 0
+      select case (inputs%about%task)
+      case ('periodic')
+         samples = 1 + int(inputs%periodic%revolutions, i8)*inputs%output%samples_per_revolution
+      case ('march')
+         samples = max(0_i8, sample_count(inputs))
+         angle = 2*pi*(1 + real(inputs%output%spectrum_revolutions, wp))
+         last = inputs%operation%final_speed_rpm*pi/30
+         acceleration = (last - inputs%operation%speed_rpm*pi/30)/inputs%operation%duration
+         ! back from the end the shaft turns by last t - acceleration t^2/2
+         square = last**2 - 2*acceleration*angle
+         if (square < 0 .or. .not. last > 0) return
+         time = 2*angle/(last + sqrt(square))
+         samples = min(samples, 2 + ceiling(min(time/sample_interval(inputs), 1e15_wp), i8))
+      end select
+   end function figure_samples
+
    !> Bytes of the result of a case; 0 where nothing is marched.
    pure real(wp) function result_bytes(inputs) result(bytes)
       type(case_type), intent(in) :: inputs
-      integer :: of_pad
       bytes = 0
       if (inputs%about%task /= 'march') return
-      ! the series that docs/results.md lists
+      select case (inputs%output%keep)
+      case ('all')
+         bytes = of_frame + of_value*values_of_sample(inputs)*max(0.0_wp, real(sample_count(inputs), wp))
+      case ('last_revolutions')
+         bytes = of_frame + of_value*values_of_sample(inputs)*real(figure_samples(inputs), wp)
+      end select
+   end function result_bytes
+
+   !> Values of a sample: the series that docs/results.md lists.
+   pure integer function values_of_sample(inputs) result(values)
+      type(case_type), intent(in) :: inputs
+      integer :: of_pad
       of_pad = 4
       if (inputs%tilting()) of_pad = of_pad + 4
       if (inputs%tilting_radial()) of_pad = of_pad + 2
       if (inputs%tilting() .and. inputs%friction%model == 'lugre') of_pad = of_pad + 1
       if (inputs%asperity%model /= 'none') of_pad = of_pad + 1
-      bytes = of_frame + of_value*(7 + of_pad*inputs%pad_count())*max(0.0_wp, real(sample_count(inputs), wp))
-   end function result_bytes
+      values = 7 + of_pad*inputs%pad_count()
+   end function values_of_sample
 
    !> Bytes of memory that a run takes at most beyond those of its start; the figures of its last revolutions, where it
    !> has samples, are the only part that a case can make large.
    pure real(wp) function memory_bytes(inputs) result(bytes)
       type(case_type), intent(in) :: inputs
-      real(wp) :: samples
-      bytes = of_run
-      associate (output => inputs%output)
-         samples = 1 + real(output%spectrum_revolutions, wp)*output%samples_per_revolution
-         select case (inputs%about%task)
-         case ('march')
-            samples = min(samples, real(sample_count(inputs), wp))
-         case ('periodic')
-            samples = min(samples, 1 + real(inputs%periodic%revolutions, wp)*output%samples_per_revolution)
-         case default
-            return
-         end select
-      end associate
+      integer :: values
       ! two series of the pads are held at once, and besides them those of the journal and a spectrum, which takes most
       ! where the number of samples is prime
-      bytes = bytes + of_value*(2*inputs%pad_count() + 17)*max(0.0_wp, samples)
+      values = 2*inputs%pad_count() + 17
+      if (inputs%output%keep /= 'all') values = values + values_of_sample(inputs)
+      bytes = of_run + of_value*values*figure_samples(inputs)
    end function memory_bytes
 
    !> What makes it less, where the figures take most of it.

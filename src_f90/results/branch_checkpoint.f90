@@ -8,7 +8,7 @@ module branch_checkpoint
    use bifurcations, only: kinds_of_points
    use branch_progress, only: branch_progress_type
    use branch_results, only: noted_point_type
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    implicit none (type, external)
    private
    public :: put_branches, get_branches
@@ -17,7 +17,7 @@ contains
 
    !> Into the group of the checkpoint, which is there; the file has the bifurcation points, too.
    subroutine put_branches(file, branches, special)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(branch_progress_type), intent(in) :: branches
       type(noted_point_type), intent(in) :: special(:)
       integer :: k
@@ -40,13 +40,12 @@ contains
    end function doubling_name
 
    subroutine put_point(file, group, branches, point)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: group
       type(branch_progress_type), intent(in) :: branches
       type(branch_point_type), intent(in) :: point
       character(len=:), allocatable :: units
       integer :: k
-      call file%make_group(group)
       call file%put_real(group//'/value', point%parameter, branches%parameter%unit, branches%parameter%meaning)
       call file%put_real(group//'/arc_length', point%arc_length, '1', 'length of the branch up to the point')
       call file%put_real(group//'/along', point%along, '1', 'length of the step to it')
@@ -71,7 +70,7 @@ contains
    !> The same of branches that are ready to go on. An error where the file holds none of these numbers; `ok` is false
    !> where they cannot be a checkpoint.
    subroutine get_branches(file, path, branches, special, ok, error)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: path
       type(branch_progress_type), intent(inout) :: branches
       type(noted_point_type), allocatable, intent(out) :: special(:)
@@ -83,8 +82,8 @@ contains
          call raise(error, system_error, path//': its checkpoint is of another version of tiltpad; start the run anew')
          return
       end if
-      branches%branch = int(file%get_count('checkpoint/branch'))
-      branches%points = int(file%get_count('checkpoint/points'))
+      branches%branch = nint(file%get_real('checkpoint/branch'))
+      branches%points = nint(file%get_real('checkpoint/points'))
       branches%length = file%get_real('checkpoint/step')
       call get_special(file, special, ok)
       ok = ok .and. branches%branch > 0 .and. branches%points >= 0 .and. ieee_is_finite(branches%length)
@@ -98,7 +97,7 @@ contains
    end subroutine get_branches
 
    subroutine get_special(file, special, ok)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(noted_point_type), allocatable, intent(out) :: special(:)
       logical, intent(out) :: ok
       real(wp), allocatable, dimension(:) :: kind, point, branch, parameter, re, im
@@ -119,7 +118,7 @@ contains
    end subroutine get_special
 
    subroutine get_point(file, group, branches, point, ok)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: group
       type(branch_progress_type), intent(in) :: branches
       type(branch_point_type), intent(out) :: point
@@ -142,7 +141,7 @@ contains
 
    !> A list of a file; empty where it has none of this name, as lists of no numbers are not written.
    function list(file, path)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: path
       real(wp), allocatable :: list(:)
       list = [real(wp) ::]

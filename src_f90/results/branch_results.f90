@@ -7,7 +7,7 @@ module branch_results
    use bifurcations, only: bifurcation_type, kinds_of_points, kind_length
    use heat_balance, only: oil_temperatures_type
    use orbit_figures, only: orbit_figures_type
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    use run_file, only: run_file_type
    implicit none (type, external)
    private
@@ -131,14 +131,13 @@ contains
 
    !> Writes the bifurcation points anew, if there are any.
    subroutine put_bifurcations(file, special, parameter)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(noted_point_type), intent(in) :: special(:)
       type(case_parameter_type), intent(in) :: parameter
       character(len=*), parameter :: over = 'bifurcations/point'
       character(len=kind_length) :: kinds(size(special))
       call file%delete('bifurcations')
       if (size(special) == 0) return
-      call file%make_group('bifurcations')
       kinds = kinds_of_points(special%kind)
       call file%put_list(over, real(special%point, wp), '1', 'number of the point', over)
       call file%put_labels('bifurcations/kind', kinds, 'kind of bifurcation point')

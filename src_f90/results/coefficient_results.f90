@@ -3,7 +3,7 @@
 module coefficient_results
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    use summary_group, only: put_figure
    use linear_bearing, only: bearing_coefficients_type
    implicit none (type, external)
@@ -17,7 +17,7 @@ contains
 
    !> Writes coefficients at these whirl frequencies over the speed of the shaft, in a file with these positions.
    subroutine put_coefficients(file, found, ratios, positions)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
       real(wp), intent(in) :: ratios(:)
       character(len=*), intent(in) :: positions(:)
@@ -30,7 +30,6 @@ contains
       call file%put_labels('position_row', positions, 'position whose force or moment it is')
       call file%put_labels('position_column', positions, 'position that is displaced')
       call file%put_list('mode', [(real(i, wp), i=1, 2*size(positions))], '1', 'mode number', 'mode')
-      call file%make_group('coefficients')
       associate (counts => shape(found%stiffness))
          call file%put_array('coefficients/stiffness', [across(found%stiffness)], counts, 'N/m', &
             & 'stiffness of the bearing at the journal, the pads condensed', of_journal)
@@ -55,7 +54,7 @@ contains
 
    !> The matrices of all positions; those that do not move have no numbers.
    subroutine put_full(file, found)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
       real(wp), allocatable, dimension(:, :, :) :: stiffness, damping
       integer :: i, k, n, pivots
@@ -79,7 +78,7 @@ contains
 
    !> The modes, filled up to n with what is no number.
    subroutine put_modes(file, found, n)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
       integer, intent(in) :: n
       real(wp), dimension(n, size(found%modes)) :: re, im, frequency, ratio, decrement
@@ -103,7 +102,6 @@ contains
             shape_im(:, :last, i) = modes%shape%im
          end associate
       end do
-      call file%make_group('modes')
       call file%put_table('modes/eigenvalue_real', re, '1/s', 'growth of the mode', of_modes)
       call file%put_table('modes/eigenvalue_imag', im, '1/s', 'angular frequency of the mode', of_modes)
       call file%put_table('modes/frequency', frequency, 'Hz', 'frequency of the mode', of_modes)

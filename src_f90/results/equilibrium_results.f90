@@ -1,7 +1,7 @@
 !> What the file of a run says of its equilibrium: names, dimensions and units as docs/results.md lists them.
 module equilibrium_results
    use kinds, only: wp
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
@@ -16,10 +16,9 @@ contains
 
    !> Writes an equilibrium; `tilting` where the pads have tilts, `radial` where they have pivot deflections.
    subroutine put_equilibrium(file, found, tilting, radial)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(equilibrium_type), intent(in) :: found
       logical, intent(in) :: tilting, radial
-      call file%make_group('equilibrium')
       call file%put_real('equilibrium/journal_y', found%journal(1), 'm', 'journal displacement, vertical')
       call file%put_real('equilibrium/journal_z', found%journal(2), 'm', 'journal displacement, horizontal')
       if (tilting) call file%put_list('equilibrium/pad_tilt', found%tilt, 'rad', 'pad tilt', 'pad')
@@ -47,7 +46,7 @@ contains
 
    !> Writes where the journal lies, what the pads carry, losses, flows and temperature rises.
    subroutine put_figures(file, inputs, figures)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       type(static_figures_type), intent(in) :: figures
       call number('eccentricity_ratio', figures%eccentricity_ratio, '1', &
@@ -100,7 +99,7 @@ contains
 
    !> Writes the temperatures of warm oil, C, and the viscosity of each pad's film, Pa s.
    subroutine put_temperatures(file, oil, viscosity)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(oil_temperatures_type), intent(in) :: oil
       real(wp), intent(in) :: viscosity(:)
       call temperature('inlet', oil%inlet, 'temperature of the oil at the leading edge')

@@ -60,8 +60,8 @@ contains
       real(wp) :: start
       integer(i8) :: low, high, middle
       high = file%samples - 1
-      low = 0
-      if (high > 0) then
+      low = file%first_sample()
+      if (high > low) then
          call file%last_samples('shaft_angle', 2, angle)
          ! half a sample more, so that rounding loses none
          start = angle(1, 2) - 2*pi*count - 0.5_wp*(angle(1, 2) - angle(1, 1))

@@ -6,7 +6,7 @@ module march_results
    use case_inputs, only: case_type
    use spectra, only: one_sided_amplitude, full_amplitude
    use periodic_orbit, only: periodic_orbit_type
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    use summary_group, only: put_figure
    use viscosity_history, only: viscosity_history_type
    use equations_of_motion, only: model_sample
@@ -103,7 +103,6 @@ contains
       do k = 1, size(time)
          call history%at(time(k), viscosity(:, k))
       end do
-      call file%make_group('oil')
       call file%put_list('oil/time', time, 's', 'time', 'oil/time')
       call file%put_table('oil/viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad', 'oil/time pad')
    end subroutine put_viscosity_history
@@ -125,7 +124,6 @@ contains
       end associate
       if (revolutions == 0 .or. n < 2) return
       step = 1/(n*interval)
-      call file%make_group('spectrum')
       call put('frequency', [(k*step, k=0, n/2)], 'Hz', 'frequency', 'frequency')
       call put('order', [(k*step, k=0, n/2)]*2*pi/inputs%highest_speed(), '1', 'frequency over shaft frequency', &
          & 'frequency')
@@ -157,13 +155,12 @@ contains
 
    !> Writes a periodic orbit and its stability; its period has this many revolutions of the shaft.
    subroutine put_periodic(file, found, revolutions)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       type(periodic_orbit_type), intent(in) :: found
       integer, intent(in) :: revolutions
       integer :: k
       associate (values => found%multipliers)
          call file%put_list('multiplier', [(real(k, wp), k=1, size(values))], '1', 'multiplier number', 'multiplier')
-         call file%make_group('periodic')
          call file%put_real('periodic/period', found%period, 's', 'period of the orbit')
          call file%put_count('periodic/revolutions', int(revolutions, i8), 'revolutions of the shaft in a period')
          call file%put_real('periodic/residual', found%residual, '1', &

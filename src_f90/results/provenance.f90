@@ -4,7 +4,7 @@ module provenance
    use kinds, only: wp
    use text, only: to_text
    use build_info, only: program_version, program_commit, program_flags
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    use processes, only: host_name
    implicit none (type, external)
    private
@@ -33,7 +33,7 @@ contains
    !> Notes the start of a new file.
    subroutine begin(self, file)
       class(provenance_type), intent(inout) :: self
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       self%started = now()
       self%earlier = ''
       call file%put_flag('format_version', format_version)
@@ -45,7 +45,7 @@ contains
    !> Notes that a file is continued from simulated time t, s.
    subroutine resume(self, file, t)
       class(provenance_type), intent(inout) :: self
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       real(wp), intent(in) :: t
       self%started = now()
       self%from = t
@@ -57,7 +57,7 @@ contains
 
    subroutine put_maker(self, file)
       class(provenance_type), intent(in) :: self
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       call file%put_text('version', program_version)
       call file%put_text('commit', program_commit)
       call file%put_text('compiler', compiler_version())
@@ -69,7 +69,7 @@ contains
    !> Notes how far this stretch has come, simulated time t, s, and how it ended: exit status (or `running`) and why.
    subroutine note(self, file, t, status, reason)
       class(provenance_type), intent(in) :: self
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       real(wp), intent(in) :: t
       integer, intent(in) :: status
       character(len=*), intent(in) :: reason

@@ -9,7 +9,6 @@ module restart
    use case_namelist, only: case_from_text
    use namelist_writer, only: lines_of
    use hdf5_file, only: hdf5_type
-   use summary_group, only: figure
    use verification_results, only: states_figure
    use guarded_open, only: try_reading, new_reader
    use processes, only: end_child, exit_status
@@ -66,7 +65,7 @@ contains
       call file%get_flag('complete', complete)
       call file%get_text('input', input)
       found%checkpoint = file%has('checkpoint/time')
-      found%verified_states = figure(file, states_figure)
+      if (file%has('summary/'//states_figure)) found%verified_states = file%get_real('summary/'//states_figure)
       found%reason = ''
       if (file%has_attribute('exit_status')) call file%get_flag('exit_status', found%status)
       if (found%status /= 0) call file%get_text('reason', found%reason)

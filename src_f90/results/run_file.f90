@@ -1,11 +1,18 @@
-!> The file of a run: what it is, its checkpoints, how a run continues from one, and its end.
+!> The results of a run: a record of them, its samples, and the file that both go to, with its checkpoints, how a run goes
+!> on from one, and its end. A run of a study that is a row alone has no file: its samples are kept as long as its figures
+!> need them.
 module run_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp, degree, pi
+   use kinds, only: wp, i8, degree, pi
    use errors, only: error_type, raise, system_error
    use case_inputs, only: case_type
    use parameter_study, only: run_tag
+   use record, only: record_type
+   use record_file, only: write_record
+   use record_reader, only: read_record
    use growing_file, only: growing_file_type
+   use recent_samples, only: recent_samples_type
+   use result_size, only: figure_samples
    use summary_group, only: put_figure
    use provenance, only: provenance_type, running
    use run_statistics, only: run_statistics_type
@@ -13,32 +20,60 @@ module run_file
    private
    public :: run_file_type
 
-   type, extends(growing_file_type) :: run_file_type
+   type, extends(record_type) :: run_file_type
+      !> Whether the results go to a file.
+      logical :: filed = .true.
+      type(growing_file_type) :: hdf5
+      type(recent_samples_type), private :: recent
+      !> Samples added, also before the run was resumed.
+      integer(i8) :: samples = 0
+      !> Samples whose figures are wanted at most.
+      integer, private :: wanted_samples = 0
       type(provenance_type), private :: provenance
    contains
       procedure :: start
+      procedure :: reopen
       procedure :: resume
       procedure :: put_tag
+      !> Datasets, and series.
+      procedure :: has => has_result
+      procedure :: begin_series
+      procedure :: declare
+      procedure :: is_declared
+      procedure :: add
+      procedure :: first_sample
+      procedure :: last_samples
+      procedure :: part_of_samples
+      !> Wall time of writing samples, s.
+      procedure :: writing_seconds
       procedure :: begin_checkpoint
       procedure :: checkpoint
       procedure :: finish
+      procedure :: publish
+      procedure :: abandon
+      procedure :: beat
+      !> What has gone wrong with the file so far.
+      procedure :: error_of
    end type run_file_type
 
 contains
 
-   !> Starts the file of a case under the name claimed; `input` is its resolved namelist.
+   !> Starts the results of a case, in a file under the name claimed if they are filed; `input` is its resolved namelist.
    subroutine start(self, inputs, input, error)
       class(run_file_type), intent(inout) :: self
       character(len=*), intent(in) :: input
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
       integer :: i
-      call self%begin(error)
-      if (allocated(error)) then
-         call self%abandon()
-         return
+      self%wanted_samples = figure_samples(inputs)
+      if (self%filed) then
+         call self%hdf5%begin(error)
+         if (allocated(error)) then
+            call self%abandon()
+            return
+         end if
       end if
-      call self%provenance%begin(self)
+      call self%provenance%begin(self%record_type)
       call self%put_flag('complete', 0)
       call self%put_text('title', inputs%about%title)
       call self%put_text('task', inputs%about%task)
@@ -47,13 +82,26 @@ contains
       if (inputs%about%task /= 'branch') call put_figure(self, 'speed', inputs%operation%speed_rpm*pi/30, 'rad/s', &
          & 'shaft speed at the end')
       call self%put_list('pivot_angle', inputs%pads%pivot_angle_deg*degree, 'rad', 'pivot angle', 'pad')
+      if (.not. self%filed) return
+      call write_record(self, self%hdf5, .false.)
       call self%error_of(error)
       if (allocated(error)) call self%abandon()
    end subroutine start
 
-   !> Continues the file of the name claimed from its checkpoint: simulated time t, s, and state.
-   subroutine resume(self, t, statistics, error, state)
+   !> Opens a copy of the file of the name claimed, to change it; the record has all of it but its series.
+   subroutine reopen(self, error)
       class(run_file_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      call self%hdf5%reopen(error)
+      if (allocated(error)) return
+      call read_record(self%hdf5, self%record_type)
+      call self%error_of(error)
+   end subroutine reopen
+
+   !> Continues the file of the name claimed from its checkpoint: simulated time t, s, and state.
+   subroutine resume(self, inputs, t, statistics, error, state)
+      class(run_file_type), intent(inout) :: self
+      type(case_type), intent(in) :: inputs
       real(wp), intent(out) :: t
       !> The list of figures, which get the values in the file.
       type(run_statistics_type), intent(inout) :: statistics
@@ -62,19 +110,24 @@ contains
       real(wp), intent(inout), optional :: state(:)
       logical :: ok
       t = 0
+      self%wanted_samples = figure_samples(inputs)
       call self%reopen(error)
       if (.not. allocated(error)) then
          t = self%get_real('checkpoint/time')
-         if (present(state)) call self%get_list('checkpoint/state', state)
-         call statistics%read(self)
-         call self%provenance%resume(self, t)
-         call self%error_of(error)
-         ok = ieee_is_finite(t)
-         if (present(state)) ok = ok .and. all(ieee_is_finite(state))
-         if (.not. allocated(error) .and. .not. ok) call raise(error, system_error, &
-            & self%path()//': damaged: its checkpoint is not a number')
+         ok = self%has('checkpoint/time') .and. ieee_is_finite(t)
+         if (present(state)) then
+            ok = ok .and. self%list_size('checkpoint/state') == size(state)
+            call self%get_list('checkpoint/state', state)
+            ok = ok .and. all(ieee_is_finite(state))
+         end if
+         if (.not. ok) call raise(error, system_error, self%hdf5%path()//': damaged: its checkpoint is not whole')
       end if
-      if (allocated(error)) call self%abandon()
+      if (allocated(error)) then
+         call self%abandon()
+         return
+      end if
+      call statistics%read(self%record_type)
+      call self%provenance%resume(self%record_type, t)
    end subroutine resume
 
    !> Notes which run of a study the run is.
@@ -87,18 +140,115 @@ contains
       call self%put_text('study_marks', tag%marks)
    end subroutine put_tag
 
+   logical function has_result(self, path)
+      class(run_file_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      has_result = self%record_type%has(path)
+      if (has_result) return
+      if (self%filed) then
+         has_result = self%hdf5%has(path)
+      else
+         has_result = self%recent%has(path)
+      end if
+   end function has_result
+
+   !> Series over an axis, 'time' or another, follow; they start from the samples that are in the file, if any.
+   !> `expected`: how many there will be in the end, if this is known.
+   subroutine begin_series(self, axis, expected)
+      class(run_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: axis
+      integer(i8), intent(in) :: expected
+      self%samples = 0
+      if (self%filed) then
+         ! the scales of the series
+         call write_record(self, self%hdf5, .false.)
+         call self%hdf5%begin_series(axis, expected)
+         self%samples = self%hdf5%samples
+      else
+         call self%recent%begin(int(min(int(self%wanted_samples, i8), expected)))
+      end if
+   end subroutine begin_series
+
+   !> A series of this number of values over the axis, or, where `across` names another scale, over both.
+   subroutine declare(self, name, width, across, units, long_name)
+      class(run_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: name, across, units, long_name
+      integer, intent(in) :: width
+      if (self%filed) then
+         call self%hdf5%declare(name, width, across, units, long_name)
+      else
+         call self%recent%declare(name, width)
+      end if
+   end subroutine declare
+
+   !> Whether the series have names.
+   pure logical function is_declared(self)
+      class(run_file_type), intent(in) :: self
+      if (self%filed) then
+         is_declared = self%hdf5%is_declared()
+      else
+         is_declared = self%recent%is_declared()
+      end if
+   end function is_declared
+
+   !> A sample: the values of all series, in the order in which they were declared.
+   subroutine add(self, values)
+      class(run_file_type), intent(inout) :: self
+      real(wp), intent(in), contiguous :: values(:)
+      if (self%filed) then
+         call self%hdf5%add(values)
+      else
+         call self%recent%add(values)
+      end if
+      self%samples = self%samples + 1
+   end subroutine add
+
+   !> Number of the first sample, from 0, from which on all are kept.
+   pure integer(i8) function first_sample(self)
+      class(run_file_type), intent(in) :: self
+      first_sample = 0
+      if (.not. self%filed) first_sample = self%recent%first()
+   end function first_sample
+
+   !> The last n samples of a series, (width, n); n at most those that are kept.
+   subroutine last_samples(self, name, n, values)
+      class(run_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: n
+      real(wp), allocatable, intent(out) :: values(:, :)
+      call self%part_of_samples(name, self%samples - n, n, values)
+   end subroutine last_samples
+
+   !> The n samples of a series behind the first `skip` ones, (width, n): all kept, or the first one alone.
+   subroutine part_of_samples(self, name, skip, n, values)
+      class(run_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer(i8), intent(in) :: skip
+      integer, intent(in) :: n
+      real(wp), allocatable, intent(out) :: values(:, :)
+      if (self%filed) then
+         call self%hdf5%part_of_samples(name, skip, n, values)
+      else
+         call self%recent%part(name, skip, n, values)
+      end if
+   end subroutine part_of_samples
+
+   pure real(wp) function writing_seconds(self)
+      class(run_file_type), intent(in) :: self
+      writing_seconds = self%hdf5%writing_seconds
+   end function writing_seconds
+
    !> Begins a new checkpoint, at time t, s: what the run goes on from belongs into its group.
    subroutine begin_checkpoint(self, t)
       class(run_file_type), intent(inout) :: self
       real(wp), intent(in) :: t
       ! what it holds may have another size than in the last
       call self%delete('checkpoint')
-      call self%make_group('checkpoint')
       call self%put_real('checkpoint/time', t, 's', 'time from which the run can go on')
    end subroutine begin_checkpoint
 
    !> Publishes what there is, with the checkpoint that was begun or, of a march, with the state y. With an exit status
-   !> other than `running`, which needs its reason, this is the end of the file's writing.
+   !> other than `running`, which needs its reason, this is the end of the file's writing. What is not filed has none.
    subroutine checkpoint(self, t, statistics, status, reason, error, y)
       class(run_file_type), intent(inout) :: self
       real(wp), intent(in) :: t
@@ -107,12 +257,13 @@ contains
       character(len=*), intent(in) :: reason
       type(error_type), allocatable, intent(out) :: error
       real(wp), intent(in), optional :: y(:)
+      if (.not. self%filed) return
       if (present(y)) then
          call self%begin_checkpoint(t)
          call self%put_list('checkpoint/state', y, '1', 'state of the march at that time', '')
       end if
-      call statistics%write(self)
-      call self%provenance%note(self, t, status, reason)
+      call statistics%write(self%record_type)
+      call self%provenance%note(self%record_type, t, status, reason)
       call self%publish(status == running, error)
    end subroutine checkpoint
 
@@ -126,9 +277,39 @@ contains
       character(len=*), intent(in) :: reason
       type(error_type), allocatable, intent(out) :: error
       call self%delete('checkpoint')
-      call statistics%write(self)
-      call self%provenance%note(self, t, status, reason)
+      call statistics%write(self%record_type)
+      call self%provenance%note(self%record_type, t, status, reason)
       if (status == 0) call self%put_flag('complete', 1)
-      call self%publish(.false., error)
+      if (self%filed) call self%publish(.false., error)
    end subroutine finish
+
+   !> Writes all that is not in the file yet and publishes it. With `continued` the writing continues; otherwise the file
+   !> is closed.
+   subroutine publish(self, continued, error)
+      class(run_file_type), intent(inout) :: self
+      logical, intent(in) :: continued
+      type(error_type), allocatable, intent(out) :: error
+      logical :: behind
+      call write_record(self, self%hdf5, .false.)
+      call self%hdf5%publish(continued, error, behind)
+      if (behind .and. .not. allocated(error)) call write_record(self, self%hdf5, .true.)
+   end subroutine publish
+
+   subroutine abandon(self)
+      class(run_file_type), intent(inout) :: self
+      if (self%filed) call self%hdf5%abandon()
+   end subroutine abandon
+
+   !> Shows other programs that this one lives; to be called often with a clock, s.
+   subroutine beat(self, now)
+      class(run_file_type), intent(inout) :: self
+      integer, intent(in) :: now
+      if (self%filed) call self%hdf5%beat(now)
+   end subroutine beat
+
+   subroutine error_of(self, error)
+      class(run_file_type), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+      if (self%filed) call self%hdf5%error_of(error)
+   end subroutine error_of
 end module run_file

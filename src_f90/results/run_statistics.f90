@@ -2,7 +2,7 @@
 !> over the list.
 module run_statistics
    use kinds, only: wp, i8
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    implicit none (type, external)
    private
    public :: run_statistics_type
@@ -85,9 +85,8 @@ contains
 
    subroutine write_all(self, file)
       class(run_statistics_type), intent(in) :: self
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       integer :: k
-      if (.not. file%has(group)) call file%make_group(group)
       do k = 1, size(self%figures)
          associate (figure => self%figures(k), path => group//'/'//self%figures(k)%name)
             if (figure%counts) then
@@ -102,15 +101,11 @@ contains
    !> Gives the figures of the list the values in a file.
    subroutine read_all(self, file)
       class(run_statistics_type), intent(inout) :: self
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       integer :: k
       do k = 1, size(self%figures)
          associate (figure => self%figures(k), path => group//'/'//self%figures(k)%name)
-            if (figure%counts) then
-               figure%value = real(file%get_count(path), wp)
-            else
-               figure%value = file%get_real(path)
-            end if
+            figure%value = file%get_real(path)
          end associate
       end do
    end subroutine read_all

@@ -2,7 +2,7 @@
 !> all samples, which are among them.
 module summary_group
    use kinds, only: wp
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    use equations_of_motion, only: model_sample
    implicit none (type, external)
    private
@@ -30,20 +30,18 @@ module summary_group
 contains
 
    subroutine put_number(file, name, value, units, long_name)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: name, units, long_name
       real(wp), intent(in) :: value
-      if (.not. file%has(group)) call file%make_group(group)
       call file%put_real(group//'/'//name, value, units, long_name)
    end subroutine put_number
 
    !> Of each pad, or of what else the scale `across` counts.
    subroutine put_list(file, name, values, units, long_name, across)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: name, units, long_name
       real(wp), intent(in) :: values(:)
       character(len=*), intent(in), optional :: across
-      if (.not. file%has(group)) call file%make_group(group)
       if (present(across)) then
          call file%put_list(group//'/'//name, values, units, long_name, across)
       else
@@ -53,14 +51,14 @@ contains
 
    !> Whether a run has a figure.
    logical function has_figure(file, name)
-      class(hdf5_type), intent(in) :: file
+      class(record_type), intent(in) :: file
       character(len=*), intent(in) :: name
       has_figure = file%has(group//'/'//name)
    end function has_figure
 
    !> A number; 0 where there is none.
    real(wp) function figure(file, name)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: name
       figure = 0
       if (has_figure(file, name)) figure = file%get_real(group//'/'//name)
@@ -68,7 +66,7 @@ contains
 
    !> A number for each pad; 0 where there are none.
    function pad_figures(file, name) result(values)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: name
       real(wp), allocatable :: values(:)
       allocate (values(file%list_size('pad')), source=0.0_wp)
@@ -97,7 +95,7 @@ contains
    !> Writes them as figures of a run with this load on the journal, N, and interval between samples, s.
    subroutine write_extremes(self, file, load, interval)
       class(run_extremes_type), intent(in) :: self
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       real(wp), intent(in) :: load, interval
       call put_figure(file, 'run_min_film_thickness', self%film, 'm', 'minimum film thickness of the whole run')
       call put_figure(file, 'run_max_pressure', self%pressure, 'Pa', 'maximum pressure of the whole run')
@@ -112,7 +110,7 @@ contains
    !> Goes on from those of a file with samples at this interval, s.
    subroutine read_extremes(self, file, interval)
       class(run_extremes_type), intent(inout) :: self
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       real(wp), intent(in) :: interval
       if (.not. has_figure(file, 'run_min_film_thickness')) return
       self%film = figure(file, 'run_min_film_thickness')

@@ -5,7 +5,7 @@ module verification_results
    use kinds, only: wp
    use text, only: to_text
    use film_comparison, only: film_difference
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    use summary_group, only: put_figure
    implicit none (type, external)
    private
@@ -33,7 +33,7 @@ contains
    !> Writes the differences of the films of a run in some states, (pad, state), at these times, s, or, without them, in
    !> an equilibrium; with this load on the journal, N. `lines` says the same.
    subroutine put_verification(file, time, found, load, lines)
-      class(hdf5_type), intent(inout) :: file
+      class(record_type), intent(inout) :: file
       real(wp), intent(in) :: time(:), load
       type(film_difference), intent(in) :: found(:, :)
       character(len=:), allocatable, intent(out) :: lines

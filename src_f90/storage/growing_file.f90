@@ -218,25 +218,29 @@ contains
    end subroutine part_of_samples
 
    !> Publishes what there is. With `continued` the writing continues; otherwise the file is closed and the lock freed.
-   subroutine publish(self, continued, error)
+   !> `behind`: the file that is written on has all samples, but of the rest what it had before the last publication.
+   subroutine publish(self, continued, error, behind)
       class(growing_file_type), intent(inout) :: self
       logical, intent(in) :: continued
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(out) :: behind
       logical :: exchanged
+      behind = .false.
       call self%write_held()
       call self%close_part()
       call self%error_of(error)
       if (.not. allocated(error)) call self%working%publish(exchanged, error)
-      if (.not. allocated(error) .and. continued) call self%catch_up(exchanged, error)
+      if (.not. allocated(error) .and. continued) call self%catch_up(exchanged, error, behind)
       if (allocated(error) .or. .not. continued) call self%abandon()
    end subroutine publish
 
    !> Makes the part what was just published: adds the last stretch to what was published before, or, where that
    !> cannot be written (a reader has it open), copies it all.
-   subroutine catch_up(self, exchanged, error)
+   subroutine catch_up(self, exchanged, error, behind)
       class(growing_file_type), intent(inout) :: self
       logical, intent(in) :: exchanged
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(inout) :: behind
       type(hdf5_type) :: published
       if (exchanged) then
          call self%open_part(error)
@@ -245,7 +249,8 @@ contains
          call self%open_series()
          call self%copy_missing(published)
          call published%close()
-         if (.not. allocated(self%failure) .and. .not. allocated(published%failure)) return
+         behind = .not. allocated(self%failure) .and. .not. allocated(published%failure)
+         if (behind) return
          call self%close_part()
       end if
       call self%working%copy_published(error)

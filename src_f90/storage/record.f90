@@ -66,6 +66,7 @@ module record
       procedure :: get_list
       procedure :: list_size
       procedure :: get_text
+      procedure :: get_flag
       !> Forgets a dataset or all of a group; forgets everything.
       procedure :: delete
       procedure :: clear
@@ -214,8 +215,10 @@ contains
       k = place_of_attribute(self, new%name)
       if (k > 0) then
          self%attributes(k) = new
-      else
+      else if (allocated(self%attributes)) then
          self%attributes = [self%attributes, new]
+      else
+         self%attributes = [new]
       end if
    end subroutine put_attribute
 
@@ -285,6 +288,17 @@ contains
       if (k == 0) return
       if (self%attributes(k)%there) text = self%attributes(k)%text
    end subroutine get_text
+
+   subroutine get_flag(self, name, value)
+      class(record_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(out) :: value
+      integer :: k
+      value = 0
+      k = place_of_attribute(self, name)
+      if (k == 0) return
+      if (self%attributes(k)%there) value = self%attributes(k)%flag
+   end subroutine get_flag
 
    subroutine delete(self, path)
       class(record_type), intent(inout) :: self
