@@ -18,7 +18,7 @@ module case_run
 
    type :: case_run_type
       type(case_type) :: inputs
-      !> Name of the result file, as given.
+      !> Name of the result file, as given; empty for a run of a study that has none.
       character(len=:), allocatable :: path
       !> Which run of a study it is, if any.
       type(run_tag) :: tag
@@ -64,8 +64,7 @@ contains
       run%tag = tag
       run%verified_states = verified_states
       run%quiet = quiet
-      ! a run of a study may be a row of it alone
-      run%file%filed = tag%number == 0 .or. inputs%output%keep /= 'summary'
+      run%file%filed = path /= ''
       run%started = wall_clock()
       run%last_checkpoint = run%started
    end subroutine begin_run

@@ -6,7 +6,10 @@ module run_case
    use result_size, only: memory_bytes, memory_advice, bytes_text
    use parameter_study, only: run_tag
    use equations_of_motion, only: new_bearing_model
-   use restart, only: restart_type, read_result, refuse_other_case
+   use record, only: record_type, move_record
+   use record_reader, only: read_record
+   use hdf5_file, only: hdf5_type
+   use restart, only: restart_type, read_result, open_result, refuse_other_case
    use files, only: is_regular
    use processes, only: can_have
    use working_file, only: clear_leftovers
@@ -31,28 +34,55 @@ contains
    !> marked incomplete. With `go_on` a result of the same case that is there already is completed, from its
    !> checkpoint; else it is replaced. A checkpoint, and the result of another case, are replaced only with `overwrite`,
    !> and what is no result never. `tag` says which run of a study it is, if any. Of a complete run the films in this
-   !> number of states, `verified_states`, are solved closely.
-   subroutine run_task(inputs, path, tag, verified_states, go_on, overwrite, quiet, error)
+   !> number of states, `verified_states`, are solved closely. Its results are in the record, too, which may be used
+   !> again; a run of a study without a path has no file.
+   subroutine run_task(inputs, path, tag, verified_states, go_on, overwrite, quiet, results, error)
       type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: path
       type(run_tag), intent(in) :: tag
       integer, intent(in) :: verified_states
       logical, intent(in) :: go_on, overwrite, quiet
+      type(record_type), intent(inout) :: results
       type(error_type), allocatable, intent(out) :: error
       type(case_run_type), target :: run
       logical :: complete
 
+      call results%clear()
       if (verified_states > 0) call check_verification(inputs, verified_states, error)
       if (.not. allocated(error)) call check_memory(inputs, error)
       if (allocated(error)) return
       call begin_run(run, inputs, path, tag, verified_states, quiet)
-      call open_file(run, go_on, overwrite, complete, error)
-      if (allocated(error) .or. complete .and. run%verified_states == 0) return
-      if (.not. quiet) call print_notes(inputs)
-      run%model = new_bearing_model(inputs)
-      if (.not. complete) call perform(run, error)
+      complete = .false.
+      if (run%file%filed) call open_file(run, go_on, overwrite, complete, error)
+      if (allocated(error)) return
+      if (.not. complete .or. run%verified_states > 0) then
+         if (.not. quiet) call print_notes(inputs)
+         run%model = new_bearing_model(inputs)
+      end if
+      if (.not. complete) then
+         call move_record(results, run%file%record_type)
+         call perform(run, error)
+      end if
       if (run%verified_states > 0 .and. .not. allocated(error)) call verify_films(run, complete, error)
+      if (.not. complete) then
+         call move_record(run%file%record_type, results)
+      else if (tag%number > 0 .and. .not. allocated(error)) then
+         call recall_results(path, results, error)
+      end if
    end subroutine run_task
+
+   !> The results in the file of a complete run.
+   subroutine recall_results(path, results, error)
+      character(len=*), intent(in) :: path
+      type(record_type), intent(inout) :: results
+      type(error_type), allocatable, intent(out) :: error
+      type(hdf5_type) :: file
+      call open_result(path, file, error)
+      if (allocated(error)) return
+      call read_record(file, results)
+      if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
+      call file%close()
+   end subroutine recall_results
 
    !> Refuses a run whose memory the system does not have, before it computes anything.
    subroutine check_memory(inputs, error)
@@ -168,9 +198,9 @@ contains
       else if (error%status == numerics_error .and. (run%computed .or. run%tag%number > 0)) then
          ! of a run of a study the file says what happened; nothing else would be a result
          call run%file%finish(run%reached, run%statistics(), error%status, error%message, file_error)
-         if (run%computed) error%message = error%message//'; what was computed is in '//run%path
+         if (run%computed .and. run%file%filed) error%message = error%message//'; what was computed is in '//run%path
       else if (error%status == stopped .and. run%computed) then
-         error%message = error%message//'; tiltpad --resume '//run%path//' goes on'
+         if (run%file%filed) error%message = error%message//'; tiltpad --resume '//run%path//' goes on'
       else
          call run%file%abandon()
       end if

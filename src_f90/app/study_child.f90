@@ -1,41 +1,54 @@
-!> A child process that performs runs of a study one after another: its parent orders each. A new process for each would
-!> cost as much as a short run.
+!> A child process that performs runs of a study one after another: its parent orders each, and takes the results. A new
+!> process for each would cost as much as a short run.
 module study_child
+   use, intrinsic :: iso_c_binding, only: c_loc, c_size_t
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
-   use errors, only: error_type
+   use kinds, only: wp
+   use errors, only: error_type, numerics_error
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag
+   use record, only: record_type
+   use record_message, only: description, take_description, numbers, take_numbers
    use processes, only: process_id, record_length, new_process, end_child, end_with_parent, open_pipe, close_pipe, &
-      & send_record, receive_record, wait_for_record, ended
-   use study_folder, only: result_path
+      & close_end, send_record, receive_record, wait_for_record, send_bytes, receive_bytes, ended
    use stop_signals, only: stop_requested
    implicit none (type, external)
    private
-   public :: child_type, report_type, read_report, study_runner, pause
+   public :: child_type, report_type, read_report, study_runner_type, pause
+
+   !> Who performs the runs of a study.
+   type, abstract :: study_runner_type
+   contains
+      procedure(perform_run), deferred :: perform
+   end type study_runner_type
 
    abstract interface
-      !> Performs one run to its result file, and prints nothing.
-      subroutine study_runner(inputs, path, tag, error)
-         import :: case_type, run_tag, error_type
+      !> Performs a run of a study, and prints nothing. Its results are in the record, which may be used again.
+      subroutine perform_run(self, inputs, tag, results, error)
+         import :: study_runner_type, case_type, run_tag, record_type, error_type
+         class(study_runner_type), intent(in) :: self
          type(case_type), intent(in) :: inputs
-         character(len=*), intent(in) :: path
          type(run_tag), intent(in) :: tag
+         type(record_type), intent(inout) :: results
          type(error_type), allocatable, intent(out) :: error
-      end subroutine study_runner
+      end subroutine perform_run
    end interface
 
    !> Milliseconds between two looks for children that ended without a report.
    integer, parameter :: pause = 100
    !> Runs that a child runs before a new one replaces it, so that what they may leave in memory does not add up.
    integer, parameter :: runs_a_child = 50
-   !> In the report of a run: its number, its status, and whether its child stays; its message follows.
-   character(len=*), parameter :: head_format = '(ss,2i12,l1,a)'
-   integer, parameter :: head = 25
+   !> In the report of a run: its number and status, the length of the description of its results, where it is new, how
+   !> many numbers they have, and whether its child stays; its message follows.
+   character(len=*), parameter :: head_format = '(ss,4i12,l1,a)'
+   integer, parameter :: head = 49
 
    !> What a child reports of a run that has ended.
    type :: report_type
       integer :: run = 0
       type(error_type) :: error
+      !> Letters of the description of its results and how many numbers these have, which wait in the child's own pipe.
+      integer, private :: letters = 0, numbers = 0
       !> Whether the child waits for the order of another.
       logical :: stays = .false.
    end type report_type
@@ -43,13 +56,16 @@ module study_child
    !> A child process, if its number is not 0, and the run that it runs; 0: it waits for the order of another.
    type :: child_type
       integer :: process = 0, run = 0
-      !> The pipe of its orders.
-      integer :: orders(2) = 0
+      !> The pipes of its orders and of its results.
+      integer :: orders(2) = -1, returns(2) = -1
+      !> The results of its last run.
+      type(record_type) :: results
       !> How it ended, where that is known before its last report is read.
       character(len=:), allocatable :: how
    contains
       procedure :: start
       procedure :: order
+      procedure :: receive
       procedure :: dismiss
       procedure :: wait_for_end
    end type child_type
@@ -66,6 +82,22 @@ contains
       record = transfer(k, repeat(' ', storage_size(k)/8))
       call send_record(child%orders(2), record)
    end subroutine order
+
+   !> Takes the results that a report announces; `ok` is false where the child has ended before it sent them.
+   subroutine receive(child, report, ok)
+      class(child_type), intent(inout) :: child
+      type(report_type), intent(in) :: report
+      logical, intent(out) :: ok
+      character(len=report%letters), target :: letters
+      real(wp), allocatable, target :: values(:)
+      allocate (values(report%numbers))
+      ok = .true.
+      if (report%letters > 0) ok = receive_bytes(child%returns(1), c_loc(letters), int(report%letters, c_size_t))
+      if (ok .and. report%letters > 0) call take_description(child%results, letters)
+      if (ok .and. report%numbers > 0) ok = receive_bytes(child%returns(1), c_loc(values), &
+         & int(report%numbers, c_size_t)*(storage_size(values)/8))
+      if (ok) call take_numbers(child%results, values)
+   end subroutine receive
 
    !> Orders a child that waits to end, and waits for it.
    subroutine dismiss(child)
@@ -85,19 +117,23 @@ contains
          ignored = ended(child%process, .true., how)
       end if
       call close_pipe(child%orders)
+      call close_end(child%returns(1))
       child%process = 0
       child%run = 0
    end subroutine wait_for_end
 
    !> Starts a child, which waits for orders; `child` has no process where none could be started.
-   subroutine start(child, study, folder, pipe, perform_run)
+   subroutine start(child, study, pipe, runner)
       class(child_type), intent(inout) :: child
       type(study_type), intent(in) :: study
-      character(len=*), intent(in) :: folder
       integer, intent(in) :: pipe
-      procedure(study_runner) :: perform_run
+      class(study_runner_type), intent(in) :: runner
       integer :: parent, process
       if (.not. open_pipe(child%orders)) return
+      if (.not. open_pipe(child%returns)) then
+         call close_pipe(child%orders)
+         return
+      end if
       parent = process_id()
       ! what is buffered here would else be written by both
       flush (output_unit)
@@ -105,28 +141,33 @@ contains
       process = new_process()
       if (process == 0) then
          call end_with_parent(parent)
-         call run_in_child(study, folder, child%orders(1), pipe, perform_run)
+         call close_end(child%returns(1))
+         call run_in_child(study, child%orders(1), child%returns(2), pipe, runner)
       else if (process < 0) then
          call close_pipe(child%orders)
+         call close_pipe(child%returns)
       else
          child%process = process
+         ! so that the end of the child is the end of its results
+         call close_end(child%returns(2))
       end if
    end subroutine start
 
-   !> What a child does: it performs the runs that it is ordered to, and sends a report of each. It ends after one that
-   !> failed, as a library may then be in a bad state.
-   subroutine run_in_child(study, folder, orders, pipe, perform_run)
+   !> What a child does: it performs the runs that it is ordered to, and sends a report and the results of each. It ends
+   !> after one that failed at a file or for want of memory, as a library may then be in a bad state.
+   subroutine run_in_child(study, orders, returns, pipe, runner)
       type(study_type), intent(in) :: study
-      character(len=*), intent(in) :: folder
-      !> The end of a pipe that its orders come from, and that of one for its reports.
-      integer, intent(in) :: orders, pipe
-      procedure(study_runner) :: perform_run
-      integer :: k, count
+      !> The end of a pipe that its orders come from, and those of the pipes for its results and for its reports.
+      integer, intent(in) :: orders, returns, pipe
+      class(study_runner_type), intent(in) :: runner
+      type(record_type) :: results
+      integer :: k, count, told
       logical :: stays
+      told = -1
       do count = 1, runs_a_child
          call receive_order(orders, k)
          if (k == 0) exit
-         call run_one(study, folder, k, pipe, count < runs_a_child, perform_run, stays)
+         call run_one(study, k, returns, pipe, count < runs_a_child, runner, results, told, stays)
          if (.not. stays) exit
       end do
       call end_child(0)
@@ -148,28 +189,42 @@ contains
       if (receive_record(orders, record)) k = transfer(record, k)
    end subroutine receive_order
 
-   !> Performs a run and sends its report, with whether the child stays for another.
-   subroutine run_one(study, folder, k, pipe, may_stay, perform_run, stays)
+   !> Performs a run and sends its report, with whether the child stays for another, and its results.
+   subroutine run_one(study, k, returns, pipe, may_stay, runner, results, told, stays)
       type(study_type), intent(in) :: study
-      character(len=*), intent(in) :: folder
-      integer, intent(in) :: k, pipe
+      integer, intent(in) :: k, returns, pipe
       logical, intent(in) :: may_stay
-      procedure(study_runner) :: perform_run
+      class(study_runner_type), intent(in) :: runner
+      type(record_type), intent(inout) :: results
+      !> Version of the results whose description the parent has.
+      integer, intent(inout) :: told
       logical, intent(out) :: stays
       type(case_type) :: inputs
       type(run_tag) :: tag
       type(error_type), allocatable :: error
       character(len=record_length) :: record
+      character(len=:), allocatable, target :: letters
+      real(wp), allocatable, target :: values(:)
       call study%tag(k, tag)
       call study%inputs(k, inputs, error)
-      if (.not. allocated(error)) call perform_run(inputs, result_path(folder, k, study%runs), tag, error)
+      call results%clear()
+      if (.not. allocated(error)) call runner%perform(inputs, tag, results, error)
       if (.not. allocated(error)) error = error_type(0, '')
-      stays = may_stay .and. error%status == 0
-      write (record, head_format) k, error%status, stays, error%message(:min(len(error%message), record_length - head))
+      stays = may_stay .and. any(error%status == [0, numerics_error])
+      letters = ''
+      if (results%version /= told) letters = description(results)
+      told = results%version
+      values = numbers(results)
+      write (record, head_format) k, error%status, len(letters), size(values), stays, &
+         & error%message(:min(len(error%message), record_length - head))
       call send_record(pipe, record)
+      ! where the parent has gone, so does this process
+      if (len(letters) > 0) stays = send_bytes(returns, c_loc(letters), len(letters, c_size_t)) .and. stays
+      if (size(values) > 0) stays = send_bytes(returns, c_loc(values), &
+         & size(values, kind=c_size_t)*(storage_size(values)/8)) .and. stays
    end subroutine run_one
 
-   !> A report that waits in the pipe; ok is false where there is none.
+   !> Takes a report out of a pipe where one waits; `ok` is false where that failed.
    subroutine read_report(pipe, report, ok)
       integer, intent(in) :: pipe
       type(report_type), intent(out) :: report
@@ -177,7 +232,7 @@ contains
       character(len=record_length) :: record
       ok = receive_record(pipe, record)
       if (.not. ok) return
-      read (record(:head), head_format) report%run, report%error%status, report%stays
+      read (record(:head), head_format) report%run, report%error%status, report%letters, report%numbers, report%stays
       report%error%message = trim(record(head + 1:))
    end subroutine read_report
 end module study_child

@@ -1,4 +1,4 @@
-!> Performs the runs of a study in child processes, as many at a time as are asked for.
+!> Performs the runs of a study in child processes, as many at a time as are asked for, and gives each its row.
 module study_runs
    use kinds, only: wp
    use text, only: to_text, fixed_text, replaced
@@ -6,7 +6,8 @@ module study_runs
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag
    use processes, only: open_pipe, wait_for_record, ended, stop_process
-   use study_child, only: child_type, report_type, read_report, study_runner, pause
+   use study_child, only: child_type, report_type, read_report, study_runner_type, pause
+   use study_file, only: study_file_type
    use hdf5_base, only: start_hdf5
    use stop_signals, only: stop_requested, stop_reason
    use clock, only: wall_clock
@@ -15,10 +16,16 @@ module study_runs
    private
    public :: perform_runs, check_runs
 
+   !> Failures that are told at most: the file of the study has all.
+   integer, parameter :: most_told = 100
+
    !> What became of the runs so far.
    type :: tally_type
       integer :: done = 0, failed = 0, stopped = 0
-      !> Status and message of each failed run.
+      !> The highest exit status of those that failed.
+      integer :: status = 0
+      !> Number, status and message of the first failed runs.
+      integer, allocatable :: runs(:)
       type(error_type), allocatable :: errors(:)
    end type tally_type
 
@@ -37,47 +44,52 @@ contains
       end do
    end subroutine check_runs
 
-   !> Performs all runs of a checked study into a prepared folder, `jobs` at a time. A failed run stops no other;
-   !> a noted signal does: then those that run are sent it, and waited for. `failures` has one error a failed run;
-   !> `error` says how many failed, or which signal came.
-   subroutine perform_runs(study, folder, jobs, quiet, perform_run, failures, error)
+   !> Performs the runs of a checked study that are wanted, `jobs` at a time, each into its row of the open file of the
+   !> study, which is closed at the end. A failed run stops no other; a noted signal does, and a file that cannot be
+   !> written: then those that run are sent a signal, and waited for. `failures` has an error for each of the first
+   !> failed runs; `error` says how many failed, or which signal came.
+   subroutine perform_runs(study, table, wanted, checkpoint_seconds, jobs, quiet, runner, failures, error)
       type(study_type), intent(in) :: study
-      character(len=*), intent(in) :: folder
+      type(study_file_type), intent(inout) :: table
+      logical, intent(in) :: wanted(:)
+      !> Wall time between checkpoints, s; 0: none.
+      real(wp), intent(in) :: checkpoint_seconds
       integer, intent(in) :: jobs
       logical, intent(in) :: quiet
-      procedure(study_runner) :: perform_run
+      class(study_runner_type), intent(in) :: runner
       type(error_type), allocatable, intent(out) :: failures(:)
       type(error_type), allocatable, intent(out) :: error
-      type(child_type) :: children(min(jobs, study%runs))
+      type(child_type) :: children(max(1, min(jobs, count(wanted))))
       type(tally_type) :: tally
       type(progress_type) :: progress
-      real(wp) :: started
+      real(wp) :: started, now
       integer :: pipe(2), next, i
       logical :: stopping, children_know
 
-      allocate (failures(0), tally%errors(study%runs))
+      allocate (failures(0))
       if (.not. open_pipe(pipe)) then
          call raise(error, system_error, 'the system has no pipe for the runs of the study')
          return
       end if
       call start_hdf5()
       started = wall_clock()
-      progress = new_progress(0.0_wp, real(study%runs, wp), quiet)
-      next = 1
+      call begin_tally(table, wanted, tally)
+      progress = new_progress(real(tally%done + tally%failed, wp), real(size(wanted), wp), quiet)
+      next = next_run(wanted, 1)
       children_know = .false.
       do
-         stopping = stop_requested()
+         stopping = stop_requested() .or. allocated(error)
          do i = 1, size(children)
-            if (children(i)%run /= 0 .or. next > study%runs .or. stopping) cycle
-            if (children(i)%process == 0) call children(i)%start(study, folder, pipe(2), perform_run)
+            if (children(i)%run /= 0 .or. next > size(wanted) .or. stopping) cycle
+            if (children(i)%process == 0) call children(i)%start(study, pipe(2), runner)
             if (children(i)%process /= 0) then
                call children(i)%order(next)
             else
                ! no process could be started: later, when one of ours has ended, if there is one
                if (any(children%run /= 0)) exit
-               call note(next, system_error, 'no process could be started for it', tally)
+               call note(next, error_type(system_error, 'no process could be started for it'), tally)
             end if
-            next = next + 1
+            next = next_run(wanted, next + 1)
          end do
          if (stopping .and. .not. children_know) then
             children_know = .true.
@@ -85,23 +97,54 @@ contains
                if (children(i)%run /= 0) call stop_process(children(i)%process)
             end do
          end if
-         if (all(children%run == 0) .and. (next > study%runs .or. stopping)) exit
-         call look(children, pipe(1), tally)
+         if (all(children%run == 0) .and. (next > size(wanted) .or. stopping)) exit
+         call look(children, pipe(1), table, tally)
          call progress%report_runs(tally%done + tally%failed, tally%failed)
+         now = wall_clock()
+         call table%beat(int(now - started))
+         if (.not. allocated(error)) call table%checkpoint_if_due(now, checkpoint_seconds, error)
       end do
       do i = 1, size(children)
          if (children(i)%process /= 0) call children(i)%dismiss()
       end do
       call progress%clear()
-      call conclude(study, tally, failures, error)
-      if (.not. quiet) print '(a)', to_text(study%runs)//' runs: '//totals(study, tally)//'; ' &
-         & //fixed_text(wall_clock() - started, 2)//' s; in '//folder
+      if (.not. allocated(error)) call table%finish(error)
+      if (.not. allocated(error)) call conclude(study, tally, failures, error)
+      if (.not. quiet) print '(a)', to_text(size(wanted))//' runs: '//totals(size(wanted), tally)//'; ' &
+         & //fixed_text(wall_clock() - started, 2)//' s; in '//table%path()
    end subroutine perform_runs
 
-   !> Waits a while for a report, reads all that are there, and enters the runs that have ended.
-   subroutine look(children, pipe, tally)
+   !> The first run from the k-th on that is wanted; behind the last where there is none.
+   pure integer function next_run(wanted, k) result(next)
+      logical, intent(in) :: wanted(:)
+      integer, intent(in) :: k
+      next = findloc(wanted(k:), .true., dim=1)
+      next = merge(size(wanted) + 1, k - 1 + next, next == 0)
+   end function next_run
+
+   !> Counts the runs that have their rows.
+   subroutine begin_tally(table, wanted, tally)
+      type(study_file_type), intent(in) :: table
+      logical, intent(in) :: wanted(:)
+      type(tally_type), intent(out) :: tally
+      integer :: k
+      allocate (tally%runs(0), tally%errors(0))
+      do k = 1, size(wanted)
+         if (wanted(k) .or. .not. table%has_row(k)) cycle
+         if (table%status(k) == 0) then
+            tally%done = tally%done + 1
+         else
+            tally%failed = tally%failed + 1
+            tally%status = max(tally%status, table%status(k))
+         end if
+      end do
+   end subroutine begin_tally
+
+   !> Waits a while for a report, takes all that are there, and enters the runs that have ended.
+   subroutine look(children, pipe, table, tally)
       type(child_type), intent(inout) :: children(:)
       integer, intent(in) :: pipe
+      type(study_file_type), intent(inout) :: table
       type(tally_type), intent(inout) :: tally
       type(report_type) :: report
       character(len=:), allocatable :: how
@@ -116,74 +159,78 @@ contains
       do while (wait_for_record(pipe, 0))
          call read_report(pipe, report, ok)
          if (.not. ok) exit
-         call note(report%run, report%error%status, report%error%message, tally)
          i = findloc(children%run, report%run, dim=1)
+         call children(i)%receive(report, ok)
+         ! one that was killed meanwhile will be told below
+         if (.not. ok) cycle
+         call note(report%run, report%error, tally)
+         if (report%error%status /= stopped) call table%add(report%run, report%error%status, report%error%message, &
+            & children(i)%results, i)
          children(i)%run = 0
          if (.not. report%stays) call children(i)%wait_for_end()
       end do
       ! their reports have been read
       do i = 1, size(children)
          if (.not. allocated(children(i)%how)) cycle
-         if (children(i)%run /= 0) call note(children(i)%run, system_error, children(i)%how, tally)
+         if (children(i)%run /= 0) call note(children(i)%run, error_type(system_error, children(i)%how), tally)
          call children(i)%wait_for_end()
       end do
    end subroutine look
 
    !> Enters what became of a run.
-   subroutine note(k, status, message, tally)
-      integer, intent(in) :: k, status
-      character(len=*), intent(in) :: message
+   subroutine note(k, error, tally)
+      integer, intent(in) :: k
+      type(error_type), intent(in) :: error
       type(tally_type), intent(inout) :: tally
-      select case (status)
+      integer :: before
+      select case (error%status)
       case (0)
          tally%done = tally%done + 1
       case (stopped)
          tally%stopped = tally%stopped + 1
       case default
          tally%failed = tally%failed + 1
-         tally%errors(k)%status = status
-         tally%errors(k)%message = message
+         tally%status = max(tally%status, error%status)
+         before = count(tally%runs < k)
+         if (before == most_told) return
+         tally%runs = [tally%runs(:before), k, tally%runs(before + 1:min(size(tally%runs), most_told - 1))]
+         tally%errors = [tally%errors(:before), error, tally%errors(before + 1:min(size(tally%errors), most_told - 1))]
       end select
    end subroutine note
 
-   !> The failed runs' errors, in order, and the error of the whole: 4 after a signal; else 3 if any had that;
-   !> else the highest.
+   !> The first failed runs' errors, in order, and the error of the whole: 4 after a signal; else the highest.
    subroutine conclude(study, tally, failures, error)
       type(study_type), intent(in) :: study
       type(tally_type), intent(in) :: tally
       type(error_type), allocatable, intent(out) :: failures(:)
       type(error_type), allocatable, intent(out) :: error
       type(run_tag) :: tag
-      integer :: k, n
-      allocate (failures(tally%failed))
-      n = 0
-      do k = 1, study%runs
-         if (tally%errors(k)%status == 0) cycle
-         n = n + 1
-         failures(n) = tally%errors(k)
-         call study%tag(k, tag)
-         failures(n)%message = 'run '//to_text(k)//' ('//replaced(tag%study, achar(10), ', ')//'): ' &
+      integer :: n
+      failures = tally%errors
+      do n = 1, size(failures)
+         call study%tag(tally%runs(n), tag)
+         failures(n)%message = 'run '//to_text(tally%runs(n))//' ('//replaced(tag%study, achar(10), ', ')//'): ' &
             & //failures(n)%message
       end do
       if (stop_requested()) then
          call raise(error, stopped, stop_reason()//'; of ' &
-            & //to_text(study%runs)//' runs '//totals(study, tally))
+            & //to_text(study%runs)//' runs '//totals(study%runs, tally))
       else if (tally%stopped > 0) then
          call raise(error, stopped, to_text(tally%stopped)//' of '//to_text(study%runs) &
             & //' runs were stopped by a signal')
-      else if (n > 0) then
-         call raise(error, maxval(failures%status), to_text(n)//' of '//to_text(study%runs)//' runs failed')
+      else if (tally%failed > 0) then
+         call raise(error, tally%status, to_text(tally%failed)//' of '//to_text(study%runs)//' runs failed')
       end if
    end subroutine conclude
 
    !> "997 done, 3 failed".
-   function totals(study, tally)
-      type(study_type), intent(in) :: study
+   function totals(runs, tally)
+      integer, intent(in) :: runs
       type(tally_type), intent(in) :: tally
       character(len=:), allocatable :: totals
       integer :: rest
       totals = to_text(tally%done)//' done, '//to_text(tally%failed)//' failed'
-      rest = study%runs - tally%done - tally%failed - tally%stopped
+      rest = runs - tally%done - tally%failed - tally%stopped
       if (tally%stopped > 0) totals = totals//', '//to_text(tally%stopped)//' stopped'
       if (rest > 0) totals = totals//', '//to_text(rest)//' not started'
    end function totals

@@ -5,18 +5,19 @@ program tiltpad
    use text, only: printable, to_text
    use errors, only: error_type, raise, require, input_error, system_error
    use case_inputs, only: case_type
-   use result_size, only: size_note
    use parameter_study, only: study_type, run_tag, read_study
    use namelist_writer, only: namelist_of, reference_text
    use files, only: real_path
-   use processes, only: processors, write_output
+   use processes, only: write_output
    use build_info, only: program_version, program_commit
    use restart, only: restart_type, read_restart
    use stop_signals, only: catch_signals, ignore_file_limit
    use arguments, only: arguments_type, read_arguments, print_help
    use run_case, only: run_task
-   use study_folder, only: result_path, prepare_folder, check_folder, check_neighbours
-   use study_runs, only: perform_runs, check_runs
+   use record, only: record_type
+   use study_folder, only: result_path, prepare_folder, check_neighbours
+   use study_runs, only: check_runs
+   use whole_study, only: perform_study, mark_study
    implicit none (type, external)
 
    interface
@@ -61,12 +62,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(restart_type) :: found
       type(run_tag) :: none
+      type(record_type) :: results
       call read_restart(given%resumed, found, error)
       if (allocated(error)) return
       if (given%task == 'check') then
          call put(namelist_of(found%inputs), error)
       else
-         call run_task(found%inputs, given%resumed, none, given%verify, .true., .false., given%quiet, error)
+         call run_task(found%inputs, given%resumed, none, given%verify, .true., .false., given%quiet, results, error)
       end if
    end subroutine resume_run
 
@@ -78,7 +80,10 @@ contains
       type(case_type) :: inputs
       type(run_tag) :: tag
       character(len=:), allocatable :: output, text
+      type(record_type) :: results
+      type(error_type), allocatable :: failures(:)
       logical :: whole_study
+      integer :: i
 
       call read_study(given%case_file, given%overrides, study, error)
       if (allocated(error)) return
@@ -107,40 +112,24 @@ contains
          call choose_output(given, study%given, output, error)
       end select
       if (allocated(error)) return
-      if (study%given) then
-         call mark_study(study)
-         call prepare_folder(output, error)
-         if (allocated(error)) return
-      end if
+      if (study%given) call mark_study(study)
       if (whole_study) then
-         call check_folder(study, output, given%overwrite, error)
-         if (.not. allocated(error)) call perform_study(study, output, given%jobs, given%quiet, error)
+         call perform_study(study, output, given%jobs, given%verify, given%overwrite, given%quiet, failures, error)
+         do i = 1, size(failures)
+            call complain(failures(i))
+         end do
          return
       end if
       if (study%given) then
+         call prepare_folder(output, error)
+         if (allocated(error)) return
          call study%tag(given%run, tag)
          if (.not. given%overwrite) call check_neighbours(study, output, given%run, error)
          output = result_path(output, given%run, study%runs)
       end if
       if (.not. allocated(error)) call run_task(inputs, output, tag, given%verify, study%given .or. &
-         & given%resumed /= '', given%overwrite, given%quiet, error)
+         & given%resumed /= '', given%overwrite, given%quiet, results, error)
    end subroutine treat_case
-
-   !> The checksums of a study are those of its first run's case and of the runs' values.
-   subroutine mark_study(study)
-      type(study_type), intent(inout) :: study
-      type(case_type) :: first
-      type(error_type), allocatable :: error
-      call study%inputs(1, first, error)
-      ! only the time between checkpoints may differ
-      first%output%checkpoint_seconds = 0
-      if (allocated(error)) then
-         ! others may be good, and run by --run
-         call study%mark('')
-      else
-         call study%mark(namelist_of(first))
-      end if
-   end subroutine mark_study
 
    !> Refuses options that the case is not for.
    subroutine check_use(given, study, error)
@@ -155,10 +144,10 @@ contains
          & //', the runs of '//given%case_file, error)
    end subroutine check_use
 
-   !> The result file, or for a study the folder of the runs' files: as given, or named like the case.
-   subroutine choose_output(given, is_folder, output, error)
+   !> The result file, as given, or named like the case; for a study without .h5: so its folder is called.
+   subroutine choose_output(given, is_study, output, error)
       type(arguments_type), intent(in) :: given
-      logical, intent(in) :: is_folder
+      logical, intent(in) :: is_study
       character(len=:), allocatable, intent(out) :: output
       type(error_type), allocatable, intent(out) :: error
       if (given%resumed /= '') then
@@ -168,43 +157,27 @@ contains
       else
          output = given%case_file(index(given%case_file, '/', back=.true.) + 1:)
          if (index(output, '.', back=.true.) > 1) output = output(:index(output, '.', back=.true.) - 1)
-         if (.not. is_folder) output = output//'.h5'
+         if (.not. is_study) output = output//'.h5'
       end if
+      if (is_study) output = without_ending(output)
       if (real_path(output) == real_path(given%case_file)) call raise(error, input_error, output &
          & //': the result would replace the case; name another with --output')
    end subroutine choose_output
 
-   !> Performs all runs of a study.
-   subroutine perform_study(study, folder, jobs, quiet, error)
-      type(study_type), intent(in) :: study
-      character(len=*), intent(in) :: folder
-      !> At a time; 0 for as many as there are processors.
-      integer, intent(in) :: jobs
-      logical, intent(in) :: quiet
-      type(error_type), allocatable, intent(out) :: error
-      type(error_type), allocatable :: failures(:)
-      type(case_type) :: first
-      integer :: i
-      if (.not. quiet) then
-         call study%inputs(1, first, error)
-         if (.not. allocated(error)) then
-            if (size_note(first, study%runs) /= '') print '(a)', size_note(first, study%runs)
-         end if
-      end if
-      call perform_runs(study, folder, merge(jobs, processors(), jobs > 0), quiet, perform_run, failures, error)
-      do i = 1, size(failures)
-         call complain(failures(i))
+   !> The name of a study's file or folder, without its ending or the slash behind it.
+   function without_ending(name)
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: without_ending
+      integer :: last
+      last = len(name)
+      do while (last > 1 .and. name(last:last) == '/')
+         last = last - 1
       end do
-   end subroutine perform_study
-
-   !> Performs a run of a study, or what is left of it, and prints nothing.
-   subroutine perform_run(inputs, path, tag, error)
-      type(case_type), intent(in) :: inputs
-      character(len=*), intent(in) :: path
-      type(run_tag), intent(in) :: tag
-      type(error_type), allocatable, intent(out) :: error
-      call run_task(inputs, path, tag, given%verify, .true., given%overwrite, .true., error)
-   end subroutine perform_run
+      if (last > 3) then
+         if (name(last - 2:last) == '.h5') last = last - 3
+      end if
+      without_ending = name(:last)
+   end function without_ending
 
    !> An error's line.
    subroutine complain(error)

@@ -38,6 +38,8 @@ contains
       integer(i8) :: samples
       call require(inputs%about%task /= 'branch', '--verify: the points of a branch keep no states to verify; run ' &
          & //'one of them with case%task = ''equilibrium'' or ''periodic''', error)
+      call require(inputs%output%keep == 'all' .or. .not. any(inputs%about%task == ['march   ', 'periodic']), &
+         & '--verify: needs the samples of the run; output%keep = '''//inputs%output%keep//''' must be ''all''', error)
       samples = states
       if (inputs%about%task == 'march') samples = max(0_i8, sample_count(inputs))
       if (inputs%about%task == 'periodic') samples = 1 + int(inputs%periodic%revolutions, i8) &
@@ -46,7 +48,8 @@ contains
          & //' samples', error)
    end subroutine check_verification
 
-   !> Verifies films of a complete run, whose file is closed. `remade`: the model was made anew, after the run.
+   !> Verifies films of a complete run, whose file, if it has one, is closed. `remade`: the model was made anew, after the
+   !> run.
    subroutine verify_films(run, remade, error)
       type(case_run_type), intent(inout) :: run
       logical, intent(in) :: remade
@@ -55,9 +58,14 @@ contains
       type(film_difference), allocatable :: found(:, :)
       real(wp), allocatable :: time(:)
       character(len=:), allocatable :: lines
+      if (.not. run%file%filed) then
+         call verify_equilibrium(run, run%file, time, found)
+         call put_verification(run%file, time, found, norm2(run%model%point%load), lines)
+         return
+      end if
       call file%hdf5%claim(run%path, error)
       if (allocated(error)) return
-      call file%reopen(error)
+      call file%reopen(run%inputs, error)
       if (.not. allocated(error)) call file%begin_series('time', 0_i8)
       if (.not. allocated(error) .and. remade .and. file%samples > 0) call take_oil(run, &
          & run%inputs%start%from == 'partial', error)

@@ -1,6 +1,5 @@
 !> The results of a run: a record of them, its samples, and the file that both go to, with its checkpoints, how a run goes
-!> on from one, and its end. A run of a study that is a row alone has no file: its samples are kept as long as its figures
-!> need them.
+!> on from one, and its end. A run of a study may have no file. Where not all samples are kept, the last are in memory.
 module run_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8, degree, pi
@@ -21,14 +20,15 @@ module run_file
    public :: run_file_type
 
    type, extends(record_type) :: run_file_type
-      !> Whether the results go to a file.
+      !> Whether the results go to a file, which of the samples (output%keep), and how many of the last are wanted.
       logical :: filed = .true.
+      character(len=:), allocatable, private :: keep
+      integer(i8), private :: wanted = 0
+      character(len=:), allocatable, private :: axis
       type(growing_file_type) :: hdf5
       type(recent_samples_type), private :: recent
       !> Samples added, also before the run was resumed.
       integer(i8) :: samples = 0
-      !> Samples whose figures are wanted at most.
-      integer, private :: wanted_samples = 0
       type(provenance_type), private :: provenance
    contains
       procedure :: start
@@ -54,6 +54,7 @@ module run_file
       procedure :: beat
       !> What has gone wrong with the file so far.
       procedure :: error_of
+      procedure, private :: write_recent
    end type run_file_type
 
 contains
@@ -65,7 +66,8 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
       integer :: i
-      self%wanted_samples = figure_samples(inputs)
+      self%keep = inputs%output%keep
+      self%wanted = figure_samples(inputs)
       if (self%filed) then
          call self%hdf5%begin(error)
          if (allocated(error)) then
@@ -89,9 +91,12 @@ contains
    end subroutine start
 
    !> Opens a copy of the file of the name claimed, to change it; the record has all of it but its series.
-   subroutine reopen(self, error)
+   subroutine reopen(self, inputs, error)
       class(run_file_type), intent(inout) :: self
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
+      self%keep = inputs%output%keep
+      self%wanted = figure_samples(inputs)
       call self%hdf5%reopen(error)
       if (allocated(error)) return
       call read_record(self%hdf5, self%record_type)
@@ -110,8 +115,7 @@ contains
       real(wp), intent(inout), optional :: state(:)
       logical :: ok
       t = 0
-      self%wanted_samples = figure_samples(inputs)
-      call self%reopen(error)
+      call self%reopen(inputs, error)
       if (.not. allocated(error)) then
          t = self%get_real('checkpoint/time')
          ok = self%has('checkpoint/time') .and. ieee_is_finite(t)
@@ -145,7 +149,7 @@ contains
       character(len=*), intent(in) :: path
       has_result = self%record_type%has(path)
       if (has_result) return
-      if (self%filed) then
+      if (self%keep == 'all') then
          has_result = self%hdf5%has(path)
       else
          has_result = self%recent%has(path)
@@ -158,14 +162,18 @@ contains
       class(run_file_type), intent(inout) :: self
       character(len=*), intent(in) :: axis
       integer(i8), intent(in) :: expected
-      self%samples = 0
-      if (self%filed) then
+      logical :: ok
+      self%axis = axis
+      if (self%keep == 'all') then
          ! the scales of the series
          call write_record(self, self%hdf5, .false.)
          call self%hdf5%begin_series(axis, expected)
          self%samples = self%hdf5%samples
       else
-         call self%recent%begin(int(min(int(self%wanted_samples, i8), expected)))
+         call self%recent%begin(int(min(self%wanted, expected)))
+         call self%recent%restore(self%record_type, ok)
+         if (.not. ok) call self%hdf5%check_read(-1, 'find all samples of the checkpoint')
+         self%samples = self%recent%count
       end if
    end subroutine begin_series
 
@@ -174,17 +182,17 @@ contains
       class(run_file_type), intent(inout) :: self
       character(len=*), intent(in) :: name, across, units, long_name
       integer, intent(in) :: width
-      if (self%filed) then
+      if (self%keep == 'all') then
          call self%hdf5%declare(name, width, across, units, long_name)
       else
-         call self%recent%declare(name, width)
+         call self%recent%declare(name, width, across, units, long_name)
       end if
    end subroutine declare
 
    !> Whether the series have names.
    pure logical function is_declared(self)
       class(run_file_type), intent(in) :: self
-      if (self%filed) then
+      if (self%keep == 'all') then
          is_declared = self%hdf5%is_declared()
       else
          is_declared = self%recent%is_declared()
@@ -195,7 +203,7 @@ contains
    subroutine add(self, values)
       class(run_file_type), intent(inout) :: self
       real(wp), intent(in), contiguous :: values(:)
-      if (self%filed) then
+      if (self%keep == 'all') then
          call self%hdf5%add(values)
       else
          call self%recent%add(values)
@@ -207,7 +215,7 @@ contains
    pure integer(i8) function first_sample(self)
       class(run_file_type), intent(in) :: self
       first_sample = 0
-      if (.not. self%filed) first_sample = self%recent%first()
+      if (self%keep /= 'all') first_sample = self%recent%first()
    end function first_sample
 
    !> The last n samples of a series, (width, n); n at most those that are kept.
@@ -226,7 +234,7 @@ contains
       integer(i8), intent(in) :: skip
       integer, intent(in) :: n
       real(wp), allocatable, intent(out) :: values(:, :)
-      if (self%filed) then
+      if (self%keep == 'all') then
          call self%hdf5%part_of_samples(name, skip, n, values)
       else
          call self%recent%part(name, skip, n, values)
@@ -261,6 +269,7 @@ contains
       if (present(y)) then
          call self%begin_checkpoint(t)
          call self%put_list('checkpoint/state', y, '1', 'state of the march at that time', '')
+         if (self%keep /= 'all') call self%recent%save(self%record_type)
       end if
       call statistics%write(self%record_type)
       call self%provenance%note(self%record_type, t, status, reason)
@@ -280,8 +289,27 @@ contains
       call statistics%write(self%record_type)
       call self%provenance%note(self%record_type, t, status, reason)
       if (status == 0) call self%put_flag('complete', 1)
-      if (self%filed) call self%publish(.false., error)
+      if (.not. self%filed) return
+      if (self%keep == 'last_revolutions') call self%write_recent()
+      call self%publish(.false., error)
    end subroutine finish
+
+   !> Writes the samples that were held in memory.
+   subroutine write_recent(self)
+      class(run_file_type), intent(inout) :: self
+      integer(i8) :: k
+      if (self%samples == 0) return
+      call write_record(self, self%hdf5, .false.)
+      call self%hdf5%begin_series(self%axis, self%samples - self%recent%first())
+      do k = 1, size(self%recent%series)
+         associate (own => self%recent%series(k))
+            call self%hdf5%declare(own%name, own%width, own%across, own%units, own%long_name)
+         end associate
+      end do
+      do k = self%recent%first(), self%samples - 1
+         call self%hdf5%add(self%recent%sample(k))
+      end do
+   end subroutine write_recent
 
    !> Writes all that is not in the file yet and publishes it. With `continued` the writing continues; otherwise the file
    !> is closed.

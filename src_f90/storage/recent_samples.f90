@@ -1,33 +1,44 @@
-!> The last samples of a run, and its first one, in memory: what the figures of a run need that keeps no series.
+!> The last samples of a run, and its first one, in memory: what the figures of a run need that does not keep all.
 module recent_samples
    use kinds, only: wp, i8
+   use record, only: record_type
    implicit none (type, external)
    private
-   public :: recent_samples_type
+   public :: recent_samples_type, series_type
 
    type :: series_type
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name, units, long_name
+      !> The scale of its values; empty where a sample has one alone.
+      character(len=:), allocatable :: across
       !> Values of a sample before its own; its own.
       integer :: before = 0, width = 0
    end type series_type
 
    type :: recent_samples_type
-      private
       type(series_type), allocatable :: series(:)
-      !> Of the first sample (:, 0), and the last ones, each at its number modulo their number (:, 1:).
-      real(wp), allocatable :: values(:, :)
-      integer :: room = 0
+      !> All samples added, also those that are not kept any more.
       integer(i8) :: count = 0
+      !> The first sample (:, 0), and the last ones, each at its number modulo `room` (:, 1:).
+      real(wp), allocatable, private :: values(:, :)
+      integer, private :: room = 0
    contains
       procedure :: begin
       procedure :: declare
       procedure :: is_declared
       procedure :: has
       procedure :: add
-      !> Number of the first sample, from 0, from which on all are there.
+      !> Number of the sample, from 0, from which on all are kept.
       procedure :: first
       procedure :: part
+      procedure :: sample
+      !> Into the checkpoint of a record, and out of it.
+      procedure :: save => save_samples
+      procedure :: restore
+      procedure, private :: place
    end type recent_samples_type
+
+   character(len=*), parameter :: group = 'checkpoint/samples', first_sample = 'checkpoint/first_sample', &
+      & samples = 'checkpoint/sample_count'
 
 contains
 
@@ -42,11 +53,11 @@ contains
    end subroutine begin
 
    !> A series with this number of values a sample; all before the first sample.
-   subroutine declare(self, name, width)
+   subroutine declare(self, name, width, across, units, long_name)
       class(recent_samples_type), intent(inout) :: self
-      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: name, across, units, long_name
       integer, intent(in) :: width
-      self%series = [self%series, series_type(name, sum(self%series%width), width)]
+      self%series = [self%series, series_type(name, units, long_name, across, sum(self%series%width), width)]
    end subroutine declare
 
    pure logical function is_declared(self)
@@ -69,20 +80,25 @@ contains
    subroutine add(self, values)
       class(recent_samples_type), intent(inout) :: self
       real(wp), intent(in) :: values(:)
-      if (.not. allocated(self%values)) then
-         allocate (self%values(size(values), 0:self%room))
-         self%values(:, 0) = values
-      end if
-      self%values(:, 1 + int(modulo(self%count, int(self%room, i8)))) = values
+      if (.not. allocated(self%values)) allocate (self%values(size(values), 0:self%room))
+      if (self%count == 0) self%values(:, 0) = values
+      self%values(:, self%place(self%count)) = values
       self%count = self%count + 1
    end subroutine add
+
+   !> Where the sample of this number, from 0, is.
+   pure integer function place(self, number)
+      class(recent_samples_type), intent(in) :: self
+      integer(i8), intent(in) :: number
+      place = 1 + int(modulo(number, int(self%room, i8)))
+   end function place
 
    pure integer(i8) function first(self)
       class(recent_samples_type), intent(in) :: self
       first = max(0_i8, self%count - self%room)
    end function first
 
-   !> The n samples of a series behind the first `skip` ones, (width, n): all kept, or the first one alone.
+   !> The n samples of a series behind the first `skip` ones, (width, n): all of them kept, or the very first one.
    subroutine part(self, name, skip, n, values)
       class(recent_samples_type), intent(in) :: self
       character(len=*), intent(in) :: name
@@ -96,10 +112,92 @@ contains
       associate (own => self%series(k))
          allocate (values(own%width, n))
          do i = 1, n
-            associate (place => merge(0, 1 + int(modulo(skip + i - 1, int(self%room, i8))), skip + i == 1))
-               values(:, i) = self%values(own%before + 1:own%before + own%width, place)
+            associate (at => merge(0, self%place(skip + i - 1), skip + i == 1))
+               values(:, i) = self%values(own%before + 1:own%before + own%width, at)
             end associate
          end do
       end associate
    end subroutine part
+
+   !> All values of the sample of this number, from 0, which is kept.
+   function sample(self, number) result(values)
+      class(recent_samples_type), intent(in) :: self
+      integer(i8), intent(in) :: number
+      real(wp), allocatable :: values(:)
+      values = self%values(:, self%place(number))
+   end function sample
+
+   subroutine save_samples(self, results)
+      class(recent_samples_type), intent(in) :: self
+      class(record_type), intent(inout) :: results
+      real(wp), allocatable :: values(:, :)
+      integer :: k
+      if (self%count == 0) return
+      do k = 1, size(self%series)
+         associate (own => self%series(k))
+            call self%part(own%name, self%first(), int(self%count - self%first()), values)
+            if (own%across == '') then
+               call results%put_list(group//'/'//own%name, values(1, :), own%units, own%long_name, '')
+            else
+               call results%put_table(group//'/'//own%name, values, own%units, own%long_name, '')
+            end if
+         end associate
+      end do
+      call results%put_list(first_sample, self%values(:, 0), 'SI', 'the first sample', '')
+      call results%put_count(samples, self%count, 'samples so far')
+   end subroutine save_samples
+
+   !> Takes up what was saved; `ok` is false where it does not fit together. Nothing where nothing was.
+   subroutine restore(self, results, ok)
+      class(recent_samples_type), intent(inout) :: self
+      class(record_type), intent(in) :: results
+      logical, intent(out) :: ok
+      integer :: k, n, kept
+      ok = .true.
+      if (.not. results%has(samples)) return
+      kept = 0
+      do k = 1, results%count
+         associate (own => results%datasets(k))
+            if (.not. own%there .or. own%group() /= group) cycle
+            ok = ok .and. (size(own%extents) == 1 .or. size(own%extents) == 2)
+            if (.not. ok) return
+            n = size(own%extents)
+            kept = own%extents(n)
+            if (n == 1) then
+               call self%declare(own%path(len(group) + 2:), 1, '', own%units, own%long_name)
+            else
+               call self%declare(own%path(len(group) + 2:), own%extents(1), 'pad', own%units, own%long_name)
+            end if
+         end associate
+      end do
+      self%count = nint(results%get_real(samples), i8)
+      ok = kept > 0 .and. kept == self%count - self%first() .and. results%list_size(first_sample) == &
+         & sum(self%series%width)
+      if (.not. ok) return
+      allocate (self%values(sum(self%series%width), 0:self%room))
+      call results%get_list(first_sample, self%values(:, 0))
+      do k = 1, size(self%series)
+         associate (own => self%series(k))
+            call restore_series(results, own, ok)
+            if (.not. ok) return
+         end associate
+      end do
+
+   contains
+
+      subroutine restore_series(results, own, ok)
+         class(record_type), intent(in) :: results
+         type(series_type), intent(in) :: own
+         logical, intent(out) :: ok
+         real(wp) :: values(own%width*kept)
+         integer :: i
+         ok = results%list_size(group//'/'//own%name) == size(values)
+         if (.not. ok) return
+         call results%get_list(group//'/'//own%name, values)
+         do i = 1, kept
+            self%values(own%before + 1:own%before + own%width, self%place(self%first() + i - 1)) = &
+               & values((i - 1)*own%width + 1:i*own%width)
+         end do
+      end subroutine restore_series
+   end subroutine restore
 end module recent_samples

@@ -7,7 +7,7 @@ module record
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: record_type, dataset_type, attribute_type
+   public :: record_type, dataset_type, attribute_type, move_record
 
    !> What a dataset holds: numbers, a whole number, or texts.
    integer, parameter, public :: of_reals = 1, of_counts = 2, of_texts = 3
@@ -311,6 +311,18 @@ contains
             & self%datasets(k)%there = .false.
       end do
    end subroutine delete
+
+   !> Gives all that one record has to another, which loses its own.
+   subroutine move_record(from, to)
+      type(record_type), intent(inout) :: from, to
+      to%count = from%count
+      to%version = from%version
+      to%next = from%next
+      call move_alloc(from%datasets, to%datasets)
+      call move_alloc(from%attributes, to%attributes)
+      call move_alloc(from%deleted, to%deleted)
+      from%count = 0
+   end subroutine move_record
 
    subroutine clear(self)
       class(record_type), intent(inout) :: self

@@ -1,6 +1,6 @@
 !> This process, its output and its children: what the runner of many runs asks of the system.
 module processes
-   use, intrinsic :: iso_c_binding, only: c_bool, c_char, c_int, c_long, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_bool, c_char, c_int, c_long, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only: output_unit
    use text, only: to_text
    use errors, only: system_error
@@ -10,7 +10,8 @@ module processes
    public :: process_id, process_alive, host_name, pause_seconds, set_environment, processors, can_have
    public :: is_terminal, write_output
    public :: new_process, end_child, limit_child, end_with_parent, ended, exit_status, stop_process
-   public :: record_length, open_pipe, close_pipe, send_record, receive_record, wait_for_record
+   public :: record_length, open_pipe, close_pipe, close_end, send_record, receive_record, wait_for_record
+   public :: send_bytes, receive_bytes
 
    !> Bytes of a record; a pipe keeps up to 4096 together.
    integer, parameter :: record_length = 4000
@@ -109,6 +110,27 @@ module processes
          ! allow(C072)
          character(kind=c_char, len=*), intent(inout) :: record
       end function receive_record
+
+      subroutine close_end(pipe) bind(c, name='tiltpad_close_end')
+         import :: c_int
+         integer(c_int), value :: pipe
+      end subroutine close_end
+
+      !> Sends bytes through a pipe, waiting until they are taken; false where nobody takes them any more.
+      logical(c_bool) function send_bytes(pipe, bytes, length) bind(c, name='tiltpad_send_bytes')
+         import :: c_bool, c_int, c_ptr, c_size_t
+         integer(c_int), value :: pipe
+         type(c_ptr), value :: bytes
+         integer(c_size_t), value :: length
+      end function send_bytes
+
+      !> Takes this number of bytes out of a pipe; false where the sender has ended before it sent them.
+      logical(c_bool) function receive_bytes(pipe, bytes, length) bind(c, name='tiltpad_receive_bytes')
+         import :: c_bool, c_int, c_ptr, c_size_t
+         integer(c_int), value :: pipe
+         type(c_ptr), value :: bytes
+         integer(c_size_t), value :: length
+      end function receive_bytes
 
       !> Waits until a record is there, or this number of milliseconds, or until a signal comes; true if one is there.
       logical(c_bool) function wait_for_record(pipe, milliseconds) bind(c, name='tiltpad_can_read')

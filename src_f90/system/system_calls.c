@@ -361,6 +361,35 @@ bool tiltpad_receive(int pipe, text_t *record)
    return read(pipe, record->start, record->length) == (ssize_t)record->length;
 }
 
+void tiltpad_close_end(int end)
+{
+   close(end);
+}
+
+bool tiltpad_send_bytes(int pipe, const char *bytes, size_t length)
+{
+   while (length > 0) {
+      ssize_t now = write(pipe, bytes, length);
+      if (now < 0 && errno == EINTR) continue;
+      if (now <= 0) return false;
+      bytes += now;
+      length -= now;
+   }
+   return true;
+}
+
+bool tiltpad_receive_bytes(int pipe, char *bytes, size_t length)
+{
+   while (length > 0) {
+      ssize_t now = read(pipe, bytes, length);
+      if (now < 0 && errno == EINTR) continue;
+      if (now <= 0) return false;
+      bytes += now;
+      length -= now;
+   }
+   return true;
+}
+
 bool tiltpad_can_read(int pipe, int milliseconds)
 {
    struct pollfd list = {pipe, POLLIN, 0};

@@ -1,0 +1,122 @@
+!> A whole study: its file, with a row for each run, and where runs have files of their own the folder of these.
+module whole_study
+   use kinds, only: wp
+   use errors, only: error_type, raise, system_error
+   use case_inputs, only: case_type
+   use result_size, only: size_note
+   use parameter_study, only: study_type, run_tag
+   use namelist_writer, only: namelist_of
+   use files, only: is_regular
+   use processes, only: processors
+   use record, only: record_type
+   use study_child, only: study_runner_type
+   use study_file, only: study_file_type
+   use study_folder, only: result_path, prepare_folder, check_folder
+   use study_runs, only: perform_runs
+   use run_case, only: run_task, way_out
+   implicit none (type, external)
+   private
+   public :: perform_study, mark_study
+
+   !> Performs a run of a study as a run of its own, or what is left of it.
+   type, extends(study_runner_type) :: case_runner_type
+      !> Where runs have files.
+      character(len=:), allocatable :: folder
+      integer :: verified_states = 0
+      logical :: overwrite = .false.
+   contains
+      procedure :: perform
+   end type case_runner_type
+
+contains
+
+   !> Performs the runs of a checked and marked study into `output`.h5, and where they keep samples into files in the
+   !> folder `output`; those that have their rows are not run again, unless the file may be overwritten. `failures` has an
+   !> error for each of the first failed runs.
+   subroutine perform_study(study, output, jobs, verified_states, overwrite, quiet, failures, error)
+      type(study_type), intent(in) :: study
+      character(len=*), intent(in) :: output
+      !> Runs at a time; 0 for as many as there are processors.
+      integer, intent(in) :: jobs, verified_states
+      logical, intent(in) :: overwrite, quiet
+      type(error_type), allocatable, intent(out) :: failures(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(study_file_type) :: table
+      type(case_runner_type) :: runner
+      type(case_type) :: first
+      logical :: wanted(study%runs), filed
+      integer :: k
+      allocate (failures(0))
+      call study%inputs(1, first, error)
+      if (allocated(error)) return
+      if (.not. quiet .and. size_note(first, study%runs) /= '') print '(a)', size_note(first, study%runs)
+      filed = first%output%keep /= 'summary'
+      if (filed) call prepare_folder(output, error)
+      if (filed .and. .not. allocated(error)) call check_folder(study, output, overwrite, error)
+      if (.not. allocated(error)) call open_table(study, output//'.h5', overwrite, quiet, table, error)
+      if (allocated(error)) return
+      wanted = [(.not. table%has_row(k), k=1, study%runs)]
+      if (filed) then
+         ! a file that is gone is made again
+         wanted = wanted .or. [(.not. is_regular(result_path(output, k, study%runs)), k=1, study%runs)]
+      end if
+      runner%folder = output
+      runner%verified_states = verified_states
+      runner%overwrite = overwrite
+      call perform_runs(study, table, wanted, first%output%checkpoint_seconds, merge(jobs, processors(), jobs > 0), &
+         & quiet, runner, failures, error)
+   end subroutine perform_study
+
+   !> Opens the file of a study: a new one, or that of the same study to go on with.
+   subroutine open_table(study, path, overwrite, quiet, table, error)
+      type(study_type), intent(in) :: study
+      character(len=*), intent(in) :: path
+      logical, intent(in) :: overwrite, quiet
+      type(study_file_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
+      call table%claim(path, error)
+      if (allocated(error)) return
+      if (.not. quiet .and. table%taken_from() /= '') print '(a)', path//': '//table%taken_from()//', which wrote it, has ' &
+         & //'ended'
+      if (is_regular(path)) then
+         call table%reopen(study, error)
+         if (.not. allocated(error)) return
+         if (.not. overwrite) then
+            error%message = error%message//way_out
+            return
+         end if
+         call table%claim(path, error)
+         if (allocated(error)) return
+      end if
+      call table%begin(study, error)
+   end subroutine open_table
+
+   !> Performs a run, and prints nothing.
+   subroutine perform(self, inputs, tag, results, error)
+      class(case_runner_type), intent(in) :: self
+      type(case_type), intent(in) :: inputs
+      type(run_tag), intent(in) :: tag
+      type(record_type), intent(inout) :: results
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: path
+      path = ''
+      if (inputs%output%keep /= 'summary') path = result_path(self%folder, tag%number, tag%runs)
+      call run_task(inputs, path, tag, self%verified_states, .true., self%overwrite, .true., results, error)
+   end subroutine perform
+
+   !> The checksums of a study are those of its first run's case and of the runs' values.
+   subroutine mark_study(study)
+      type(study_type), intent(inout) :: study
+      type(case_type) :: first
+      type(error_type), allocatable :: error
+      call study%inputs(1, first, error)
+      ! only the time between checkpoints may differ
+      first%output%checkpoint_seconds = 0
+      if (allocated(error)) then
+         ! others may be good, and run by --run
+         call study%mark('')
+      else
+         call study%mark(namelist_of(first))
+      end if
+   end subroutine mark_study
+end module whole_study
