@@ -49,17 +49,20 @@ contains
       allocate (failures(0))
       call study%inputs(1, first, error)
       if (allocated(error)) return
-      if (.not. quiet .and. size_note(first, study%runs) /= '') print '(a)', size_note(first, study%runs)
+      if (.not. quiet) then
+         if (size_note(first, study%runs) /= '') print '(a)', size_note(first, study%runs)
+      end if
       filed = first%output%keep /= 'summary'
       if (filed) call prepare_folder(output, error)
       if (filed .and. .not. allocated(error)) call check_folder(study, output, overwrite, error)
       if (.not. allocated(error)) call open_table(study, output//'.h5', overwrite, quiet, table, error)
       if (allocated(error)) return
       wanted = [(.not. table%has_row(k), k=1, study%runs)]
-      if (filed) then
+      do k = 1, study%runs
+         if (.not. filed .or. wanted(k)) cycle
          ! a file that is gone is made again
-         wanted = wanted .or. [(.not. is_regular(result_path(output, k, study%runs)), k=1, study%runs)]
-      end if
+         wanted(k) = .not. is_regular(result_path(output, k, study%runs))
+      end do
       runner%folder = output
       runner%verified_states = verified_states
       runner%overwrite = overwrite

@@ -183,7 +183,7 @@ contains
 
    !> The place of a dataset, whether it is there or was in an earlier run; 0 for an unknown one. They come in the same
    !> order again and again.
-   integer function find(self, path)
+   pure integer function find(self, path)
       class(record_type), intent(in) :: self
       character(len=*), intent(in) :: path
       integer :: k
@@ -246,7 +246,7 @@ contains
       end do
    end function has
 
-   real(wp) function get_real(self, path)
+   pure real(wp) function get_real(self, path)
       class(record_type), intent(in) :: self
       character(len=*), intent(in) :: path
       integer :: k
@@ -268,7 +268,7 @@ contains
       if (self%datasets(k)%there .and. size(self%datasets(k)%values) == size(values)) values = self%datasets(k)%values
    end subroutine get_list
 
-   integer function list_size(self, path)
+   pure integer function list_size(self, path)
       class(record_type), intent(in) :: self
       character(len=*), intent(in) :: path
       integer :: k

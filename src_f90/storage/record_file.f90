@@ -68,7 +68,8 @@ contains
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
       integer :: slash
-      if (group == '' .or. file%has(group)) return
+      if (group == '') return
+      if (file%has(group)) return
       slash = index(group, '/', back=.true.)
       if (slash > 0) then
          if (.not. file%has(group(:slash - 1))) call file%make_group(group(:slash - 1))
