@@ -33,12 +33,12 @@ contains
       type(record_column_type), allocatable :: found(:)
       character(len=:), allocatable :: own, name
       integer :: k, g, n
-      allocate (found(record%count))
+      allocate (found(count([(is_column(record%datasets(k)), k=1, record%count)])))
       n = 0
       do k = 1, record%count
          associate (dataset => record%datasets(k))
-            g = findloc(groups, dataset%group(), dim=1)
-            if (g == 0 .or. dataset%kind == of_texts .or. .not. has_all_scales(dataset)) cycle
+            if (.not. is_column(dataset)) cycle
+            g = group_of(dataset)
             own = dataset%path(index(dataset%path, '/', back=.true.) + 1:)
             name = trim(prefixes(g))//own
             if (dataset%scales == pads .and. index(own, of_pads) /= 1) name = of_pads//name
@@ -46,11 +46,26 @@ contains
             n = n + 1
             found(n)%dataset = k
             found(n)%of_done = index(of_motion, ' '//dataset%group()//' ') > 0 .and. .not. begins(own)
-            found(n)%column = new_column_type(name, dataset%units, dataset%long_name, dataset%scales)
+            found(n)%column%name = name
+            found(n)%column%units = dataset%units
+            found(n)%column%long_name = dataset%long_name
+            found(n)%column%scales = dataset%scales
          end associate
       end do
-      found = found(:n)
    end function columns_of
+
+   pure logical function is_column(dataset)
+      type(dataset_type), intent(in) :: dataset
+      is_column = group_of(dataset) > 0 .and. dataset%kind /= of_texts .and. has_all_scales(dataset)
+   end function is_column
+
+   !> Which of the groups a dataset is in; 0 for another.
+   pure integer function group_of(dataset) result(g)
+      type(dataset_type), intent(in) :: dataset
+      do g = size(groups), 1, -1
+         if (groups(g) == dataset%group()) return
+      end do
+   end function group_of
 
    !> Whether a figure is one of those that also a run has that was not done.
    pure logical function begins(name)

@@ -6,7 +6,7 @@ module study_columns
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type, rows_a_chunk
-   use hdf5_scales, only: member_type, members, scales_of, read_about
+   use hdf5_scales, only: member_type, list_members, scales_of, read_about
    use study_dimensions, only: dimension_type, open_dimension
    implicit none (type, external)
    private
@@ -318,27 +318,27 @@ contains
       class(study_columns_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: coordinates
-      type(member_type), allocatable :: found(:), scales(:)
+      type(member_type), allocatable :: found(:)
       type(dimension_type) :: new
       type(column_type) :: column
       character(len=:), allocatable :: names
       integer :: i
       call self%begin(0, coordinates)
-      found = members(file, '')
-      scales = pack(found, found%is_scale)
-      do i = 1, size(scales)
-         if (scales(i)%path == run_scale) then
-            if (scales(i)%extents(1) > huge(1)) call file%check_read(-1, 'take memory for its runs')
-            self%runs = int(min(real(scales(i)%extents(1), wp), real(huge(1), wp)))
+      call list_members(file, found)
+      do i = 1, size(found)
+         if (.not. found(i)%is_scale) cycle
+         if (found(i)%path == run_scale) then
+            if (found(i)%extents(1) > huge(1)) call file%check_read(-1, 'take memory for its runs')
+            self%runs = int(min(real(found(i)%extents(1), wp), real(huge(1), wp)))
             cycle
          end if
-         call open_dimension(file, scales(i)%path, scales(i)%of_texts, new)
+         call open_dimension(file, found(i)%path, found(i)%of_texts, new)
          call add_dimension(self, new)
       end do
       do i = 1, size(found)
-         if (found(i)%is_group .or. found(i)%is_scale .or. found(i)%of_texts) cycle
+         if (.not. found(i)%is_dataset .or. found(i)%is_scale .or. found(i)%of_texts) cycle
          if (index(' '//coordinates//' ', ' '//found(i)%path//' ') > 0) cycle
-         names = scales_of(file, found(i), scales)
+         names = scales_of(file, found(i), found)
          if (allocated(file%failure)) return
          if (words(names, 1) /= run_scale) cycle
          column%name = found(i)%path

@@ -39,6 +39,8 @@ module study_file
       procedure :: begin
       procedure :: reopen
       procedure :: has_row
+      !> Exit status of a run; -2 where it has no row.
+      procedure :: status
       procedure :: add
       procedure :: checkpoint_if_due
       procedure :: checkpoint
@@ -203,6 +205,12 @@ contains
       integer, intent(in) :: k
       has_row = self%rows%status(k) /= not_run .and. self%rows%status(k) /= system_error
    end function has_row
+
+   pure integer function status(self, k)
+      class(study_file_type), intent(in) :: self
+      integer, intent(in) :: k
+      status = self%rows%status(k)
+   end function status
 
    !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. Records of one
    !> source, numbered from 1, are mostly alike; each process and reader is one.

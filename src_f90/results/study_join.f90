@@ -65,7 +65,10 @@ contains
       type(column_type), intent(in) :: column
       type(new_column_type) :: new
       integer :: i
-      new = new_column_type(column%name, column%units, column%long_name, '')
+      new%name = column%name
+      new%units = column%units
+      new%long_name = column%long_name
+      new%scales = ''
       do i = 1, size(column%over)
          if (i > 1) new%scales = new%scales//' '
          new%scales = new%scales//rows%table%dimensions(column%over(i))%name

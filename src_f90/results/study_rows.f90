@@ -28,6 +28,8 @@ module study_rows
    !> Where the numbers of a dataset of a record stand in a row.
    type :: mapping_type
       type(record_column_type) :: own
+      !> Whether they can have a place.
+      logical :: possible = .false.
       !> Empty where the study has no place for them yet; the scales of the record along its dimensions.
       integer, allocatable :: at(:), over(:)
    end type mapping_type
@@ -185,7 +187,7 @@ contains
       integer, intent(in) :: source
       type(source_type), allocatable :: more(:)
       type(record_column_type), allocatable :: found(:)
-      integer :: i, n
+      integer :: i
       if (source > size(self%sources)) then
          allocate (more(source))
          more(:size(self%sources)) = self%sources
@@ -208,13 +210,10 @@ contains
          found = columns_of(record, self%taken)
          if (allocated(own%mappings)) deallocate (own%mappings)
          allocate (own%mappings(size(found)))
-         n = 0
          do i = 1, size(found)
-            n = n + 1
-            own%mappings(n)%own = found(i)
-            if (.not. has_place(self, own%scales, own%mappings(n))) n = n - 1
+            own%mappings(i)%own = found(i)
+            call find_place(self, own%scales, own%mappings(i))
          end do
-         own%mappings = own%mappings(:n)
       end associate
    end subroutine map
 
@@ -234,37 +233,35 @@ contains
       end do
    end function labels_of
 
-   !> Finds the places of a dataset's numbers, if its column and all labels are there. False where it cannot have any:
-   !> the record lacks a scale of it, or the study has the column over other dimensions.
-   logical function has_place(self, scales, mapping) result(has)
+   !> Finds the places of a dataset's numbers, if its column and all labels are there. It has none where the record lacks a
+   !> scale of it, or the study has the column over other dimensions.
+   subroutine find_place(self, scales, mapping)
       type(study_rows_type), intent(in) :: self
       type(dimension_type), intent(in) :: scales(:)
       type(mapping_type), intent(inout) :: mapping
       type(list_type), allocatable :: lists(:)
       integer :: c, d, i
-      has = .false.
       associate (own => mapping%own%column)
          mapping%over = [(place_of(scales, words(own%scales, i)), i=1, words_in(own%scales))]
          mapping%at = [integer ::]
-         if (any(mapping%over == 0)) return
+         mapping%possible = all(mapping%over > 0)
          c = self%table%find(own%name)
-         has = .true.
-         if (c == 0) return
+         if (c == 0 .or. .not. mapping%possible) return
          associate (column => self%table%columns(c))
-            has = size(mapping%over) == size(column%over)
-            if (.not. has) return
+            mapping%possible = size(mapping%over) == size(column%over)
+            if (.not. mapping%possible) return
             allocate (lists(size(mapping%over)))
             do i = 1, size(lists)
                d = column%over(i)
-               has = has .and. self%table%dimensions(d)%name == scales(mapping%over(i))%name
+               if (self%table%dimensions(d)%name /= scales(mapping%over(i))%name) mapping%possible = .false.
                lists(i)%at = self%table%dimensions(d)%places(scales(mapping%over(i)))
             end do
             mapping%at = positions(lists, self%table%extents(column%over))
-            if (any(mapping%at == 0)) mapping%at = [integer ::]
+            if (any(mapping%at == 0) .or. .not. mapping%possible) mapping%at = [integer ::]
             mapping%at = mapping%at + column%before
          end associate
       end associate
-   end function has_place
+   end subroutine find_place
 
    pure integer function place_of(scales, name) result(at)
       type(dimension_type), intent(in) :: scales(:)
@@ -311,7 +308,7 @@ contains
       type(mapping_type), intent(in) :: mapping
       type(dataset_type), intent(in) :: dataset
       logical, intent(in) :: done
-      lacks = size(mapping%at) == 0 .and. dataset%there .and. (done .or. .not. mapping%own%of_done)
+      lacks = mapping%possible .and. size(mapping%at) == 0 .and. dataset%there .and. (done .or. .not. mapping%own%of_done)
       if (lacks) lacks = .not. all(ieee_is_nan(dataset%values))
    end function lacks
 

@@ -7,7 +7,7 @@ module hdf5_scales
    use hdf5_file, only: hdf5_type
    implicit none (type, external)
    private
-   public :: member_type, members, scales_of, read_about
+   public :: member_type, list_members, scales_of, read_about
 
    !> Only a damaged file has longer names or more dimensions.
    integer, parameter :: longest_name = 200, most_dimensions = 32
@@ -15,7 +15,7 @@ module hdf5_scales
    !> A dataset or group of a file.
    type :: member_type
       character(len=:), allocatable :: path
-      logical :: is_group = .false., is_scale = .false.
+      logical :: is_group = .false., is_dataset = .false., is_scale = .false.
       !> Of a dataset: whether it has texts, its sizes, the fastest first, and whether it may become longer.
       logical :: of_texts = .false.
       integer(hsize_t), allocatable :: extents(:)
@@ -24,35 +24,66 @@ module hdf5_scales
 
 contains
 
-   !> The datasets and groups of a group; of the file itself where its name is empty.
-   function members(file, group) result(found)
+   !> The groups of a file, and its datasets, those in the groups too.
+   subroutine list_members(file, found)
+      class(hdf5_type), intent(inout) :: file
+      type(member_type), allocatable, intent(out) :: found(:)
+      type(member_type), allocatable :: top(:)
+      integer :: i, n, count, status
+      call list_group(file, '/', top)
+      n = size(top)
+      do i = 1, size(top)
+         if (.not. top(i)%is_group) cycle
+         call h5gn_members_f(file%id, top(i)%path, count, status)
+         if (status >= 0) n = n + count
+      end do
+      allocate (found(n))
+      found(:size(top)) = top
+      n = size(top)
+      do i = 1, size(found)
+         if (i > n) exit
+         if (found(i)%is_group .and. index(found(i)%path, '/') == 0) call add_group(file, found(i)%path, found, n)
+      end do
+   end subroutine list_members
+
+   !> Adds the members of a group to a list of n.
+   subroutine add_group(file, group, found, n)
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
-      type(member_type), allocatable :: found(:)
+      type(member_type), intent(inout) :: found(:)
+      integer, intent(inout) :: n
+      type(member_type), allocatable :: inner(:)
+      call list_group(file, group, inner)
+      found(n + 1:n + size(inner)) = inner
+      n = n + size(inner)
+   end subroutine add_group
+
+   !> The datasets and groups of a group.
+   subroutine list_group(file, group, found)
+      class(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: group
+      type(member_type), allocatable, intent(out) :: found(:)
       character(len=longest_name) :: name
-      character(len=:), allocatable :: place
-      integer :: count, i, kind, status, n
-      allocate (found(0))
-      if (allocated(file%failure)) return
-      place = group
-      if (group == '') place = '/'
-      call h5gn_members_f(file%id, place, count, status)
-      call file%check_read(status, 'list the datasets of '//place)
-      if (status < 0) return
-      deallocate (found)
+      integer :: count, i, kind, status
+      count = 0
+      if (.not. allocated(file%failure)) then
+         call h5gn_members_f(file%id, group, count, status)
+         call file%check_read(status, 'list the datasets of '//group)
+         if (status < 0) count = 0
+      end if
       allocate (found(count))
-      n = 0
-      do i = 0, count - 1
-         call h5gget_obj_info_idx_f(file%id, place, i, name, kind, status)
-         if (status < 0 .or. kind /= h5g_group_f .and. kind /= h5g_dataset_f) cycle
-         n = n + 1
-         found(n)%path = trim(name)
-         if (group /= '') found(n)%path = group//'/'//trim(name)
-         found(n)%is_group = kind == h5g_group_f
-         if (kind == h5g_dataset_f) call measure(file, found(n))
+      do i = 1, count
+         allocate (found(i)%extents(0))
+         found(i)%path = ''
+         call h5gget_obj_info_idx_f(file%id, group, i - 1, name, kind, status)
+         if (status < 0) cycle
+         found(i)%path = trim(name)
+         if (group /= '/') found(i)%path = group//'/'//trim(name)
+         found(i)%is_group = kind == h5g_group_f
+         found(i)%is_dataset = kind == h5g_dataset_f
+         if (found(i)%is_dataset) call measure(file, found(i))
       end do
-      found = found(:n)
-   end function members
+   end subroutine list_group
 
    !> Size of a dataset, and whether it is a scale.
    subroutine measure(file, member)
@@ -62,7 +93,6 @@ contains
       integer(hid_t) :: dataset, space, kind
       integer :: status, rank, class, ignored
       logical :: there
-      allocate (member%extents(0))
       call h5dopen_f(file%id, member%path, dataset, status)
       call file%check_read(status, 'open '//member%path)
       if (status < 0) return
@@ -86,10 +116,11 @@ contains
    end subroutine measure
 
    !> The scales of a dataset as hdf5_file names them: slowest dimension first, separated by blanks; its own path for a
-   !> scale, and empty for a single number and where a dimension has none of these scales.
-   function scales_of(file, member, scales) result(names)
+   !> scale, and empty for a single number and where a dimension has no scale.
+   function scales_of(file, member, all) result(names)
       class(hdf5_type), intent(inout) :: file
-      type(member_type), intent(in) :: member, scales(:)
+      !> The dataset, and all members of the file.
+      type(member_type), intent(in) :: member, all(:)
       character(len=:), allocatable :: names
       integer(hid_t) :: dataset
       integer :: k, i, status, rank
@@ -104,15 +135,16 @@ contains
       call h5aexists_f(dataset, 'DIMENSION_LIST', found, status)
       if (.not. found) rank = 0
       do k = 1, rank
-         do i = 1, size(scales)
-            if (scales(i)%extents(1) /= member%extents(rank + 1 - k)) cycle
-            if (is_attached(file, dataset, scales(i)%path, k)) exit
+         do i = 1, size(all)
+            if (.not. all(i)%is_scale) cycle
+            if (all(i)%extents(1) /= member%extents(rank + 1 - k)) cycle
+            if (is_attached(file, dataset, all(i)%path, k)) exit
          end do
-         if (i > size(scales)) then
+         if (i > size(all)) then
             names = ''
             exit
          end if
-         names = names//scales(i)%path
+         names = names//all(i)%path
          if (k < rank) names = names//' '
       end do
       call h5dclose_f(dataset, status)

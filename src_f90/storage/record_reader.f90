@@ -6,7 +6,7 @@ module record_reader
       & h5tis_variable_str_f, h5tclose_f, h5t_string_f, h5t_integer_f, h5t_float_f, h5t_native_double
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
-   use hdf5_scales, only: member_type, members, scales_of, read_about
+   use hdf5_scales, only: member_type, list_members, scales_of, read_about
    use record, only: record_type, of_reals, of_counts, of_texts
    implicit none (type, external)
    private
@@ -15,7 +15,7 @@ module record_reader
    !> Most numbers of a dataset, and most bytes of a label; only a damaged file says more.
    integer, parameter :: most_numbers = 10000000, longest_label = 200
    !> From it a run goes on; it is no result.
-   character(len=*), parameter :: not_results = 'checkpoint'
+   character(len=*), parameter :: not_results = 'checkpoint/'
    !> Root attributes that are read.
    character(len=*), parameter :: flags(*) = [character(len=11) :: 'complete', 'exit_status', 'resumes']
 
@@ -25,19 +25,13 @@ contains
    subroutine read_record(file, record)
       class(hdf5_type), intent(inout) :: file
       type(record_type), intent(inout) :: record
-      type(member_type), allocatable :: found(:), scales(:), inner(:)
+      type(member_type), allocatable :: found(:)
       integer :: i, value
       call record%clear()
-      found = members(file, '')
+      call list_members(file, found)
       do i = 1, size(found)
-         if (.not. found(i)%is_group .or. found(i)%path == not_results) cycle
-         inner = members(file, found(i)%path)
-         found = [found, inner]
-      end do
-      scales = pack(found, found%is_scale)
-      do i = 1, size(found)
-         if (found(i)%is_group .or. found(i)%grows) cycle
-         call read_dataset(file, found(i), scales_of(file, found(i), scales), record)
+         if (.not. found(i)%is_dataset .or. found(i)%grows .or. index(found(i)%path, not_results) == 1) cycle
+         call read_dataset(file, found(i), scales_of(file, found(i), found), record)
       end do
       do i = 1, size(flags)
          if (.not. file%has_attribute(trim(flags(i)))) cycle
