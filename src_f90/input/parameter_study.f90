@@ -4,7 +4,7 @@ module parameter_study
    use text, only: to_text, checksum
    use errors, only: error_type
    use case_inputs, only: case_type
-   use assignments, only: namelist_type, assignment_type, put_assignment, study_group
+   use assignments, only: namelist_type, assignment_type, token_type, put_assignment, study_group
    use study_variables, only: study_variables_type
    use case_text, only: read_text, parse_case
    use case_namelist, only: case_from_namelist, fill_case
@@ -43,6 +43,9 @@ module parameter_study
       procedure :: tag
       procedure :: resolved
       procedure :: checked
+      !> The varied variables, and the value of the i-th in the k-th run.
+      procedure :: variables
+      procedure :: value
       procedure, private :: namelist_of_run
    end type study_type
 
@@ -136,6 +139,21 @@ contains
       if (allocated(self%marks)) found%marks = to_text(self%marks(k - 1))//' '//to_text(self%marks(k))//' ' &
          & //to_text(self%marks(self%runs))
    end subroutine tag
+
+   !> Their assignments, without values.
+   function variables(self) result(found)
+      class(study_type), intent(in) :: self
+      type(assignment_type), allocatable :: found(:)
+      found = self%varied%targets()
+   end function variables
+
+   subroutine value(self, i, k, token)
+      class(study_type), intent(in) :: self
+      integer, intent(in) :: i, k
+      type(token_type), intent(out) :: token
+      integer :: row
+      call self%varied%value(i, k, token, row)
+   end subroutine value
 
    !> The k-th run's case with every default, marked, and what follows from it.
    subroutine checked(self, k, text, error)

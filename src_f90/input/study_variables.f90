@@ -42,6 +42,7 @@ module study_variables
       procedure, public :: read => read_assignment
       procedure, public :: count_runs
       procedure, public :: number
+      procedure, public :: targets
       procedure, public :: assignment_of_run
       procedure, public :: values_text
       procedure, public :: text => group_text
@@ -156,6 +157,17 @@ contains
       class(study_variables_type), intent(in) :: self
       number = size(self%variables)
    end function number
+
+   !> The assignments to the varied variables, without values.
+   function targets(self) result(found)
+      class(study_variables_type), intent(in) :: self
+      type(assignment_type), allocatable :: found(:)
+      integer :: i
+      allocate (found(size(self%variables)))
+      do i = 1, size(found)
+         found(i) = self%variables(i)%target
+      end do
+   end function targets
 
    !> How many runs there are; `origin` of the study is for messages.
    subroutine count_runs(self, origin, found, error)

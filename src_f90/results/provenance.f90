@@ -8,7 +8,7 @@ module provenance
    use processes, only: host_name
    implicit none (type, external)
    private
-   public :: provenance_type, running, format_version
+   public :: provenance_type, running, format_version, now
 
    !> Version of the names in a file. A new one needs its former names in post/tiltpad/files/former_names.py.
    integer, parameter :: format_version = 3

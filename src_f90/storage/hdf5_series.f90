@@ -9,7 +9,7 @@ module hdf5_series
    use hdf5_file, only: hdf5_type
    implicit none (type, external)
    private
-   public :: hdf5_series_type, chunk_samples
+   public :: hdf5_series_type, chunk_samples, without_cache
 
    !> Samples in a chunk, at most: a series that is known to be shorter has chunks of its own length.
    integer, parameter :: chunk_samples = 4096

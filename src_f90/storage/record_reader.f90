@@ -1,14 +1,109 @@
-!> stub
+!> Reads the results of a run from its file into a record: what `write_record` wrote, without the series over time and
+!> over the points of a branch, which may be very long.
 module record_reader
+   use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
+   use hdf5, only: hid_t, hsize_t, size_t, h5dclose_f, h5dread_f, h5dget_type_f, h5tget_class_f, h5tget_size_f, &
+      & h5tis_variable_str_f, h5tclose_f, h5t_string_f, h5t_integer_f, h5t_float_f, h5t_native_double
+   use kinds, only: wp
    use hdf5_file, only: hdf5_type
-   use record, only: record_type
+   use hdf5_scales, only: member_type, list_members, scales_of, read_about
+   use record, only: record_type, of_reals, of_counts, of_texts
    implicit none (type, external)
    private
    public :: read_record
+
+   !> Most numbers of a dataset, and most bytes of a label; only a damaged file says more.
+   integer, parameter :: most_numbers = 10000000, longest_label = 200
+   !> From it a run goes on; it is no result.
+   character(len=*), parameter :: not_results = 'checkpoint/'
+   !> Root attributes that are read.
+   character(len=*), parameter :: flags(*) = [character(len=11) :: 'complete', 'exit_status', 'resumes']
+
 contains
-   subroutine read_record(file, results)
+
+   !> Reads an open result file. The file keeps what fails.
+   subroutine read_record(file, record)
       class(hdf5_type), intent(inout) :: file
-      type(record_type), intent(inout) :: results
-      if (results%count == 0) call file%check(0, '')
+      type(record_type), intent(inout) :: record
+      type(member_type), allocatable :: found(:)
+      integer :: i, value
+      call record%clear()
+      call list_members(file, found)
+      do i = 1, size(found)
+         if (.not. found(i)%is_dataset .or. found(i)%grows .or. index(found(i)%path, not_results) == 1) cycle
+         call read_dataset(file, found(i), scales_of(file, found(i), found), record)
+      end do
+      do i = 1, size(flags)
+         if (.not. file%has_attribute(trim(flags(i)))) cycle
+         call file%get_flag(trim(flags(i)), value)
+         call record%put_flag(trim(flags(i)), value)
+      end do
    end subroutine read_record
+
+   subroutine read_dataset(file, member, scales, record)
+      class(hdf5_type), intent(inout) :: file
+      type(member_type), intent(in) :: member
+      character(len=*), intent(in) :: scales
+      type(record_type), intent(inout) :: record
+      character(len=:), allocatable :: units, long_name, texts
+      real(wp), allocatable, target :: values(:)
+      integer(hid_t) :: dataset, kind
+      type(c_ptr) :: buffer
+      integer :: status, class
+      if (allocated(file%failure)) return
+      if (product(real(member%extents, wp)) > most_numbers) call file%check_read(-1, 'take memory for '//member%path)
+      if (allocated(file%failure)) return
+      call read_about(file, member%path, units, long_name)
+      call file%open_dataset(member%path, dataset, status)
+      if (status < 0) return
+      call h5dget_type_f(dataset, kind, status)
+      call h5tget_class_f(kind, class, status)
+      allocate (values(merge(0, int(product(member%extents)), class == h5t_string_f)))
+      texts = ''
+      if (status >= 0 .and. class == h5t_string_f) then
+         call read_labels(file, dataset, kind, member, texts)
+      else if (status >= 0 .and. (class == h5t_integer_f .or. class == h5t_float_f)) then
+         buffer = c_loc(values)
+         if (size(values) > 0) call h5dread_f(dataset, h5t_native_double, buffer, status)
+         call file%check_read(status, 'read '//member%path)
+      else
+         call file%check_read(-1, 'find numbers in '//member%path)
+      end if
+      call h5tclose_f(kind, status)
+      call h5dclose_f(dataset, status)
+      if (allocated(file%failure)) return
+      kind = merge(of_texts, merge(of_counts, of_reals, class == h5t_integer_f .and. size(member%extents) == 0), &
+         & class == h5t_string_f)
+      call record%put(member%path, int(kind), values, int(member%extents), units, long_name, scales, texts)
+   end subroutine read_dataset
+
+   !> Texts of one length, filled up with zero bytes: each with a new line behind it.
+   subroutine read_labels(file, dataset, kind, member, texts)
+      class(hdf5_type), intent(inout) :: file
+      integer(hid_t), intent(in) :: dataset, kind
+      type(member_type), intent(in) :: member
+      character(len=:), allocatable, intent(inout) :: texts
+      character(kind=c_char, len=:), allocatable, target :: bytes
+      type(c_ptr) :: buffer
+      integer(size_t) :: length
+      integer :: status, count, i, ends
+      logical :: variable
+      call h5tis_variable_str_f(kind, variable, status)
+      if (status >= 0) call h5tget_size_f(kind, length, status)
+      if (status >= 0 .and. (variable .or. length > longest_label)) status = -1
+      call file%check_read(status, 'find labels in '//member%path)
+      if (status < 0) return
+      count = int(product(member%extents))
+      allocate (character(kind=c_char, len=count*int(length)) :: bytes)
+      buffer = c_loc(bytes)
+      call h5dread_f(dataset, kind, buffer, status)
+      call file%check_read(status, 'read '//member%path)
+      if (status < 0) return
+      do i = 1, count
+         associate (label => bytes((i - 1)*int(length) + 1:i*int(length)))
+            ends = index(label//c_null_char, c_null_char) - 1
+            texts = texts//trim(label(:ends))//achar(10)
+         end associate
+      end do
+   end subroutine read_labels
 end module record_reader

@@ -1,0 +1,90 @@
+!> Which datasets of a run are columns of a study, and what they are called there.
+module record_columns
+   use record, only: record_type, dataset_type, of_texts
+   use study_columns, only: new_column_type
+   implicit none (type, external)
+   private
+   public :: columns_of, record_column_type
+
+   !> A dataset of a record and the column that it is.
+   type :: record_column_type
+      integer :: dataset = 0
+      !> Whether only a run that was done has it.
+      logical :: of_done = .false.
+      type(new_column_type) :: column
+   end type record_column_type
+
+   !> Groups whose datasets are columns, and what stands before their names there.
+   character(len=*), parameter :: groups(*) = [character(len=12) :: 'summary', 'revolutions', 'coefficients', 'modes', &
+      & 'statistics', 'equilibrium', 'periodic']
+   character(len=*), parameter :: prefixes(*) = [character(len=12) :: '', '', '', '', '', 'equilibrium_', 'periodic_']
+   !> Groups that a run has which was not done, but for the figures of its equilibrium and its speed.
+   character(len=*), parameter :: of_motion = ' summary revolutions '
+   character(len=*), parameter :: of_any(*) = [character(len=12) :: 'speed', 'time_reached', 'equilibrium_']
+   !> The scale of the pads, and what the names of their columns begin with.
+   character(len=*), parameter :: pads = 'pad', of_pads = 'pad_'
+
+contains
+
+   !> The columns that a record has or had. A name that is `taken` (separated by blanks) gets its group before it.
+   function columns_of(record, taken) result(found)
+      type(record_type), intent(in) :: record
+      character(len=*), intent(in) :: taken
+      type(record_column_type), allocatable :: found(:)
+      character(len=:), allocatable :: own, name
+      integer :: k, g, n
+      allocate (found(count([(is_column(record%datasets(k)), k=1, record%count)])))
+      n = 0
+      do k = 1, record%count
+         associate (dataset => record%datasets(k))
+            if (.not. is_column(dataset)) cycle
+            g = group_of(dataset)
+            own = dataset%path(index(dataset%path, '/', back=.true.) + 1:)
+            name = trim(prefixes(g))//own
+            if (dataset%scales == pads .and. index(own, of_pads) /= 1) name = of_pads//name
+            if (index(' '//taken//' ', ' '//name//' ') > 0) name = dataset%group()//'_'//name
+            n = n + 1
+            found(n)%dataset = k
+            found(n)%of_done = index(of_motion, ' '//dataset%group()//' ') > 0 .and. .not. begins(own)
+            found(n)%column%name = name
+            found(n)%column%units = dataset%units
+            found(n)%column%long_name = dataset%long_name
+            found(n)%column%scales = dataset%scales
+         end associate
+      end do
+   end function columns_of
+
+   pure logical function is_column(dataset)
+      type(dataset_type), intent(in) :: dataset
+      is_column = group_of(dataset) > 0 .and. dataset%kind /= of_texts .and. has_all_scales(dataset)
+   end function is_column
+
+   !> Which of the groups a dataset is in; 0 for another.
+   pure integer function group_of(dataset) result(g)
+      type(dataset_type), intent(in) :: dataset
+      do g = size(groups), 1, -1
+         if (groups(g) == dataset%group()) return
+      end do
+   end function group_of
+
+   !> Whether a figure is one of those that also a run has that was not done.
+   pure logical function begins(name)
+      character(len=*), intent(in) :: name
+      integer :: i
+      begins = .false.
+      do i = 1, size(of_any)
+         begins = begins .or. index(name, trim(of_any(i))) == 1
+      end do
+   end function begins
+
+   !> Whether each of its dimensions has a scale.
+   pure logical function has_all_scales(dataset) result(has)
+      type(dataset_type), intent(in) :: dataset
+      integer :: i, blanks
+      blanks = 0
+      do i = 1, len(dataset%scales)
+         if (dataset%scales(i:i) == ' ') blanks = blanks + 1
+      end do
+      has = size(dataset%extents) == merge(0, blanks + 1, dataset%scales == '')
+   end function has_all_scales
+end module record_columns

@@ -1,0 +1,344 @@
+!> The file of a study: a row for each run, at its number from the beginning, with the parameters of all runs. It is
+!> written beside its name and published whole at checkpoints and at the end, so that a kill at any moment leaves the
+!> last checkpoint. After a failure every routine does nothing; the next one with an error tells it.
+module study_file
+   use kinds, only: wp
+   use errors, only: error_type, raise, system_error
+   use clock, only: wall_clock
+   use build_info, only: program_version
+   use record, only: record_type
+   use case_inputs, only: case_type
+   use namelist_writer, only: namelist_of
+   use parameter_study, only: study_type
+   use hdf5_file, only: hdf5_type
+   use hdf5_rows, only: hdf5_rows_type, most_rows
+   use working_file, only: working_file_type
+   use provenance, only: format_version, now
+   use study_columns, only: run_scale
+   use study_rows, only: study_rows_type, not_run
+   use study_parameters, only: parameter_type, parameters_of, write_parameters
+   use study_marks, only: put_marks, check_marks, open_study, missing_runs
+   use study_join, only: join_rows
+   implicit none (type, external)
+   private
+   public :: study_file_type
+
+   !> A checkpoint must have paid for itself: this many times the time of the last one passes before the next.
+   real(wp), parameter :: rest = 20
+
+   type, extends(hdf5_type) :: study_file_type
+      type(working_file_type), private :: working
+      type(study_rows_type), private :: rows
+      !> Clock when the last checkpoint was done, and how long it took, s.
+      real(wp), private :: last_checkpoint = 0, taken = 0
+      !> Clock of the last beat, s.
+      integer, private :: last_beat = 0
+   contains
+      !> Locks the name of the file, so that nobody else writes it, until `finish` or `abandon`.
+      procedure :: claim
+      procedure :: begin
+      procedure :: reopen
+      procedure :: has_row
+      !> Exit status of a run; -2 where it has no row.
+      procedure :: status
+      procedure :: add
+      procedure :: checkpoint_if_due
+      procedure :: checkpoint
+      procedure :: join
+      procedure :: finish
+      !> Deletes what was not published, and frees the lock.
+      procedure :: abandon
+      !> Shows other programs that this one lives, and has the system write; to be called often with a clock, s.
+      procedure :: beat
+      !> The dead process that held the file's lock; empty where there was none.
+      procedure :: taken_from
+      procedure :: path
+      !> What has gone wrong with the file so far.
+      procedure :: error_of
+      procedure, private :: note
+      procedure, private :: close_all
+      procedure, private :: open_part
+   end type study_file_type
+
+contains
+
+   subroutine claim(self, path, error)
+      class(study_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+      call self%working%claim(path, error)
+   end subroutine claim
+
+   !> Starts a new file under the name claimed, with no row yet. The parameters are those of all runs, or of a block of
+   !> them, from `first` to `last`, where the file is one of many that are to be joined.
+   subroutine begin(self, study, error, first, last)
+      class(study_file_type), intent(inout) :: self
+      type(study_type), intent(in) :: study
+      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in), optional :: first, last
+      type(parameter_type), allocatable :: parameters(:)
+      integer :: from, to
+      call self%working%make_part(error)
+      if (.not. allocated(error)) then
+         from = 1
+         to = study%runs
+         if (present(first)) from = first
+         if (present(last)) to = last
+         call self%create(self%working%part)
+         parameters = parameters_of(study)
+         call put_origin(self, study, parameters)
+         call write_runs(self, 1, study%runs)
+         call write_parameters(self, study, parameters, from, to, .false.)
+         call self%rows%begin(self, study%runs, names_of(parameters))
+         self%last_checkpoint = wall_clock()
+         call self%error_of(error)
+      end if
+      if (allocated(error)) call self%abandon()
+   end subroutine begin
+
+   !> What the file is and who made it.
+   subroutine put_origin(self, study, parameters)
+      class(study_file_type), intent(inout) :: self
+      type(study_type), intent(in) :: study
+      type(parameter_type), intent(in) :: parameters(:)
+      type(case_type) :: inputs
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: names
+      integer :: k, i
+      call self%put_flag('format_version', format_version)
+      call self%put_text('program', 'tiltpad')
+      call self%put_text('version', program_version)
+      call self%put_text('created', now())
+      call self%put_text('task', 'study')
+      ! the first run that is possible; runs that are not become rows with their reason
+      do k = 1, study%runs
+         call study%inputs(k, inputs, error)
+         if (.not. allocated(error)) exit
+      end do
+      if (allocated(error)) then
+         call self%put_text('title', '')
+         call self%put_text('input', '')
+      else
+         call self%put_text('title', inputs%about%title)
+         call self%put_text('input', namelist_of(inputs))
+      end if
+      call self%put_text('parameters', names_of(parameters))
+      names = ''
+      do i = 1, size(parameters)
+         if (i > 1) names = names//achar(10)
+         names = names//parameters(i)%variable
+      end do
+      call self%put_text('variables', names)
+      call put_marks(self, study)
+      call self%put_flag('complete', 0)
+      call self%put_text('missing', '')
+   end subroutine put_origin
+
+   !> The names of the parameters, separated by blanks.
+   pure function names_of(parameters) result(names)
+      type(parameter_type), intent(in) :: parameters(:)
+      character(len=:), allocatable :: names
+      integer :: i
+      names = ''
+      do i = 1, size(parameters)
+         if (i > 1) names = names//' '
+         names = names//parameters(i)%name
+      end do
+   end function names_of
+
+   !> Writes the scale of the runs, a new one for all or the rest of one that has fewer.
+   subroutine write_runs(self, first, last)
+      class(study_file_type), intent(inout) :: self
+      integer, intent(in) :: first, last
+      type(hdf5_rows_type) :: scale
+      integer :: from, i
+      if (first == 1) then
+         call scale%create(self, run_scale, [integer ::], last, 0.0_wp, .true.)
+         call self%describe(scale%id, '1', 'number of the run', run_scale, run_scale)
+      else
+         call scale%open(self, run_scale)
+         call scale%resize(self, [integer ::], last)
+      end if
+      do from = first, last, most_rows
+         call scale%write(self, from, reshape([(real(i, wp), i=from, min(from + most_rows - 1, last))], &
+            & [1, min(most_rows, last - from + 1)]))
+      end do
+      call scale%close(self)
+   end subroutine write_runs
+
+   !> Opens a copy of the file of the name claimed, to go on with it. It must be of this study, which may have got more
+   !> runs since.
+   subroutine reopen(self, study, error)
+      class(study_file_type), intent(inout) :: self
+      type(study_type), intent(in) :: study
+      type(error_type), allocatable, intent(out) :: error
+      type(hdf5_type) :: found
+      type(parameter_type), allocatable :: parameters(:)
+      integer :: runs
+      call open_study(self%working%path, found, error)
+      if (.not. allocated(error)) then
+         call check_marks(self%working%path, found, study, error)
+         call found%close()
+      end if
+      if (.not. allocated(error)) call self%working%copy_published(error)
+      if (.not. allocated(error)) call self%open_part(error)
+      if (.not. allocated(error)) then
+         parameters = parameters_of(study)
+         call self%rows%read_layout(self, names_of(parameters))
+         runs = self%rows%table%runs
+         if (study%runs > runs) then
+            call write_runs(self, runs + 1, study%runs)
+            call write_parameters(self, study, parameters, runs + 1, study%runs, .true.)
+            call self%rows%resize(self, study%runs)
+            call put_marks(self, study)
+         end if
+         call self%put_flag('complete', 0)
+         self%last_checkpoint = wall_clock()
+         call self%error_of(error)
+      end if
+      if (allocated(error)) call self%abandon()
+   end subroutine reopen
+
+   !> Whether run k has a row that is to stay. The row of one that the system failed is to be written again.
+   pure logical function has_row(self, k)
+      class(study_file_type), intent(in) :: self
+      integer, intent(in) :: k
+      has_row = self%rows%status(k) /= not_run .and. self%rows%status(k) /= system_error
+   end function has_row
+
+   pure integer function status(self, k)
+      class(study_file_type), intent(in) :: self
+      integer, intent(in) :: k
+      status = self%rows%status(k)
+   end function status
+
+   !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. Records of one
+   !> source, numbered from 1, are mostly alike; each process and reader is one.
+   subroutine add(self, k, status, reason, record, source)
+      class(study_file_type), intent(inout) :: self
+      integer, intent(in) :: k, status, source
+      character(len=*), intent(in) :: reason
+      type(record_type), intent(in) :: record
+      if (.not. allocated(self%failure)) call self%rows%add(self, k, status, reason, record, source)
+   end subroutine add
+
+   !> A checkpoint, if this many seconds have passed since the last, and 20 times as many as it took; `now` is the wall
+   !> clock. 0 seconds: never.
+   subroutine checkpoint_if_due(self, now, seconds, error)
+      class(study_file_type), intent(inout) :: self
+      real(wp), intent(in) :: now, seconds
+      type(error_type), allocatable, intent(out) :: error
+      if (allocated(self%failure)) then
+         call self%error_of(error)
+         call self%abandon()
+      else if (seconds > 0 .and. now - self%last_checkpoint >= max(seconds, rest*self%taken)) then
+         call self%checkpoint(error)
+      end if
+   end subroutine checkpoint_if_due
+
+   !> Publishes all rows that were added, and goes on with a copy.
+   subroutine checkpoint(self, error)
+      class(study_file_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: started
+      logical :: exchanged
+      started = wall_clock()
+      call self%note()
+      call self%close_all()
+      call self%error_of(error)
+      if (.not. allocated(error)) call self%working%publish(exchanged, error)
+      if (.not. allocated(error)) call self%working%copy_published(error)
+      if (.not. allocated(error)) call self%open_part(error)
+      if (.not. allocated(error)) then
+         call self%rows%open(self)
+         call self%error_of(error)
+      end if
+      if (allocated(error)) call self%abandon()
+      self%last_checkpoint = wall_clock()
+      self%taken = self%last_checkpoint - started
+   end subroutine checkpoint
+
+   !> Adds all rows of another file of this study that this one has not.
+   subroutine join(self, path, error)
+      class(study_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+      call self%error_of(error)
+      if (.not. allocated(error)) call join_rows(self, self%rows, path, error)
+      if (.not. allocated(error)) call self%error_of(error)
+   end subroutine join
+
+   !> Writes what is left, publishes the file and frees its lock. It is complete where all runs have a row.
+   subroutine finish(self, error)
+      class(study_file_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      logical :: exchanged
+      call self%note()
+      call self%close_all()
+      call self%error_of(error)
+      if (.not. allocated(error)) call self%working%publish(exchanged, error)
+      call self%abandon()
+   end subroutine finish
+
+   !> Writes the rows that are held back, and which runs have none.
+   subroutine note(self)
+      class(study_file_type), intent(inout) :: self
+      if (allocated(self%failure)) return
+      call self%rows%flush(self)
+      call self%put_flag('complete', merge(0, 1, any(self%rows%status == not_run)))
+      call self%put_text('missing', missing_runs(self%rows%status == not_run))
+   end subroutine note
+
+   !> Opens the part, unless another run has taken the place of this one, whose part then has the name.
+   subroutine open_part(self, error)
+      class(study_file_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      call self%working%check_part(error)
+      if (.not. allocated(error)) call self%open(self%working%part, writing=.true.)
+   end subroutine open_part
+
+   subroutine close_all(self)
+      class(study_file_type), intent(inout) :: self
+      call self%rows%close(self)
+      call self%close()
+   end subroutine close_all
+
+   subroutine abandon(self)
+      class(study_file_type), intent(inout) :: self
+      call self%close_all()
+      call self%working%release()
+   end subroutine abandon
+
+   subroutine beat(self, now)
+      class(study_file_type), intent(inout) :: self
+      integer, intent(in) :: now
+      if (now == self%last_beat) return
+      self%last_beat = now
+      call self%working%lock%beat(now)
+      call self%working%begin_sync()
+   end subroutine beat
+
+   function taken_from(self)
+      class(study_file_type), intent(in) :: self
+      character(len=:), allocatable :: taken_from
+      taken_from = self%working%lock%taken_from
+   end function taken_from
+
+   !> Name of the file, links followed.
+   function path(self)
+      class(study_file_type), intent(in) :: self
+      character(len=:), allocatable :: path
+      path = self%working%path
+   end function path
+
+   subroutine error_of(self, error)
+      class(study_file_type), intent(in) :: self
+      type(error_type), allocatable, intent(out) :: error
+      if (.not. allocated(self%failure)) return
+      if (self%damaged) then
+         call raise(error, system_error, self%working%path//': damaged: '//self%failure)
+      else
+         call raise(error, system_error, 'cannot write '//self%working%path//': '//self%failure)
+      end if
+   end subroutine error_of
+end module study_file

@@ -1,0 +1,207 @@
+!> A list of texts of any length, UTF-8; empty where nothing was written. After a failure, which the file keeps, every
+!> routine does nothing.
+module hdf5_texts
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_loc, c_null_char, c_null_ptr, c_ptr
+   use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
+      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sselect_hyperslab_f, h5dcreate_f, h5dwrite_f, &
+      & h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_space_f, h5dget_type_f, h5pcreate_f, h5pclose_f, &
+      & h5pset_chunk_f, h5p_dataset_create_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, &
+      & h5tget_super_f, h5tget_size_f, h5t_string, h5t_cset_utf8_f
+   use hdf5_file, only: hdf5_type
+   use hdf5_rows, only: rows_a_chunk
+   use system_texts, only: fortran_text
+   implicit none (type, external)
+   private
+   public :: hdf5_texts_type, text_type
+
+   type :: text_type
+      character(len=:), allocatable :: text
+   end type text_type
+
+   type :: hdf5_texts_type
+      integer(hid_t) :: id = -1
+      integer :: length = 0
+   contains
+      procedure :: create
+      procedure :: open => open_texts
+      procedure :: close => close_texts
+      procedure :: resize
+      procedure :: write => write_texts
+      procedure :: read => read_texts
+      procedure, private :: select
+   end type hdf5_texts_type
+
+   interface
+      subroutine c_free(memory) bind(c, name='free')
+         import :: c_ptr
+         type(c_ptr), value :: memory
+      end subroutine c_free
+   end interface
+
+contains
+
+   subroutine create(self, file, name, length)
+      class(hdf5_texts_type), intent(inout) :: self
+      class(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: length
+      integer(hid_t) :: space, properties, kind
+      integer :: status
+      if (allocated(file%failure)) return
+      self%length = length
+      kind = kind_of_texts()
+      call h5screate_simple_f(1, int([length], hsize_t), space, status, [h5s_unlimited_f])
+      call h5pcreate_f(h5p_dataset_create_f, properties, status)
+      call h5pset_chunk_f(properties, 1, int([rows_a_chunk(length, 1)], hsize_t), status)
+      call h5dcreate_f(file%id, name, kind, space, self%id, status, properties)
+      call file%check(status, 'create '//name)
+      if (status < 0) self%id = -1
+      call h5pclose_f(properties, status)
+      call h5sclose_f(space, status)
+      call h5tclose_f(kind, status)
+   end subroutine create
+
+   integer(hid_t) function kind_of_texts() result(kind)
+      integer :: status
+      call h5tcopy_f(h5t_string, kind, status)
+      call h5tset_cset_f(kind, h5t_cset_utf8_f, status)
+   end function kind_of_texts
+
+   !> An existing list; a failure for what is none.
+   subroutine open_texts(self, file, name)
+      class(hdf5_texts_type), intent(inout) :: self
+      class(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: name
+      integer(hsize_t) :: dims(1), most(1)
+      integer(hid_t) :: space
+      integer :: status, rank
+      if (allocated(file%failure)) return
+      call file%open_dataset(name, self%id, status)
+      if (status < 0) self%id = -1
+      if (status < 0) return
+      if (.not. are_texts(self%id)) call file%check_read(-1, 'find texts in '//name)
+      call h5dget_space_f(self%id, space, status)
+      call h5sget_simple_extent_ndims_f(space, rank, status)
+      if (rank /= 1) status = -1
+      dims = 0
+      if (status >= 0) call h5sget_simple_extent_dims_f(space, dims, most, status)
+      if (dims(1) > huge(1)) status = -1
+      call file%check_read(status, 'read the size of '//name)
+      call h5sclose_f(space, rank)
+      self%length = int(min(dims(1), int(huge(1), hsize_t)))
+      if (allocated(file%failure)) call self%close(file)
+   end subroutine open_texts
+
+   !> Whether a dataset has texts of any length; a damaged type may claim letters of any size.
+   logical function are_texts(dataset)
+      integer(hid_t), intent(in) :: dataset
+      integer(hid_t) :: kind, letter
+      integer(size_t) :: bytes
+      integer :: status
+      are_texts = .false.
+      call h5dget_type_f(dataset, kind, status)
+      if (status < 0) return
+      call h5tis_variable_str_f(kind, are_texts, status)
+      are_texts = are_texts .and. status >= 0
+      if (are_texts) then
+         bytes = 0
+         call h5tget_super_f(kind, letter, status)
+         if (status >= 0) call h5tget_size_f(letter, bytes, status)
+         if (status >= 0) call h5tclose_f(letter, status)
+         are_texts = bytes == 1
+      end if
+      call h5tclose_f(kind, status)
+   end function are_texts
+
+   subroutine resize(self, file, length)
+      class(hdf5_texts_type), intent(inout) :: self
+      class(hdf5_type), intent(inout) :: file
+      integer, intent(in) :: length
+      integer :: status
+      if (allocated(file%failure)) return
+      self%length = length
+      call h5dset_extent_f(self%id, int([length], hsize_t), status)
+      call file%check(status, 'change the size of a list of texts')
+   end subroutine resize
+
+   !> Writes texts from the `first` on.
+   subroutine write_texts(self, file, first, texts)
+      class(hdf5_texts_type), intent(in) :: self
+      class(hdf5_type), intent(inout) :: file
+      integer, intent(in) :: first
+      type(text_type), intent(in) :: texts(:)
+      character(kind=c_char, len=:), allocatable, target :: bytes
+      type(c_ptr), target :: pointers(size(texts))
+      integer :: starts(size(texts) + 1), i, status
+      integer(hid_t) :: memory, space, kind
+      if (allocated(file%failure) .or. size(texts) == 0) return
+      starts(1) = 1
+      do i = 1, size(texts)
+         starts(i + 1) = starts(i) + len(texts(i)%text) + 1
+      end do
+      allocate (character(kind=c_char, len=starts(size(starts)) - 1) :: bytes)
+      do i = 1, size(texts)
+         bytes(starts(i):starts(i + 1) - 1) = texts(i)%text//c_null_char
+         pointers(i) = c_loc(bytes(starts(i):starts(i)))
+      end do
+      kind = kind_of_texts()
+      call self%select(first, size(texts), memory, space, status)
+      if (status >= 0) call h5dwrite_f(self%id, kind, c_loc(pointers), status, memory, space)
+      call file%check(status, 'write texts')
+      call h5sclose_f(space, status)
+      call h5sclose_f(memory, status)
+      call h5tclose_f(kind, status)
+   end subroutine write_texts
+
+   !> Reads n texts from the `first` on.
+   subroutine read_texts(self, file, first, n, texts)
+      class(hdf5_texts_type), intent(in) :: self
+      class(hdf5_type), intent(inout) :: file
+      integer, intent(in) :: first, n
+      type(text_type), allocatable, intent(out) :: texts(:)
+      type(c_ptr), allocatable, target :: pointers(:)
+      type(c_ptr) :: buffer
+      integer :: i, status
+      integer(hid_t) :: memory, space, kind
+      allocate (texts(n), pointers(n))
+      texts = text_type('')
+      if (allocated(file%failure) .or. n == 0) return
+      pointers = c_null_ptr
+      buffer = c_loc(pointers)
+      kind = kind_of_texts()
+      call self%select(first, n, memory, space, status)
+      if (status >= 0) call h5dread_f(self%id, kind, buffer, status, memory, space)
+      call file%check_read(status, 'read texts')
+      do i = 1, n
+         if (.not. c_associated(pointers(i))) cycle
+         texts(i)%text = fortran_text(pointers(i))
+         call c_free(pointers(i))
+      end do
+      call h5sclose_f(space, status)
+      call h5sclose_f(memory, status)
+      call h5tclose_f(kind, status)
+   end subroutine read_texts
+
+   !> Selects n texts from the `first` on, in file and memory.
+   subroutine select(self, first, n, memory, space, status)
+      class(hdf5_texts_type), intent(in) :: self
+      integer, intent(in) :: first, n
+      integer(hid_t), intent(out) :: memory, space
+      integer, intent(out) :: status
+      integer(hsize_t) :: count(1)
+      count = n
+      call h5screate_simple_f(1, count, memory, status)
+      call h5dget_space_f(self%id, space, status)
+      call h5sselect_hyperslab_f(space, h5s_select_set_f, [int(first - 1, hsize_t)], count, status)
+   end subroutine select
+
+   subroutine close_texts(self, file)
+      class(hdf5_texts_type), intent(inout) :: self
+      class(hdf5_type), intent(inout) :: file
+      integer :: status
+      if (self%id < 0) return
+      call h5dclose_f(self%id, status)
+      call file%check(status, 'close a list of texts')
+      self%id = -1
+   end subroutine close_texts
+end module hdf5_texts
