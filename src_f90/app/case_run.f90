@@ -1,6 +1,6 @@
 !> One run of a case: what its task works on, and what it has cost so far.
 module case_run
-   use kinds, only: wp
+   use kinds, only: wp, i8
    use case_inputs, only: case_type
    use parameter_study, only: run_tag
    use errors, only: error_type, stopped
@@ -134,6 +134,7 @@ contains
          call statistics%put('film_building_seconds', films%building, 'wall time of building these tables')
          call statistics%put('film_seconds', films%seconds + films%building, 'wall time of the film in the march')
       end associate
+      call statistics%put('resumes', merge(1_i8, 0_i8, self%resumed), 'times that the run was resumed')
       call statistics%put('output_seconds', self%sampling + self%file%writing_seconds(), 'wall time of sampling')
       call statistics%put('checkpoint_seconds', self%checkpoints, 'wall time of the checkpoints before the last')
       call statistics%put('wall_seconds', wall_clock() - self%started, 'wall time of the run')

@@ -7,6 +7,7 @@ module march_figures
    use case_inputs, only: case_type
    use loops, only: path_integral, harmonic, slow_share
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
+   use revolution_figures, only: put_revolutions
    use run_file, only: run_file_type
    use summary_group, only: put_figure, run_extremes_type
    implicit none (type, external)
@@ -50,6 +51,8 @@ contains
       call put_harmonics(file, inputs, int(revolutions + rounding))
       if (inputs%tilting() .and. inputs%friction%model /= 'none') call put_friction(file, inputs, time(1, :), &
          & (angle(1, n) - angle(1, 1))/(2*pi))
+      n = last_revolutions(file, inputs%output%spectrum_revolutions)
+      call put_revolutions(file, inputs, n, inputs%output%spectrum_revolutions)
    end subroutine put_march_figures
 
    !> Samples of the last `count` revolutions, both ends included; all where there are fewer.

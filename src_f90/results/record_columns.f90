@@ -15,11 +15,11 @@ module record_columns
    end type record_column_type
 
    !> Groups whose datasets are columns, and what stands before their names there.
-   character(len=*), parameter :: groups(*) = [character(len=12) :: 'summary', 'revolutions', 'coefficients', 'modes', &
+   character(len=*), parameter :: groups(*) = [character(len=13) :: 'summary', 'by_revolution', 'coefficients', 'modes', &
       & 'statistics', 'equilibrium', 'periodic']
    character(len=*), parameter :: prefixes(*) = [character(len=12) :: '', '', '', '', '', 'equilibrium_', 'periodic_']
    !> Groups that a run has which was not done, but for the figures of its equilibrium and its speed.
-   character(len=*), parameter :: of_motion = ' summary revolutions '
+   character(len=*), parameter :: of_motion = ' summary by_revolution '
    character(len=*), parameter :: of_any(*) = [character(len=12) :: 'speed', 'time_reached', 'equilibrium_']
    !> The scale of the pads, and what the names of their columns begin with.
    character(len=*), parameter :: pads = 'pad', of_pads = 'pad_'

@@ -19,7 +19,7 @@ module study_rows
    integer, parameter :: not_run = -2
    character(len=*), parameter :: status_name = 'status', reason_name = 'reason'
    !> Columns that every study has, one value a run.
-   character(len=*), parameter :: complete_name = 'complete', resumes_name = 'resumes'
+   character(len=*), parameter :: complete_name = 'complete'
    !> The scale that every study has.
    character(len=*), parameter :: pads = 'pad'
    !> Most rows held back, and most numbers of them.
@@ -58,8 +58,8 @@ module study_rows
       type(text_type), allocatable, private :: texts(:)
       logical, allocatable, private :: again(:)
       integer, private :: count = 0
-      !> Places of status, `complete` and `resumes` in a row.
-      integer, private :: singles(3) = 0
+      !> Places of status and `complete` in a row.
+      integer, private :: singles(2) = 0
    contains
       procedure :: begin
       procedure :: read_layout
@@ -87,7 +87,6 @@ contains
       call self%table%add_single(file, status_name, 'exit status: 0 done, 2 numerics, 3 system; -2: not run yet', &
          & real(not_run, wp), .true.)
       call self%table%add_single(file, complete_name, '1 where the run reached its end', nan, .false.)
-      call self%table%add_single(file, resumes_name, 'times that the run was resumed', nan, .false.)
       call self%reasons%create(file, reason_name, runs)
       if (.not. allocated(file%failure)) call file%describe(self%reasons%id, '', 'reason of the failure', run_scale, &
          & reason_name)
@@ -117,7 +116,7 @@ contains
       call self%reasons%open(file, reason_name)
       call forget(self)
       if (allocated(file%failure)) return
-      if (self%table%find(status_name)*self%table%find(complete_name)*self%table%find(resumes_name) == 0) &
+      if (self%table%find(status_name)*self%table%find(complete_name) == 0) &
          & call file%check_read(-1, 'find the columns of a study')
       if (allocated(file%failure)) return
       call self%table%columns(self%table%find(status_name))%data%read(file, 1, self%table%runs, values)
@@ -151,22 +150,9 @@ contains
                row(mappings(i)%at) = dataset%values
             end associate
          end do
-         row(self%singles) = [real(status, wp), merge(1.0_wp, 0.0_wp, status == 0), resumes_of(record)]
+         row(self%singles) = [real(status, wp), merge(1.0_wp, 0.0_wp, status == 0)]
       end associate
    end subroutine add
-
-   !> How often a run was resumed, where its record says it.
-   pure real(wp) function resumes_of(record) result(resumes)
-      type(record_type), intent(in) :: record
-      integer :: i
-      resumes = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (.not. allocated(record%attributes)) return
-      do i = 1, size(record%attributes)
-         associate (own => record%attributes(i))
-            if (own%name == resumes_name .and. own%there) resumes = own%flag
-         end associate
-      end do
-   end function resumes_of
 
    !> Room for rows of all columns that there are.
    subroutine allocate_held(self)
@@ -175,8 +161,7 @@ contains
       rows = max(1, min(most_held, most_numbers/self%table%width))
       allocate (self%held(self%table%width, rows), self%numbers(rows), self%texts(rows), self%again(rows))
       associate (columns => self%table%columns)
-         self%singles = [columns(self%table%find(status_name))%before, columns(self%table%find(complete_name))%before, &
-            & columns(self%table%find(resumes_name))%before] + 1
+         self%singles = [columns(self%table%find(status_name))%before, columns(self%table%find(complete_name))%before] + 1
       end associate
    end subroutine allocate_held
 

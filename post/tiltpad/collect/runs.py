@@ -23,10 +23,11 @@ VARIABLE = re.compile(r"[a-z]\w*%[a-z]\w*(\(\d+\))?", re.ASCII)
 DATASET = re.compile(r"[a-z]\w*", re.ASCII)
 #: Groups of a run's file that are columns of a study, and what stands before the names in them.
 GROUPS = {
-    **dict.fromkeys(("summary", "coefficients", "modes", "statistics"), ""),
+    **dict.fromkeys(("summary", "by_revolution", "coefficients", "modes", "statistics"), ""),
     **{group: f"{group}_" for group in ("equilibrium", "periodic")},
 }
-#: Figures that also a run has that was not done.
+#: Groups that a run has not which was not done, and the figures in them that it has.
+OF_MOTION = ("summary", "by_revolution")
 OF_ANY = ("speed", "time_reached", "equilibrium_")
 
 
@@ -95,7 +96,8 @@ def measured(path: Path, run: Run) -> StudyRun:
         values["resumes"] = float(attributes["resumes"])
     found = columns(run, complete and status == DONE)
     values |= {name: run[own] for name, (own, _) in found.items()}
-    if complete and status == DONE:
+    if complete and status == DONE and "by_revolution" not in run:
+        # the file is of an earlier version
         with suppress(NotInRunError):
             points = signals.poincare(run, REVOLUTIONS, states=tuple(POINTS.values()))
             values |= {name: points[state] for name, state in POINTS.items() if state in points}
@@ -148,7 +150,7 @@ def columns(run: Run, done: bool) -> dict[str, tuple[str, tuple[str, ...]]]:
                 continue
             dimensions = run.scales(f"{group}/{own}")
             pads = "pad_" if dimensions == ("pad",) and not own.startswith("pad_") else ""
-            if dimensions is not None and (done or group != "summary" or own.startswith(OF_ANY)):
+            if dimensions is not None and (done or group not in OF_MOTION or own.startswith(OF_ANY)):
                 found[f"{pads}{before}{own}"] = f"{group}/{own}", dimensions
     return found
 

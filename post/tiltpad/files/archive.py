@@ -65,7 +65,7 @@ class Archive:
         "asperities",
         "oil",
         "periodic",
-        "summary",
+        "summary", "by_revolution",
     )
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"
