@@ -13,7 +13,7 @@ program test_study_file
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type
    use hdf5_texts, only: hdf5_texts_type, text_type
-   use hdf5_scales, only: member_type, list_members, read_about
+   use hdf5_scales, only: item_type, list_items, read_about
    use parameter_study, only: study_type, study_from_text
    use study_file, only: study_file_type
    use study_marks, only: missing_runs
@@ -248,20 +248,20 @@ contains
    subroutine expect_same(one, two, what)
       character(len=*), intent(in) :: one, two, what
       type(hdf5_type) :: file, second
-      type(member_type), allocatable :: members(:), others(:)
+      type(item_type), allocatable :: items(:), others(:)
       integer :: i
       call file%open(one, writing=.false.)
       call second%open(two, writing=.false.)
-      call list_members(file, members)
-      call list_members(second, others)
-      call expect(size(members) == size(others), what//': as many datasets')
-      do i = 1, size(members)
-         call expect(second%has(members(i)%path), what//': '//members(i)%path//' in both')
-         if (.not. second%has(members(i)%path)) cycle
-         if (members(i)%of_texts) then
-            call expect_same_texts(file, second, members(i)%path, what)
+      call list_items(file, items)
+      call list_items(second, others)
+      call expect(size(items) == size(others), what//': as many datasets')
+      do i = 1, size(items)
+         call expect(second%has(items(i)%path), what//': '//items(i)%path//' in both')
+         if (.not. second%has(items(i)%path)) cycle
+         if (items(i)%of_texts) then
+            call expect_same_texts(file, second, items(i)%path, what)
          else
-            call expect_same_values(file, second, members(i)%path, what)
+            call expect_same_values(file, second, items(i)%path, what)
          end if
       end do
       call file%close()
