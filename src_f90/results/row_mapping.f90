@@ -89,8 +89,8 @@ contains
       end do
    end function labels_of
 
-   !> Finds the places of a dataset's numbers, if its column and all labels are there. It has none where the record lacks
-   !> a scale of it, or the study has the column over other dimensions.
+   !> Finds the places of a dataset's numbers, if its column and all labels are there. It has none where the record
+   !> lacks a scale of it, or the study has the column over other dimensions.
    subroutine find_place(mapping, scales, columns)
       type(mapping_type), intent(inout) :: mapping
       type(dimension_type), intent(in) :: scales(:)
@@ -127,7 +127,7 @@ contains
       end do
    end function place_of
 
-   !> What the columns lack for a record that is, or is not, of a run that was done: columns, new or with more labels, and
+   !> What the columns lack for a record of a run that was done, or was not: columns, new or with more labels, and
    !> which of the scales have these labels. None where all its numbers have places.
    subroutine find_lacking(self, record, done, new, scales, used)
       class(row_mapping_type), intent(in) :: self

@@ -212,8 +212,8 @@ contains
       status = self%rows%status(k)
    end function status
 
-   !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. Records of one
-   !> source, numbered from 1, are mostly alike; each process and reader is one.
+   !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. Records of
+   !> one source, numbered from 1, are mostly alike; each process and reader is one.
    subroutine add(self, k, status, reason, record, source)
       class(study_file_type), intent(inout) :: self
       integer, intent(in) :: k, status, source

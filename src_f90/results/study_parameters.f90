@@ -28,8 +28,8 @@ module study_parameters
 
 contains
 
-   !> The parameters of a study, the slowest first. A name that another group or another dataset has, too, gets its group
-   !> before it.
+   !> The parameters of a study, the slowest first. A name that another group or another dataset has, too, gets its
+   !> group before it.
    function parameters_of(study) result(found)
       type(study_type), intent(in) :: study
       type(parameter_type), allocatable :: found(:)

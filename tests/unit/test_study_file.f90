@@ -686,11 +686,17 @@ contains
       call clear()
    end subroutine full_disk
 
-   !> A file cut off, and one that lacks a column that every study has.
+   !> A file cut off, and one that lacks a column that every study has. Where bytes anywhere are others, it is refused
+   !> with one line, now or when it is written, or goes on.
    subroutine damaged()
       type(study_type) :: study
+      type(study_file_type) :: table
+      type(record_type) :: records(2)
+      type(error_type), allocatable :: error
       type(hdf5_type) :: file
-      character(len=:), allocatable :: bytes
+      character(len=:), allocatable :: bytes, wrong
+      integer :: i, k, refused
+      real(wp) :: x(9)
       call write_study(path, 5, [1, 2])
       call make_study(5, study)
       bytes = bytes_of(path)
@@ -701,6 +707,28 @@ contains
       call file%delete('status')
       call file%close()
       call expect_refused(study, 'damaged: its rows cannot be read')
+      refused = 0
+      do i = 1, 60
+         call random_number(x)
+         wrong = bytes
+         do k = 1, 8
+            wrong(1 + int(x(9)*(len(bytes) - 8)) + k:1 + int(x(9)*(len(bytes) - 8)) + k) = char(int(256*x(k)))
+         end do
+         call write_bytes(path, wrong)
+         call table%claim(path, error)
+         call expect_no_error(error, 'claim')
+         call table%reopen(study, error)
+         if (.not. allocated(error)) then
+            call add(table, [3, 4], records)
+            call table%finish(error)
+         end if
+         if (.not. allocated(error)) cycle
+         refused = refused + 1
+         call expect(error%status == system_error .and. index(error%message, path) > 0 &
+            & .and. index(error%message, newline) == 0, 'one line: '//error%message)
+         call expect_nothing_left()
+      end do
+      call expect(refused > 0, 'some are refused')
       call clear()
    end subroutine damaged
 
@@ -710,8 +738,8 @@ contains
       call expect(missing_runs([.false., .false.]) == '', 'none')
       call expect(missing_runs([.true., .true.]) == '1-2', 'all')
       call expect(missing_runs([.false., .true., .false., .true., .true., .true.]) == '2, 4-6', 'some')
-      call expect(len(missing_runs([(mod(i, 2) == 0, i=1, 10000)])) == sum([(len(to_text(i)) + 2, i=2, 10000, 2)]) - 2, &
-         & 'many')
+      call expect(len(missing_runs([(mod(i, 2) == 0, i=1, 10000)])) == sum([(len(to_text(i)) + 2, i=2, 10000, 2)]) &
+         & - 2, 'many')
    end subroutine ranges
 
    !> What is read from the file of a run is what was written; but no series and no checkpoint.
