@@ -12,6 +12,7 @@ module study_file
    use parameter_study, only: study_type
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type, most_rows
+   use hdf5_texts, only: text_type
    use working_file, only: working_file_type
    use provenance, only: format_version, now
    use study_columns, only: run_scale
@@ -27,6 +28,7 @@ module study_file
    real(wp), parameter :: rest = 20
 
    type, extends(hdf5_type) :: study_file_type
+      character(len=:), allocatable, private :: name
       type(working_file_type), private :: working
       type(study_rows_type), private :: rows
       !> Clock when the last checkpoint was done, and how long it took, s.
@@ -66,6 +68,7 @@ contains
       class(study_file_type), intent(inout) :: self
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
+      self%name = path
       call self%working%claim(path, error)
    end subroutine claim
 
@@ -213,13 +216,17 @@ contains
    end function status
 
    !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. Records of
-   !> one source, numbered from 1, are mostly alike; each process and reader is one.
-   subroutine add(self, k, status, reason, record, source)
+   !> one source, numbered from 1, are mostly alike; each process and reader is one. `own`: where its file is, if it has
+   !> one, relative to the folder of this file.
+   subroutine add(self, k, status, reason, record, source, own)
       class(study_file_type), intent(inout) :: self
       integer, intent(in) :: k, status, source
       character(len=*), intent(in) :: reason
       type(record_type), intent(in) :: record
+      character(len=*), intent(in), optional :: own
       if (.not. allocated(self%failure)) call self%rows%add(self, k, status, reason, record, source)
+      if (.not. present(own) .or. allocated(self%failure)) return
+      if (own /= '') call self%rows%put_files(self, k, [text_type(own)])
    end subroutine add
 
    !> A checkpoint, if this many seconds have passed since the last, and 20 times what it took; `now` is the wall clock.
@@ -324,11 +331,11 @@ contains
       taken_from = self%working%lock%taken_from
    end function taken_from
 
-   !> Name of the file, links followed.
+   !> Name of the file, as it was given.
    function path(self)
       class(study_file_type), intent(in) :: self
       character(len=:), allocatable :: path
-      path = self%working%path
+      path = self%name
    end function path
 
    subroutine error_of(self, error)

@@ -1,4 +1,4 @@
-"""The file of a study: parameters and results of the runs with dimensions and units, links to files."""
+"""The file of a study: parameters and results of the runs with dimensions and units, their files."""
 
 import os
 import warnings
@@ -27,9 +27,14 @@ class Column(NamedTuple):
 
 
 REVOLUTION, OF_PADS = ("revolution",), ("revolution", "pad")
+#: As the program says it, too.
+STATUS = (
+    "exit status: 0 done, 2 numerics, 3 system, 4 stopped, -1 not ended, -2 not run yet; "
+    "nan: its file cannot be read"
+)
 #: Columns that are no datasets of the runs' files.
 OWN = {
-    "status": Column((), "1", "exit status: 0 done, nan if the file cannot be read"),
+    "status": Column((), "1", STATUS),
     "complete": Column((), "1", "1 where the run reached its end"),
     "resumes": Column((), "1", "times that the run was resumed"),
     **{
@@ -57,7 +62,7 @@ def write(target: Path, runs: Sequence[StudyRun], missing: Sequence[int]) -> Non
 
 
 def fill(file: h5py.File, runs: Sequence[StudyRun], missing: Sequence[int], folder: Path) -> None:
-    """Attributes, dimension scales, parameters, results and links of a study."""
+    """Attributes, dimension scales, parameters and results of a study."""
     readable = [each for each in runs if each.input]
     first = readable[0]
     if first.runs:
@@ -96,10 +101,6 @@ def fill(file: h5py.File, runs: Sequence[StudyRun], missing: Sequence[int], fold
     for name, (dimensions, unit, meant) in columns.items():
         values = placed(name, dimensions, runs, labels)
         put(file, name, values, (*RUN, *dimensions), unit, meant, coordinates)
-    links = file.create_group("runs")
-    digits = max(4, len(str(runs[-1].number)))
-    for each, path in zip(runs, paths, strict=True):
-        links[f"{each.number:0{digits}d}"] = h5py.ExternalLink(path, "/")
 
 
 def described(runs: Sequence[StudyRun]) -> dict[str, Column]:

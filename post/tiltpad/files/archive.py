@@ -37,7 +37,7 @@ SCALES = h5t.vlen_create(h5t.STD_REF_OBJ).encode()
 #: Longest attribute in the list of attributes itself, bytes; texts of variable length stand elsewhere.
 LONGEST = 1 << 16
 #: Most attributes of a file, and most datasets of a group: many times what results and studies have, which is
-#: up to 30 and 130. The links of a study to its runs are as many as these.
+#: up to 30 and 130. A study of an earlier version has as many links to its runs as it has runs.
 MOST_NAMES, UNLIMITED = 1000, ("runs",)
 
 
