@@ -1,6 +1,7 @@
 !> Which datasets of a run are columns of a study, and what they are called there.
 module record_columns
    use record, only: record_type, dataset_type, of_texts
+   use hdf5_scales, only: scale_count
    use study_columns, only: new_column_type
    implicit none (type, external)
    private
@@ -15,8 +16,8 @@ module record_columns
    end type record_column_type
 
    !> Groups whose datasets are columns, and what stands before their names there.
-   character(len=*), parameter :: groups(*) = [character(len=13) :: 'summary', 'by_revolution', 'coefficients', 'modes', &
-      & 'statistics', 'equilibrium', 'periodic']
+   character(len=*), parameter :: groups(*) = [character(len=13) :: 'summary', 'by_revolution', 'coefficients', &
+      & 'modes', 'statistics', 'equilibrium', 'periodic']
    character(len=*), parameter :: prefixes(*) = [character(len=12) :: '', '', '', '', '', 'equilibrium_', 'periodic_']
    !> Groups that a run has which was not done, but for the figures of its equilibrium and its speed.
    character(len=*), parameter :: of_motion = ' summary by_revolution '
@@ -80,11 +81,6 @@ contains
    !> Whether each of its dimensions has a scale.
    pure logical function has_all_scales(dataset) result(has)
       type(dataset_type), intent(in) :: dataset
-      integer :: i, blanks
-      blanks = 0
-      do i = 1, len(dataset%scales)
-         if (dataset%scales(i:i) == ' ') blanks = blanks + 1
-      end do
-      has = size(dataset%extents) == merge(0, blanks + 1, dataset%scales == '')
+      has = size(dataset%extents) == scale_count(dataset%scales)
    end function has_all_scales
 end module record_columns

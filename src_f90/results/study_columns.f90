@@ -1,16 +1,16 @@
-!> The columns of a study: datasets over its runs and over dimensions with labels. A column and a dimension come into the
-!> file with the first run that has them, and a dimension grows where a run has other labels; what was written then moves
-!> to where its labels are.
+!> The columns of a study: datasets over its runs and over dimensions with labels. A column and a dimension come into
+!> the file with the first run that has them, and a dimension grows where a run has other labels; what was written then
+!> moves to where its labels are.
 module study_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type, rows_a_chunk
-   use hdf5_scales, only: member_type, list_members, scales_of, read_about
-   use study_dimensions, only: dimension_type, open_dimension
+   use hdf5_scales, only: item_type, list_items, scales_of, read_about, scale_name, scale_count
+   use study_dimensions, only: dimension_type, open_dimension, list_type, positions
    implicit none (type, external)
    private
-   public :: study_columns_type, column_type, new_column_type, list_type, positions, words, words_in, run_scale
+   public :: study_columns_type, column_type, new_column_type, run_scale
 
    !> The scale of the runs.
    character(len=*), parameter :: run_scale = 'run'
@@ -44,7 +44,7 @@ module study_columns
       procedure :: find_dimension
       !> A column of one value a run, with the value of the runs that were not written.
       procedure :: add_single
-      procedure :: take_up
+      procedure :: extend
       procedure :: extents
       procedure :: write => write_runs
       procedure :: resize
@@ -52,11 +52,6 @@ module study_columns
       procedure :: open => open_columns
       procedure :: close => close_columns
    end type study_columns_type
-
-   !> Places of the labels along a dimension.
-   type :: list_type
-      integer, allocatable :: at(:)
-   end type list_type
 
 contains
 
@@ -157,34 +152,12 @@ contains
       character(len=*), intent(in) :: names
       integer, allocatable :: over(:)
       integer :: i
-      over = [(self%find_dimension(words(names, i)), i=1, words_in(names))]
+      over = [(self%find_dimension(scale_name(names, i)), i=1, scale_count(names))]
    end function over_of
 
-   pure integer function words_in(text)
-      character(len=*), intent(in) :: text
-      words_in = 0
-      do while (words(text, words_in + 1) /= '')
-         words_in = words_in + 1
-      end do
-   end function words_in
-
-   !> The k-th of words between blanks; empty where there are fewer.
-   pure function words(text, k) result(word)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: k
-      character(len=:), allocatable :: word
-      integer :: first, i
-      first = 1
-      do i = 2, k
-         first = min(first + index(text(first:)//' ', ' '), len(text) + 1)
-      end do
-      word = text(first:)
-      word = word(:index(word//' ', ' ') - 1)
-   end function words
-
-   !> Makes room for the labels of those of the scales that are used, and for new columns over them. `written` tells which
-   !> runs have values in the file; they move with their labels.
-   subroutine take_up(self, file, written, scales, used, new)
+   !> Makes room for the labels of those of the scales that are used, and for new columns over them. `written` tells
+   !> which runs have values in the file; they move with their labels.
+   subroutine extend(self, file, written, scales, used, new)
       class(study_columns_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
       logical, intent(in) :: written(:), used(:)
@@ -208,14 +181,15 @@ contains
          end if
       end do
       do i = 1, size(self%columns)
-         if (any(grown(pack(self%columns(i)%over, self%columns(i)%over <= size(grown))))) &
-            & call move(self, file, self%columns(i), before, written)
+         associate (own => self%columns(i))
+            if (any(grown(pack(own%over, own%over <= size(grown))))) call move(self, file, own, before, written)
+         end associate
       end do
       do i = 1, size(new)
          if (self%find(new(i)%name) == 0) call add(self, file, new(i), ieee_value(1.0_wp, ieee_quiet_nan), .false.)
       end do
       call place(self)
-   end subroutine take_up
+   end subroutine extend
 
    subroutine add_dimension(self, new)
       class(study_columns_type), intent(inout) :: self
@@ -259,34 +233,6 @@ contains
       end do
    end subroutine move
 
-   !> Places of an array's values within an array of these extents, the fastest first, by the places of its labels, the
-   !> slowest dimension first. All are 0 where a label has no place.
-   pure function positions(lists, extents) result(at)
-      type(list_type), intent(in) :: lists(:)
-      integer, intent(in) :: extents(:)
-      integer, allocatable :: at(:)
-      integer :: i, d, rest, stride, n, j
-      n = 1
-      do d = 1, size(lists)
-         n = n*size(lists(d)%at)
-      end do
-      allocate (at(n), source=1)
-      do d = 1, size(lists)
-         if (any(lists(d)%at == 0)) at = 0
-      end do
-      if (any(at == 0)) return
-      do i = 1, n
-         rest = i - 1
-         stride = 1
-         do d = size(lists), 1, -1
-            j = mod(rest, size(lists(d)%at))
-            rest = rest/size(lists(d)%at)
-            at(i) = at(i) + (lists(d)%at(j + 1) - 1)*stride
-            stride = stride*extents(size(lists) + 1 - d)
-         end do
-      end do
-   end function positions
-
    !> Writes all columns of runs from the `first` on, values(width, runs).
    subroutine write_runs(self, file, first, values)
       class(study_columns_type), intent(in) :: self
@@ -318,13 +264,13 @@ contains
       class(study_columns_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: coordinates
-      type(member_type), allocatable :: found(:)
+      type(item_type), allocatable :: found(:)
       type(dimension_type) :: new
       type(column_type) :: column
       character(len=:), allocatable :: names
       integer :: i
       call self%begin(0, coordinates)
-      call list_members(file, found)
+      call list_items(file, found)
       do i = 1, size(found)
          if (.not. found(i)%is_scale) cycle
          if (found(i)%path == run_scale) then
@@ -340,7 +286,7 @@ contains
          if (index(' '//coordinates//' ', ' '//found(i)%path//' ') > 0) cycle
          names = scales_of(file, found(i), found)
          if (allocated(file%failure)) return
-         if (words(names, 1) /= run_scale) cycle
+         if (scale_name(names, 1) /= run_scale) cycle
          column%name = found(i)%path
          call read_about(file, column%name, column%units, column%long_name)
          column%over = over_of(self, names(len(run_scale) + 2:))

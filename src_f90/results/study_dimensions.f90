@@ -1,6 +1,6 @@
 !> A dimension of a study: its labels, numbers or texts, which become more as runs come that have others.
 module study_dimensions
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
    use kinds, only: wp
    use record, only: dataset_type, of_texts
    use hdf5_file, only: hdf5_type
@@ -9,7 +9,7 @@ module study_dimensions
    use hdf5_texts, only: hdf5_texts_type, text_type
    implicit none (type, external)
    private
-   public :: dimension_type, dimension_of, open_dimension
+   public :: dimension_type, dimension_of, open_dimension, list_type, positions
 
    !> Most labels; only a damaged file says more.
    integer, parameter :: most_labels = 1000000
@@ -31,6 +31,11 @@ module study_dimensions
       !> Writes its dataset, a new one or in place of the old.
       procedure :: write => write_dimension
    end type dimension_type
+
+   !> Places of the labels along a dimension.
+   type :: list_type
+      integer, allocatable :: at(:)
+   end type list_type
 
 contains
 
@@ -68,7 +73,7 @@ contains
          if (allocated(label%text) .neqv. allocated(labels(at)%text)) cycle
          if (allocated(label%text)) then
             if (label%text == labels(at)%text) return
-         else if (.not. abs(label%number - labels(at)%number) > 0) then
+         else if (abs(label%number - labels(at)%number) <= 0) then
             return
          end if
       end do
@@ -83,7 +88,7 @@ contains
       integer :: i, before
       grown = .false.
       do i = 1, other%length()
-         if (place_of(other%labels(i), self%labels) > 0) cycle
+         if (place_of(other%labels(i), self%labels) > 0 .or. ieee_is_nan(other%labels(i)%number)) cycle
          if (self%has_texts) then
             before = 0
             if (i > 1) before = place_of(other%labels(i - 1), self%labels)
@@ -115,6 +120,34 @@ contains
       integer :: places(other%length()), i
       places = [(place_of(other%labels(i), self%labels), i=1, other%length())]
    end function places
+
+   !> Places of an array's values within an array of these extents, the fastest first, by the places of its labels, the
+   !> slowest dimension first. All are 0 where a label has no place.
+   pure function positions(lists, extents) result(at)
+      type(list_type), intent(in) :: lists(:)
+      integer, intent(in) :: extents(:)
+      integer, allocatable :: at(:)
+      integer :: i, d, rest, stride, n, j
+      n = 1
+      do d = 1, size(lists)
+         n = n*size(lists(d)%at)
+      end do
+      allocate (at(n), source=1)
+      do d = 1, size(lists)
+         if (any(lists(d)%at == 0)) at = 0
+      end do
+      if (any(at == 0)) return
+      do i = 1, n
+         rest = i - 1
+         stride = 1
+         do d = size(lists), 1, -1
+            j = mod(rest, size(lists(d)%at))
+            rest = rest/size(lists(d)%at)
+            at(i) = at(i) + (lists(d)%at(j + 1) - 1)*stride
+            stride = stride*extents(size(lists) + 1 - d)
+         end do
+      end do
+   end function positions
 
    subroutine write_dimension(self, file)
       class(dimension_type), intent(in) :: self

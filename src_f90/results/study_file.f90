@@ -212,8 +212,8 @@ contains
       status = self%rows%status(k)
    end function status
 
-   !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. Records of one
-   !> source, numbered from 1, are mostly alike; each process and reader is one.
+   !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. Records of
+   !> one source, numbered from 1, are mostly alike; each process and reader is one.
    subroutine add(self, k, status, reason, record, source)
       class(study_file_type), intent(inout) :: self
       integer, intent(in) :: k, status, source
@@ -222,8 +222,8 @@ contains
       if (.not. allocated(self%failure)) call self%rows%add(self, k, status, reason, record, source)
    end subroutine add
 
-   !> A checkpoint, if this many seconds have passed since the last, and 20 times as many as it took; `now` is the wall
-   !> clock. 0 seconds: never.
+   !> A checkpoint, if this many seconds have passed since the last, and 20 times what it took; `now` is the wall clock.
+   !> 0 seconds: never.
    subroutine checkpoint_if_due(self, now, seconds, error)
       class(study_file_type), intent(inout) :: self
       real(wp), intent(in) :: now, seconds

@@ -6,7 +6,8 @@ module study_join
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: rows_a_chunk
    use hdf5_texts, only: text_type
-   use study_columns, only: column_type, new_column_type, list_type, positions
+   use study_dimensions, only: list_type, positions
+   use study_columns, only: column_type, new_column_type
    use study_rows, only: study_rows_type, not_run
    use study_marks, only: open_study
    implicit none (type, external)
@@ -15,8 +16,8 @@ module study_join
 
 contains
 
-   !> Adds the rows of the study `path` to those of an open file, where it has none, or only one of a run that the system
-   !> failed. Both must be of one study with the same number of runs.
+   !> Adds the rows of the study `path` to those of an open file, where it has none, or only one of a run that the
+   !> system failed. Both must be of one study with the same number of runs.
    subroutine join_rows(file, rows, path, error)
       class(hdf5_type), intent(inout) :: file
       type(study_rows_type), intent(inout) :: rows
@@ -35,8 +36,9 @@ contains
       call other_file%get_text('parameters', names)
       call other%read_layout(other_file, names)
       if (.not. allocated(other_file%failure)) then
-         if (other%table%runs /= rows%table%runs .or. other_marks /= marks .or. names /= rows%table%coordinates) &
-            & call raise(error, system_error, path//': is of another study')
+         if (other%table%runs /= rows%table%runs .or. other_marks /= marks .or. names /= rows%table%coordinates) then
+            call raise(error, system_error, path//': is of another study')
+         end if
       end if
       if (.not. allocated(error) .and. .not. allocated(other_file%failure)) then
          call rows%flush(file)
@@ -45,7 +47,7 @@ contains
          do i = 1, size(new)
             new(i) = new_of(other, other%table%columns(i))
          end do
-         call rows%table%take_up(file, rows%status /= not_run, other%table%dimensions, &
+         call rows%table%extend(file, rows%status /= not_run, other%table%dimensions, &
             & spread(.true., 1, size(other%table%dimensions)), new)
          do i = 1, size(rows%table%columns)
             call join_column(file, rows, i, other_file, other, wanted)
@@ -59,7 +61,7 @@ contains
       call other_file%close()
    end subroutine join_rows
 
-   !> What another study must have to take up a column.
+   !> What another study must have to have a column.
    function new_of(rows, column) result(new)
       type(study_rows_type), intent(in) :: rows
       type(column_type), intent(in) :: column
@@ -145,15 +147,16 @@ contains
          if (first > size(wanted) .or. allocated(file%failure) .or. allocated(other_file%failure)) exit
          call other%reasons%read(other_file, first, last - first + 1, texts)
          do i = first, last
-            if (texts(i - first + 1)%text /= '' .or. rows%status(i) /= not_run) &
-               & call rows%reasons%write(file, i, texts(i - first + 1:i - first + 1))
+            associate (text => texts(i - first + 1:i - first + 1))
+               if (text(1)%text /= '' .or. rows%status(i) /= not_run) call rows%reasons%write(file, i, text)
+            end associate
          end do
          first = last + 1
       end do
    end subroutine join_reasons
 
-   !> The next runs that are all wanted, from `first` on, at most so many that none is of another block; `first` is behind
-   !> the last run where there are none.
+   !> The next runs that are all wanted, from `first` on, and in one block of the file; `first` is behind the last run
+   !> where there are none.
    pure subroutine next_stretch(wanted, block, first, last)
       logical, intent(in) :: wanted(:)
       integer, intent(in) :: block

@@ -8,7 +8,7 @@ module study_marks
    use guarded_open, only: new_reader
    use processes, only: end_child, exit_status
    use restart, only: open_result
-   use study_columns, only: words
+   use hdf5_scales, only: word => scale_name
    use study_rows, only: study_rows_type
    implicit none (type, external)
    private
@@ -26,7 +26,7 @@ contains
       call study%tag(1, first)
       call study%tag(study%runs, last)
       call file%put_flag('runs', study%runs)
-      call file%put_text(marks_name, trim(words(first%marks, 1)//' '//words(last%marks, 3)))
+      call file%put_text(marks_name, trim(word(first%marks, 1)//' '//word(last%marks, 3)))
    end subroutine put_marks
 
    !> Refuses a file, which is open, of another study than this one, or of one with more runs.
@@ -51,9 +51,9 @@ contains
          call study%tag(1, first)
          call study%tag(runs, last)
          if (marks == '' .or. first%marks == '') return
-         if (words(first%marks, 1) /= words(marks, 1)) then
+         if (word(first%marks, 1) /= word(marks, 1)) then
             call raise(error, system_error, path//': is the study of another case')
-         else if (words(last%marks, 2) /= words(marks, 2)) then
+         else if (word(last%marks, 2) /= word(marks, 2)) then
             call raise(error, system_error, path//': is of another study: its runs have other values')
          end if
       end if

@@ -28,8 +28,8 @@ module study_parameters
 
 contains
 
-   !> The parameters of a study, the slowest first. A name that another group has, too, or that another dataset has, gets
-   !> its group before it.
+   !> The parameters of a study, the slowest first. A name that another group or another dataset has, too, gets its
+   !> group before it.
    function parameters_of(study) result(found)
       type(study_type), intent(in) :: study
       type(parameter_type), allocatable :: found(:)
@@ -81,8 +81,7 @@ contains
       character(len=:), allocatable :: text
       integer :: length
       length = len(name)
-      if (index(name, '_deg', back=.true.) == length - 3 .or. index(name, '_rpm', back=.true.) == length - 3) &
-         & length = length - 4
+      if (any(name(max(1, length - 3):) == ['_deg', '_rpm'])) length = length - 4
       text = replaced(name(:length), '_', ' ')
    end function in_words
 
@@ -116,8 +115,8 @@ contains
       if (unit == '') symbols = '1'
    end function in_symbols
 
-   !> Writes the values of runs `first` to `last`; into new datasets, or, with `again`, into those that the file has, which
-   !> may have fewer runs.
+   !> Writes the values of runs `first` to `last`; into new datasets, or, with `again`, into those that the file has,
+   !> which may have fewer runs.
    subroutine write_parameters(file, study, parameters, first, last, again)
       class(hdf5_type), intent(inout) :: file
       type(study_type), intent(in) :: study

@@ -1,48 +1,26 @@
 !> The rows of a study: the results of its runs, which come as records in any order, and are held back until there are
 !> many of them.
 module study_rows
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
    use text, only: printable
-   use record, only: record_type, dataset_type
+   use record, only: record_type
    use hdf5_file, only: hdf5_type
    use hdf5_texts, only: hdf5_texts_type, text_type
-   use study_dimensions, only: dimension_type, dimension_of
-   use study_columns, only: study_columns_type, new_column_type, list_type, positions, words, words_in, &
-      & run_scale
-   use record_columns, only: record_column_type, columns_of
+   use study_dimensions, only: dimension_type
+   use study_columns, only: study_columns_type, new_column_type, run_scale
+   use row_mapping, only: row_mapping_type
    implicit none (type, external)
    private
-   public :: study_rows_type, not_run, status_name, reason_name
+   public :: study_rows_type, not_run
 
    !> The status of a run that has no row.
    integer, parameter :: not_run = -2
    character(len=*), parameter :: status_name = 'status', reason_name = 'reason'
    !> Columns that every study has, one value a run.
    character(len=*), parameter :: complete_name = 'complete'
-   !> The scale that every study has.
-   character(len=*), parameter :: pads = 'pad'
    !> Most rows held back, and most numbers of them.
    integer, parameter :: most_held = 512, most_numbers = 1000000
-
-   !> Where the numbers of a dataset of a record stand in a row.
-   type :: mapping_type
-      type(record_column_type) :: own
-      !> Whether they can have a place.
-      logical :: possible = .false.
-      !> Empty where the study has no place for them yet; the scales of the record along its dimensions.
-      integer, allocatable :: at(:), over(:)
-   end type mapping_type
-
-   !> Where a record comes from: what the mapping holds for.
-   type :: source_type
-      integer :: of_record = -1, of_columns = -1
-      type(mapping_type), allocatable :: mappings(:)
-      !> Scales of the record, which datasets they are, and their numbers one after another.
-      type(dimension_type), allocatable :: scales(:)
-      integer, allocatable :: datasets(:)
-      real(wp), allocatable :: labels(:)
-   end type source_type
 
    type :: study_rows_type
       type(study_columns_type) :: table
@@ -51,7 +29,7 @@ module study_rows
       integer, allocatable :: status(:)
       !> Names that no column may have, separated by blanks.
       character(len=:), allocatable :: taken
-      type(source_type), allocatable, private :: sources(:)
+      type(row_mapping_type), allocatable, private :: sources(:)
       !> Rows held back, their runs and reasons, and whether the run had a row before; how many there are.
       real(wp), allocatable, private :: held(:, :)
       integer, allocatable, private :: numbers(:)
@@ -68,7 +46,6 @@ module study_rows
       procedure :: open => open_rows
       procedure :: close => close_rows
       procedure :: resize
-      procedure, private :: map
       procedure, private :: make_room
    end type study_rows_type
 
@@ -116,8 +93,8 @@ contains
       call self%reasons%open(file, reason_name)
       call forget(self)
       if (allocated(file%failure)) return
-      if (self%table%find(status_name)*self%table%find(complete_name) == 0) &
-         & call file%check_read(-1, 'find the columns of a study')
+      if (self%table%find(status_name)*self%table%find(complete_name) == 0) call file%check_read(-1, &
+         & 'find the columns of a study')
       if (allocated(file%failure)) return
       call self%table%columns(self%table%find(status_name))%data%read(file, 1, self%table%runs, values)
       self%status = nint(values(1, :))
@@ -131,8 +108,6 @@ contains
       integer, intent(in) :: k, status, source
       character(len=*), intent(in) :: reason
       type(record_type), intent(in) :: record
-      integer :: i
-      call self%map(record, source)
       call self%make_room(file, record, source, status == 0)
       if (allocated(file%failure)) return
       if (.not. allocated(self%held)) call allocate_held(self)
@@ -142,14 +117,9 @@ contains
       self%texts(self%count)%text = trim(printable(reason))
       self%again(self%count) = self%status(k) /= not_run
       self%status(k) = status
-      associate (row => self%held(:, self%count), mappings => self%sources(source)%mappings)
+      associate (row => self%held(:, self%count))
          row = ieee_value(1.0_wp, ieee_quiet_nan)
-         do i = 1, size(mappings)
-            associate (own => mappings(i)%own, dataset => record%datasets(mappings(i)%own%dataset))
-               if (size(mappings(i)%at) == 0 .or. .not. dataset%there .or. own%of_done .and. status /= 0) cycle
-               row(mappings(i)%at) = dataset%values
-            end associate
-         end do
+         call self%sources(source)%fill(record, status == 0, row)
          row(self%singles) = [real(status, wp), merge(1.0_wp, 0.0_wp, status == 0)]
       end associate
    end subroutine add
@@ -161,141 +131,37 @@ contains
       rows = max(1, min(most_held, most_numbers/self%table%width))
       allocate (self%held(self%table%width, rows), self%numbers(rows), self%texts(rows), self%again(rows))
       associate (columns => self%table%columns)
-         self%singles = [columns(self%table%find(status_name))%before, columns(self%table%find(complete_name))%before] + 1
+         self%singles = [columns(self%table%find(status_name))%before, &
+            & columns(self%table%find(complete_name))%before] + 1
       end associate
    end subroutine allocate_held
 
-   !> Finds the places of a record's numbers in a row, unless they are known.
-   subroutine map(self, record, source)
-      class(study_rows_type), intent(inout) :: self
-      type(record_type), intent(in) :: record
-      integer, intent(in) :: source
-      type(source_type), allocatable :: more(:)
-      type(record_column_type), allocatable :: found(:)
-      integer :: i
-      if (source > size(self%sources)) then
-         allocate (more(source))
-         more(:size(self%sources)) = self%sources
-         call move_alloc(more, self%sources)
-      end if
-      associate (own => self%sources(source))
-         if (own%of_record == record%version .and. own%of_columns == self%table%version) then
-            if (all(.not. abs(own%labels - labels_of(record, own%datasets)) > 0)) return
-         end if
-         own%of_record = record%version
-         own%of_columns = self%table%version
-         own%datasets = pack([(i, i=1, record%count)], [(record%datasets(i)%scales == record%datasets(i)%path &
-            & .and. record%datasets(i)%there, i=1, record%count)])
-         own%labels = labels_of(record, own%datasets)
-         if (allocated(own%scales)) deallocate (own%scales)
-         allocate (own%scales(size(own%datasets)))
-         do i = 1, size(own%datasets)
-            own%scales(i) = dimension_of(record%datasets(own%datasets(i)))
-         end do
-         found = columns_of(record, self%taken)
-         if (allocated(own%mappings)) deallocate (own%mappings)
-         allocate (own%mappings(size(found)))
-         do i = 1, size(found)
-            own%mappings(i)%own = found(i)
-            call find_place(self, own%scales, own%mappings(i))
-         end do
-      end associate
-   end subroutine map
-
-   !> The numbers of scales, one after another.
-   pure function labels_of(record, datasets) result(labels)
-      type(record_type), intent(in) :: record
-      integer, intent(in) :: datasets(:)
-      real(wp), allocatable :: labels(:)
-      integer :: i, n
-      allocate (labels(sum([(size(record%datasets(datasets(i))%values), i=1, size(datasets))])))
-      n = 0
-      do i = 1, size(datasets)
-         associate (own => record%datasets(datasets(i)))
-            labels(n + 1:n + size(own%values)) = own%values
-            n = n + size(own%values)
-         end associate
-      end do
-   end function labels_of
-
-   !> Finds the places of a dataset's numbers, if its column and all labels are there. It has none where the record lacks a
-   !> scale of it, or the study has the column over other dimensions.
-   subroutine find_place(self, scales, mapping)
-      type(study_rows_type), intent(in) :: self
-      type(dimension_type), intent(in) :: scales(:)
-      type(mapping_type), intent(inout) :: mapping
-      type(list_type), allocatable :: lists(:)
-      integer :: c, d, i
-      associate (own => mapping%own%column)
-         mapping%over = [(place_of(scales, words(own%scales, i)), i=1, words_in(own%scales))]
-         mapping%at = [integer ::]
-         mapping%possible = all(mapping%over > 0)
-         c = self%table%find(own%name)
-         if (c == 0 .or. .not. mapping%possible) return
-         associate (column => self%table%columns(c))
-            mapping%possible = size(mapping%over) == size(column%over)
-            if (.not. mapping%possible) return
-            allocate (lists(size(mapping%over)))
-            do i = 1, size(lists)
-               d = column%over(i)
-               if (self%table%dimensions(d)%name /= scales(mapping%over(i))%name) mapping%possible = .false.
-               lists(i)%at = self%table%dimensions(d)%places(scales(mapping%over(i)))
-            end do
-            mapping%at = positions(lists, self%table%extents(column%over))
-            if (any(mapping%at == 0) .or. .not. mapping%possible) mapping%at = [integer ::]
-            mapping%at = mapping%at + column%before
-         end associate
-      end associate
-   end subroutine find_place
-
-   pure integer function place_of(scales, name) result(at)
-      type(dimension_type), intent(in) :: scales(:)
-      character(len=*), intent(in) :: name
-      do at = size(scales), 1, -1
-         if (scales(at)%name == name) return
-      end do
-   end function place_of
-
-   !> Gives the study the columns and labels of a record that it lacks.
+   !> Finds where a record's numbers stand in a row, and gives the study the columns and labels that it lacks.
    subroutine make_room(self, file, record, source, done)
       class(study_rows_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
       type(record_type), intent(in) :: record
       integer, intent(in) :: source
       logical, intent(in) :: done
+      type(row_mapping_type), allocatable :: more(:)
       type(new_column_type), allocatable :: new(:)
-      logical, allocatable :: wanted(:), used(:)
-      integer :: i, n
+      type(dimension_type), allocatable :: scales(:)
+      logical, allocatable :: used(:)
+      if (source > size(self%sources)) then
+         allocate (more(source))
+         more(:size(self%sources)) = self%sources
+         call move_alloc(more, self%sources)
+      end if
       associate (own => self%sources(source))
-         wanted = [(lacks(own%mappings(i), record%datasets(own%mappings(i)%own%dataset), done), &
-            & i=1, size(own%mappings))]
-         if (.not. any(wanted)) return
+         call own%find(record, self%table, self%taken)
+         call own%find_lacking(record, done, new, scales, used)
+         if (size(new) == 0) return
          call self%flush(file)
-         allocate (used(size(own%scales)), source=.false.)
-         allocate (new(count(wanted)))
-         n = 0
-         do i = 1, size(wanted)
-            if (.not. wanted(i)) cycle
-            n = n + 1
-            new(n) = own%mappings(i)%own%column
-            used(own%mappings(i)%over) = .true.
-         end do
-         i = place_of(own%scales, pads)
-         if (i > 0) used(i) = .true.
-         call self%table%take_up(file, self%status /= not_run, own%scales, used, new)
+         call self%table%extend(file, self%status /= not_run, scales, used, new)
+         if (allocated(self%held)) deallocate (self%held, self%numbers, self%texts, self%again)
+         call own%find(record, self%table, self%taken)
       end associate
-      if (allocated(self%held)) deallocate (self%held, self%numbers, self%texts, self%again)
-      call self%map(record, source)
    end subroutine make_room
-
-   !> Whether a dataset has numbers but no place.
-   pure logical function lacks(mapping, dataset, done)
-      type(mapping_type), intent(in) :: mapping
-      type(dataset_type), intent(in) :: dataset
-      logical, intent(in) :: done
-      lacks = mapping%possible .and. size(mapping%at) == 0 .and. dataset%there .and. (done .or. .not. mapping%own%of_done)
-      if (lacks) lacks = .not. all(ieee_is_nan(dataset%values))
-   end function lacks
 
    !> Writes the rows that are held back, runs that follow each other together.
    subroutine write_held(self, file)
@@ -315,8 +181,8 @@ contains
          first = last + 1
       end do
       do last = 1, self%count
-         if (self%texts(last)%text /= '' .or. self%again(last)) &
-            & call self%reasons%write(file, self%numbers(last), self%texts(last:last))
+         if (self%texts(last)%text /= '' .or. self%again(last)) call self%reasons%write(file, self%numbers(last), &
+            & self%texts(last:last))
       end do
       self%count = 0
    end subroutine write_held

@@ -7,28 +7,28 @@ module hdf5_scales
    use hdf5_file, only: hdf5_type
    implicit none (type, external)
    private
-   public :: member_type, list_members, scales_of, read_about
+   public :: item_type, list_items, scales_of, read_about, scale_name, scale_count
 
    !> Only a damaged file has longer names or more dimensions.
    integer, parameter :: longest_name = 200, most_dimensions = 32
 
    !> A dataset or group of a file.
-   type :: member_type
+   type :: item_type
       character(len=:), allocatable :: path
       logical :: is_group = .false., is_dataset = .false., is_scale = .false.
       !> Of a dataset: whether it has texts, its sizes, the fastest first, and whether it may become longer.
       logical :: of_texts = .false.
       integer(hsize_t), allocatable :: extents(:)
       logical :: grows = .false.
-   end type member_type
+   end type item_type
 
 contains
 
    !> The groups of a file, and its datasets, those in the groups too.
-   subroutine list_members(file, found)
+   subroutine list_items(file, found)
       class(hdf5_type), intent(inout) :: file
-      type(member_type), allocatable, intent(out) :: found(:)
-      type(member_type), allocatable :: top(:)
+      type(item_type), allocatable, intent(out) :: found(:)
+      type(item_type), allocatable :: top(:)
       integer :: i, n, count, status
       call list_group(file, '/', top)
       n = size(top)
@@ -44,15 +44,15 @@ contains
          if (i > n) exit
          if (found(i)%is_group .and. index(found(i)%path, '/') == 0) call add_group(file, found(i)%path, found, n)
       end do
-   end subroutine list_members
+   end subroutine list_items
 
-   !> Adds the members of a group to a list of n.
+   !> Adds the items of a group to a list of n.
    subroutine add_group(file, group, found, n)
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
-      type(member_type), intent(inout) :: found(:)
+      type(item_type), intent(inout) :: found(:)
       integer, intent(inout) :: n
-      type(member_type), allocatable :: inner(:)
+      type(item_type), allocatable :: inner(:)
       call list_group(file, group, inner)
       found(n + 1:n + size(inner)) = inner
       n = n + size(inner)
@@ -62,7 +62,7 @@ contains
    subroutine list_group(file, group, found)
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
-      type(member_type), allocatable, intent(out) :: found(:)
+      type(item_type), allocatable, intent(out) :: found(:)
       character(len=longest_name) :: name
       integer :: count, i, kind, status
       count = 0
@@ -86,58 +86,58 @@ contains
    end subroutine list_group
 
    !> Size of a dataset, and whether it is a scale.
-   subroutine measure(file, member)
+   subroutine measure(file, item)
       class(hdf5_type), intent(inout) :: file
-      type(member_type), intent(inout) :: member
+      type(item_type), intent(inout) :: item
       integer(hsize_t) :: dims(most_dimensions), most(most_dimensions)
       integer(hid_t) :: dataset, space, kind
       integer :: status, rank, class, ignored
       logical :: there
-      call h5dopen_f(file%id, member%path, dataset, status)
-      call file%check_read(status, 'open '//member%path)
+      call h5dopen_f(file%id, item%path, dataset, status)
+      call file%check_read(status, 'open '//item%path)
       if (status < 0) return
       call h5dget_space_f(dataset, space, status)
       call h5sget_simple_extent_ndims_f(space, rank, status)
       if (status >= 0 .and. rank > 0) call h5sget_simple_extent_dims_f(space, dims(:rank), most(:rank), status)
-      call file%check_read(status, 'read the size of '//member%path)
+      call file%check_read(status, 'read the size of '//item%path)
       if (status >= 0 .and. rank > 0) then
-         member%extents = dims(:rank)
-         member%grows = any(most(:rank) == h5s_unlimited_f)
+         item%extents = dims(:rank)
+         item%grows = any(most(:rank) == h5s_unlimited_f)
       end if
       call h5dget_type_f(dataset, kind, status)
       call h5tget_class_f(kind, class, ignored)
-      member%of_texts = status >= 0 .and. class == h5t_string_f
+      item%of_texts = status >= 0 .and. class == h5t_string_f
       if (status >= 0) call h5tclose_f(kind, ignored)
       ! asking for it is an error for a dataset without any
       call h5aexists_f(dataset, 'CLASS', there, ignored)
-      if (there) call h5dsis_scale_f(dataset, member%is_scale, ignored)
+      if (there) call h5dsis_scale_f(dataset, item%is_scale, ignored)
       call h5sclose_f(space, ignored)
       call h5dclose_f(dataset, ignored)
    end subroutine measure
 
    !> The scales of a dataset as hdf5_file names them: slowest dimension first, separated by blanks; its own path for a
    !> scale, and empty for a single number and where a dimension has no scale.
-   function scales_of(file, member, all) result(names)
+   function scales_of(file, item, all) result(names)
       class(hdf5_type), intent(inout) :: file
-      !> The dataset, and all members of the file.
-      type(member_type), intent(in) :: member, all(:)
+      !> The dataset, and all items of the file.
+      type(item_type), intent(in) :: item, all(:)
       character(len=:), allocatable :: names
       integer(hid_t) :: dataset
       integer :: k, i, status, rank
       logical :: found
       names = ''
-      if (member%is_scale) names = member%path
-      if (member%is_scale .or. size(member%extents) == 0 .or. allocated(file%failure)) return
-      call h5dopen_f(file%id, member%path, dataset, status)
-      call file%check_read(status, 'open '//member%path)
+      if (item%is_scale) names = item%path
+      if (item%is_scale .or. size(item%extents) == 0 .or. allocated(file%failure)) return
+      call h5dopen_f(file%id, item%path, dataset, status)
+      call file%check_read(status, 'open '//item%path)
       if (status < 0) return
-      rank = size(member%extents)
+      rank = size(item%extents)
       call h5aexists_f(dataset, 'DIMENSION_LIST', found, status)
       if (.not. found) rank = 0
       do k = 1, rank
          do i = 1, size(all)
             if (.not. all(i)%is_scale) cycle
-            if (all(i)%extents(1) /= member%extents(rank + 1 - k)) cycle
+            if (all(i)%extents(1) /= item%extents(rank + 1 - k)) cycle
             if (is_attached(file, dataset, all(i)%path, k)) exit
          end do
          if (i > size(all)) then
@@ -149,6 +149,28 @@ contains
       end do
       call h5dclose_f(dataset, status)
    end function scales_of
+
+   !> The k-th of scales whose names are separated by blanks; empty where there are fewer.
+   pure function scale_name(names, k) result(name)
+      character(len=*), intent(in) :: names
+      integer, intent(in) :: k
+      character(len=:), allocatable :: name
+      integer :: first, i
+      first = 1
+      do i = 2, k
+         first = min(first + index(names(first:)//' ', ' '), len(names) + 1)
+      end do
+      name = names(first:)
+      name = name(:index(name//' ', ' ') - 1)
+   end function scale_name
+
+   pure integer function scale_count(names) result(number)
+      character(len=*), intent(in) :: names
+      number = 0
+      do while (scale_name(names, number + 1) /= '')
+         number = number + 1
+      end do
+   end function scale_count
 
    !> Units and meaning of a dataset.
    subroutine read_about(file, path, units, long_name)

@@ -2,11 +2,11 @@
 !> over the points of a branch, which may be very long.
 module record_reader
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
-   use hdf5, only: hid_t, hsize_t, size_t, h5dclose_f, h5dread_f, h5dget_type_f, h5tget_class_f, h5tget_size_f, &
+   use hdf5, only: hid_t, size_t, h5dclose_f, h5dread_f, h5dget_type_f, h5tget_class_f, h5tget_size_f, &
       & h5tis_variable_str_f, h5tclose_f, h5t_string_f, h5t_integer_f, h5t_float_f, h5t_native_double
    use kinds, only: wp
    use hdf5_file, only: hdf5_type
-   use hdf5_scales, only: member_type, list_members, scales_of, read_about
+   use hdf5_scales, only: item_type, list_items, scales_of, read_about
    use record, only: record_type, of_reals, of_counts, of_texts
    implicit none (type, external)
    private
@@ -25,10 +25,10 @@ contains
    subroutine read_record(file, record)
       class(hdf5_type), intent(inout) :: file
       type(record_type), intent(inout) :: record
-      type(member_type), allocatable :: found(:)
+      type(item_type), allocatable :: found(:)
       integer :: i, value
       call record%clear()
-      call list_members(file, found)
+      call list_items(file, found)
       do i = 1, size(found)
          if (.not. found(i)%is_dataset .or. found(i)%grows .or. index(found(i)%path, not_results) == 1) cycle
          call read_dataset(file, found(i), scales_of(file, found(i), found), record)
@@ -40,9 +40,9 @@ contains
       end do
    end subroutine read_record
 
-   subroutine read_dataset(file, member, scales, record)
+   subroutine read_dataset(file, item, scales, record)
       class(hdf5_type), intent(inout) :: file
-      type(member_type), intent(in) :: member
+      type(item_type), intent(in) :: item
       character(len=*), intent(in) :: scales
       type(record_type), intent(inout) :: record
       character(len=:), allocatable :: units, long_name, texts
@@ -51,37 +51,37 @@ contains
       type(c_ptr) :: buffer
       integer :: status, class
       if (allocated(file%failure)) return
-      if (product(real(member%extents, wp)) > most_numbers) call file%check_read(-1, 'take memory for '//member%path)
+      if (product(real(item%extents, wp)) > most_numbers) call file%check_read(-1, 'take memory for '//item%path)
       if (allocated(file%failure)) return
-      call read_about(file, member%path, units, long_name)
-      call file%open_dataset(member%path, dataset, status)
+      call read_about(file, item%path, units, long_name)
+      call file%open_dataset(item%path, dataset, status)
       if (status < 0) return
       call h5dget_type_f(dataset, kind, status)
       call h5tget_class_f(kind, class, status)
-      allocate (values(merge(0, int(product(member%extents)), class == h5t_string_f)))
+      allocate (values(merge(0, int(product(item%extents)), class == h5t_string_f)))
       texts = ''
       if (status >= 0 .and. class == h5t_string_f) then
-         call read_labels(file, dataset, kind, member, texts)
+         call read_labels(file, dataset, kind, item, texts)
       else if (status >= 0 .and. (class == h5t_integer_f .or. class == h5t_float_f)) then
          buffer = c_loc(values)
          if (size(values) > 0) call h5dread_f(dataset, h5t_native_double, buffer, status)
-         call file%check_read(status, 'read '//member%path)
+         call file%check_read(status, 'read '//item%path)
       else
-         call file%check_read(-1, 'find numbers in '//member%path)
+         call file%check_read(-1, 'find numbers in '//item%path)
       end if
       call h5tclose_f(kind, status)
       call h5dclose_f(dataset, status)
       if (allocated(file%failure)) return
-      kind = merge(of_texts, merge(of_counts, of_reals, class == h5t_integer_f .and. size(member%extents) == 0), &
+      kind = merge(of_texts, merge(of_counts, of_reals, class == h5t_integer_f .and. size(item%extents) == 0), &
          & class == h5t_string_f)
-      call record%put(member%path, int(kind), values, int(member%extents), units, long_name, scales, texts)
+      call record%put(item%path, int(kind), values, int(item%extents), units, long_name, scales, texts)
    end subroutine read_dataset
 
    !> Texts of one length, filled up with zero bytes: each with a new line behind it.
-   subroutine read_labels(file, dataset, kind, member, texts)
+   subroutine read_labels(file, dataset, kind, item, texts)
       class(hdf5_type), intent(inout) :: file
       integer(hid_t), intent(in) :: dataset, kind
-      type(member_type), intent(in) :: member
+      type(item_type), intent(in) :: item
       character(len=:), allocatable, intent(inout) :: texts
       character(kind=c_char, len=:), allocatable, target :: bytes
       type(c_ptr) :: buffer
@@ -91,13 +91,13 @@ contains
       call h5tis_variable_str_f(kind, variable, status)
       if (status >= 0) call h5tget_size_f(kind, length, status)
       if (status >= 0 .and. (variable .or. length > longest_label)) status = -1
-      call file%check_read(status, 'find labels in '//member%path)
+      call file%check_read(status, 'find labels in '//item%path)
       if (status < 0) return
-      count = int(product(member%extents))
+      count = int(product(item%extents))
       allocate (character(kind=c_char, len=count*int(length)) :: bytes)
       buffer = c_loc(bytes)
       call h5dread_f(dataset, kind, buffer, status)
-      call file%check_read(status, 'read '//member%path)
+      call file%check_read(status, 'read '//item%path)
       if (status < 0) return
       do i = 1, count
          associate (label => bytes((i - 1)*int(length) + 1:i*int(length)))
