@@ -120,7 +120,7 @@ contains
    end subroutine part
 
    !> All values of the sample of this number, from 0, which is kept.
-   function sample(self, number) result(values)
+   pure function sample(self, number) result(values)
       class(recent_samples_type), intent(in) :: self
       integer(i8), intent(in) :: number
       real(wp), allocatable :: values(:)

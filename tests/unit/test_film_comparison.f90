@@ -8,11 +8,9 @@ program test_film_comparison
    use film_comparison, only: film_comparison_type, film_difference, new_film_comparison
    use verification, only: sample_of
    use verification_results, only: put_verification, states_figure
-   use hdf5_file, only: hdf5_type
+   use record, only: record_type
    use summary_group, only: figure, pad_figures, has_figure
-   use files, only: delete_file
    use input_cases, only: case_of
-   use scratch, only: scratch_path
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
@@ -27,7 +25,7 @@ program test_film_comparison
    if (runs('carried')) call carried()
    if (runs('closed')) call closed()
    if (runs('spread')) call spread_over_run()
-   if (runs('in_a_file')) call in_a_file()
+   if (runs('in_a_record')) call in_a_record()
    call report()
 
 contains
@@ -138,10 +136,10 @@ contains
    end subroutine spread_over_run
 
    !> Median, largest with its time, films that could not be compared; the same in words.
-   subroutine in_a_file()
+   subroutine in_a_record()
       type(film_difference) :: found(2, 4)
-      type(hdf5_type) :: file
-      character(len=:), allocatable :: path, lines, attribute
+      type(record_type) :: file
+      character(len=:), allocatable :: lines, attribute
       real(wp), allocatable :: values(:)
       real(wp), parameter :: forces(4) = [3.0_wp, 1.0_wp, 8.0_wp, 2.0_wp]
       integer :: k
@@ -151,8 +149,6 @@ contains
          found(2, k) = film_difference(refusal='the film of pad 2 closed')
       end do
       found(1, 2)%refusal = 'the film of pad 1 did not converge'
-      path = scratch_path('verified.h5')
-      call file%create(path)
       call file%put_list('pad', [1.0_wp, 2.0_wp], '1', 'pad', 'pad')
       call put_verification(file, [0.1_wp, 0.2_wp, 0.3_wp, 0.4_wp], found, 20.0_wp, lines)
       call expect_close(figure(file, states_figure), 4.0_wp, 0.0_wp, 'states')
@@ -171,20 +167,16 @@ contains
          & //'pressure 0.04; estimated error of the closely solved films 0.04; 1 of 4 films could not be compared: ' &
          & //'at t = 0.2 s the film of pad 1 did not converge'//achar(10)//'pad 2: 4 of 4 films could not be ' &
          & //'compared: at t = 0.1 s the film of pad 2 closed', 'in words: '//lines)
-      call expect(.not. allocated(file%failure), 'the file is whole')
-      call file%close()
-      call file%create(path)
+      call file%clear()
       call file%put_list('pad', [1.0_wp, 2.0_wp], '1', 'pad', 'pad')
       call put_verification(file, [real(wp) ::], found(:, 1:1), 0.0_wp, lines)
       call expect(.not. has_figure(file, 'pad_film_error_time'), 'an equilibrium has no time')
       call expect(.not. has_figure(file, 'pad_film_error_of_load'), 'no load, nothing over it')
-      call file%close()
-      call delete_file(path)
-   end subroutine in_a_file
+   end subroutine in_a_record
 
    !> What pad 1 must have; pad 2 has no number.
    subroutine expect_pad(file, expected, name)
-      type(hdf5_type), intent(inout) :: file
+      type(record_type), intent(inout) :: file
       real(wp), intent(in) :: expected
       character(len=*), intent(in) :: name
       real(wp), allocatable :: values(:)

@@ -256,6 +256,7 @@ contains
       integer, parameter :: ends(7) = [1, 5, 4096, 4097, 4097, 12000, 13000]
       type(growing_file_type) :: file
       type(error_type), allocatable :: error
+      logical :: behind
       integer :: i, before
       call begin_new(file)
       call expect(.not. file_there(path), 'nothing is seen before')
@@ -264,7 +265,7 @@ contains
          call add_samples(file, before + 1, ends(i))
          call expect(file%samples == ends(i), 'samples are counted')
          if (i > 1) call expect_samples(before)
-         call file%publish(continued=i < size(ends), error=error)
+         call file%publish(continued=i < size(ends), error=error, behind=behind)
          call expect_no_error(error, 'published '//to_text(ends(i)))
          call expect_samples(ends(i))
          before = ends(i)
@@ -276,20 +277,21 @@ contains
    subroutine continued()
       type(growing_file_type) :: file, later
       type(error_type), allocatable :: error
+      logical :: behind
       call begin_new(file)
       call add_samples(file, 1, 4000)
-      call file%publish(continued=.false., error=error)
+      call file%publish(continued=.false., error=error, behind=behind)
       call later%claim(path, error)
       call later%reopen(error)
       call expect_no_error(error, 'opened again')
       call later%begin_series('frequency', 5000_i8)
       call expect(later%samples == 4000_i8, 'the samples in the file count')
       call add_samples(later, 4001, 4500)
-      call later%publish(continued=.true., error=error)
+      call later%publish(continued=.true., error=error, behind=behind)
       call expect_no_error(error, 'published')
       call expect_samples(4500)
       call add_samples(later, 4501, 9000)
-      call later%publish(continued=.false., error=error)
+      call later%publish(continued=.false., error=error, behind=behind)
       call expect_samples(9000)
    end subroutine continued
 
@@ -297,6 +299,7 @@ contains
    subroutine last_samples()
       type(growing_file_type) :: file, later
       type(error_type), allocatable :: error
+      logical :: behind
       real(wp), allocatable :: values(:, :)
       call begin_new(file)
       call add_samples(file, 1, 5000)
@@ -304,7 +307,7 @@ contains
       call expect(all(shape(values) == [2, 1500]), 'as many as asked for')
       call expect_close(norm2(values(:, 1) - amplitude(3501)) + norm2(values(:, 1500) - amplitude(5000)), 0.0_wp, &
          & 0.0_wp, 'the last ones')
-      call file%publish(continued=.false., error=error)
+      call file%publish(continued=.false., error=error, behind=behind)
       call later%claim(path, error)
       call later%reopen(error)
       call later%begin_series('frequency', 5000_i8)
@@ -317,9 +320,10 @@ contains
    subroutine given_up()
       type(growing_file_type) :: file, later
       type(error_type), allocatable :: error
+      logical :: behind
       call begin_new(file)
       call add_samples(file, 1, 10)
-      call file%publish(continued=.false., error=error)
+      call file%publish(continued=.false., error=error, behind=behind)
       call begin_new(later)
       call add_samples(later, 1, 20)
       call expect(file_there(path//'.part'), 'a part while it is written')
@@ -332,15 +336,16 @@ contains
    subroutine without_series()
       type(growing_file_type) :: file
       type(error_type), allocatable :: error
+      logical :: behind
       type(hdf5_type) :: found
       call file%claim(path, error)
       call file%begin(error)
       call expect_no_error(error, 'begun')
       call file%put_real('value', 1.5_wp, '1', 'a value')
-      call file%publish(continued=.true., error=error)
+      call file%publish(continued=.true., error=error, behind=behind)
       call expect_no_error(error, 'published without series')
       call expect(file%samples == 0, 'no samples')
-      call file%publish(continued=.false., error=error)
+      call file%publish(continued=.false., error=error, behind=behind)
       call expect_no_error(error, 'and closed')
       call found%open(path, writing=.false.)
       call expect_close(found%get_real('value'), 1.5_wp, 0.0_wp, 'its value is there')

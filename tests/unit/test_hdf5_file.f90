@@ -7,6 +7,7 @@ program test_hdf5_file
    use h5ds, only: h5dsis_scale_f, h5dsis_attached_f
    use kinds, only: wp, i8
    use hdf5_file, only: hdf5_type
+   use record, only: record_type
    use run_statistics, only: run_statistics_type
    use files, only: delete_file
    use scratch, only: scratch_path, file_there, write_bytes
@@ -434,22 +435,17 @@ contains
 
    subroutine statistics()
       type(run_statistics_type) :: list
-      type(hdf5_type) :: file
-      call file%create(path)
+      type(record_type) :: record
       list = figures(1_i8, 2_i8, 3.0_wp)
-      call list%write(file)
+      call list%write(record)
       list = figures(2_i8**40, 0_i8, 0.1_wp)
-      call list%write(file)
-      call file%close()
-      call file%open(path, writing=.false.)
+      call list%write(record)
       list = figures(0_i8, 5_i8, 0.0_wp)
-      call list%read(file)
-      call expect(list%count('steps') == 2_i8**40 .and. list%count('film_volumes') == 0, 'counts are those in the file')
+      call list%read(record)
+      call expect(list%count('steps') == 2_i8**40 .and. list%count('film_volumes') == 0, 'counts are those written last')
       call expect_close(list%seconds('wall_seconds'), 0.1_wp, 0.0_wp, 'seconds are')
-      call list%put('missing', 0_i8, 'not in the file')
-      call list%read(file)
-      call expect(file%damaged, 'a figure that the file lacks is a failure')
-      call file%close()
-      call expect(allocated(file%failure), 'which is kept')
+      call list%put('missing', 7_i8, 'not in the record')
+      call list%read(record)
+      call expect(list%count('missing') == 0, 'a figure that the record lacks counts 0')
    end subroutine statistics
 end program test_hdf5_file

@@ -1,0 +1,240 @@
+!> The record of a run: what it has after it was cleared and filled again, the file written from it again and again, and
+!> the message that brings it to another process.
+program test_record
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use kinds, only: wp, i8
+   use text, only: to_text
+   use files, only: delete_file
+   use record, only: record_type, move_record
+   use record_file, only: write_record
+   use record_reader, only: read_record
+   use record_message, only: description, take_description, numbers, take_numbers
+   use hdf5_file, only: hdf5_type
+   use scratch, only: scratch_path
+   use check, only: runs, expect, expect_close, between, report
+   implicit none (type, external)
+
+   if (runs('put_and_get')) call put_and_get()
+   if (runs('deleted')) call deleted()
+   if (runs('filled_again')) call filled_again()
+   if (runs('versions')) call versions()
+   if (runs('moved')) call moved()
+   if (runs('message')) call message()
+   if (runs('messages_of_many_runs')) call messages_of_many_runs()
+   if (runs('written_again')) call written_again()
+   call report()
+
+contains
+
+   !> A run of k pads, 1 or more; every third has a figure that the others lack.
+   subroutine fill(record, k)
+      type(record_type), intent(inout) :: record
+      integer, intent(in) :: k
+      integer :: i
+      call record%clear()
+      call record%put_flag('complete', mod(k, 2))
+      call record%put_text('title', 'run '//to_text(k))
+      call record%put_list('pad', [(real(i, wp), i=1, k)], '1', 'pad number', 'pad')
+      call record%put_labels('pivot', [character(len=8) :: 'locked', 'pivot '//to_text(k)], 'pivots')
+      call record%put_count('statistics/steps', 2_i8**40 + k, 'time steps')
+      call record%put_real('summary/orbit_y', 0.1_wp*k, 'm', 'orbit')
+      if (mod(k, 3) == 0) call record%put_real('summary/only', 0.3_wp*k, 'W', 'of every third')
+      call record%put_table('modes/frequency', reshape([(1.5_wp**i, i=1, 2*k)], [k, 2]), 'Hz', 'frequencies', 'pivot pad')
+   end subroutine fill
+
+   !> It has all of run k, and nothing else.
+   subroutine expect_run(record, k, what)
+      type(record_type), intent(inout) :: record
+      integer, intent(in) :: k
+      character(len=*), intent(in) :: what
+      real(wp) :: values(2*k)
+      integer :: i
+      call expect(record%list_size('pad') == k .and. record%list_size('modes/frequency') == 2*k, what//': sizes')
+      call record%get_list('modes/frequency', values)
+      call expect(all(abs(values - [(1.5_wp**i, i=1, 2*k)]) <= 0), what//': values')
+      call expect_close(record%get_real('summary/orbit_y'), 0.1_wp*k, 0.0_wp, what//': a number')
+      call expect(nint(record%get_real('statistics/steps'), i8) == 2_i8**40 + k, what//': a count')
+      call expect(record%has('summary/only') .eqv. mod(k, 3) == 0, what//': a figure that not all have')
+   end subroutine expect_run
+
+   subroutine put_and_get()
+      type(record_type) :: record
+      character(len=:), allocatable :: text
+      real(wp) :: three(3)
+      integer :: flag
+      call expect(.not. record%has('pad'), 'nothing at first')
+      call fill(record, 3)
+      call expect_run(record, 3, 'filled')
+      call expect(record%has('summary'), 'a group is there')
+      call expect(.not. record%has('summ'), 'its first letters are not')
+      call record%get_text('title', text)
+      call record%get_flag('complete', flag)
+      call expect(text == 'run 3' .and. flag == 1, 'attributes')
+      call record%get_text('none', text)
+      call record%get_flag('none', flag)
+      call expect(text == '' .and. flag == 0, 'and those that are not there')
+      call record%get_list('none', three)
+      call expect(all(abs(three) <= 0) .and. abs(record%get_real('none')) <= 0, 'numbers that are not there are 0')
+      call record%get_list('modes/frequency', three)
+      call expect(all(abs(three) <= 0), 'nor is a list of another size')
+   end subroutine put_and_get
+
+   !> What was deleted is gone until it is put again, in whatever order it comes.
+   subroutine deleted()
+      type(record_type) :: record
+      call fill(record, 3)
+      call record%delete('summary')
+      call expect(.not. record%has('summary'), 'a group')
+      call expect(.not. record%has('summary/only'), 'with all in it')
+      call expect(record%has('statistics/steps'), 'and no other')
+      call record%put_real('summary/only', 2.0_wp, 'W', 'of every third')
+      call expect(record%has('summary'), 'put again')
+      call expect(.not. record%has('summary/orbit_y'), 'alone')
+      call record%delete('pad')
+      call expect(.not. record%has('pad'), 'a dataset')
+      call expect(record%has('pivot'), 'alone')
+   end subroutine deleted
+
+   !> Runs of more and fewer datasets, of other sizes, one after another in one record.
+   subroutine filled_again()
+      type(record_type) :: record
+      integer, parameter :: order(*) = [3, 1, 2, 6, 6, 5, 1, 3]
+      character(len=:), allocatable :: text
+      integer :: i
+      do i = 1, size(order)
+         call fill(record, order(i))
+         call expect_run(record, order(i), 'run '//to_text(i))
+         call record%get_text('title', text)
+         call expect(text == 'run '//to_text(order(i)), 'its title')
+      end do
+      call record%clear()
+      call expect(record%list_size('pad') == 0, 'nothing after it was cleared')
+      call expect(.not. record%has('summary'), 'no group')
+      call record%get_text('title', text)
+      call expect(text == '', 'no attribute either')
+   end subroutine filled_again
+
+   !> The version says whether what the datasets are has changed; numbers do not count.
+   subroutine versions()
+      type(record_type) :: record
+      integer :: before
+      call fill(record, 3)
+      before = record%version
+      call fill(record, 3)
+      call expect(record%version == before, 'another run of the same datasets')
+      call record%clear()
+      call record%put_real('summary/orbit_y', 1.0_wp, 'm', 'orbit')
+      call expect(record%version == before, 'fewer of them')
+      call fill(record, 2)
+      call expect(record%version > before, 'other sizes')
+      before = record%version
+      call record%put_labels('pivot', [character(len=8) :: 'locked', 'free'], 'pivots')
+      call expect(record%version > before, 'other texts')
+   end subroutine versions
+
+   subroutine moved()
+      type(record_type) :: from, to
+      call fill(from, 3)
+      call fill(to, 6)
+      call move_record(from, to)
+      call expect_run(to, 3, 'moved')
+      call expect(.not. from%has('pad'), 'the other has nothing')
+      call fill(from, 2)
+      call expect_run(from, 2, 'and can be filled again')
+   end subroutine moved
+
+   !> Everything arrives, also where the record is used again.
+   subroutine message()
+      type(record_type) :: sent, taken
+      real(wp), allocatable :: values(:)
+      integer :: k, i
+      do k = 1, 7
+         call fill(sent, k)
+         values = numbers(sent)
+         call take_description(taken, description(sent))
+         call take_numbers(taken, values)
+         call expect_run_sent(taken, k)
+         call expect(taken%count == sent%count, 'datasets')
+         do i = 1, sent%count
+            associate (own => sent%datasets(i), its => taken%datasets(i))
+               call expect(own%path == its%path .and. own%units == its%units .and. own%long_name == its%long_name .and. &
+                  & own%scales == its%scales .and. own%kind == its%kind .and. own%texts == its%texts .and. &
+                  & size(own%extents) == size(its%extents), own%path)
+               call expect(all(own%extents == its%extents), own%path//': sizes')
+            end associate
+         end do
+      end do
+   end subroutine message
+
+   !> A message has no place for what a run lacks: it is not a number there.
+   subroutine expect_run_sent(record, k)
+      type(record_type), intent(inout) :: record
+      integer, intent(in) :: k
+      real(wp) :: values(2*k)
+      integer :: i
+      call record%get_list('modes/frequency', values)
+      call expect(all(abs(values - [(1.5_wp**i, i=1, 2*k)]) <= 0), 'values of '//to_text(k))
+      call expect(nint(record%get_real('statistics/steps'), i8) == 2_i8**40 + k, 'a count of '//to_text(k))
+      if (k < 3) return
+      call expect(ieee_is_nan(record%get_real('summary/only')) .neqv. mod(k, 3) == 0, 'a figure that not all have')
+   end subroutine expect_run_sent
+
+   !> A description is sent where the version is new alone; numbers are those of this description.
+   subroutine messages_of_many_runs()
+      type(record_type) :: sent, taken
+      integer :: i, k, told, descriptions
+      told = -1
+      descriptions = 0
+      do i = 1, 200
+         k = 3 + 3*int(between(0.0_wp, 1.02_wp))
+         call fill(sent, k)
+         if (sent%version /= told) then
+            call take_description(taken, description(sent))
+            descriptions = descriptions + 1
+         end if
+         told = sent%version
+         call take_numbers(taken, numbers(sent))
+         call expect_run_sent(taken, k)
+      end do
+      call expect(descriptions < 50, to_text(descriptions)//' descriptions')
+   end subroutine messages_of_many_runs
+
+   !> Its file, written as it changes: sizes that change after they were deleted, what is no longer there, and a file that
+   !> lacks more than the record knows.
+   subroutine written_again()
+      type(record_type) :: record, found
+      type(hdf5_type) :: file
+      character(len=:), allocatable :: path
+      integer :: i, k
+      path = scratch_path('record.h5')
+      call file%create(path)
+      call fill(record, 3)
+      call write_record(record, file, .false.)
+      call record%put_list('checkpoint/state', [1.0_wp, 2.0_wp], '1', 'state', '')
+      call write_record(record, file, .false.)
+      do k = 3, 5
+         call record%delete('checkpoint')
+         call record%put_list('checkpoint/state', [(0.5_wp*i, i=1, k)], '1', 'state', '')
+         call record%put_real('summary/orbit_y', 7.0_wp, 'm', 'orbit')
+         call write_record(record, file, .false.)
+         call expect(.not. allocated(file%failure), 'written with another size')
+      end do
+      call expect(file%list_size('checkpoint/state') == 5, 'the last size')
+      call record%delete('checkpoint')
+      call write_record(record, file, .false.)
+      call expect(.not. file%has('checkpoint'), 'what was deleted is not in the file')
+      call file%close()
+      ! one that was never written before, as the file of the last checkpoint but one
+      call file%create(path)
+      call write_record(record, file, .true.)
+      call record%put_real('summary/orbit_y', 0.1_wp*3, 'm', 'orbit')
+      call write_record(record, file, .false.)
+      call file%close()
+      call file%open(path, writing=.false.)
+      call read_record(file, found)
+      call expect_run(found, 3, 'read back')
+      call expect(.not. allocated(file%failure), 'the file is whole')
+      call file%close()
+      call delete_file(path)
+   end subroutine written_again
+end program test_record
