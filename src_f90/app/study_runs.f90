@@ -16,6 +16,8 @@ module study_runs
    private
    public :: perform_runs, check_runs
 
+   !> Seconds of rows that a kill may lose, where a checkpoint does not take longer than a twentieth of it.
+   real(wp), parameter :: longest_loss = 10
    !> Failures that are told at most: the file of the study has all.
    integer, parameter :: most_told = 100
 
@@ -102,7 +104,7 @@ contains
          call progress%report_runs(tally%done + tally%failed, tally%failed)
          now = wall_clock()
          call table%beat(int(now - started))
-         if (.not. allocated(error)) call table%checkpoint_if_due(now, checkpoint_seconds, error)
+         if (.not. allocated(error)) call table%checkpoint_if_due(now, min(checkpoint_seconds, longest_loss), error)
       end do
       do i = 1, size(children)
          if (children(i)%process /= 0) call children(i)%dismiss()

@@ -11,8 +11,8 @@ module result_size
    real(wp), parameter :: large = 100e6_wp
    !> Bytes of a value, and of a file without samples.
    real(wp), parameter :: of_value = 8, of_frame = 1e5_wp
-   !> Bytes of memory of a run but its figures; the examples take 3 to 6 MB.
-   real(wp), parameter :: of_run = 8e6_wp
+   !> Bytes of memory of a run but its figures; the examples take 3 to 6 MB, with other libraries more.
+   real(wp), parameter :: of_run = 12e6_wp
 
 contains
 

@@ -33,6 +33,8 @@ module study_file
       type(study_rows_type), private :: rows
       !> Clock when the last checkpoint was done, and how long it took, s.
       real(wp), private :: last_checkpoint = 0, taken = 0
+      !> Whether rows have been added since.
+      logical, private :: grown = .false.
       !> Clock of the last beat, s.
       integer, private :: last_beat = 0
    contains
@@ -224,6 +226,7 @@ contains
       character(len=*), intent(in) :: reason
       type(record_type), intent(in) :: record
       character(len=*), intent(in), optional :: own
+      self%grown = .true.
       if (.not. allocated(self%failure)) call self%rows%add(self, k, status, reason, record, source)
       if (.not. present(own) .or. allocated(self%failure)) return
       if (own /= '') call self%rows%put_files(self, k, [text_type(own)])
@@ -238,7 +241,7 @@ contains
       if (allocated(self%failure)) then
          call self%error_of(error)
          call self%abandon()
-      else if (seconds > 0 .and. now - self%last_checkpoint >= max(seconds, rest*self%taken)) then
+      else if (self%grown .and. seconds > 0 .and. now - self%last_checkpoint >= max(seconds, rest*self%taken)) then
          call self%checkpoint(error)
       end if
    end subroutine checkpoint_if_due
@@ -250,6 +253,7 @@ contains
       real(wp) :: started
       logical :: exchanged
       started = wall_clock()
+      self%grown = .false.
       call self%note()
       call self%close_all()
       call self%error_of(error)

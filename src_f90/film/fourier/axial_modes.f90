@@ -40,7 +40,7 @@ contains
       integer, intent(in) :: modes
       logical, intent(in) :: all_solved
       type(axial_modes_type) :: self
-      real(wp) :: order(modes), c(modes), x(modes)
+      real(wp) :: order(modes), c(modes), x(modes), places(modes), nodes(modes)
       integer :: solved, j, k
       order = [(2*k - 1, k=1, modes)]
       self%modes = modes
@@ -59,12 +59,14 @@ contains
       if (solved < modes) x(first_solved + 1:solved) = chebyshev(solved - first_solved, order(first_solved + 1), &
          & order(modes))
       self%square(:solved) = (x(:solved)*self%first)**2
+      nodes = log(x)
+      places = log(order)
       do k = 1, modes
          if (k <= first_solved .or. solved == modes) then
             self%of_slot(k, k) = 1
          else
             do j = first_solved + 1, solved
-               self%of_slot(j, k) = lagrange(log(x(first_solved + 1:solved)), j - first_solved, log(order(k)))
+               self%of_slot(j, k) = lagrange(nodes(first_solved + 1:solved), j - first_solved, places(k))
             end do
          end if
       end do
