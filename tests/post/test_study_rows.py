@@ -1,4 +1,4 @@
-"""The study that the program writes, a row for each run: that which tiltpad-collect makes of the files."""
+"""The study that the program writes, a row for each run: the same as tiltpad-collect makes of the files."""
 
 import os
 import signal
