@@ -135,7 +135,7 @@ contains
       end do
       call self%put_text('variables', names)
       call put_marks(self, study)
-      call self%put_flag('complete', 0)
+      call self%put_flag('finished', 0)
       call self%put_text('missing', '')
    end subroutine put_origin
 
@@ -197,7 +197,7 @@ contains
             call self%rows%resize(self, study%runs)
             call put_marks(self, study)
          end if
-         call self%put_flag('complete', 0)
+         call self%put_flag('finished', 0)
          self%last_checkpoint = wall_clock()
          call self%error_of(error)
       end if
@@ -279,7 +279,7 @@ contains
       if (.not. allocated(error)) call self%error_of(error)
    end subroutine join
 
-   !> Writes what is left, publishes the file and frees its lock. It is complete where all runs have a row.
+   !> Writes what is left, publishes the file and frees its lock. It is finished where all runs have a row.
    subroutine finish(self, error)
       class(study_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
@@ -296,7 +296,7 @@ contains
       class(study_file_type), intent(inout) :: self
       if (allocated(self%failure)) return
       call self%rows%flush(self)
-      call self%put_flag('complete', merge(0, 1, any(self%rows%status == not_run)))
+      call self%put_flag('finished', merge(0, 1, any(self%rows%status == not_run)))
       call self%put_text('missing', missing_runs(self%rows%status == not_run))
    end subroutine note
 

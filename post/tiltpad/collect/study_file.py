@@ -120,13 +120,13 @@ def scales(
 ) -> dict[str, dict[Any, int]]:
     """Writes the dimensions; gives the places of the values of each: those that any of the runs has.
 
-    Runs have their numbers, revolutions are counted from the last one, which is 0. Numbers rise; texts
-    stay in the order of the runs.
+    Runs have their numbers, revolutions are counted from the last one, which is 0. Numbers rise; a text
+    comes behind the one that it follows in a run.
     """
     wanted = {dimension for each in columns.values() for dimension in each.dimensions} | {"pad"}
     found: dict[str, list[Any]] = {"run": [each.number for each in runs]}
     for name in sorted(wanted):
-        values = list(dict.fromkeys(value for each in runs for value in each.labels.get(name, ())))
+        values = joined([each.labels.get(name, ()) for each in runs])
         found[name] = values if any(isinstance(value, str) for value in values) else sorted(values)
     for name, own in ((name, own) for name, own in found.items() if own):
         if isinstance(own[0], str):
@@ -136,6 +136,18 @@ def scales(
         file[name].make_scale(name)
         file[name].attrs.update({"units": "1", "long_name": COUNTED.get(name) or meaning(runs, name)})
     return {name: {label: k for k, label in enumerate(own)} for name, own in found.items()}
+
+
+def joined(lists: Sequence[Sequence[Any]]) -> list[Any]:
+    """All labels, each new one behind the one before it in its list."""
+    found: list[Any] = []
+    known: set[Any] = set()
+    for labels in lists:
+        for k, label in enumerate(labels):
+            if label not in known:
+                known.add(label)
+                found.insert(found.index(labels[k - 1]) + 1 if k else 0, label)
+    return found
 
 
 def meaning(runs: Sequence[StudyRun], dimension: str) -> str:

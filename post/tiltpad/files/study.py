@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import h5py
 import numpy as np
 
 from tiltpad.files.archive import Archive, RunError, damaged, plain, reading
@@ -18,6 +19,10 @@ RUN, PIVOTS = ("run",), ("run", "pivot")
 REVOLUTIONS = 50
 #: States that Poincare points are kept of.
 POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}
+
+
+#: Most bytes of a column of a study that is still being run: a thousand values of a hundred thousand runs.
+UNWRITTEN = 800_000_000
 
 
 class Failure(NamedTuple):
@@ -42,7 +47,7 @@ ENDS = {
     3: "failed at a file or the system",
     4: "was stopped",
     -1: "has not ended",
-    -2: "was not run yet",
+    -2: "has not been run",
 }
 
 
@@ -145,6 +150,11 @@ class Study(Archive):
         for name in ("run", "status", *self.parameters):
             if name not in self:
                 raise damaged(self.path, name, "it is missing")
+
+    def most(self, name: str, found: h5py.Dataset) -> int:
+        # runs that have not been run take no room; their numbers, in `run`, do
+        rows = found.ndim and found.maxshape[0] is None and name != "run"
+        return max(super().most(name, found), UNWRITTEN if rows else 0)
 
     def sound(self, name: str, values: Any) -> Any:
         if np.asarray(values).dtype.kind != "O":
