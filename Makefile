@@ -133,7 +133,7 @@ run_long := $(sort $(heap) $(basename $(notdir $(filter $(addprefix src_f90/,$(a
             system input storage results app)),$(sources)))))
 test_names := $(basename $(notdir $(filter tests/unit/test_% tests/physics/test_%,$(sources))))
 test_programs := $(addprefix $(B)/tests/,$(test_names))
-programs := $(B)/bin/tiltpad $(test_programs) $(B)/fuzz/fuzz_input $(B)/bench/film_bench $(B)/stress/global_search $(B)/tests/study_of_folder
+programs := $(B)/bin/tiltpad $(test_programs) $(B)/fuzz/fuzz_input $(B)/bench/film_bench $(B)/stress/global_search
 # what the program says of itself; rewritten only when it changes
 commit := $(shell git describe --always --dirty --abbrev=12 2>/dev/null || echo unknown)
 define newline

@@ -11,12 +11,11 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from tiltpad.collect.collect import collect
 from tiltpad.files import namelist
 from tiltpad.files.archive import RunError
 from tiltpad.files.processes import run_program
-from tiltpad.files.read import Run, read
-from tiltpad.files.study import Study, read_study
+from tiltpad.files.read import Run
+from tiltpad.files.study import Study, read_either
 
 #: The program, where the environment variable TILTPAD names no other.
 PROGRAM = "tiltpad"
@@ -54,8 +53,9 @@ def run(
 
     `case` is a namelist file, or groups of variables as for `write_case`; without it all have their defaults.
     Each further keyword is a group with values of its own. A parameter study gives the study of its runs. The
-    result is written to `output` (of a study: the folder of its runs, with study.h5); it replaces that of
-    another case only with `overwrite`. Without a name it is temporary, for as long as it is used. With
+    result is written to `output` (of a study NAME.h5, and where its runs keep samples their files in the
+    folder NAME); it replaces that of another case only with `overwrite`, and a study goes on with the runs
+    that are missing. Without a name it is temporary, for as long as it is used. With
     `verify` the films in this number of states are solved closely, too, and compared. A wrong case is a
     ValueError with the program's message, a run that gives no result a RunError. Where the numerics fail on
     the way the result is there up to this point, with an IncompleteRunWarning.
@@ -103,11 +103,11 @@ def result_of(case: str | os.PathLike, target: Path, options: Sequence[str]) -> 
     said = said.replace("--overwrite", "overwrite=True").replace("--output", "output")
     if done.returncode == INPUT_ERROR:
         raise ValueError(said)
-    if done.returncode not in (0, NUMERICS, STOPPED) or not target.exists():
+    # a study has the ending whether it was given or not
+    found = [path for path in (target, target.with_name(f"{target.name}.h5")) if path.is_file()]
+    if done.returncode not in (0, NUMERICS, STOPPED) or not found:
         raise RunError(said or f"the program ended with status {done.returncode}")
-    if not target.is_dir():
-        return read(target)
-    return read_study(collect(target, target / "study.h5").output)
+    return read_either(max(found, key=lambda path: path.stat().st_mtime_ns))
 
 
 def argument(case: str | os.PathLike) -> str:

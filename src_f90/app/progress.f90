@@ -4,7 +4,7 @@ module progress
    use, intrinsic :: iso_fortran_env, only: output_unit
    use kinds, only: wp, i8
    use clock, only: wall_clock
-   use text, only: to_text
+   use text, only: to_text, fixed_text
    use processes, only: is_terminal
    implicit none (type, external)
    private
@@ -52,13 +52,15 @@ contains
       call self%show(line, t)
    end subroutine report
 
-   !> Shows how many runs have ended, well or not, if it is time to.
+   !> Shows how many runs have ended, well or not, and how many a second since the clock was started, if it is time to.
    subroutine report_runs(self, ended, failed)
       class(progress_type), intent(inout) :: self
       integer, intent(in) :: ended, failed
+      real(wp) :: rate
       if (.not. self%is_due(wall_clock())) return
-      call self%show(to_text(ended)//' of '//to_text(nint(self%duration))//' runs, '//to_text(failed)//' failed', &
-         & real(ended, wp))
+      rate = (ended - self%from)/(self%last - self%started)
+      call self%show(to_text(ended)//' of '//to_text(nint(self%duration))//' runs, '//to_text(failed)//' failed, ' &
+         & //fixed_text(rate, merge(1, 3, rate >= 10))//' runs/s', real(ended, wp))
    end subroutine report_runs
 
    !> True where a line is to be shown at this wall clock, s.

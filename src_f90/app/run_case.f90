@@ -198,7 +198,7 @@ contains
       else if (error%status == numerics_error .and. (run%computed .or. run%tag%number > 0)) then
          ! of a run of a study the file says what happened; nothing else would be a result
          call run%file%finish(run%reached, run%statistics(), error%status, error%message, file_error)
-         if (run%computed .and. run%file%filed) error%message = error%message//'; what was computed is in '//run%path
+         if (run%computed .and. run%file%filed) error%computed = run%path
       else if (error%status == stopped .and. run%computed) then
          if (run%file%filed) error%message = error%message//'; tiltpad --resume '//run%path//' goes on'
       else

@@ -20,6 +20,7 @@ module study_child
    type, abstract :: study_runner_type
    contains
       procedure(perform_run), deferred :: perform
+      procedure(name_of_file), deferred :: own_file
    end type study_runner_type
 
    abstract interface
@@ -32,6 +33,14 @@ module study_child
          type(record_type), intent(inout) :: results
          type(error_type), allocatable, intent(out) :: error
       end subroutine perform_run
+
+      !> The file of a run that has ended, relative to the folder of the study's file; empty where it has none.
+      function name_of_file(self, k) result(name)
+         import :: study_runner_type
+         class(study_runner_type), intent(in) :: self
+         integer, intent(in) :: k
+         character(len=:), allocatable :: name
+      end function name_of_file
    end interface
 
    !> Milliseconds between two looks for children that ended without a report.

@@ -100,7 +100,7 @@ contains
             end do
          end if
          if (all(children%run == 0) .and. (next > size(wanted) .or. stopping)) exit
-         call look(children, pipe(1), table, tally)
+         call look(children, pipe(1), table, runner, tally)
          call progress%report_runs(tally%done + tally%failed, tally%failed)
          now = wall_clock()
          call table%beat(int(now - started))
@@ -143,10 +143,11 @@ contains
    end subroutine begin_tally
 
    !> Waits a while for a report, takes all that are there, and enters the runs that have ended.
-   subroutine look(children, pipe, table, tally)
+   subroutine look(children, pipe, table, runner, tally)
       type(child_type), intent(inout) :: children(:)
       integer, intent(in) :: pipe
       type(study_file_type), intent(inout) :: table
+      class(study_runner_type), intent(in) :: runner
       type(tally_type), intent(inout) :: tally
       type(report_type) :: report
       character(len=:), allocatable :: how
@@ -167,7 +168,7 @@ contains
          if (.not. ok) cycle
          call note(report%run, report%error, tally)
          if (report%error%status /= stopped) call table%add(report%run, report%error%status, report%error%message, &
-            & children(i)%results, i)
+            & children(i)%results, i, runner%own_file(report%run))
          children(i)%run = 0
          if (.not. report%stays) call children(i)%wait_for_end()
       end do

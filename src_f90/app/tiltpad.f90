@@ -182,7 +182,10 @@ contains
    !> An error's line.
    subroutine complain(error)
       type(error_type), intent(in) :: error
-      write (error_unit, '(a)') 'tiltpad: error: '//printable(error%message)
+      character(len=:), allocatable :: computed
+      computed = ''
+      if (allocated(error%computed)) computed = '; what was computed is in '//error%computed
+      write (error_unit, '(a)') 'tiltpad: error: '//printable(error%message//computed)
       flush (error_unit)
    end subroutine complain
 

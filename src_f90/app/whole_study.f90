@@ -4,6 +4,7 @@ module whole_study
    use errors, only: error_type, raise, system_error
    use case_inputs, only: case_type
    use result_size, only: size_note
+   use assignments, only: assignment_type, target_text
    use parameter_study, only: study_type, run_tag
    use namelist_writer, only: namelist_of
    use files, only: is_regular
@@ -22,10 +23,11 @@ module whole_study
    type, extends(study_runner_type) :: case_runner_type
       !> Where runs have files.
       character(len=:), allocatable :: folder
-      integer :: verified_states = 0
+      integer :: runs = 0, verified_states = 0
       logical :: overwrite = .false.
    contains
       procedure :: perform
+      procedure :: own_file
    end type case_runner_type
 
 contains
@@ -43,8 +45,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(study_file_type) :: table
       type(case_runner_type) :: runner
-      type(case_type) :: first
-      logical :: wanted(study%runs), filed
+      type(case_type) :: first, inputs
+      logical :: wanted(study%runs), filed, mixed
       integer :: k
       allocate (failures(0))
       call study%inputs(1, first, error)
@@ -52,23 +54,37 @@ contains
       if (.not. quiet) then
          if (size_note(first, study%runs) /= '') print '(a)', size_note(first, study%runs)
       end if
-      filed = first%output%keep /= 'summary'
+      mixed = keeps_differ(study)
+      filed = mixed .or. first%output%keep /= 'summary'
       if (filed) call prepare_folder(output, error)
       if (filed .and. .not. allocated(error)) call check_folder(study, output, overwrite, error)
       if (.not. allocated(error)) call open_table(study, output//'.h5', overwrite, quiet, table, error)
       if (allocated(error)) return
       wanted = [(.not. table%has_row(k), k=1, study%runs)]
+      inputs = first
       do k = 1, study%runs
          if (.not. filed .or. wanted(k)) cycle
+         if (mixed) call study%inputs(k, inputs, error)
          ! a file that is gone is made again
-         wanted(k) = .not. is_regular(result_path(output, k, study%runs))
+         wanted(k) = inputs%output%keep /= 'summary' .and. .not. is_regular(result_path(output, k, study%runs))
       end do
       runner%folder = output
+      runner%runs = study%runs
       runner%verified_states = verified_states
       runner%overwrite = overwrite
       call perform_runs(study, table, wanted, first%output%checkpoint_seconds, merge(jobs, processors(), jobs > 0), &
          & quiet, runner, failures, error)
    end subroutine perform_study
+
+   !> Whether some runs may have files and others not: which they have follows from the task, where it is not given.
+   logical function keeps_differ(study)
+      type(study_type), intent(in) :: study
+      type(assignment_type), allocatable :: varied(:)
+      integer :: i
+      varied = study%variables()
+      keeps_differ = any([(any(target_text(varied(i)) == [character(len=11) :: 'case%task', 'output%keep']), &
+         & i=1, size(varied))])
+   end function keeps_differ
 
    !> Opens the file of a study: a new one, or that of the same study to go on with.
    subroutine open_table(study, path, overwrite, quiet, table, error)
@@ -106,6 +122,19 @@ contains
       if (inputs%output%keep /= 'summary') path = result_path(self%folder, tag%number, tag%runs)
       call run_task(inputs, path, tag, self%verified_states, .true., self%overwrite, .true., results, error)
    end subroutine perform
+
+   !> The folder is beside the file of the study.
+   function own_file(self, k) result(name)
+      class(case_runner_type), intent(in) :: self
+      integer, intent(in) :: k
+      character(len=:), allocatable :: name
+      name = result_path(self%folder, k, self%runs)
+      if (is_regular(name)) then
+         name = name(1 + index(self%folder, '/', back=.true.):)
+      else
+         name = ''
+      end if
+   end function own_file
 
    !> The checksums of a study are those of its first run's case and of the runs' values.
    subroutine mark_study(study)

@@ -12,6 +12,7 @@ module study_file
    use parameter_study, only: study_type
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type, most_rows
+   use hdf5_texts, only: text_type
    use working_file, only: working_file_type
    use provenance, only: format_version, now
    use study_columns, only: run_scale
@@ -27,6 +28,7 @@ module study_file
    real(wp), parameter :: rest = 20
 
    type, extends(hdf5_type) :: study_file_type
+      character(len=:), allocatable, private :: name
       type(working_file_type), private :: working
       type(study_rows_type), private :: rows
       !> Clock when the last checkpoint was done, and how long it took, s.
@@ -68,6 +70,7 @@ contains
       class(study_file_type), intent(inout) :: self
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
+      self%name = path
       call self%working%claim(path, error)
    end subroutine claim
 
@@ -132,7 +135,7 @@ contains
       end do
       call self%put_text('variables', names)
       call put_marks(self, study)
-      call self%put_flag('complete', 0)
+      call self%put_flag('finished', 0)
       call self%put_text('missing', '')
    end subroutine put_origin
 
@@ -194,7 +197,7 @@ contains
             call self%rows%resize(self, study%runs)
             call put_marks(self, study)
          end if
-         call self%put_flag('complete', 0)
+         call self%put_flag('finished', 0)
          self%last_checkpoint = wall_clock()
          call self%error_of(error)
       end if
@@ -215,14 +218,18 @@ contains
    end function status
 
    !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. Records of
-   !> one source, numbered from 1, are mostly alike; each process and reader is one.
-   subroutine add(self, k, status, reason, record, source)
+   !> one source, numbered from 1, are mostly alike; each process and reader is one. `own`: where its file is, if it has
+   !> one, relative to the folder of this file.
+   subroutine add(self, k, status, reason, record, source, own)
       class(study_file_type), intent(inout) :: self
       integer, intent(in) :: k, status, source
       character(len=*), intent(in) :: reason
       type(record_type), intent(in) :: record
+      character(len=*), intent(in), optional :: own
       self%grown = .true.
       if (.not. allocated(self%failure)) call self%rows%add(self, k, status, reason, record, source)
+      if (.not. present(own) .or. allocated(self%failure)) return
+      if (own /= '') call self%rows%put_files(self, k, [text_type(own)])
    end subroutine add
 
    !> A checkpoint, if this many seconds have passed since the last, and 20 times what it took; `now` is the wall clock.
@@ -272,7 +279,7 @@ contains
       if (.not. allocated(error)) call self%error_of(error)
    end subroutine join
 
-   !> Writes what is left, publishes the file and frees its lock. It is complete where all runs have a row.
+   !> Writes what is left, publishes the file and frees its lock. It is finished where all runs have a row.
    subroutine finish(self, error)
       class(study_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
@@ -289,7 +296,7 @@ contains
       class(study_file_type), intent(inout) :: self
       if (allocated(self%failure)) return
       call self%rows%flush(self)
-      call self%put_flag('complete', merge(0, 1, any(self%rows%status == not_run)))
+      call self%put_flag('finished', merge(0, 1, any(self%rows%status == not_run)))
       call self%put_text('missing', missing_runs(self%rows%status == not_run))
    end subroutine note
 
@@ -328,11 +335,11 @@ contains
       taken_from = self%working%lock%taken_from
    end function taken_from
 
-   !> Name of the file, links followed.
+   !> Name of the file, as it was given.
    function path(self)
       class(study_file_type), intent(in) :: self
       character(len=:), allocatable :: path
-      path = self%working%path
+      path = self%name
    end function path
 
    subroutine error_of(self, error)

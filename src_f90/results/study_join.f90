@@ -52,7 +52,7 @@ contains
          do i = 1, size(rows%table%columns)
             call join_column(file, rows, i, other_file, other, wanted)
          end do
-         call join_reasons(file, rows, other_file, other, wanted)
+         call join_texts(file, rows, other_file, other, wanted)
          where (wanted) rows%status = other%status
       end if
       call other%close(other_file)
@@ -134,9 +134,11 @@ contains
       at = positions(lists, rows%table%extents(column%over))
    end function places_in
 
-   subroutine join_reasons(file, rows, other_file, other, wanted)
+   !> Copies reasons and names of files.
+   subroutine join_texts(file, rows, other_file, other, wanted)
       class(hdf5_type), intent(inout) :: file
-      type(study_rows_type), intent(in) :: rows, other
+      type(study_rows_type), intent(inout) :: rows
+      type(study_rows_type), intent(in) :: other
       type(hdf5_type), intent(inout) :: other_file
       logical, intent(in) :: wanted(:)
       type(text_type), allocatable :: texts(:)
@@ -151,9 +153,13 @@ contains
                if (text(1)%text /= '' .or. rows%status(i) /= not_run) call rows%reasons%write(file, i, text)
             end associate
          end do
+         if (other%files%id >= 0) then
+            call other%files%read(other_file, first, last - first + 1, texts)
+            if (.not. allocated(other_file%failure)) call rows%put_files(file, first, texts)
+         end if
          first = last + 1
       end do
-   end subroutine join_reasons
+   end subroutine join_texts
 
    !> The next runs that are all wanted, from `first` on, and in one block of the file; `first` is behind the last run
    !> where there are none.

@@ -22,9 +22,9 @@ module study_parameters
       logical :: is_text = .false.
    end type parameter_type
 
-   !> Names that other datasets of a study have.
+   !> Names of variables, among others, that other datasets of a study have.
    character(len=*), parameter :: taken = ' run pad revolution pivot frequency_ratio row column position_row ' &
-      & //'position_column mode reason file runs status complete resumes '
+      & //'position_column mode reason file runs status complete resumes checkpoint_seconds revolutions '
 
 contains
 

@@ -16,7 +16,9 @@ module study_rows
 
    !> The status of a run that has no row.
    integer, parameter :: not_run = -2
-   character(len=*), parameter :: status_name = 'status', reason_name = 'reason'
+   character(len=*), parameter :: status_name = 'status', reason_name = 'reason', file_name = 'file'
+   character(len=*), parameter :: status_meaning = 'exit status: 0 done, 2 numerics, 3 system, 4 stopped, -1 not ended, ' &
+      & //'-2 not run yet; nan: its file cannot be read'
    !> Columns that every study has, one value a run.
    character(len=*), parameter :: complete_name = 'complete'
    !> Most rows held back, and most numbers of them.
@@ -24,7 +26,8 @@ module study_rows
 
    type :: study_rows_type
       type(study_columns_type) :: table
-      type(hdf5_texts_type) :: reasons
+      !> Reasons of failures, and the results' own files; the latter are no column where no run has one.
+      type(hdf5_texts_type) :: reasons, files
       !> Exit status of each run; `not_run` where it has no row.
       integer, allocatable :: status(:)
       !> Names that no column may have, separated by blanks.
@@ -42,6 +45,7 @@ module study_rows
       procedure :: begin
       procedure :: read_layout
       procedure :: add
+      procedure :: put_files
       procedure :: flush => write_held
       procedure :: open => open_rows
       procedure :: close => close_rows
@@ -61,23 +65,32 @@ contains
       real(wp) :: nan
       nan = ieee_value(nan, ieee_quiet_nan)
       call self%table%begin(runs, coordinates)
-      call self%table%add_single(file, status_name, 'exit status: 0 done, 2 numerics, 3 system; -2: not run yet', &
+      call self%table%add_single(file, status_name, status_meaning, &
          & real(not_run, wp), .true.)
       call self%table%add_single(file, complete_name, '1 where the run reached its end', nan, .false.)
-      call self%reasons%create(file, reason_name, runs)
-      if (.not. allocated(file%failure)) call file%describe(self%reasons%id, '', 'reason of the failure', run_scale, &
-         & reason_name)
-      if (coordinates /= '') call file%write_attribute(self%reasons%id, 'coordinates', coordinates)
+      call create_texts(self, file, reason_name, 'reason of the failure', self%reasons)
       if (allocated(self%status)) deallocate (self%status)
       allocate (self%status(runs), source=not_run)
       call forget(self)
    end subroutine begin
 
+   !> A column of texts.
+   subroutine create_texts(self, file, name, long_name, texts)
+      class(study_rows_type), intent(in) :: self
+      class(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: name, long_name
+      type(hdf5_texts_type), intent(out) :: texts
+      call texts%create(file, name, self%table%runs)
+      if (allocated(file%failure)) return
+      call file%describe(texts%id, '', long_name, run_scale, name)
+      if (self%table%coordinates /= '') call file%write_attribute(texts%id, 'coordinates', self%table%coordinates)
+   end subroutine create_texts
+
    !> No row is held back, and no source known.
    subroutine forget(self)
       type(study_rows_type), intent(inout) :: self
       self%count = 0
-      self%taken = run_scale//' '//reason_name//' file runs '//self%table%coordinates
+      self%taken = run_scale//' '//reason_name//' '//file_name//' runs '//self%table%coordinates
       if (allocated(self%sources)) deallocate (self%sources)
       if (allocated(self%held)) deallocate (self%held, self%numbers, self%texts, self%again)
       allocate (self%sources(0))
@@ -90,7 +103,7 @@ contains
       character(len=*), intent(in) :: coordinates
       real(wp), allocatable :: values(:, :)
       call self%table%read_layout(file, coordinates)
-      call self%reasons%open(file, reason_name)
+      call open_texts(self, file)
       call forget(self)
       if (allocated(file%failure)) return
       if (self%table%find(status_name)*self%table%find(complete_name) == 0) call file%check_read(-1, &
@@ -123,6 +136,17 @@ contains
          row(self%singles) = [real(status, wp), merge(1.0_wp, 0.0_wp, status == 0)]
       end associate
    end subroutine add
+
+   !> The names of runs' own files, from run k on.
+   subroutine put_files(self, file, k, names)
+      class(study_rows_type), intent(inout) :: self
+      class(hdf5_type), intent(inout) :: file
+      integer, intent(in) :: k
+      type(text_type), intent(in) :: names(:)
+      if (self%files%id < 0) call create_texts(self, file, file_name, &
+         & 'result file, relative to the folder of this file', self%files)
+      call self%files%write(file, k, names)
+   end subroutine put_files
 
    !> Room for rows of all columns that there are.
    subroutine allocate_held(self)
@@ -211,6 +235,7 @@ contains
       integer, allocatable :: more(:)
       call self%table%resize(file, runs)
       call self%reasons%resize(file, runs)
+      if (self%files%id >= 0) call self%files%resize(file, runs)
       allocate (more(runs), source=not_run)
       more(:size(self%status)) = self%status
       call move_alloc(more, self%status)
@@ -221,13 +246,21 @@ contains
       class(study_rows_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
       call self%table%open(file)
-      call self%reasons%open(file, reason_name)
+      call open_texts(self, file)
    end subroutine open_rows
+
+   subroutine open_texts(self, file)
+      class(study_rows_type), intent(inout) :: self
+      class(hdf5_type), intent(inout) :: file
+      call self%reasons%open(file, reason_name)
+      if (file%has(file_name)) call self%files%open(file, file_name)
+   end subroutine open_texts
 
    subroutine close_rows(self, file)
       class(study_rows_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
       call self%table%close(file)
       call self%reasons%close(file)
+      call self%files%close(file)
    end subroutine close_rows
 end module study_rows

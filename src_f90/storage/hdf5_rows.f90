@@ -3,25 +3,29 @@
 !> failure, which the file keeps, every routine does nothing.
 module hdf5_rows
    use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
-   use hdf5, only: hid_t, hsize_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
+   use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
       & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sselect_hyperslab_f, h5dcreate_f, h5dwrite_f, &
       & h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_space_f, h5dget_type_f, h5pcreate_f, h5pclose_f, &
       & h5pset_chunk_f, h5pset_fill_value_f, h5p_dataset_create_f, h5tequal_f, h5tclose_f, h5t_native_double, &
-      & h5kind_to_type, h5_integer_kind
+      & h5p_dataset_xfer_f, h5pset_buffer_f, h5kind_to_type, h5_integer_kind
    use kinds, only: wp, i8
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: without_cache
    implicit none (type, external)
    private
-   public :: hdf5_rows_type, rows_a_chunk, most_rows
+   public :: hdf5_rows_type, rows_a_chunk, most_rows, small_transfers
 
    !> Rows in a chunk, at least and at most, and most numbers in one.
    integer, parameter :: least_rows = 64, most_rows = 512, most_numbers = 65536
+   !> Bytes of the memory in which HDF5 converts numbers and texts; it would clear a megabyte of it for each row.
+   integer(size_t), parameter :: conversion_bytes = 16384
    !> Most dimensions, and most values a row; only a damaged file says more.
    integer, parameter :: most_dimensions = 8, widest = 10000000
 
    type :: hdf5_rows_type
       integer(hid_t) :: id = -1
+      !> Of the accesses to it, HDF5's list of properties.
+      integer(hid_t), private :: transfer = -1
       !> Sizes of the dimensions of a row, the fastest first, and how many rows there are.
       integer, allocatable :: extents(:)
       integer :: rows = 0
@@ -66,10 +70,18 @@ contains
       call h5dcreate_f(file%id, name, kind, space, self%id, status, properties, dapl_id=access)
       call file%check(status, 'create '//name)
       if (status < 0) self%id = -1
+      self%transfer = small_transfers()
       call h5pclose_f(access, status)
       call h5pclose_f(properties, status)
       call h5sclose_f(space, status)
    end subroutine create
+
+   !> Properties of accesses that convert little at a time; to be closed.
+   integer(hid_t) function small_transfers() result(properties)
+      integer :: status
+      call h5pcreate_f(h5p_dataset_xfer_f, properties, status)
+      call h5pset_buffer_f(properties, conversion_bytes, status)
+   end function small_transfers
 
    !> Rows in a chunk of a dataset that has this number of them, each of this width.
    pure integer function rows_a_chunk(rows, width)
@@ -91,6 +103,7 @@ contains
       call h5pclose_f(access, rank)
       if (status < 0) self%id = -1
       if (status < 0) return
+      self%transfer = small_transfers()
       call expect_numbers(self%id, file, name)
       call h5dget_space_f(self%id, space, status)
       call h5sget_simple_extent_ndims_f(space, rank, status)
@@ -161,7 +174,8 @@ contains
       integer :: status
       if (allocated(file%failure) .or. size(values) == 0) return
       call self%select(first, size(values, 2), memory, space, status)
-      if (status >= 0) call h5dwrite_f(self%id, h5t_native_double, c_loc(values), status, memory, space)
+      if (status >= 0) call h5dwrite_f(self%id, h5t_native_double, c_loc(values), status, memory, space, &
+         & self%transfer)
       call file%check(status, 'write rows')
       call h5sclose_f(space, status)
       call h5sclose_f(memory, status)
@@ -184,7 +198,8 @@ contains
       if (size(values) == 0) return
       buffer = c_loc(values)
       call self%select(first, n, memory, space, status)
-      if (status >= 0) call h5dread_f(self%id, h5t_native_double, buffer, status, memory, space)
+      if (status >= 0) call h5dread_f(self%id, h5t_native_double, buffer, status, memory, space, &
+         & self%transfer)
       call file%check_read(status, 'read rows')
       call h5sclose_f(space, status)
       call h5sclose_f(memory, status)
@@ -210,6 +225,7 @@ contains
       class(hdf5_type), intent(inout) :: file
       integer :: status
       if (self%id < 0) return
+      call h5pclose_f(self%transfer, status)
       call h5dclose_f(self%id, status)
       call file%check(status, 'close a dataset')
       self%id = -1

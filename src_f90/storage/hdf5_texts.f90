@@ -8,7 +8,7 @@ module hdf5_texts
       & h5pset_chunk_f, h5p_dataset_create_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, &
       & h5tget_super_f, h5tget_size_f, h5t_string, h5t_cset_utf8_f
    use hdf5_file, only: hdf5_type
-   use hdf5_rows, only: rows_a_chunk
+   use hdf5_rows, only: rows_a_chunk, small_transfers
    use system_texts, only: fortran_text
    implicit none (type, external)
    private
@@ -133,7 +133,7 @@ contains
       character(kind=c_char, len=:), allocatable, target :: bytes
       type(c_ptr), target :: pointers(size(texts))
       integer :: starts(size(texts) + 1), i, status
-      integer(hid_t) :: memory, space, kind
+      integer(hid_t) :: memory, space, kind, transfer
       if (allocated(file%failure) .or. size(texts) == 0) return
       starts(1) = 1
       do i = 1, size(texts)
@@ -145,11 +145,13 @@ contains
          pointers(i) = c_loc(bytes(starts(i):starts(i)))
       end do
       kind = kind_of_texts()
+      transfer = small_transfers()
       call self%select(first, size(texts), memory, space, status)
-      if (status >= 0) call h5dwrite_f(self%id, kind, c_loc(pointers), status, memory, space)
+      if (status >= 0) call h5dwrite_f(self%id, kind, c_loc(pointers), status, memory, space, transfer)
       call file%check(status, 'write texts')
       call h5sclose_f(space, status)
       call h5sclose_f(memory, status)
+      call h5pclose_f(transfer, status)
       call h5tclose_f(kind, status)
    end subroutine write_texts
 
@@ -162,15 +164,16 @@ contains
       type(c_ptr), allocatable, target :: pointers(:)
       type(c_ptr) :: buffer
       integer :: i, status
-      integer(hid_t) :: memory, space, kind
+      integer(hid_t) :: memory, space, kind, transfer
       allocate (texts(n), pointers(n))
       texts = text_type('')
       if (allocated(file%failure) .or. n == 0) return
       pointers = c_null_ptr
       buffer = c_loc(pointers)
       kind = kind_of_texts()
+      transfer = small_transfers()
       call self%select(first, n, memory, space, status)
-      if (status >= 0) call h5dread_f(self%id, kind, buffer, status, memory, space)
+      if (status >= 0) call h5dread_f(self%id, kind, buffer, status, memory, space, transfer)
       call file%check_read(status, 'read texts')
       do i = 1, n
          if (.not. c_associated(pointers(i))) cycle
@@ -179,6 +182,7 @@ contains
       end do
       call h5sclose_f(space, status)
       call h5sclose_f(memory, status)
+      call h5pclose_f(transfer, status)
       call h5tclose_f(kind, status)
    end subroutine read_texts
 

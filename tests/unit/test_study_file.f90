@@ -368,7 +368,7 @@ contains
       call expect_text('task', 'study')
       call expect_text('title', 'speeds')
       call expect_text('missing', '2, 4, 6-8')
-      call expect_flag('complete', 0)
+      call expect_flag('finished', 0)
       call clear()
    end subroutine values_and_labels
 
@@ -379,7 +379,7 @@ contains
       numbers = [(i, i=1, many)]
       call write_study(path, many, numbers)
       call expect_text('missing', '')
-      call expect_flag('complete', 1)
+      call expect_flag('finished', 1)
       do try = 1, 10
          do i = many, 2, -1
             call random_number(x)
@@ -571,7 +571,7 @@ contains
       call expect_no_error(error, 'finish')
       call expect_same(path, other, 'grown')
       call expect_flag('runs', many)
-      call expect_flag('complete', 1)
+      call expect_flag('finished', 1)
       call clear()
    end subroutine grown
 

@@ -1,8 +1,8 @@
 """Studies: the results of many runs in one file.
 
 The runs are those of a parameter study, or any runs. The study has the parameters, results of the last
-revolution, Poincare points and the cost of each run, and links to the files of the runs; it does not
-have their series over time.
+revolution, Poincare points and the cost of each run, and says where its file is; it does not have their
+series over time.
 """
 
 import os

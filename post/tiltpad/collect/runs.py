@@ -94,8 +94,10 @@ def measured(path: Path, run: Run) -> StudyRun:
     values: dict[str, Any] = {"complete": float(complete)}
     if "resumes" in attributes:
         values["resumes"] = float(attributes["resumes"])
-    found = columns(run, complete and status == DONE)
-    values |= {name: run[own] for name, (own, _) in found.items()}
+    own = {name: (*each, run[each[0]]) for name, each in columns(run, complete and status == DONE).items()}
+    # what is not a number anywhere is nothing that the run has
+    found = {name: (path, over) for name, (path, over, numbers) in own.items() if not np.isnan(numbers).all()}
+    values |= {name: own[name][2] for name in found}
     if complete and status == DONE and "by_revolution" not in run:
         # the file is of an earlier version
         with suppress(NotInRunError):

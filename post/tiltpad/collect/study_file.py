@@ -1,4 +1,4 @@
-"""The file of a study: parameters and results of the runs with dimensions and units, links to files."""
+"""The file of a study: parameters and results of the runs with dimensions and units, their files."""
 
 import os
 import warnings
@@ -27,9 +27,14 @@ class Column(NamedTuple):
 
 
 REVOLUTION, OF_PADS = ("revolution",), ("revolution", "pad")
+#: As the program says it, too.
+STATUS = (
+    "exit status: 0 done, 2 numerics, 3 system, 4 stopped, -1 not ended, -2 not run yet; "
+    "nan: its file cannot be read"
+)
 #: Columns that are no datasets of the runs' files.
 OWN = {
-    "status": Column((), "1", "exit status: 0 done, nan if the file cannot be read"),
+    "status": Column((), "1", STATUS),
     "complete": Column((), "1", "1 where the run reached its end"),
     "resumes": Column((), "1", "times that the run was resumed"),
     **{
@@ -57,7 +62,7 @@ def write(target: Path, runs: Sequence[StudyRun], missing: Sequence[int]) -> Non
 
 
 def fill(file: h5py.File, runs: Sequence[StudyRun], missing: Sequence[int], folder: Path) -> None:
-    """Attributes, dimension scales, parameters, results and links of a study."""
+    """Attributes, dimension scales, parameters and results of a study."""
     readable = [each for each in runs if each.input]
     first = readable[0]
     if first.runs:
@@ -96,10 +101,6 @@ def fill(file: h5py.File, runs: Sequence[StudyRun], missing: Sequence[int], fold
     for name, (dimensions, unit, meant) in columns.items():
         values = placed(name, dimensions, runs, labels)
         put(file, name, values, (*RUN, *dimensions), unit, meant, coordinates)
-    links = file.create_group("runs")
-    digits = max(4, len(str(runs[-1].number)))
-    for each, path in zip(runs, paths, strict=True):
-        links[f"{each.number:0{digits}d}"] = h5py.ExternalLink(path, "/")
 
 
 def described(runs: Sequence[StudyRun]) -> dict[str, Column]:
@@ -119,13 +120,13 @@ def scales(
 ) -> dict[str, dict[Any, int]]:
     """Writes the dimensions; gives the places of the values of each: those that any of the runs has.
 
-    Runs have their numbers, revolutions are counted from the last one, which is 0. Numbers rise; texts
-    stay in the order of the runs.
+    Runs have their numbers, revolutions are counted from the last one, which is 0. Numbers rise; a text
+    comes behind the one that it follows in a run.
     """
     wanted = {dimension for each in columns.values() for dimension in each.dimensions} | {"pad"}
     found: dict[str, list[Any]] = {"run": [each.number for each in runs]}
     for name in sorted(wanted):
-        values = list(dict.fromkeys(value for each in runs for value in each.labels.get(name, ())))
+        values = joined([each.labels.get(name, ()) for each in runs])
         found[name] = values if any(isinstance(value, str) for value in values) else sorted(values)
     for name, own in ((name, own) for name, own in found.items() if own):
         if isinstance(own[0], str):
@@ -135,6 +136,18 @@ def scales(
         file[name].make_scale(name)
         file[name].attrs.update({"units": "1", "long_name": COUNTED.get(name) or meaning(runs, name)})
     return {name: {label: k for k, label in enumerate(own)} for name, own in found.items()}
+
+
+def joined(lists: Sequence[Sequence[Any]]) -> list[Any]:
+    """All labels, each new one behind the one before it in its list."""
+    found: list[Any] = []
+    known: set[Any] = set()
+    for labels in lists:
+        for k, label in enumerate(labels):
+            if label not in known:
+                known.add(label)
+                found.insert(found.index(labels[k - 1]) + 1 if k else 0, label)
+    return found
 
 
 def meaning(runs: Sequence[StudyRun], dimension: str) -> str:

@@ -37,7 +37,7 @@ SCALES = h5t.vlen_create(h5t.STD_REF_OBJ).encode()
 #: Longest attribute in the list of attributes itself, bytes; texts of variable length stand elsewhere.
 LONGEST = 1 << 16
 #: Most attributes of a file, and most datasets of a group: many times what results and studies have, which is
-#: up to 30 and 130. The links of a study to its runs are as many as these.
+#: up to 30 and 130. A study of an earlier version has as many links to its runs as it has runs.
 MOST_NAMES, UNLIMITED = 1000, ("runs",)
 
 
@@ -73,7 +73,7 @@ class Archive:
     INTERNAL = (
         *("check_whole", "check_dataset", "scales", "sound", "without", "item", "own", "found", "listed"),
         *("former", "size", "why_not", "end", "in_words", "is_series", "KINDS", "OWN", "GROUPS", "INTERNAL"),
-        *("scale", "today"),
+        *("scale", "today", "most"),
     )
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
     OWN = ("file", "path", "attributes", "former", "found", "listed", "over", "size")
@@ -252,14 +252,18 @@ class Archive:
             raise ValueError("neither numbers nor texts")
         # HDF5 allocates whole chunks; deflated data may be larger than the file
         claimed = kind.itemsize * max(math.prod(found.shape), math.prod(found.chunks or (0,)))
-        compressed = found.id.get_create_plist().get_nfilters() > 0
-        if claimed > (max(COMPRESSION * self.size, SMALL) if compressed else self.size):
+        if claimed > self.most(name, found):
             raise ValueError(f"it claims {claimed} bytes, more than the file holds")
         scales = self._scales(name, found)
         if scales == (name,):
             fits(found.shape[1:], ())
         else:
             fits(found.shape, [self.length(each) for each in scales])
+
+    def most(self, name: str, found: h5py.Dataset) -> int:
+        """Most bytes that the values of a dataset may take."""
+        compressed = found.id.get_create_plist().get_nfilters() > 0
+        return max(COMPRESSION * self.size, SMALL) if compressed else self.size
 
     def sound(self, name: str, values: Any) -> Any:
         """The values that were read; ValueError where they are impossible."""

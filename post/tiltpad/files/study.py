@@ -1,10 +1,12 @@
-"""Studies: the file that tiltpad-collect writes, results of many runs over their parameters."""
+"""Studies: one file with the results of many runs over their parameters."""
 
 import csv
 import io
 import os
+from pathlib import Path
 from typing import Any, NamedTuple
 
+import h5py
 import numpy as np
 
 from tiltpad.files.archive import Archive, RunError, damaged, plain, reading
@@ -17,6 +19,10 @@ RUN, PIVOTS = ("run",), ("run", "pivot")
 REVOLUTIONS = 50
 #: States that Poincare points are kept of.
 POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}
+
+
+#: Most bytes of a column of a study that is still being run: a thousand values of a hundred thousand runs.
+UNWRITTEN = 800_000_000
 
 
 class Failure(NamedTuple):
@@ -36,11 +42,17 @@ class Failure(NamedTuple):
 
 
 #: How a run ended, by its status.
-ENDS = {2: "failed in its numerics", 3: "failed at a file", 4: "was stopped", -1: "has not ended"}
+ENDS = {
+    2: "failed in its numerics",
+    3: "failed at a file or the system",
+    4: "was stopped",
+    -1: "has not ended",
+    -2: "has not been run",
+}
 
 
 def read_study(path: str | os.PathLike) -> "Study":
-    """Opens a study, the file that tiltpad-collect writes. Raises RunError."""
+    """Opens a study, the file that `tiltpad study.nml` or tiltpad-collect writes. Raises RunError."""
     return Study(path)
 
 
@@ -62,7 +74,7 @@ class Study(Archive):
         study.poincare_y                     Poincare points, (run, revolution)
         study.parameters                     names of the parameters
         study.title, study.created, ...      attributes of the file; study.attributes has all of them
-        study.file["runs/0003/journal_y"] a dataset of a run's own file, as h5py gives it
+        study.result(3).journal_y            the samples of a run that has a file of its own
     """
 
     KINDS = "fiuO"
@@ -113,15 +125,36 @@ class Study(Archive):
             for k in np.flatnonzero(~self.done)
         ]
 
+    def result(self, run: int) -> Run:
+        """The result of a run of the study, opened from its own file.
+
+        The file is found as long as study and files are moved together. Raises ValueError for a number that
+        the study does not have, and RunError where the run has no file.
+        """
+        places = np.flatnonzero(self.run == run)
+        if not places.size:
+            raise ValueError(f"{self.path}: no run {run}; there are {self.run[0]:g} to {self.run[-1]:g}")
+        name = self["file"][places[0]] if "file" in self else ""
+        if not name:
+            raise RunError(f"{self.path}: run {run} has no file of its own; output%keep = 'all' keeps its samples")
+        # the study, or a link to it, may be beside its files
+        folders = [Path(self.path).parent, Path(self.path).resolve().parent]
+        return read(next((folder / name for folder in folders if (folder / name).exists()), folders[0] / name))
+
     def check_whole(self) -> None:
         """Refuses the result of one run, and a study without its parameters."""
         if self.attributes["task"] != "study":
-            raise RunError(f"{self.path}: the result of one run, not a study: see tiltpad-collect")
+            raise RunError(f"{self.path}: the result of one run, not a study")
         if not isinstance(self.attributes.get("parameters"), str):
             raise damaged(self.path, "attribute 'parameters'", "it is missing")
         for name in ("run", "status", *self.parameters):
             if name not in self:
                 raise damaged(self.path, name, "it is missing")
+
+    def most(self, name: str, found: h5py.Dataset) -> int:
+        # runs that have not been run take no room; their numbers, in `run`, do
+        rows = found.ndim and found.maxshape[0] is None and name != "run"
+        return max(super().most(name, found), UNWRITTEN if rows else 0)
 
     def sound(self, name: str, values: Any) -> Any:
         if np.asarray(values).dtype.kind != "O":

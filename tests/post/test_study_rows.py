@@ -1,0 +1,142 @@
+"""The study that the program writes, a row for each run: the same as tiltpad-collect makes of the files."""
+
+import os
+import signal
+import subprocess
+import time
+
+import numpy as np
+import pytest
+from tiltpad import collect, read, read_study
+from tiltpad.files import units
+
+LUGRE = "&case task='march' / &friction model='lugre' /"
+WARM = (
+    "&case task='equilibrium' / &thermal model='pad' / &oil kinematic_viscosity=46e-6, 6.8e-6, "
+    "at_temperature=40, 100, density=860, specific_heat=1951.8, conductivity=0.13, supply_temperature=40 /"
+)
+SHORT = "&operation duration=0.06 / &output samples_per_revolution=60, keep='all' /"
+#: Cases in which runs have other columns and labels than others, and one fails.
+CASES = {
+    "marches": f"{SHORT} &sweep friction%model = 'none', lugre\noperation%speed_rpm = 1500, 6500 /",
+    "coefficients": "&case task='coefficients' / &output keep='all' / &sweep "
+    "coefficients%frequency_ratio = 1, 0.5, 1.5\nfriction%model = 'none', lugre /",
+    "equilibria": f"{WARM} &output keep='all' / "
+    "&sweep thermal%model = 'none', pad\nrotor%mass = 1000, 2000\noil%supply_temperature = 40, 50 /",
+    "failures": "&case task='equilibrium' / &output keep='all' / "
+    "&sweep rotor%static_load(1) = 0, 1e11, -1e3 /",
+}
+#: What only one of them has, or has otherwise.
+DIFFERENT = ("file", "runs")
+
+
+@pytest.fixture(scope="module", params=CASES)
+def studies(request, tiltpad, tmp_path_factory):
+    """The study of the program and that of tiltpad-collect, of the same runs."""
+    folder = tmp_path_factory.mktemp(request.param)
+    (folder / "case.nml").write_text(CASES[request.param])
+    assert tiltpad("case.nml", cwd=folder).returncode == (2 if request.param == "failures" else 0)
+    collect(folder / "case", folder / "collected.h5")
+    with read_study(folder / "case.h5") as rows, read_study(folder / "collected.h5") as files:
+        yield rows, files
+
+
+def is_empty(values):
+    return values.dtype.kind == "f" and np.isnan(values).all()
+
+
+def test_columns_are_those_of_the_files(studies):
+    rows, files = studies
+    assert len(rows.names()) > 20
+    # quantities that no run has
+    empty = {name for name in files.names() if name not in DIFFERENT and is_empty(files[name])}
+    assert set(rows.names()) == set(files.names()) - {*DIFFERENT} - empty
+    for name in rows.names():
+        assert rows.scales(name) == files.scales(name), name
+        assert rows.about(name, "units") == files.about(name, "units"), name
+        if name != "status":
+            assert rows.about(name, "long_name") == files.about(name, "long_name"), name
+        own, other = (each.file[name].attrs.get("coordinates") for each in (rows, files))
+        assert own == other, name
+
+
+def test_values_are_those_of_the_files_to_the_last_bit(studies):
+    rows, files = studies
+    for name in rows.names():
+        expected = files[name]
+        for axis, scale in enumerate(files.scales(name)):
+            # texts have another order
+            places = [list(files[scale]).index(label) for label in rows[scale]]
+            expected = np.take(expected, places, axis)
+        np.testing.assert_array_equal(rows[name], expected, err_msg=name)
+
+
+def test_attributes_are_those_of_the_collected_study(studies):
+    rows, files = studies
+    for name in ("format_version", "program", "version", "title", "task", "parameters", "variables", "runs"):
+        assert rows.attributes[name] == files.attributes[name], name
+    assert rows.attributes["input"] == files.attributes["input"]
+    assert rows.attributes["missing"] == files.attributes["missing"] == ""
+    assert rows.attributes["finished"] == 1
+    assert [each[2:] for each in rows.failures()] == [each[2:] for each in files.failures()]
+
+
+def test_xarray_reads_it(studies):
+    rows, files = studies
+    data = rows.to_xarray()
+    assert set(data.coords) >= {"run", *rows.parameters}
+    assert dict(data.sizes) == dict(files.to_xarray().sizes)
+
+
+@pytest.mark.parametrize("base", [LUGRE, WARM])
+def test_parameters_are_called_as_by_tiltpad_collect(tiltpad, tmp_path, base):
+    """All numbers of a case, each varied by the one value that it has."""
+    case = f"{base} &output keep='all', start_time=0.02 / &operation duration=0.03"
+    (tmp_path / "base.nml").write_text(f"{case} /")
+    tiltpad("base.nml", cwd=tmp_path, status=0)
+    with read(tmp_path / "base.h5") as run:
+        flat = {f"{group}%{name}": value for group, own in run.input.items() for name, value in own.items()}
+    flat |= {f"{name}(1)": value[0] for name, value in flat.items() if isinstance(value, tuple)}
+    # lists of any length have no elements that could be varied
+    for name in ("pads%pivot_angle_deg", "coefficients%frequency_ratio"):
+        flat.pop(f"{name}(1)", None)
+    varied = {name: value for name, value in flat.items() if type(value) in (int, float)}
+    lines = "\n".join(f"{name} = {value!r}" for name, value in varied.items())
+    (tmp_path / "case.nml").write_text(f"{case} / &sweep\n{lines}\n/")
+    tiltpad("case.nml", cwd=tmp_path, status=0)
+    collect(tmp_path / "case", tmp_path / "collected.h5")
+    with read_study(tmp_path / "case.h5") as rows, read_study(tmp_path / "collected.h5") as files:
+        assert len(rows.parameters) == len(varied) > 50
+        assert rows.attributes["variables"].split("\n") == list(varied)
+        for name, variable in zip(rows.parameters, varied, strict=True):
+            own = variable.partition("(")[0]
+            assert rows.about(name, "units") == (units.named(own)[1] or "1"), variable
+            assert rows[name] == varied[variable], variable
+            assert rows.about(name, "long_name").startswith(units.named(own)[0]), variable
+        for name, other, variable in zip(rows.parameters, files.parameters, varied, strict=True):
+            # a name that some study has for a column is no parameter's in any
+            assert name in (other, f"{variable.partition('%')[0]}_{other}")
+            if name == other:
+                assert rows.about(name, "units") == files.about(name, "units"), name
+                assert rows.about(name, "long_name") == files.about(name, "long_name"), name
+
+
+def test_a_study_of_which_little_was_run(program, tmp_path):
+    """Runs that have not been run take no room in the file."""
+    (tmp_path / "case.nml").write_text(
+        "&case task='coefficients' / &output checkpoint_seconds=1e-3, keep='summary' / "
+        f"&coefficients frequency_ratio={', '.join(f'{0.1 * k:.1f}' for k in range(1, 16))} / "
+        "&sweep operation%speed_rpm = 1000:30999:1 /"
+    )
+    with subprocess.Popen([program, "case.nml", "-q"], cwd=tmp_path, stderr=subprocess.PIPE) as process:
+        while not (tmp_path / "case.h5").exists():
+            assert process.poll() is None, process.communicate()
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+    with read_study(tmp_path / "case.h5") as study:
+        assert 0 < study.done.sum() < 30000
+        assert study.stiffness.nbytes > os.path.getsize(study.path)
+        np.testing.assert_array_equal(np.isfinite(study.stiffness[:, 0, 0, 0, 0]), study.done)
+        np.testing.assert_array_equal(study.status[~study.done], -2)
+        assert np.nansum(study.complete) == study.done.sum()
