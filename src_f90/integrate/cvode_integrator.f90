@@ -124,7 +124,8 @@ contains
          flag = fcvodesetnonlinconvcoef(core%memory, newton_coefficient)
          flag = fcvodesetmaxord(core%memory, int(options%max_order, c_int))
          flag = fcvodesetmaxerrtestfails(core%memory, max_failures)
-         flag = fcvodesetmaxstep(core%memory, options%max_step)
+         ! CVODE takes its inverse; 0: no limit
+         flag = fcvodesetmaxstep(core%memory, merge(max(options%max_step, tiny(t)), 0.0_wp, options%max_step > 0))
       end associate
       call begin(self%core, t, t_end, error)
    end subroutine start

@@ -1,4 +1,5 @@
-"""Runs one command on one core, or on all, and prints its wall seconds, peak memory in MB and exit status.
+"""Runs one command on one core, or on all, and prints its wall seconds, peak memory in MB, exit status and the
+seconds of processor time of it and its children.
 
 usage: launch.py CORE|all LIMIT COMMAND...     (LIMIT: seconds after which it is killed)
 
@@ -26,7 +27,7 @@ def main(core: int | None, limit: int, command: list[str]) -> None:
     signal.alarm(limit)
     _, status, used = os.wait4(child, 0)
     seconds = time.perf_counter() - started
-    print(seconds, used.ru_maxrss / 1024, os.waitstatus_to_exitcode(status))
+    print(seconds, used.ru_maxrss / 1024, os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime)
 
 
 main(None if sys.argv[1] == "all" else int(sys.argv[1]), int(sys.argv[2]), sys.argv[3:])

@@ -54,6 +54,7 @@ class Row:
     march_seconds: float = 0.0
     checkpoint_seconds: float = 0.0
     copy_seconds: float = 0.0
+    work_seconds: float | None = None
     note: str = ""
 
     def compare(self, found: Deviation) -> None:
@@ -71,6 +72,8 @@ class Launched:
     memory: float
     status: int
     said: str
+    #: Processor time, s.
+    work: float
 
 
 def launch(command: Iterable, core: int | None = CORE, limit: int = LIMIT) -> Launched:
@@ -81,8 +84,8 @@ def launch(command: Iterable, core: int | None = CORE, limit: int = LIMIT) -> La
     done = subprocess.run(words, text=True, capture_output=True, env=quiet)
     if done.returncode:
         raise RuntimeError(done.stderr)
-    seconds, memory, status = done.stdout.split()
-    return Launched(float(seconds), float(memory), int(status), done.stderr.strip())
+    seconds, memory, status, work = done.stdout.split()
+    return Launched(float(seconds), float(memory), int(status), done.stderr.strip(), float(work))
 
 
 @dataclass

@@ -217,6 +217,8 @@ def complete(found: dict[str, tuple | None], given: dict[str, list], variables: 
     if any(value != variables[key].default[0] for key in SIZE for value in found[key]):
         # no closed forms here; pads may also have values given in part
         found.update({key: None for key in BODY if key not in given or any(map(subscript, given[key]))})
+    if found["pads%motion"] == (b"fixed",):
+        found.update({key: () for key in BODY if key not in given})
     surplus = {"pads%density", "pads%mass"}, {"pads%thickness", *BODY}
     if any(keys <= given.keys() for keys in surplus) and not any(map(subscript, bodies)):
         raise Refused("density or thickness without use")
