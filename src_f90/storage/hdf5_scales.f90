@@ -31,7 +31,8 @@ module hdf5_scales
 
    interface
       !> Calls a function with each scale of a dimension, from 0, until it gives another number than 0.
-      integer(c_int) function iterate_scales(dataset, dimension, first, visitor, visit) bind(c, name='H5DSiterate_scales')
+      integer(c_int) function iterate_scales(dataset, dimension, first, visitor, visit) &
+         & bind(c, name='H5DSiterate_scales')
          import :: c_funptr, c_int, c_ptr, hid_t
          integer(hid_t), value :: dataset
          integer(c_int), value :: dimension

@@ -39,7 +39,8 @@ contains
       call record%put_count('statistics/steps', 2_i8**40 + k, 'time steps')
       call record%put_real('summary/orbit_y', 0.1_wp*k, 'm', 'orbit')
       if (mod(k, 3) == 0) call record%put_real('summary/only', 0.3_wp*k, 'W', 'of every third')
-      call record%put_table('modes/frequency', reshape([(1.5_wp**i, i=1, 2*k)], [k, 2]), 'Hz', 'frequencies', 'pivot pad')
+      call record%put_table('modes/frequency', reshape([(1.5_wp**i, i=1, 2*k)], [k, 2]), 'Hz', 'frequencies', &
+         & 'pivot pad')
    end subroutine fill
 
    !> It has all of run k, and nothing else.
@@ -157,8 +158,8 @@ contains
          call expect(taken%count == sent%count, 'datasets')
          do i = 1, sent%count
             associate (own => sent%datasets(i), its => taken%datasets(i))
-               call expect(own%path == its%path .and. own%units == its%units .and. own%long_name == its%long_name .and. &
-                  & own%scales == its%scales .and. own%kind == its%kind .and. own%texts == its%texts .and. &
+               call expect(own%path == its%path .and. own%units == its%units .and. own%long_name == its%long_name &
+                  & .and. own%scales == its%scales .and. own%kind == its%kind .and. own%texts == its%texts .and. &
                   & size(own%extents) == size(its%extents), own%path)
                call expect(all(own%extents == its%extents), own%path//': sizes')
             end associate
@@ -199,8 +200,8 @@ contains
       call expect(descriptions < 50, to_text(descriptions)//' descriptions')
    end subroutine messages_of_many_runs
 
-   !> Its file, written as it changes: sizes that change after they were deleted, what is no longer there, and a file that
-   !> lacks more than the record knows.
+   !> Its file, written as it changes: sizes that change after they were deleted, what is no longer there, and a file
+   !> that lacks more than the record knows.
    subroutine written_again()
       type(record_type) :: record, found
       type(hdf5_type) :: file
