@@ -224,8 +224,9 @@ contains
          call write_record(record, file, .false.)
          call expect(.not. allocated(file%failure), 'written with another size')
       end do
-      call expect(file%list_size('checkpoint/state') == 5 .and. file%list_size('revolution') == 5 .and. &
-         & file%list_size('by_revolution/lowest_y') == 5, 'the last size')
+      call expect(file%list_size('checkpoint/state') == 5, 'the last size')
+      call expect(file%list_size('revolution') == 5, 'of a scale')
+      call expect(file%list_size('by_revolution/lowest_y') == 5, 'and of what is over it')
       call record%delete('checkpoint')
       call write_record(record, file, .false.)
       call expect(.not. file%has('checkpoint'), 'what was deleted is not in the file')
