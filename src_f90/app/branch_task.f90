@@ -150,6 +150,7 @@ contains
       call b%begin_anywhere(run%model)
       call get_branches(run%file, run%path, b, notes%special, ok, error)
       call run%file%get_text('branch_ends', notes%ends)
+      if (.not. run%file%hdf5%has_attribute('branch_ends')) ok = .false.
       call run%file%error_of(damage)
       if (allocated(damage)) call move_alloc(damage, error)
       if (allocated(error)) return
