@@ -66,7 +66,8 @@ contains
          if (.not. filed .or. wanted(k)) cycle
          if (mixed) call study%inputs(k, inputs, error)
          ! a file that is gone is made again
-         wanted(k) = inputs%output%keep /= 'summary' .and. .not. is_regular(result_path(output, k, study%runs))
+         wanted(k) = inputs%output%keep /= 'summary'
+         if (wanted(k)) wanted(k) = .not. is_regular(result_path(output, k, study%runs))
       end do
       runner%folder = output
       runner%runs = study%runs
