@@ -2,6 +2,8 @@
 !> written beside its name and published whole at checkpoints and at the end, so that a kill at any moment leaves the
 !> last checkpoint. After a failure every routine does nothing; the next one with an error tells it.
 module study_file
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int, c_int64_t, c_ptr
+   use hdf5, only: h5p_default_f
    use kinds, only: wp
    use errors, only: error_type, raise, system_error
    use clock, only: wall_clock
@@ -10,6 +12,7 @@ module study_file
    use case_inputs, only: case_type
    use namelist_writer, only: namelist_of
    use parameter_study, only: study_type
+   use files, only: unlock_file
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type, most_rows
    use hdf5_texts, only: text_type
@@ -64,6 +67,15 @@ module study_file
       procedure, private :: open_part
    end type study_file_type
 
+   interface
+      !> The system's number of an open file.
+      integer(c_int) function file_handle(file, access, handle) bind(c, name='H5Fget_vfd_handle')
+         import :: c_int, c_int64_t, c_ptr
+         integer(c_int64_t), value :: file, access
+         type(c_ptr), intent(out) :: handle
+      end function file_handle
+   end interface
+
 contains
 
    subroutine claim(self, path, error)
@@ -90,6 +102,7 @@ contains
          if (present(first)) from = first
          if (present(last)) to = last
          call self%create(self%working%part)
+         call unlock(self)
          parameters = parameters_of(study)
          call put_origin(self, study, parameters)
          call write_runs(self, 1, study%runs)
@@ -300,12 +313,29 @@ contains
       call self%put_text('missing', missing_runs(self%rows%status == not_run))
    end subroutine note
 
+   !> Frees HDF5's own lock of the open file: children have inherited it, and would keep readers from the file once it is
+   !> published. The lock file keeps other writers from the part.
+   subroutine unlock(self)
+      class(study_file_type), intent(inout) :: self
+      type(c_ptr) :: handle
+      integer(c_int), pointer :: number
+      integer :: status
+      if (allocated(self%failure)) return
+      status = file_handle(int(self%id, c_int64_t), int(h5p_default_f, c_int64_t), handle)
+      call self%check(status, 'unlock the file')
+      if (status < 0) return
+      call c_f_pointer(handle, number)
+      call unlock_file(number)
+   end subroutine unlock
+
    !> Opens the part, unless another run has taken the place of this one, whose part then has the name.
    subroutine open_part(self, error)
       class(study_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       call self%working%check_part(error)
-      if (.not. allocated(error)) call self%open(self%working%part, writing=.true.)
+      if (allocated(error)) return
+      call self%open(self%working%part, writing=.true.)
+      call unlock(self)
    end subroutine open_part
 
    subroutine close_all(self)

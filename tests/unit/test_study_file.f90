@@ -7,6 +7,7 @@ program test_study_file
    use text, only: to_text
    use errors, only: error_type, system_error
    use files, only: delete_file
+   use processes, only: new_process, end_child, stop_process, ended, pause_seconds
    use record, only: record_type
    use record_file, only: write_record
    use record_reader, only: read_record
@@ -54,6 +55,7 @@ program test_study_file
    if (runs('names_of_parameters')) call names_of_parameters()
    if (runs('continued')) call continued()
    if (runs('checkpoints')) call checkpoints()
+   if (runs('read_meanwhile')) call read_meanwhile()
    if (runs('grown')) call grown()
    if (runs('other_studies')) call other_studies()
    if (runs('joined')) call joined()
@@ -553,6 +555,37 @@ contains
       call table%abandon()
       call clear()
    end subroutine checkpoints
+
+   !> Anybody can read what was published, though children have the file open that it was.
+   subroutine read_meanwhile()
+      type(study_type) :: study
+      type(study_file_type) :: table
+      type(record_type) :: records(2)
+      type(error_type), allocatable :: error
+      type(hdf5_type) :: file
+      character(len=:), allocatable :: how
+      integer :: child, i
+      logical :: over
+      call make_study(4, study)
+      call begin(table, path, study)
+      do i = 1, 2
+         child = new_process()
+         if (child == 0) then
+            call pause_seconds(1000)
+            call end_child(0)
+         end if
+         call add(table, [i], records)
+         call table%checkpoint(error)
+         call expect_no_error(error, 'a checkpoint')
+         call file%open(path, writing=.false.)
+         call expect(.not. allocated(file%failure), 'it can be read')
+         call file%close()
+         call stop_process(child)
+         over = ended(child, .true., how)
+      end do
+      call table%abandon()
+      call clear()
+   end subroutine read_meanwhile
 
    !> A study that has got more runs keeps its rows.
    subroutine grown()
