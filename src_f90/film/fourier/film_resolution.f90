@@ -18,8 +18,6 @@ module film_resolution
    integer, parameter :: most_levels = 5, loose_levels = 3
    !> The error for which the threshold speeds below hold.
    real(wp), parameter :: usual_error = 1e-4_wp
-   !> What rounding leaves.
-   real(wp), parameter :: least_error = 1e-12_wp
    !> Cells over the arc's span times the largest H over the pad's length, and the same with the H at a leading edge
    !> under pressure; cells over the span times the largest root of v; modes times the shortest distance, or the
    !> arc's length, over the pad's. For a tolerance the cells go with its power -1/4, the modes with -1/3.
@@ -78,10 +76,8 @@ contains
       self%follows = present(tolerance)
       if (self%follows) then
          if (tolerance > usual_error) self%levels = loose_levels
-         associate (refinement => usual_error/max(tolerance, least_error))
-            self%more_cells = refinement**0.25_wp
-            self%more_modes = refinement**(1.0_wp/3)
-         end associate
+         self%more_cells = (usual_error/tolerance)**0.25_wp
+         self%more_modes = (usual_error/tolerance)**(1.0_wp/3)
       end if
       if (self%floods .or. .not. self%follows) then
          self%modes = count([((2*k - 1)*pi <= sqrt(12*stiffest_mode)*aspect(gap)*cells, k=1, modes)])
