@@ -12,7 +12,7 @@ module study_file
    use case_inputs, only: case_type
    use namelist_writer, only: namelist_of
    use parameter_study, only: study_type
-   use files, only: unlock_file
+   use files, only: unlock_file, empty_file
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type, most_rows
    use hdf5_texts, only: text_type
@@ -55,6 +55,8 @@ module study_file
       procedure :: finish
       !> Deletes what was not published, and frees the lock.
       procedure :: abandon
+      !> Forgets the file in a child process; nothing happens to it.
+      procedure :: let_go
       !> Shows other programs that this one lives, and has the system write; to be called often with a clock, s.
       procedure :: beat
       !> The dead process that held the file's lock; empty where there was none.
@@ -317,16 +319,32 @@ contains
    !> published. The lock file keeps other writers from the part.
    subroutine unlock(self)
       class(study_file_type), intent(inout) :: self
-      type(c_ptr) :: handle
       integer(c_int), pointer :: number
-      integer :: status
-      if (allocated(self%failure)) return
-      status = file_handle(int(self%id, c_int64_t), int(h5p_default_f, c_int64_t), handle)
-      call self%check(status, 'unlock the file')
-      if (status < 0) return
-      call c_f_pointer(handle, number)
-      call unlock_file(number)
+      call find_number(self, number)
+      if (associated(number)) call unlock_file(number)
    end subroutine unlock
+
+   !> In a child process, which has inherited the open file, and would keep its room on the disk after it was deleted.
+   subroutine let_go(self)
+      class(study_file_type), intent(inout) :: self
+      integer(c_int), pointer :: number
+      call find_number(self, number)
+      if (associated(number)) call empty_file(number)
+      call self%close_all()
+   end subroutine let_go
+
+   !> The system's number of the open file; not associated where none is open.
+   subroutine find_number(self, number)
+      class(study_file_type), intent(inout) :: self
+      integer(c_int), pointer, intent(out) :: number
+      type(c_ptr) :: handle
+      integer :: status
+      nullify (number)
+      if (self%id < 0) return
+      status = file_handle(int(self%id, c_int64_t), int(h5p_default_f, c_int64_t), handle)
+      call self%check(status, 'find the number of the file')
+      if (status >= 0) call c_f_pointer(handle, number)
+   end subroutine find_number
 
    !> Opens the part, unless another run has taken the place of this one, whose part then has the name.
    subroutine open_part(self, error)

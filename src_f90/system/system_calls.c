@@ -200,6 +200,15 @@ void tiltpad_unlock(const int *file)
    flock(*file, LOCK_UN);
 }
 
+/* Closes an open file but keeps its number, behind which there is nothing then: what is written is lost. */
+void tiltpad_empty(const int *file)
+{
+   int nothing = open("/dev/null", O_RDWR);
+   if (nothing < 0) return;
+   dup2(nothing, *file);
+   close(nothing);
+}
+
 /* Makes a folder, unless something of its name is there. */
 bool tiltpad_make_folder(const text_t *path)
 {

@@ -7,7 +7,7 @@ program test_study_file
    use text, only: to_text
    use errors, only: error_type, system_error
    use files, only: delete_file
-   use processes, only: new_process, end_child, stop_process, ended, pause_seconds
+   use processes, only: new_process, end_child, exit_status, process_id, stop_process, ended, pause_seconds
    use record, only: record_type
    use record_file, only: write_record
    use record_reader, only: read_record
@@ -18,7 +18,7 @@ program test_study_file
    use parameter_study, only: study_type, study_from_text
    use study_file, only: study_file_type
    use study_marks, only: missing_runs
-   use scratch, only: scratch_path, file_there, write_bytes, bytes_of
+   use scratch, only: scratch_path, for_shell, file_there, write_bytes, bytes_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
    !> Runs of the study of most cases; each has other labels than the last.
@@ -556,7 +556,8 @@ contains
       call clear()
    end subroutine checkpoints
 
-   !> Anybody can read what was published, though children have the file open that it was.
+   !> Anybody can read what was published, though children have the file open that it was; a child that lets it go has it
+   !> no more, and changes nothing.
    subroutine read_meanwhile()
       type(study_type) :: study
       type(study_file_type) :: table
@@ -577,15 +578,40 @@ contains
          call add(table, [i], records)
          call table%checkpoint(error)
          call expect_no_error(error, 'a checkpoint')
+         call expect(open_files(child) == 1, 'the child has the file')
          call file%open(path, writing=.false.)
          call expect(.not. allocated(file%failure), 'it can be read')
          call file%close()
          call stop_process(child)
          over = ended(child, .true., how)
       end do
-      call table%abandon()
+      call add(table, [4], records)
+      child = new_process()
+      if (child == 0) then
+         call table%let_go()
+         ! none is open
+         call table%let_go()
+         call end_child(open_files(process_id()))
+      end if
+      call expect(exit_status(child) == 0, 'the child has no file open')
+      call add(table, [3], records)
+      call table%finish(error)
+      call expect_no_error(error, 'finish')
+      call write_study(other, 4, [1, 2, 3, 4])
+      call expect_same(path, other, 'after a child')
       call clear()
    end subroutine read_meanwhile
+
+   !> How many files of these tests a process has open, but for the lock.
+   integer function open_files(process) result(count)
+      integer, intent(in) :: process
+      integer :: unit, status
+      call execute_command_line('ls -l /proc/'//to_text(process)//'/fd | grep "'//path(index(path, '/', back=.true.) &
+         & + 1:)//'" | grep -vc lock >'//for_shell(other))
+      open (newunit=unit, file=other, action='read')
+      read (unit, *, iostat=status) count
+      close (unit)
+   end function open_files
 
    !> A study that has got more runs keeps its rows.
    subroutine grown()
