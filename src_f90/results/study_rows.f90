@@ -17,8 +17,8 @@ module study_rows
    !> The status of a run that has no row.
    integer, parameter :: not_run = -2
    character(len=*), parameter :: status_name = 'status', reason_name = 'reason', file_name = 'file'
-   character(len=*), parameter :: status_meaning = 'exit status: 0 done, 2 numerics, 3 system, 4 stopped, -1 not ended, ' &
-      & //'-2 not run yet; nan: its file cannot be read'
+   character(len=*), parameter :: status_meaning = 'exit status: 0 done, 2 numerics, 3 system, 4 stopped, ' &
+      & //'-1 not ended, -2 not run yet; nan: its file cannot be read'
    !> Columns that every study has, one value a run.
    character(len=*), parameter :: complete_name = 'complete'
    !> Most rows held back, and most numbers of them.

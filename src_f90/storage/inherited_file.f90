@@ -27,8 +27,8 @@ contains
       if (associated(number)) call unlock_file(number)
    end subroutine unlock
 
-   !> In a child, before it closes the file: what HDF5 then writes is lost, and the child does not keep the file's room on
-   !> the disk after it was deleted.
+   !> In a child, before it closes the file: what HDF5 then writes is lost, and the child does not keep the file's room
+   !> on the disk after it was deleted.
    subroutine empty(file)
       type(hdf5_type), intent(inout) :: file
       integer(c_int), pointer :: number

@@ -556,8 +556,8 @@ contains
       call clear()
    end subroutine checkpoints
 
-   !> Anybody can read what was published, though children have the file open that it was; a child that lets it go has it
-   !> no more, and changes nothing.
+   !> Anybody can read what was published, though children have the file open that it was; a child that lets it go has
+   !> it no more, and changes nothing.
    subroutine read_meanwhile()
       type(study_type) :: study
       type(study_file_type) :: table
@@ -605,11 +605,11 @@ contains
    !> How many files of these tests a process has open, but for the lock.
    integer function open_files(process) result(count)
       integer, intent(in) :: process
-      integer :: unit, status
+      integer :: unit
       call execute_command_line('ls -l /proc/'//to_text(process)//'/fd | grep "'//path(index(path, '/', back=.true.) &
          & + 1:)//'" | grep -vc lock >'//for_shell(other))
       open (newunit=unit, file=other, action='read')
-      read (unit, *, iostat=status) count
+      read (unit, *) count
       close (unit)
    end function open_files
 
