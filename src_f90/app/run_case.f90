@@ -23,8 +23,10 @@ module run_case
    use run_summary, only: print_notes, print_march, print_cost
    implicit none (type, external)
    private
-   public :: run_task, way_out
+   public :: run_task, way_out, computed_in
 
+   !> Where the results of a run are whose numerics failed.
+   character(len=*), parameter :: computed_in = '; what was computed is in '
    !> What can be done where the result of another case is in the way.
    character(len=*), parameter :: way_out = '; --overwrite replaces it, and --output names another place'
 
@@ -198,7 +200,8 @@ contains
       else if (error%status == numerics_error .and. (run%computed .or. run%tag%number > 0)) then
          ! of a run of a study the file says what happened; nothing else would be a result
          call run%file%finish(run%reached, run%statistics(), error%status, error%message, file_error)
-         if (run%computed .and. run%file%filed) error%computed = run%path
+         ! the row of a run of a study has its file beside this
+         if (run%computed .and. run%tag%number == 0) error%message = error%message//computed_in//run%path
       else if (error%status == stopped .and. run%computed) then
          if (run%file%filed) error%message = error%message//'; tiltpad --resume '//run%path//' goes on'
       else

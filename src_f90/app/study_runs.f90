@@ -175,7 +175,12 @@ contains
       ! their reports have been read
       do i = 1, size(children)
          if (.not. allocated(children(i)%how)) cycle
-         if (children(i)%run /= 0) call note(children(i)%run, error_type(system_error, children(i)%how), tally)
+         how = children(i)%how
+         if (children(i)%run /= 0) then
+            call note(children(i)%run, error_type(system_error, how), tally)
+            call children(i)%results%clear()
+            call table%add(children(i)%run, system_error, how, children(i)%results, i)
+         end if
          call children(i)%wait_for_end()
       end do
    end subroutine look

@@ -3,7 +3,7 @@ program tiltpad
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use text, only: printable, to_text
-   use errors, only: error_type, raise, require, input_error, system_error
+   use errors, only: error_type, raise, require, input_error, numerics_error, system_error
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag, read_study
    use namelist_writer, only: namelist_of, reference_text
@@ -13,7 +13,7 @@ program tiltpad
    use restart, only: restart_type, read_restart
    use stop_signals, only: catch_signals, ignore_file_limit
    use arguments, only: arguments_type, read_arguments, print_help
-   use run_case, only: run_task
+   use run_case, only: run_task, computed_in
    use record, only: record_type
    use study_folder, only: result_path, prepare_folder, check_neighbours
    use study_runs, only: check_runs
@@ -129,6 +129,8 @@ contains
       end if
       if (.not. allocated(error)) call run_task(inputs, output, tag, given%verify, study%given .or. &
          & given%resumed /= '', given%overwrite, given%quiet, results, error)
+      if (.not. allocated(error) .or. .not. study%given) return
+      if (error%status == numerics_error) error%message = error%message//computed_in//output
    end subroutine treat_case
 
    !> Refuses options that the case is not for.
@@ -182,10 +184,7 @@ contains
    !> An error's line.
    subroutine complain(error)
       type(error_type), intent(in) :: error
-      character(len=:), allocatable :: computed
-      computed = ''
-      if (allocated(error%computed)) computed = '; what was computed is in '//error%computed
-      write (error_unit, '(a)') 'tiltpad: error: '//printable(error%message//computed)
+      write (error_unit, '(a)') 'tiltpad: error: '//printable(error%message)
       flush (error_unit)
    end subroutine complain
 

@@ -12,8 +12,6 @@ module errors
    type :: error_type
       integer :: status = 0
       character(len=:), allocatable :: message
-      !> The file with what was computed before, if there is one.
-      character(len=:), allocatable :: computed
    end type error_type
 
    !> Exit statuses: usage or input; the numerics failed; file or system; stopped by a signal.

@@ -86,6 +86,7 @@ contains
       branches%points = nint(file%get_real('checkpoint/points'))
       branches%length = file%get_real('checkpoint/step')
       call get_special(file, special, ok)
+      if (.not. file%has('checkpoint/step')) ok = .false.
       ok = ok .and. branches%branch > 0 .and. branches%points >= 0 .and. ieee_is_finite(branches%length)
       if (ok) call get_point(file, 'checkpoint/point', branches, branches%here, ok)
       if (.not. ok) return

@@ -113,12 +113,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Of a march; of the size that the case has.
       real(wp), intent(inout), optional :: state(:)
+      character(len=:), allocatable :: history
       logical :: ok
       t = 0
       call self%reopen(inputs, error)
       if (.not. allocated(error)) then
          t = self%get_real('checkpoint/time')
-         ok = self%has('checkpoint/time') .and. ieee_is_finite(t)
+         call self%get_text('history', history)
+         ok = self%has('checkpoint/time') .and. ieee_is_finite(t) .and. history /= ''
+         ok = ok .and. self%has('statistics/steps')
          if (present(state)) then
             ok = ok .and. self%list_size('checkpoint/state') == size(state)
             call self%get_list('checkpoint/state', state)

@@ -1,16 +1,17 @@
 !> Which dimension scales datasets have, and what a file contains.
 module hdf5_scales
-   use hdf5, only: hid_t, hsize_t, h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f, h5g_dataset_f, h5dopen_f, &
-      & h5dclose_f, h5dget_space_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sclose_f, &
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_funptr, c_int, c_loc, c_null_ptr, c_ptr
+   use hdf5, only: hid_t, hsize_t, size_t, h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f, h5g_dataset_f, &
+      & h5dopen_f, h5dclose_f, h5dget_space_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sclose_f, &
       & h5s_unlimited_f, h5aexists_f, h5dget_type_f, h5tget_class_f, h5tclose_f, h5t_string_f
-   use h5ds, only: h5dsis_scale_f, h5dsis_attached_f
+   use h5ds, only: h5dsis_scale_f, h5dsget_scale_name_f
    use hdf5_file, only: hdf5_type
    implicit none (type, external)
    private
    public :: item_type, list_items, scales_of, read_about, scale_name, scale_count
 
-   !> Only a damaged file has longer names or more dimensions.
-   integer, parameter :: longest_name = 200, most_dimensions = 32
+   !> Only a damaged file has longer names, more dimensions, or groups in groups of groups.
+   integer, parameter :: longest_name = 200, most_dimensions = 32, deepest = 3
 
    !> A dataset or group of a file.
    type :: item_type
@@ -22,41 +23,54 @@ module hdf5_scales
       logical :: grows = .false.
    end type item_type
 
+   !> The name of a scale that was found, and whether it could be read.
+   type :: visit_type
+      character(len=longest_name) :: name = ''
+      integer :: status = 0
+   end type visit_type
+
+   interface
+      !> Calls a function with each scale of a dimension, from 0, until it gives another number than 0.
+      integer(c_int) function iterate_scales(dataset, dimension, first, visitor, visit) bind(c, name='H5DSiterate_scales')
+         import :: c_funptr, c_int, c_ptr, hid_t
+         integer(hid_t), value :: dataset
+         integer(c_int), value :: dimension
+         type(c_ptr), value :: first, visit
+         type(c_funptr), value :: visitor
+      end function iterate_scales
+   end interface
+
 contains
 
    !> The groups of a file, and its datasets, those in the groups too.
    subroutine list_items(file, found)
       class(hdf5_type), intent(inout) :: file
       type(item_type), allocatable, intent(out) :: found(:)
-      type(item_type), allocatable :: top(:)
-      integer :: i, n, count, status
-      call list_group(file, '/', top)
-      n = size(top)
-      do i = 1, size(top)
-         if (.not. top(i)%is_group) cycle
-         call h5gn_members_f(file%id, top(i)%path, count, status)
-         if (status >= 0) n = n + count
-      end do
-      allocate (found(n))
-      found(:size(top)) = top
-      n = size(top)
-      do i = 1, size(found)
-         if (i > n) exit
-         if (found(i)%is_group .and. index(found(i)%path, '/') == 0) call add_group(file, found(i)%path, found, n)
+      type(item_type), allocatable :: inner(:), more(:)
+      integer :: i
+      call list_group(file, '/', found)
+      i = 1
+      do while (i <= size(found))
+         if (found(i)%is_group .and. depth(found(i)%path) < deepest) then
+            call list_group(file, found(i)%path, inner)
+            allocate (more(size(found) + size(inner)))
+            more(:size(found)) = found
+            more(size(found) + 1:) = inner
+            call move_alloc(more, found)
+         end if
+         i = i + 1
       end do
    end subroutine list_items
 
-   !> Adds the items of a group to a list of n.
-   subroutine add_group(file, group, found, n)
-      class(hdf5_type), intent(inout) :: file
-      character(len=*), intent(in) :: group
-      type(item_type), intent(inout) :: found(:)
-      integer, intent(inout) :: n
-      type(item_type), allocatable :: inner(:)
-      call list_group(file, group, inner)
-      found(n + 1:n + size(inner)) = inner
-      n = n + size(inner)
-   end subroutine add_group
+   !> How many groups a path goes through, its own name with them.
+   pure integer function depth(path)
+      character(len=*), intent(in) :: path
+      integer :: i
+      depth = 1
+      do i = 1, len(path)
+         if (path(i:i) == '/') depth = depth + 1
+      end do
+   end function depth
 
    !> The datasets and groups of a group.
    subroutine list_group(file, group, found)
@@ -121,7 +135,7 @@ contains
       class(hdf5_type), intent(inout) :: file
       !> The dataset, and all items of the file.
       type(item_type), intent(in) :: item, all(:)
-      character(len=:), allocatable :: names
+      character(len=:), allocatable :: names, name
       integer(hid_t) :: dataset
       integer :: k, i, status, rank
       logical :: found
@@ -135,12 +149,14 @@ contains
       call h5aexists_f(dataset, 'DIMENSION_LIST', found, status)
       if (.not. found) rank = 0
       do k = 1, rank
-         do i = 1, size(all)
-            if (.not. all(i)%is_scale) cycle
-            if (all(i)%extents(1) /= item%extents(rank + 1 - k)) cycle
-            if (is_attached(file, dataset, all(i)%path, k)) exit
-         end do
-         if (i > size(all)) then
+         call find_scale(file, dataset, k, name)
+         ! one in its own group stands before one of all
+         i = place_of_scale(item%path(:index(item%path, '/', back=.true.))//name, all)
+         if (i == 0) i = place_of_scale(name, all)
+         if (i > 0) then
+            if (all(i)%extents(1) /= item%extents(rank + 1 - k)) i = 0
+         end if
+         if (i == 0) then
             names = ''
             exit
          end if
@@ -149,6 +165,14 @@ contains
       end do
       call h5dclose_f(dataset, status)
    end function scales_of
+
+   pure integer function place_of_scale(path, all) result(i)
+      character(len=*), intent(in) :: path
+      type(item_type), intent(in) :: all(:)
+      do i = size(all), 1, -1
+         if (all(i)%is_scale .and. all(i)%path == path) return
+      end do
+   end function place_of_scale
 
    !> The k-th of scales whose names are separated by blanks; empty where there are fewer.
    pure function scale_name(names, k) result(name)
@@ -186,26 +210,40 @@ contains
       call h5dopen_f(file%id, path, attributes%id, status)
       call file%check_read(status, 'open '//path)
       if (status < 0) return
-      call attributes%get_text('units', units)
-      call attributes%get_text('long_name', long_name)
+      if (attributes%has_attribute('units')) call attributes%get_text('units', units)
+      if (attributes%has_attribute('long_name')) call attributes%get_text('long_name', long_name)
       if (allocated(attributes%failure)) call file%check_read(-1, 'read what '//path//' is')
       call h5dclose_f(attributes%id, status)
    end subroutine read_about
 
-   !> Whether a scale is that of the k-th dimension, the slowest first.
-   logical function is_attached(file, dataset, scale, k)
+   !> Name of the scale of the k-th dimension, the slowest first; empty where it has none. What the scale knows of its
+   !> datasets is not asked for: those that were deleted may be among them.
+   subroutine find_scale(file, dataset, k, name)
       class(hdf5_type), intent(inout) :: file
       integer(hid_t), intent(in) :: dataset
-      character(len=*), intent(in) :: scale
       integer, intent(in) :: k
-      integer(hid_t) :: opened
+      character(len=:), allocatable, intent(out) :: name
+      type(visit_type), target :: visit
+      integer(c_int) :: status
+      status = iterate_scales(dataset, int(k - 1, c_int), c_null_ptr, c_funloc(take_name), c_loc(visit))
+      if (status > 0) status = visit%status
+      call file%check_read(int(status), 'find the scales of a dataset')
+      name = trim(visit%name)
+   end subroutine find_scale
+
+   !> Notes the name of the first scale of a dimension.
+   integer(c_int) function take_name(dataset, dimension, scale, visit) bind(c) result(ends)
+      integer(hid_t), value :: dataset, scale
+      integer(c_int), value :: dimension
+      type(c_ptr), value :: visit
+      type(visit_type), pointer :: own
+      integer(size_t) :: length
       integer :: status
-      is_attached = .false.
-      call h5dopen_f(file%id, scale, opened, status)
-      call file%check_read(status, 'open '//scale)
-      if (status < 0) return
-      call h5dsis_attached_f(dataset, opened, k, is_attached, status)
-      call file%check_read(status, 'find the scales of a dataset')
-      call h5dclose_f(opened, status)
-   end function is_attached
+      call c_f_pointer(visit, own)
+      length = len(own%name)
+      call h5dsget_scale_name_f(scale, own%name, length, status)
+      if (length > len(own%name) .or. dataset < 0 .or. dimension < 0) status = -1
+      own%status = min(0, status)
+      ends = 1
+   end function take_name
 end module hdf5_scales

@@ -67,6 +67,8 @@ module record
       procedure :: list_size
       procedure :: get_text
       procedure :: get_flag
+      !> Its file has all of it.
+      procedure :: note_written
       !> Forgets a dataset or all of a group; forgets everything.
       procedure :: delete
       procedure :: clear
@@ -153,6 +155,8 @@ contains
          if (same) same = size(own%extents) == size(extents)
          if (same) same = all(own%extents == extents) .and. own%kind == kind .and. own%scales == scales
          if (same .and. kind == of_texts) same = own%texts == texts
+         ! the file has no room for another size
+         if (.not. same .and. own%there) call self%delete(path)
          own%there = .true.
          own%unwritten = .true.
          own%values = values
@@ -299,6 +303,12 @@ contains
       if (k == 0) return
       if (self%attributes(k)%there) value = self%attributes(k)%flag
    end subroutine get_flag
+
+   subroutine note_written(self)
+      class(record_type), intent(inout) :: self
+      if (self%count > 0) self%datasets(:self%count)%unwritten = .false.
+      if (allocated(self%attributes)) self%attributes%unwritten = .false.
+   end subroutine note_written
 
    subroutine delete(self, path)
       class(record_type), intent(inout) :: self

@@ -18,18 +18,22 @@ contains
       class(hdf5_type), intent(inout) :: file
       logical, intent(in) :: all
       character(len=:), allocatable :: last
-      integer :: k
+      integer :: k, turn
       call delete_groups(self, file)
       last = ''
-      do k = 1, self%count
-         associate (own => self%datasets(k))
-            if (.not. own%there .or. .not. (all .or. own%unwritten)) cycle
-            if (own%group() /= last) call make_groups(file, own%group())
-            last = own%group()
-            call write_dataset(own, file)
-            own%unwritten = .false.
-         end associate
+      ! scales first
+      do turn = 1, 2
+         do k = 1, self%count
+            associate (own => self%datasets(k))
+               if (.not. own%there .or. .not. (all .or. own%unwritten)) cycle
+               if (own%scales == own%path .neqv. turn == 1) cycle
+               if (own%group() /= last) call make_groups(file, own%group())
+               last = own%group()
+               call write_dataset(own, file)
+            end associate
+         end do
       end do
+      if (self%count > 0) self%datasets(:self%count)%unwritten = .false.
       if (.not. allocated(self%attributes)) return
       do k = 1, size(self%attributes)
          associate (own => self%attributes(k))

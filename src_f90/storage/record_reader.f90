@@ -14,10 +14,9 @@ module record_reader
 
    !> Most numbers of a dataset, and most bytes of a label; only a damaged file says more.
    integer, parameter :: most_numbers = 10000000, longest_label = 200
-   !> From it a run goes on; it is no result.
-   character(len=*), parameter :: not_results = 'checkpoint/'
-   !> Root attributes that are read.
+   !> Root attributes that are read: numbers, and texts that a run adds to when it goes on.
    character(len=*), parameter :: flags(*) = [character(len=11) :: 'complete', 'exit_status', 'resumes']
+   character(len=*), parameter :: texts(*) = [character(len=11) :: 'history', 'branch_ends']
 
 contains
 
@@ -26,11 +25,12 @@ contains
       class(hdf5_type), intent(inout) :: file
       type(record_type), intent(inout) :: record
       type(item_type), allocatable :: found(:)
+      character(len=:), allocatable :: text
       integer :: i, value
       call record%clear()
       call list_items(file, found)
       do i = 1, size(found)
-         if (.not. found(i)%is_dataset .or. found(i)%grows .or. index(found(i)%path, not_results) == 1) cycle
+         if (.not. found(i)%is_dataset .or. found(i)%grows) cycle
          call read_dataset(file, found(i), scales_of(file, found(i), found), record)
       end do
       do i = 1, size(flags)
@@ -38,6 +38,12 @@ contains
          call file%get_flag(trim(flags(i)), value)
          call record%put_flag(trim(flags(i)), value)
       end do
+      do i = 1, size(texts)
+         if (.not. file%has_attribute(trim(texts(i)))) cycle
+         call file%get_text(trim(texts(i)), text)
+         call record%put_text(trim(texts(i)), text)
+      end do
+      call record%note_written()
    end subroutine read_record
 
    subroutine read_dataset(file, item, scales, record)

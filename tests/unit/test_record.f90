@@ -213,13 +213,18 @@ contains
       call record%put_list('checkpoint/state', [1.0_wp, 2.0_wp], '1', 'state', '')
       call write_record(record, file, .false.)
       do k = 3, 5
-         call record%delete('checkpoint')
+         ! deleted or not
+         if (k /= 4) call record%delete('checkpoint')
          call record%put_list('checkpoint/state', [(0.5_wp*i, i=1, k)], '1', 'state', '')
          call record%put_real('summary/orbit_y', 7.0_wp, 'm', 'orbit')
+         ! a scale that grows with what is over it
+         call record%put_list('revolution', [(real(i - k, wp), i=1, k)], '1', 'revolutions', 'revolution')
+         call record%put_list('by_revolution/lowest_y', [(2.0_wp*i, i=1, k)], 'm', 'lowest', 'revolution')
          call write_record(record, file, .false.)
          call expect(.not. allocated(file%failure), 'written with another size')
       end do
-      call expect(file%list_size('checkpoint/state') == 5, 'the last size')
+      call expect(file%list_size('checkpoint/state') == 5 .and. file%list_size('revolution') == 5 .and. &
+         & file%list_size('by_revolution/lowest_y') == 5, 'the last size')
       call record%delete('checkpoint')
       call write_record(record, file, .false.)
       call expect(.not. file%has('checkpoint'), 'what was deleted is not in the file')

@@ -810,8 +810,6 @@ contains
       call make_record(3, record)
       call file%create(path)
       call write_record(record, file, all=.true.)
-      call file%make_group('checkpoint')
-      call file%put_real('checkpoint/time', 1.0_wp, 's', 'time')
       call file%close()
       call file%open(path, writing=.false.)
       call read_record(file, found)
