@@ -35,8 +35,12 @@ class Failure(NamedTuple):
         return f"run {self.run}{f' ({own})' if own else ''} {self.how}{why}"
 
 
-#: How a run ended, by its status.
-ENDS = {2: "failed in its numerics", 3: "failed at a file", 4: "was stopped", -1: "has not ended"}
+#: How a run ended, by its status, and the status of one that is still to be run.
+PENDING = -2
+ENDS = {
+    **{2: "failed in its numerics", 3: "failed at a file", 4: "was stopped", -1: "has not ended"},
+    PENDING: "has not been run yet",
+}
 
 
 def read_study(path: str | os.PathLike) -> "Study":
@@ -62,7 +66,7 @@ class Study(Archive):
         study.poincare_y                     Poincare points, (run, revolution)
         study.parameters                     names of the parameters
         study.title, study.created, ...      attributes of the file; study.attributes has all of them
-        study.file["runs/0003/journal_y"] a dataset of a run's own file, as h5py gives it
+        study.file["runs/0003/journal_y"] a dataset of a run's own file, if it has one, as h5py gives it
     """
 
     KINDS = "fiuO"
@@ -100,17 +104,33 @@ class Study(Archive):
         """True for the runs that were done, (run,)."""
         return self.status == 0
 
-    def failures(self) -> list[Failure]:
-        """The runs that were not done, with their recorded reasons."""
-        reasons = self.reason if "reason" in self else np.full(len(self.done), "", dtype=object)
+    @property
+    def pending(self) -> np.ndarray:
+        """True for the runs that have not been run yet, (run,)."""
+        return self.status == PENDING
+
+    @property
+    def failed(self) -> np.ndarray:
+        """True for the runs that were run and not done, (run,)."""
+        return ~self.done & ~self.pending
+
+    def failures(self, most: int | None = None) -> list[Failure]:
+        """The runs that were run and not done, with their recorded reasons; the first `most` of them."""
+        status, failed = self.status, np.flatnonzero(self.failed)[:most]
+        if not len(failed):
+            return []
+        parameters = {name: self[name][failed] for name in self.parameters}
+        reasons = self.reason[failed] if "reason" in self else [""] * len(failed)
         return [
             Failure(
-                int(self.run[k]),
-                {name: self[name][k] for name in self.parameters},
-                ENDS.get(self.status[k], "cannot be read"),
-                reasons[k],
+                int(number),
+                {name: values[k] for name, values in parameters.items()},
+                ENDS.get(own, "cannot be read"),
+                reason,
             )
-            for k in np.flatnonzero(~self.done)
+            for k, (number, own, reason) in enumerate(
+                zip(self.run[failed], status[failed], reasons, strict=True)
+            )
         ]
 
     def check_whole(self) -> None:
