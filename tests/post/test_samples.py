@@ -190,6 +190,7 @@ def test_a_study_of_rows_is_read_as_a_collected_one(runs_of, tmp_path, capsys):
         assert tiltpad.coefficients(study).speed_rpm.tolist() == [3000, 4000, 5000]
         assert study.to_xarray().sizes["run"] == 4
         study.to_csv(tmp_path / "a.csv")
+        assert len((tmp_path / "a.csv").read_text().splitlines()) == 5
         # no line across where nothing has failed
         (ax,) = figures.study(study, "least_damping_ratio").axes
         assert len(ax.get_lines()) == 1

@@ -87,7 +87,13 @@ def default_over(study: Study, several: Sequence[str], chosen: np.ndarray) -> st
 
 def varying(study: Study, chosen: np.ndarray) -> list[str]:
     """The parameters in which the chosen runs differ."""
-    return [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
+    return [name for name in study.parameters if differ(study[name][chosen])]
+
+
+def differ(values: np.ndarray) -> bool:
+    """True for more than one value; nan and empty texts are none."""
+    known = values[values != ""] if values.dtype.kind == "O" else values[np.isfinite(values)]
+    return bool(len(known) and (known != known[0]).any())
 
 
 def sampled(study: Study, chosen: np.ndarray) -> bool:

@@ -176,7 +176,7 @@ class Study(Archive):
     def sound(self, name: str, values: Any) -> Any:
         if np.asarray(values).dtype.kind != "O":
             return values
-        texts = [plain(each) for each in np.atleast_1d(values)]
+        texts = [plain(each) if each else "" for each in np.atleast_1d(values)]
         if not all(isinstance(each, str) for each in texts):
             raise ValueError("not an array of texts")
         return np.array(texts, dtype=object).reshape(np.shape(values))
