@@ -40,6 +40,9 @@ module recent_samples
    character(len=*), parameter :: group = 'checkpoint/samples', first_sample = 'checkpoint/first_sample', &
       & samples = 'checkpoint/sample_count'
 
+   !> Characters before the name of a series that is saved.
+   integer, parameter :: digits = 3
+
 contains
 
    !> Series follow, of which this number of samples is kept.
@@ -140,15 +143,25 @@ contains
          associate (own => self%series(k))
             call self%part(own%name, self%first(), int(self%count - self%first()), values)
             if (own%across == '') then
-               call results%put_list(group//'/'//own%name, values(1, :), own%units, own%long_name, '')
+               call results%put_list(path_of(self, k), values(1, :), own%units, own%long_name, '')
             else
-               call results%put_table(group//'/'//own%name, values, own%units, own%long_name, '')
+               call results%put_table(path_of(self, k), values, own%units, own%long_name, '')
             end if
          end associate
       end do
       call results%put_list(first_sample, self%values(:, 0), 'SI', 'the first sample', '')
       call results%put_count(samples, self%count, 'samples so far')
    end subroutine save_samples
+
+   !> Where a series is saved: a file has names in alphabetical order, and these keep that of the series.
+   function path_of(self, k) result(path)
+      class(recent_samples_type), intent(in) :: self
+      integer, intent(in) :: k
+      character(len=:), allocatable :: path
+      character(len=digits) :: number
+      write (number, '(i0.2,a)') k, '_'
+      path = group//'/'//number//self%series(k)%name
+   end function path_of
 
    !> Takes up what was saved; `ok` is false where it does not fit together. Nothing where nothing was.
    subroutine restore(self, results, ok)
@@ -166,11 +179,13 @@ contains
             if (.not. ok) return
             n = size(own%extents)
             kept = own%extents(n)
-            if (n == 1) then
-               call self%declare(own%path(len(group) + 2:), 1, '', own%units, own%long_name)
-            else
-               call self%declare(own%path(len(group) + 2:), own%extents(1), 'pad', own%units, own%long_name)
-            end if
+            associate (name => own%path(len(group) + 2 + digits:))
+               if (n == 1) then
+                  call self%declare(name, 1, '', own%units, own%long_name)
+               else
+                  call self%declare(name, own%extents(1), 'pad', own%units, own%long_name)
+               end if
+            end associate
          end associate
       end do
       self%count = nint(results%get_real(samples), i8)
@@ -181,22 +196,23 @@ contains
       call results%get_list(first_sample, self%values(:, 0))
       do k = 1, size(self%series)
          associate (own => self%series(k))
-            call restore_series(results, own, ok)
+            call restore_series(results, path_of(self, k), own, ok)
             if (.not. ok) return
          end associate
       end do
 
    contains
 
-      subroutine restore_series(results, own, ok)
+      subroutine restore_series(results, path, own, ok)
          class(record_type), intent(in) :: results
+         character(len=*), intent(in) :: path
          type(series_type), intent(in) :: own
          logical, intent(out) :: ok
          real(wp) :: values(own%width*kept)
          integer :: i
-         ok = results%list_size(group//'/'//own%name) == size(values)
+         ok = results%list_size(path) == size(values)
          if (.not. ok) return
-         call results%get_list(group//'/'//own%name, values)
+         call results%get_list(path, values)
          do i = 1, kept
             self%values(own%before + 1:own%before + own%width, self%place(self%first() + i - 1)) = &
                & values((i - 1)*own%width + 1:i*own%width)

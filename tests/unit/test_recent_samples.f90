@@ -126,9 +126,9 @@ contains
          case (1)
             call record%put_count('checkpoint/sample_count', 3_i8, 'samples so far')
          case (2)
-            call record%delete('checkpoint/samples/time')
+            call record%delete('checkpoint/samples/01_time')
          case (3)
-            call record%put_list('checkpoint/samples/time', [1.0_wp, 2.0_wp], 's', 'time', '')
+            call record%put_list('checkpoint/samples/01_time', [1.0_wp, 2.0_wp], 's', 'time', '')
          case (4)
             call record%delete('checkpoint/first_sample')
          case default

@@ -1,0 +1,260 @@
+"""Studies whose runs are rows alone: how many files there are, what kills, signals and full disks leave, the same bits
+however a study came about, and what is kept of single runs."""
+
+import os
+import re
+import resource
+import signal
+import subprocess
+
+import h5py
+import numpy as np
+import pytest
+from conftest import FAST_CLOCK, TIMEOUT, arrays, one_error, wait_for, wait_for_checkpoint
+
+#: What depends on the moment.
+TIMES = ("wall_seconds", "film_seconds", "film_building_seconds", "output_seconds", "checkpoint_seconds")
+#: A study with a checkpoint whenever there can be one, and one of runs that do not end.
+QUICK = "&case task='equilibrium' / &output checkpoint_seconds=1e-9 /\n&sweep rotor%mass=1001:{last}:1 /\n"
+ENDLESS = "&operation duration=10000 / &output keep='summary' /\n&sweep rotor%mass=2000,2100,2200 /\n"
+
+
+@pytest.fixture
+def case(tmp_path):
+    """Writes case.nml into a folder of its own and returns that."""
+
+    def write(text):
+        (tmp_path / "case.nml").write_text(text)
+        return tmp_path
+
+    return write
+
+
+def rows(path):
+    return {name: values for name, values in arrays(path).items() if name not in TIMES}
+
+
+def expect_same(one, other):
+    assert one.keys() == other.keys()
+    for name in one:
+        np.testing.assert_array_equal(one[name], other[name], err_msg=name)
+
+
+def status(path):
+    with h5py.File(path) as file:
+        return file["status"][:]
+
+
+def test_one_file_for_all_runs(tiltpad, case):
+    folder = case(QUICK.format(last=1010))
+    done = tiltpad("case.nml", cwd=folder, status=0)
+    assert re.fullmatch(r"10 runs: 10 done, 0 failed; [0-9.]+ s; in case\.h5\n", done.stdout)
+    assert sorted(os.listdir(folder)) == ["case.h5", "case.nml"]
+    before = rows(folder / "case.h5")
+    assert "file" not in before
+    # and one that is asked for
+    tiltpad("case.nml", "--run", 3, cwd=folder, status=0)
+    assert os.listdir(folder / "case") == ["0003.h5"]
+    with h5py.File(folder / "case/0003.h5") as file:
+        assert file["equilibrium/journal_y"][()] == before["equilibrium_journal_y"][2]
+    for output in ("named", "named.h5", "named/"):
+        tiltpad("case.nml", "-q", "-o", output, "--overwrite", cwd=folder, status=0)
+        expect_same(rows(folder / "named.h5"), before)
+    assert sorted(os.listdir(folder)) == ["case", "case.h5", "case.nml", "named.h5"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "&case task='coefficients' /\n&sweep pads%motion='tilting_radial','tilting_only' rotor%mass=1000:3000:500 /\n",
+        "&operation duration=0.02 / &output keep='summary', samples_per_revolution=60 /\n"
+        "&sweep operation%speed_rpm=2000:6000:1000 integration%max_steps=100000,30 friction%model='lugre','none' /\n",
+    ],
+    ids=["coefficients", "march"],
+)
+def test_bits_do_not_depend_on_the_number_of_processes(tiltpad, case, text):
+    folder = case(text)
+    for jobs in (1, 2, 5):
+        tiltpad("case.nml", "-q", "--jobs", jobs, "-o", f"by{jobs}", cwd=folder)
+    for jobs in (2, 5):
+        expect_same(rows(folder / "by1.h5"), rows(folder / f"by{jobs}.h5"))
+
+
+def test_failed_runs_are_rows(tiltpad, case):
+    """With status and reason; the console has the first hundred."""
+    folder = case("&case task='equilibrium' /\n&sweep rotor%static_load(2)=0:1e5:1e5 rotor%mass=1001:1120:1 /\n")
+    done = tiltpad("case.nml", cwd=folder)
+    assert done.returncode == 2
+    *told, total = done.stderr.splitlines()
+    assert total == "tiltpad: error: 120 of 240 runs failed"
+    assert len(told) == 100
+    assert told[0].startswith("tiltpad: error: run 121 (rotor%static_load(2) = 100000, rotor%mass = 1001): ")
+    with h5py.File(folder / "case.h5") as file:
+        assert list(file["status"]) == 120 * [0] + 120 * [2]
+        reasons = file["reason"].asstr()[:]
+        assert not any(reasons[:120])
+        assert all(line.endswith(f": {reasons[120 + k]}") for k, line in enumerate(told))
+        assert (np.isnan(file["equilibrium_journal_y"][:]) == (file["status"][:] == 2)).all()
+        assert (file.attrs["finished"], file.attrs["missing"]) == (1, "")
+    # they stay
+    again = tiltpad("case.nml", cwd=folder)
+    assert (again.returncode, again.stderr.splitlines()[-1]) == (2, total)
+
+
+def test_another_study_is_refused(tiltpad, case):
+    folder = case(QUICK.format(last=1003))
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    before = (folder / "case.h5").read_bytes()
+    for change, reason in (
+        ("rotor%gravity=9", "is the study of another case"),
+        ("sweep%rotor%mass=1001,1002,1004", "is of another study: its runs have other values"),
+        ("sweep%rotor%mass=1001,1002", "is of a study with 3 runs; this one has 2"),
+    ):
+        done = tiltpad("case.nml", "-q", "--set", change, cwd=folder, status=3)
+        assert f"case.h5: {reason}; --overwrite replaces it, and --output names another place" in done.stderr
+        assert (folder / "case.h5").read_bytes() == before
+    tiltpad("case.nml", "-q", "--set", "rotor%gravity=9", "--overwrite", cwd=folder, status=0)
+    assert (folder / "case.h5").read_bytes() != before
+
+
+def test_a_study_grows(tiltpad, case):
+    folder = case(QUICK.format(last=1006))
+    tiltpad("case.nml", "-q", "-o", "whole", cwd=folder, status=0)
+    tiltpad("case.nml", "-q", "--set", "sweep%rotor%mass=1001:1003:1", cwd=folder, status=0)
+    with h5py.File(folder / "case.h5") as file:
+        first = file["wall_seconds"][:]
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    expect_same(rows(folder / "whole.h5"), rows(folder / "case.h5"))
+    with h5py.File(folder / "case.h5") as file:
+        # the first ones were not run again
+        np.testing.assert_array_equal(file["wall_seconds"][:3], first)
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_killed_again_and_again(tiltpad, start, case, loaded, number):
+    """No row of a checkpoint is lost or run again, and the rest is that of a study that was not killed."""
+    folder = case(QUICK.format(last=1600))
+    tiltpad("case.nml", "-q", "-o", "whole", cwd=folder, status=0)
+    done = {}
+    for attempt in range(100):
+        process = start(folder, "-q", "--jobs", "2", "case.nml", env=loaded(FAST_CLOCK))
+        wait_for(lambda: attempt > 6 or (folder / "case.h5").exists() or process.poll() is not None)
+        before = set(done)
+        wait_for(
+            lambda: process.poll() is not None
+            or (attempt < 7 and (folder / "case.h5").exists() and known(folder / "case.h5") > len(before))
+        )
+        assert len([name for name in os.listdir(folder) if name.startswith("case.h5")]) <= 3
+        process.send_signal(number)
+        process.communicate(timeout=TIMEOUT)
+        with h5py.File(folder / "case.h5") as file:
+            there = np.flatnonzero(file["status"][:] == 0)
+            times = dict(zip(there, file["wall_seconds"][:][there], strict=True))
+        # a run that is run again has another time
+        assert all(times.get(k) == seconds for k, seconds in done.items())
+        done = times
+        if process.returncode == 0:
+            break
+    assert len(done) == 600
+    assert attempt >= 3
+    assert sorted(os.listdir(folder)) == ["case.h5", "case.nml", "own.so", "whole.h5"]
+    expect_same(rows(folder / "whole.h5"), rows(folder / "case.h5"))
+
+
+def known(path):
+    """Rows of a study that is written; 0 while its name changes hands."""
+    try:
+        return int((status(path) == 0).sum())
+    except OSError:
+        return 0
+
+
+def test_a_signal_stops_runs_without_files(start, case):
+    folder = case(ENDLESS)
+    process = start(folder, "--jobs", "2", "-q", "case.nml")
+    wait_for(lambda: (folder / "case.h5.part").exists(), process)
+    process.terminate()
+    assert "of 3 runs 0 done, 0 failed" in one_error(process, 4)
+    assert sorted(os.listdir(folder)) == ["case.h5", "case.nml"]
+    assert list(status(folder / "case.h5")) == [-2, -2, -2]
+    with h5py.File(folder / "case.h5") as file:
+        assert (file.attrs["finished"], file.attrs["missing"]) == (0, "1-3")
+
+
+def test_a_full_disk(tiltpad, start, case, loaded):
+    """One line; the last checkpoint stays, and the study goes on from it."""
+    folder = case(QUICK.format(last=2500))
+    tiltpad("case.nml", "-q", "-o", "whole", cwd=folder, status=0)
+    size = (folder / "whole.h5").stat().st_size
+    limit = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size // 2, size // 2))}
+    process = start(folder, "-q", "case.nml", env=loaded(FAST_CLOCK), **limit)
+    assert "case.h5" in one_error(process, 3)
+    assert not (folder / "case.h5.part").exists()
+    if (folder / "case.h5").exists():
+        assert 0 < known(folder / "case.h5") < 1500
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    expect_same(rows(folder / "whole.h5"), rows(folder / "case.h5"))
+
+
+# ---- what is kept of single runs ---------------------------------------------------------------------
+MARCH = (
+    "&operation duration=0.4 / &rotor unbalance=0.02 / "
+    "&output keep='{keep}', spectrum_revolutions=50, samples_per_revolution=60 /\n"
+)
+
+
+@pytest.mark.parametrize("keep", ["last_revolutions", "summary"])
+def test_a_stopped_run_goes_on_with_the_samples_of_before(tiltpad, start, case, keep):
+    """The series are those that a run keeps that keeps all; figures follow from them."""
+    folder = case(MARCH.format(keep=keep))
+    every = ("--set", "output%checkpoint_seconds=1e-9")
+    process = start(folder, "-q", "case.nml", *every)
+    wait_for_checkpoint(folder / "case.h5", process)
+    wait_for_checkpoint(folder / "case.h5", process)
+    process.terminate()
+    process.communicate(timeout=TIMEOUT)
+    assert process.returncode == 4
+    with h5py.File(folder / "case.h5") as file:
+        assert file["checkpoint/time"][()] > 0
+        assert "journal_y" not in file
+    tiltpad("--resume", "case.h5", "-q", cwd=folder, status=0)
+    tiltpad("case.nml", "-q", "-o", "whole.h5", cwd=folder, status=0)
+    found, whole = arrays(folder / "case.h5", "statistics"), arrays(folder / "whole.h5", "statistics")
+    assert found.keys() == whole.keys()
+    assert ("journal_y" in found) == (keep == "last_revolutions")
+    # what the march leaves of its error where it starts anew
+    for name in found:
+        if name.startswith(("journal", "pad_tilt", "time", "shaft", "by_revolution")):
+            scale = np.nanmax(abs(whole[name]))
+            np.testing.assert_allclose(found[name], whole[name], atol=1e-3 * scale, err_msg=name)
+
+
+@pytest.mark.parametrize("keep", ["last_revolutions", "summary"])
+def test_figures_do_not_depend_on_what_is_kept(tiltpad, case, keep):
+    folder = case(MARCH.format(keep="all").replace("0.4", "0.15"))
+    tiltpad("case.nml", "-q", "-o", "all.h5", cwd=folder, status=0)
+    tiltpad("case.nml", "-q", "-o", "some.h5", "--set", f"output%keep='{keep}'", cwd=folder, status=0)
+    every, some = arrays(folder / "all.h5"), arrays(folder / "some.h5")
+    for name, values in some.items():
+        if "seconds" in name:
+            continue
+        whole = every[name]
+        if whole.shape != values.shape:
+            assert keep == "last_revolutions"
+            whole = whole[-len(values) :]
+        np.testing.assert_array_equal(whole, values, err_msg=name)
+    gone = set(every) - set(some)
+    assert (gone == set()) == (keep == "last_revolutions")
+    assert all("/" not in name for name in gone)
+
+
+def test_what_needs_all_samples_is_refused(tiltpad, case):
+    folder = case("&operation duration=0.02 / &output keep='summary' /\n")
+    done = tiltpad("case.nml", "--verify", 3, cwd=folder)
+    assert done.returncode in (1, 3)
+    assert done.stderr.count("\n") == 1
+    assert "output%keep" in done.stderr
+    done = tiltpad("case.nml", "--set", "case%task='branch'", cwd=folder)
+    assert done.returncode == 1
+    assert "output%keep" in done.stderr
+    assert os.listdir(folder) == ["case.nml"]
