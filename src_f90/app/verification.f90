@@ -48,8 +48,8 @@ contains
          & //' samples', error)
    end subroutine check_verification
 
-   !> Verifies films of a complete run, whose file, if it has one, is closed. `remade`: the model was made anew, after the
-   !> run.
+   !> Verifies films of a complete run, whose file, if it has one, is closed. `remade`: the model was made anew, after
+   !> the run.
    subroutine verify_films(run, remade, error)
       type(case_run_type), intent(inout) :: run
       logical, intent(in) :: remade

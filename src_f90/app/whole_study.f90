@@ -33,8 +33,8 @@ module whole_study
 contains
 
    !> Performs the runs of a checked and marked study into `output`.h5, and where they keep samples into files in the
-   !> folder `output`; those that have their rows are not run again, unless the file may be overwritten. `failures` has an
-   !> error for each of the first failed runs.
+   !> folder `output`; those that have their rows are not run again, unless the file may be overwritten. `failures` has
+   !> an error for each of the first failed runs.
    subroutine perform_study(study, output, jobs, verified_states, overwrite, quiet, failures, error)
       type(study_type), intent(in) :: study
       character(len=*), intent(in) :: output
@@ -96,8 +96,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call table%claim(path, error)
       if (allocated(error)) return
-      if (.not. quiet .and. table%taken_from() /= '') print '(a)', path//': '//table%taken_from()//', which wrote it, has ' &
-         & //'ended'
+      if (.not. quiet .and. table%taken_from() /= '') print '(a)', path//': '//table%taken_from() &
+         & //', which wrote it, has ended'
       if (is_regular(path)) then
          call table%reopen(study, error)
          if (.not. allocated(error)) return

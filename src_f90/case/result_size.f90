@@ -5,7 +5,8 @@ module result_size
    use case_inputs, only: case_type
    implicit none (type, external)
    private
-   public :: sample_interval, sample_count, figure_samples, result_bytes, memory_bytes, memory_advice, bytes_text, size_note
+   public :: sample_interval, sample_count, figure_samples, result_bytes, memory_bytes, memory_advice, bytes_text
+   public :: size_note
 
    !> From this number of bytes on, the size is printed before a run.
    real(wp), parameter :: large = 100e6_wp
@@ -28,11 +29,11 @@ contains
       samples = 1 + floor((inputs%operation%duration - inputs%output%start_time)/sample_interval(inputs) + 1e-6_wp, i8)
    end function sample_count
 
-   !> Samples that the figures of the last revolutions are of at most, as many revolutions as spectra cover, and one more.
+   !> Samples that the figures of the last revolutions are of at most, as many revolutions as spectra cover, and one
+   !> more.
    pure integer(i8) function figure_samples(inputs) result(samples)
       type(case_type), intent(in) :: inputs
       real(wp) :: angle, last, acceleration, square, time
-      samples = 0
       select case (inputs%about%task)
       case ('periodic')
          samples = 1 + int(inputs%periodic%revolutions, i8)*inputs%output%samples_per_revolution
@@ -46,6 +47,8 @@ contains
          if (square < 0 .or. .not. last > 0) return
          time = 2*angle/(last + sqrt(square))
          samples = min(samples, 2 + ceiling(min(time/sample_interval(inputs), 1e15_wp), i8))
+      case default
+         samples = 0
       end select
    end function figure_samples
 
@@ -59,6 +62,8 @@ contains
          bytes = of_frame + of_value*values_of_sample(inputs)*max(0.0_wp, real(sample_count(inputs), wp))
       case ('last_revolutions')
          bytes = of_frame + of_value*values_of_sample(inputs)*real(figure_samples(inputs), wp)
+      case default
+         bytes = of_frame
       end select
    end function result_bytes
 

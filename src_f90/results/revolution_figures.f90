@@ -1,5 +1,5 @@
-!> Figures of each of the last revolutions of a run, as many as the spectra may have, group `by_revolution`: the states of
-!> journal and pads once a revolution (Poincare points), and their extremes in it. A motion that repeats after k
+!> Figures of each of the last revolutions of a run, as many as the spectra may have, group `by_revolution`: the states
+!> of journal and pads once a revolution (Poincare points), and their extremes in it. A motion that repeats after k
 !> revolutions is k points.
 module revolution_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
@@ -28,7 +28,8 @@ contains
       last = floor(angle(1, n)/(2*pi) + rounding)
       first = max(ceiling(angle(1, 1)/(2*pi) - rounding), last + 1 - most)
       if (last < first) return
-      call file%put_list(over, [(real(k, wp), k=first - last, 0)], '1', 'revolutions before the last Poincare point', over)
+      call file%put_list(over, [(real(k, wp), k=first - last, 0)], '1', &
+         & 'revolutions before the last Poincare point', over)
       call put('journal_y', 'y', 'm', 'journal y')
       call put('journal_z', 'z', 'm', 'journal z')
       if (inputs%tilting()) call put('pad_tilt', 'tilt', 'rad', 'tilt')
@@ -96,8 +97,8 @@ contains
       end do
    end function below
 
-   !> Extremes of values (:, time) in the whole revolutions before the last sample, the last of which is the last column;
-   !> not a number where there are fewer revolutions than columns.
+   !> Extremes of values (:, time) in the whole revolutions before the last sample, the last of which is the last
+   !> column; not a number where there are fewer revolutions than columns.
    pure subroutine find_extremes(angle, values, lowest, highest)
       real(wp), intent(in) :: angle(:), values(:, :)
       real(wp), intent(out) :: lowest(:, :), highest(:, :)

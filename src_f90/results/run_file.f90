@@ -1,5 +1,6 @@
-!> The results of a run: a record of them, its samples, and the file that both go to, with its checkpoints, how a run goes
-!> on from one, and its end. A run of a study may have no file. Where not all samples are kept, the last are in memory.
+!> The results of a run: a record of them, its samples, and the file that both go to, with its checkpoints, how a run
+!> goes on from one, and its end. A run of a study may have no file. Where not all samples are kept, the last are in
+!> memory.
 module run_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8, degree, pi
@@ -59,7 +60,8 @@ module run_file
 
 contains
 
-   !> Starts the results of a case, in a file under the name claimed if they are filed; `input` is its resolved namelist.
+   !> Starts the results of a case, in a file under the name claimed if they are filed; `input` is its resolved
+   !> namelist.
    subroutine start(self, inputs, input, error)
       class(run_file_type), intent(inout) :: self
       character(len=*), intent(in) :: input
@@ -314,8 +316,8 @@ contains
       end do
    end subroutine write_recent
 
-   !> Writes all that is not in the file yet and publishes it. With `continued` the writing continues; otherwise the file
-   !> is closed.
+   !> Writes all that is not in the file yet and publishes it. With `continued` the writing continues; otherwise the
+   !> file is closed.
    subroutine publish(self, continued, error)
       class(run_file_type), intent(inout) :: self
       logical, intent(in) :: continued

@@ -317,8 +317,9 @@ contains
       if (.not. allocated(self%deleted)) self%deleted = newline
       if (index(self%deleted, newline//path//newline) == 0) self%deleted = self%deleted//path//newline
       do k = 1, self%count
-         if (self%datasets(k)%path == path .or. index(self%datasets(k)%path, path//'/') == 1) &
-            & self%datasets(k)%there = .false.
+         associate (own => self%datasets(k))
+            if (own%path == path .or. index(own%path, path//'/') == 1) own%there = .false.
+         end associate
       end do
    end subroutine delete
 

@@ -12,7 +12,8 @@ module record_message
 
 contains
 
-   !> What all datasets are, those too that this run has not: kind, sizes, path, units, meaning, scales and texts of each.
+   !> What all datasets are, those too that this run has not: kind, sizes, path, units, meaning, scales and texts of
+   !> each.
    function description(self) result(text)
       type(record_type), intent(in) :: self
       character(len=:), allocatable :: text

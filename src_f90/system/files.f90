@@ -4,8 +4,8 @@ module files
    use system_texts, only: fortran_text, system_reason
    implicit none (type, external)
    private
-   public :: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, unlock_file, empty_file
-   public :: real_path, is_regular, file_identity, untold, make_folder, remove_folder, other_number
+   public :: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, unlock_file
+   public :: empty_file, real_path, is_regular, file_identity, untold, make_folder, remove_folder, other_number
 
    !> Stands for the identity that the system does not tell.
    character(len=*), parameter :: untold = '?'

@@ -39,7 +39,8 @@ contains
       call record%put_count('statistics/steps', 2_i8**40 + k, 'time steps')
       call record%put_real('summary/orbit_y', 0.1_wp*k, 'm', 'orbit')
       if (mod(k, 3) == 0) call record%put_real('summary/only', 0.3_wp*k, 'W', 'of every third')
-      call record%put_table('modes/frequency', reshape([(1.5_wp**i, i=1, 2*k)], [k, 2]), 'Hz', 'frequencies', 'pivot pad')
+      call record%put_table('modes/frequency', reshape([(1.5_wp**i, i=1, 2*k)], [k, 2]), 'Hz', 'frequencies', &
+         & 'pivot pad')
    end subroutine fill
 
    !> It has all of run k, and nothing else.
@@ -157,9 +158,9 @@ contains
          call expect(taken%count == sent%count, 'datasets')
          do i = 1, sent%count
             associate (own => sent%datasets(i), its => taken%datasets(i))
-               call expect(own%path == its%path .and. own%units == its%units .and. own%long_name == its%long_name .and. &
-                  & own%scales == its%scales .and. own%kind == its%kind .and. own%texts == its%texts .and. &
-                  & size(own%extents) == size(its%extents), own%path)
+               call expect(own%path == its%path .and. own%units == its%units .and. own%long_name == its%long_name &
+                  & .and. own%scales == its%scales .and. own%kind == its%kind .and. own%texts == its%texts &
+                  & .and. size(own%extents) == size(its%extents), own%path)
                call expect(all(own%extents == its%extents), own%path//': sizes')
             end associate
          end do
@@ -199,12 +200,13 @@ contains
       call expect(descriptions < 50, to_text(descriptions)//' descriptions')
    end subroutine messages_of_many_runs
 
-   !> Its file, written as it changes: sizes that change after they were deleted, what is no longer there, and a file that
-   !> lacks more than the record knows.
+   !> Its file, written as it changes: sizes that change after they were deleted, what is no longer there, and a file
+   !> that lacks more than the record knows.
    subroutine written_again()
       type(record_type) :: record, found
       type(hdf5_type) :: file
       character(len=:), allocatable :: path
+      integer :: sizes(3)
       integer :: i, k
       path = scratch_path('record.h5')
       call file%create(path)
@@ -223,8 +225,9 @@ contains
          call write_record(record, file, .false.)
          call expect(.not. allocated(file%failure), 'written with another size')
       end do
-      call expect(file%list_size('checkpoint/state') == 5 .and. file%list_size('revolution') == 5 .and. &
-         & file%list_size('by_revolution/lowest_y') == 5, 'the last size')
+      sizes = [file%list_size('checkpoint/state'), file%list_size('revolution'), &
+         & file%list_size('by_revolution/lowest_y')]
+      call expect(all(sizes == 5), 'the last size')
       call record%delete('checkpoint')
       call write_record(record, file, .false.)
       call expect(.not. file%has('checkpoint'), 'what was deleted is not in the file')

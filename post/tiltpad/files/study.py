@@ -153,10 +153,14 @@ class Study(Archive):
             raise ValueError(f"{self.path}: no run {run}; there are {self.run[0]:g} to {self.run[-1]:g}")
         name = self["file"][places[0]] if "file" in self else ""
         if not name:
-            raise RunError(f"{self.path}: run {run} has no file of its own; output%keep = 'all' keeps its samples")
+            raise RunError(
+                f"{self.path}: run {run} has no file of its own; output%keep = 'all' keeps its samples"
+            )
         # the study, or a link to it, may be beside its files
         folders = [Path(self.path).parent, Path(self.path).resolve().parent]
-        return read(next((folder / name for folder in folders if (folder / name).exists()), folders[0] / name))
+        return read(
+            next((folder / name for folder in folders if (folder / name).exists()), folders[0] / name)
+        )
 
     def check_whole(self) -> None:
         """Refuses the result of one run, and a study without its parameters."""
