@@ -141,11 +141,10 @@ def march(program: str, name: str, output: Path) -> None:
 
 
 def run_study(program: str, name: str, folder: Path) -> None:
-    """Performs the runs of a study into their folder, and collects them."""
-    # those of an earlier study would be refused
+    """Performs the runs of a study into its file."""
+    # the files of an earlier study would be refused
     shutil.rmtree(folder / name, ignore_errors=True)
     march(program, name, folder / name)
-    subprocess.run([Path(sys.executable).with_name("tiltpad-collect"), name], check=True, cwd=folder)
 
 
 def draw(plot: str, runs: str, options: str, number: int, folder: Path) -> str:
@@ -179,7 +178,7 @@ def main() -> None:
         parts.append(f"## {plot}: {seen}\n\n{section}")
     shown = [f"    tiltpad {shlex.join(case(name))} --output {name}.h5" for name in RUNS]
     for name in STUDIES:
-        shown += ["", f"    tiltpad {shlex.join(case(name))} --output {name}", f"    tiltpad-collect {name}"]
+        shown += ["", f"    tiltpad {shlex.join(case(name))} --output {name}"]
     parts.append("## The runs\n\n" + "\n".join(shown) + "\n")
     (DOCS / "gallery.md").write_text("\n".join(parts))
 

@@ -33,8 +33,8 @@ module whole_study
 contains
 
    !> Performs the runs of a checked and marked study into `output`.h5, and where they keep samples into files in the
-   !> folder `output`; those that have their rows are not run again, unless the file may be overwritten. `failures` has
-   !> an error for each of the first failed runs.
+   !> folder `output`; those that have their rows are not run again, unless the file may be overwritten. `failures`
+   !> has an error for each of the first failed runs.
    subroutine perform_study(study, output, jobs, verified_states, overwrite, quiet, failures, error)
       type(study_type), intent(in) :: study
       character(len=*), intent(in) :: output
@@ -66,8 +66,7 @@ contains
          if (.not. filed .or. wanted(k)) cycle
          if (mixed) call study%inputs(k, inputs, error)
          ! a file that is gone is made again
-         wanted(k) = inputs%output%keep /= 'summary'
-         if (wanted(k)) wanted(k) = .not. is_regular(result_path(output, k, study%runs))
+         wanted(k) = inputs%output%keep /= 'summary' .and. .not. is_regular(result_path(output, k, study%runs))
       end do
       runner%folder = output
       runner%runs = study%runs

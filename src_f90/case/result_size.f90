@@ -5,8 +5,8 @@ module result_size
    use case_inputs, only: case_type
    implicit none (type, external)
    private
-   public :: sample_interval, sample_count, figure_samples, result_bytes, memory_bytes, memory_advice, bytes_text
-   public :: size_note
+   public :: sample_interval, sample_count, figure_samples, result_bytes, memory_bytes, memory_advice, bytes_text, &
+      & size_note
 
    !> From this number of bytes on, the size is printed before a run.
    real(wp), parameter :: large = 100e6_wp
@@ -34,6 +34,7 @@ contains
    pure integer(i8) function figure_samples(inputs) result(samples)
       type(case_type), intent(in) :: inputs
       real(wp) :: angle, last, acceleration, square, time
+      samples = 0
       select case (inputs%about%task)
       case ('periodic')
          samples = 1 + int(inputs%periodic%revolutions, i8)*inputs%output%samples_per_revolution
@@ -63,7 +64,7 @@ contains
       case ('last_revolutions')
          bytes = of_frame + of_value*values_of_sample(inputs)*real(figure_samples(inputs), wp)
       case default
-         bytes = of_frame
+         bytes = 0
       end select
    end function result_bytes
 

@@ -1,6 +1,6 @@
-!> Figures of each of the last revolutions of a run, as many as the spectra may have, group `by_revolution`: the states
-!> of journal and pads once a revolution (Poincare points), and their extremes in it. A motion that repeats after k
-!> revolutions is k points.
+!> Figures of each of the last revolutions of a run, as many as the spectra may have, group `by_revolution`: the
+!> states of journal and pads once a revolution (Poincare points), and their extremes in it. A motion that repeats
+!> after k revolutions is k points.
 module revolution_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
@@ -69,7 +69,7 @@ contains
       real(wp) :: found(size(values, 1)), weight
       integer :: number, first, i, j
       number = min(4, size(angle))
-      first = below(angle, wanted) - number/2 + 1
+      first = count(angle < wanted) - number/2 + 1
       first = max(1, min(first, size(angle) - number + 1))
       found = 0
       do i = first, first + number - 1
@@ -80,22 +80,6 @@ contains
          found = found + weight*values(:, i)
       end do
    end function at_angle
-
-   !> How many of the rising angles are below one.
-   pure integer function below(angle, wanted) result(low)
-      real(wp), intent(in) :: angle(:), wanted
-      integer :: high, middle
-      low = 0
-      high = size(angle)
-      do while (low < high)
-         middle = (low + high + 1)/2
-         if (angle(middle) < wanted) then
-            low = middle
-         else
-            high = middle - 1
-         end if
-      end do
-   end function below
 
    !> Extremes of values (:, time) in the whole revolutions before the last sample, the last of which is the last
    !> column; not a number where there are fewer revolutions than columns.
@@ -110,7 +94,7 @@ contains
       next = n + 1
       do k = 1, min(revolutions, size(lowest, 2))
          column = size(lowest, 2) + 1 - k
-         start = 1 + below(angle, angle(n) - 2*pi*k - rounding)
+         start = 1 + count(angle < angle(n) - 2*pi*k - rounding)
          lowest(:, column) = minval(values(:, start:next - 1), dim=2)
          highest(:, column) = maxval(values(:, start:next - 1), dim=2)
          next = start

@@ -92,9 +92,9 @@ contains
       character(len=:), allocatable :: names
       call file%get_text('parameters', names)
       call rows%read_layout(file, names)
-      if (.not. allocated(file%failure)) call rows%reasons%read(file, 1, rows%reasons%length, texts)
-      if (allocated(file%failure) .or. rows%files%id < 0) return
-      call rows%files%read(file, 1, rows%files%length, texts)
+      if (allocated(file%failure)) return
+      call rows%reasons%read(file, 1, rows%reasons%length, texts)
+      if (rows%files%id >= 0) call rows%files%read(file, 1, rows%files%length, texts)
    end subroutine read_all
 
    !> The numbers of runs that are missing, in few words: "3, 7-9".

@@ -317,9 +317,7 @@ contains
       if (.not. allocated(self%deleted)) self%deleted = newline
       if (index(self%deleted, newline//path//newline) == 0) self%deleted = self%deleted//path//newline
       do k = 1, self%count
-         associate (own => self%datasets(k))
-            if (own%path == path .or. index(own%path, path//'/') == 1) own%there = .false.
-         end associate
+         if (index(self%datasets(k)%path//'/', path//'/') == 1) self%datasets(k)%there = .false.
       end do
    end subroutine delete
 

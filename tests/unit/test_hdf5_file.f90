@@ -442,8 +442,7 @@ contains
       call list%write(record)
       list = figures(0_i8, 5_i8, 0.0_wp)
       call list%read(record)
-      call expect(list%count('steps') == 2_i8**40 .and. list%count('film_volumes') == 0, &
-         & 'counts are those written last')
+      call expect(list%count('steps') == 2_i8**40 .and. list%count('film_volumes') == 0, 'counts are the last')
       call expect_close(list%seconds('wall_seconds'), 0.1_wp, 0.0_wp, 'seconds are')
       call list%put('missing', 7_i8, 'not in the record')
       call list%read(record)

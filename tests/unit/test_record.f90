@@ -159,8 +159,8 @@ contains
          do i = 1, sent%count
             associate (own => sent%datasets(i), its => taken%datasets(i))
                call expect(own%path == its%path .and. own%units == its%units .and. own%long_name == its%long_name &
-                  & .and. own%scales == its%scales .and. own%kind == its%kind .and. own%texts == its%texts &
-                  & .and. size(own%extents) == size(its%extents), own%path)
+                  & .and. own%scales == its%scales .and. own%kind == its%kind .and. own%texts == its%texts .and. &
+                  & size(own%extents) == size(its%extents), own%path)
                call expect(all(own%extents == its%extents), own%path//': sizes')
             end associate
          end do
@@ -206,7 +206,6 @@ contains
       type(record_type) :: record, found
       type(hdf5_type) :: file
       character(len=:), allocatable :: path
-      integer :: sizes(3)
       integer :: i, k
       path = scratch_path('record.h5')
       call file%create(path)
@@ -225,9 +224,8 @@ contains
          call write_record(record, file, .false.)
          call expect(.not. allocated(file%failure), 'written with another size')
       end do
-      sizes = [file%list_size('checkpoint/state'), file%list_size('revolution'), &
-         & file%list_size('by_revolution/lowest_y')]
-      call expect(all(sizes == 5), 'the last size')
+      call expect(file%list_size('checkpoint/state') == 5 .and. file%list_size('revolution') == 5 .and. &
+         & file%list_size('by_revolution/lowest_y') == 5, 'the last size')
       call record%delete('checkpoint')
       call write_record(record, file, .false.)
       call expect(.not. file%has('checkpoint'), 'what was deleted is not in the file')
