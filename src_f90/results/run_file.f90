@@ -123,7 +123,7 @@ contains
          t = self%get_real('checkpoint/time')
          call self%get_text('history', history)
          ok = self%has('checkpoint/time') .and. ieee_is_finite(t) .and. history /= ''
-         ok = ok .and. self%has('statistics/steps')
+         if (ok) ok = self%has('statistics/steps')
          if (present(state)) then
             ok = ok .and. self%list_size('checkpoint/state') == size(state)
             call self%get_list('checkpoint/state', state)

@@ -1,6 +1,6 @@
 !> Which dimension scales datasets have, and what a file contains.
 module hdf5_scales
-   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_funptr, c_int, c_loc, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_funptr, c_int, c_int64_t, c_loc, c_null_ptr, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f, h5g_dataset_f, &
       & h5dopen_f, h5dclose_f, h5dget_space_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sclose_f, &
       & h5s_unlimited_f, h5aexists_f, h5dget_type_f, h5tget_class_f, h5tclose_f, h5t_string_f
@@ -33,8 +33,8 @@ module hdf5_scales
       !> Calls a function with each scale of a dimension, from 0, until it gives another number than 0.
       integer(c_int) function iterate_scales(dataset, dimension, first, visitor, visit) &
          & bind(c, name='H5DSiterate_scales')
-         import :: c_funptr, c_int, c_ptr, hid_t
-         integer(hid_t), value :: dataset
+         import :: c_funptr, c_int, c_int64_t, c_ptr
+         integer(c_int64_t), value :: dataset
          integer(c_int), value :: dimension
          type(c_ptr), value :: first, visit
          type(c_funptr), value :: visitor
@@ -234,7 +234,7 @@ contains
 
    !> Notes the name of the first scale of a dimension.
    integer(c_int) function take_name(dataset, dimension, scale, visit) bind(c) result(ends)
-      integer(hid_t), value :: dataset, scale
+      integer(c_int64_t), value :: dataset, scale
       integer(c_int), value :: dimension
       type(c_ptr), value :: visit
       type(visit_type), pointer :: own

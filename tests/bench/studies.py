@@ -105,7 +105,8 @@ def killed(runner: Runner, folder: Path) -> Row:
 
 
 def marches(runner: Runner, folder: Path) -> Row:
-    """Marches with LuGre friction that keep their figures alone, on one core, and what they took by themselves."""
+    """Marches with LuGre friction that keep their figures alone, on one core, and what they took by
+    themselves."""
     case, speed = folder / "marches.nml", 3000
     duration = REVOLUTIONS * 60 / speed
     case.write_text(
