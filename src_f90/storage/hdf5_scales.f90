@@ -1,6 +1,6 @@
 !> Which dimension scales datasets have, and what a file contains.
 module hdf5_scales
-   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_funptr, c_int, c_loc, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_funptr, c_int, c_int64_t, c_loc, c_null_ptr, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f, h5g_dataset_f, &
       & h5dopen_f, h5dclose_f, h5dget_space_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sclose_f, &
       & h5s_unlimited_f, h5aexists_f, h5dget_type_f, h5tget_class_f, h5tclose_f, h5t_string_f
@@ -33,8 +33,8 @@ module hdf5_scales
       !> Calls a function with each scale of a dimension, from 0, until it gives another number than 0.
       integer(c_int) function iterate_scales(dataset, dimension, first, visitor, visit) &
          & bind(c, name='H5DSiterate_scales')
-         import :: c_funptr, c_int, c_ptr, hid_t
-         integer(hid_t), value :: dataset
+         import :: c_funptr, c_int, c_int64_t, c_ptr
+         integer(c_int64_t), value :: dataset
          integer(c_int), value :: dimension
          type(c_ptr), value :: first, visit
          type(c_funptr), value :: visitor
@@ -226,7 +226,7 @@ contains
       character(len=:), allocatable, intent(out) :: name
       type(visit_type), target :: visit
       integer(c_int) :: status
-      status = iterate_scales(dataset, int(k - 1, c_int), c_null_ptr, c_funloc(take_name), c_loc(visit))
+      status = iterate_scales(int(dataset, c_int64_t), int(k - 1, c_int), c_null_ptr, c_funloc(take_name), c_loc(visit))
       if (status > 0) status = visit%status
       call file%check_read(int(status), 'find the scales of a dataset')
       name = trim(visit%name)
@@ -234,7 +234,7 @@ contains
 
    !> Notes the name of the first scale of a dimension.
    integer(c_int) function take_name(dataset, dimension, scale, visit) bind(c) result(ends)
-      integer(hid_t), value :: dataset, scale
+      integer(c_int64_t), value :: dataset, scale
       integer(c_int), value :: dimension
       type(c_ptr), value :: visit
       type(visit_type), pointer :: own
@@ -242,7 +242,7 @@ contains
       integer :: status
       call c_f_pointer(visit, own)
       length = len(own%name)
-      call h5dsget_scale_name_f(scale, own%name, length, status)
+      call h5dsget_scale_name_f(int(scale, hid_t), own%name, length, status)
       if (length > len(own%name) .or. dataset < 0 .or. dimension < 0) status = -1
       own%status = min(0, status)
       ends = 1
