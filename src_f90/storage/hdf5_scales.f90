@@ -226,7 +226,7 @@ contains
       character(len=:), allocatable, intent(out) :: name
       type(visit_type), target :: visit
       integer(c_int) :: status
-      status = iterate_scales(dataset, int(k - 1, c_int), c_null_ptr, c_funloc(take_name), c_loc(visit))
+      status = iterate_scales(int(dataset, c_int64_t), int(k - 1, c_int), c_null_ptr, c_funloc(take_name), c_loc(visit))
       if (status > 0) status = visit%status
       call file%check_read(int(status), 'find the scales of a dataset')
       name = trim(visit%name)
@@ -242,7 +242,7 @@ contains
       integer :: status
       call c_f_pointer(visit, own)
       length = len(own%name)
-      call h5dsget_scale_name_f(scale, own%name, length, status)
+      call h5dsget_scale_name_f(int(scale, hid_t), own%name, length, status)
       if (length > len(own%name) .or. dataset < 0 .or. dimension < 0) status = -1
       own%status = min(0, status)
       ends = 1

@@ -2,7 +2,7 @@
 !> and joined studies; what is refused. And the record of a run, read back from its file.
 program test_study_file
    use, intrinsic :: iso_c_binding, only: c_int, c_long
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, system_error
@@ -10,6 +10,7 @@ program test_study_file
    use processes, only: new_process, end_child, exit_status, process_id, stop_process, ended, pause_seconds
    use record, only: record_type
    use record_file, only: write_record
+   use record_message, only: numbers, take_numbers
    use record_reader, only: read_record
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type
@@ -409,6 +410,8 @@ contains
       call begin(table, path, study)
       call make_record(1, record)
       call table%add(1, 2, 'the film closes'//char(255)//newline, record, 1)
+      ! of another process come numbers for all, which are none where a run has not what one before it had
+      call take_numbers(record, spread(ieee_value(1.0_wp, ieee_quiet_nan), 1, size(numbers(record))))
       call table%add(2, 3, '', record, 1)
       call expect(table%has_row(1) .and. .not. table%has_row(2) .and. .not. table%has_row(3), 'runs that are to be run')
       call expect(table%status(1) == 2 .and. table%status(2) == 3 .and. table%status(3) == -2, 'status')
