@@ -1,6 +1,5 @@
 """Coefficients over speed and whirl frequency: a study of this program, and ROSS's own tilting pads."""
 
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -35,13 +34,11 @@ def maps(runner: Runner) -> Iterator[Row]:
         row.note = f"failed with status {done.status}: {done.said[-200:]}"
         yield row
         return
-    tiltpad.collect(folder, runner.folder / "map-study.h5")
     yield row
-    with tiltpad.read_study(runner.folder / "map-study.h5") as study:
+    with tiltpad.read_study(f"{folder}.h5") as study:
         for elements in MESHES:
             for ratio in (TIMED, CHECKED):
                 yield by_ross(runner, study, ratio, elements)
-    shutil.rmtree(folder)
 
 
 def by_ross(runner: Runner, study: tiltpad.Study, ratio: float, elements: int) -> Row:

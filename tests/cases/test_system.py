@@ -463,14 +463,16 @@ def test_all_that_the_program_touches(start, tiltpad, case, loaded, tmp_path):
     log.unlink()
     study = CASE.replace("0.3", "0.01").replace("seconds=0.01", "seconds=0")
     (case / "case.nml").write_text(f"{study}&sweep operation%speed_rpm=4000,5000 /\n")
+    (case / "case.h5").unlink()
     tiltpad("case.nml", "-q", cwd=case, env=environment, status=0)
-    own = {f"{what} case/N.h5.{side}" for what in "wd" for side in ("part", "lock")} - {"d case/N.h5.part"}
+    own = {f"{what} {file}.h5.{side}" for what in "wd" for side in ("part", "lock") for file in ("case", "case/N")}
+    own -= {"d case.h5.part", "d case/N.h5.part"}
     found = touched(log, case)
     assert {line for line in found if line[0] != "r"} == own | {
         "m case", "m case/.tiltpad.part", "d case/.tiltpad.part"
     }  # fmt: skip
     assert {"r case.nml"} < {line for line in found if line[0] == "r"} <= {
-        f"r {name}" for name in ("case.nml", "case", "case/.", "case/N.h5.part")
+        f"r {name}" for name in (".", "case.nml", "case.h5.part", "case", "case/.", "case/N.h5.part")
     }  # fmt: skip
 
 

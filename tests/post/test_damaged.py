@@ -145,7 +145,7 @@ def test_a_later_format(changed, study, tmp_path, capsys):
 def test_a_study_is_no_run_and_a_run_no_study(study, small):
     with pytest.raises(tiltpad.RunError, match="a study, not the result of one run: see tiltpad-plot study"):
         tiltpad.read(study)
-    with pytest.raises(tiltpad.RunError, match="the result of one run, not a study: see tiltpad-collect"):
+    with pytest.raises(tiltpad.RunError, match="the result of one run, not a study"):
         tiltpad.read_study(small)
 
 
