@@ -15,6 +15,8 @@ import numpy as np
 import tiltpad
 
 DOCS = Path(__file__).resolve().parent
+#: Inputs of the tolerances that the page speaks of.
+NAMES = ("assembled_clearance", "preload", "bristle_stiffness")
 
 
 def commands(page: str) -> list[str]:
@@ -39,6 +41,18 @@ def figures(folder: Path) -> Iterator[str]:
     ):
         lobes = found.parameters["preload"] == preload
         yield words.format(100 * round(np.interp(0, growth[lobes], found.speed_rpm[lobes]) / 100))
+    with tiltpad.read_study(folder / "tolerances.h5") as study:
+        low, *_, high = 100 * tiltpad.percentiles(study, "least_damping_ratio", pivot="stuck").values[0]
+        yield f"the damping ratio is {low:.0f} to {high:.0f} % in nine of ten"
+        yield f"{100 * tiltpad.outcomes(study, 'stuck').unstable.share:.0f} % of them are unstable"
+        locked, stuck = (
+            tiltpad.sensitivity(study, "threshold_rpm", pivot=own) for own in ("locked", "stuck")
+        )
+    clearance, preload = (100 * locked.first[locked.inputs.index(name)] for name in NAMES[:2])
+    yield f"clearance ({clearance:.0f} % of the variance) and preload ({preload:.0f} %)"
+    yield f"its stiffness comes first ({100 * stuck.first[stuck.inputs.index(NAMES[2])]:.0f} %)"
+    yield f"{100 * locked.explained:.0f} % here, and {100 * stuck.explained:.0f} % with pivots that stick"
+    yield f"of {stuck.runs} bearings that have a threshold speed"
 
 
 def main() -> None:

@@ -76,6 +76,7 @@ STUDIES = {
         ),
     ),
     "warm_speeds": ("input/examples/warm_five_pads.nml", ("sweep%operation%speed_rpm=250:5250:250",)),
+    "tolerances": ("input/examples/tolerances.nml", ()),
     "whirl": (
         "input/examples/five_pads.nml",
         (
@@ -119,6 +120,9 @@ PICTURES = (
     ("campbell", "whirl", "", "frequencies of the modes, free pivots"),
     ("temperatures", "warm", "", "temperatures of the pads, and where their heat goes"),
     ("temperatures", "warm_speeds", "", "temperatures and viscosities over speed, with VG 46"),
+    ("tornado", "tolerances", "--show threshold_rpm --pivot stuck", "which input matters"),
+    ("distribution", "tolerances", "", "results of bearings as they are made, with percentiles"),
+    ("scatter", "tolerances", "", "results over the inputs, a point for each bearing"),
     ("study", "laws", "--show friction_work", "friction work over speed"),
     ("study", "map", "", "a map over two parameters"),
     ("study", "upper", "--show poincare_tilt --pad 3", "the motion of an upper pad bifurcates"),

@@ -45,6 +45,7 @@ from tiltpad.calculate.pivots import (
 )
 from tiltpad.calculate.response import Peak, Response, response
 from tiltpad.calculate.ross import to_ross
+from tiltpad.calculate.sensitivity import Sensitivity, sensitivity
 from tiltpad.calculate.signals import (
     envelope,
     last_revolutions,
@@ -55,6 +56,7 @@ from tiltpad.calculate.signals import (
     waveform,
 )
 from tiltpad.calculate.spectra import full, full_spectrum, one_sided, order_track, spectrum, waterfall
+from tiltpad.calculate.statistics import Outcomes, Percentiles, Share, outcomes, percentiles
 from tiltpad.calculate.tables import write_coefficients
 from tiltpad.collect.collect import Collected, RunWarning, collect
 from tiltpad.files.archive import NotInRunError, RunError
@@ -78,11 +80,15 @@ __all__ = [
     "MissingProgramError",
     "Modes",
     "NotInRunError",
+    "Outcomes",
     "Peak",
+    "Percentiles",
     "Pressure",
     "Response",
     "Run",
     "RunError",
+    "Sensitivity",
+    "Share",
     "Study",
     "bristle_rate",
     "brute_force",
@@ -109,6 +115,8 @@ __all__ = [
     "orbit",
     "orbit_size",
     "order_track",
+    "outcomes",
+    "percentiles",
     "poincare",
     "pressure",
     "read",
@@ -117,6 +125,7 @@ __all__ = [
     "revolutions",
     "run",
     "sample",
+    "sensitivity",
     "sliding_velocity",
     "spectrum",
     "stick_fraction",

@@ -35,6 +35,8 @@ MOVIES = ("gif", "mp4")
 VIBRATIONS = ("coefficients", "stability", "campbell")
 #: Plots of results and of studies.
 OF_EITHER = (*VIBRATIONS, "response", "temperatures")
+#: Plots of studies of samples.
+SAMPLES = ("tornado", "distribution", "scatter")
 #: The plot of branches, below which studies may lie.
 BRANCH = "branch"
 #: Options of some plots alone.
@@ -43,14 +45,16 @@ OWN_OPTIONS = {
     "orders": ("spectrum", "waterfall"),
     "scale": ("orders",),
     **dict.fromkeys(("by", "decades"), ("waterfall",)),
-    **dict.fromkeys(("show", "kind"), (STUDY,)),
-    **dict.fromkeys(("over", "where"), (STUDY, *OF_EITHER)),
-    "pivot": (STUDY, *VIBRATIONS),
+    "kind": (STUDY,),
+    "show": (STUDY, *SAMPLES),
+    "over": (STUDY, *OF_EITHER),
+    "where": (STUDY, *OF_EITHER, *SAMPLES),
+    "pivot": (STUDY, *VIBRATIONS, *SAMPLES),
 }
 #: Plots without the options --last and --pad.
 WITHOUT_LAST = (
     *("equilibrium", "runup", "orders", "waterfall", "pressure", "film", BEARING, STUDY),
-    *(BRANCH, *OF_EITHER),
+    *(BRANCH, *OF_EITHER, *SAMPLES),
 )
 WITHOUT_PAD = (BEARING, MOVIE, *VIBRATIONS, "response")
 #: Exit status, as the program's own.
@@ -80,7 +84,10 @@ PLOTS = {
     "coefficients": "stiffness and damping over speed, of one result over whirl frequency (also .csv, .toml)",
     "stability": "damping ratio and logarithmic decrement of the modes, of studies and results",
     "campbell": "frequencies of the modes over the speed, of studies",
-    "study": "results over parameters, from a file of tiltpad-collect (--show, --over, --as, --where)",
+    "study": "results over parameters, of studies (--show, --over, --as, --where)",
+    "tornado": "which input of a sampled study matters for a result: Sobol indices (--show)",
+    "distribution": "histograms and percentiles of the results of sampled studies (--show)",
+    "scatter": "results of a sampled study over its inputs, a point for each run (--show)",
 }
 
 
@@ -197,15 +204,16 @@ def draw(options: argparse.Namespace, output: Path) -> None:
     from tiltpad.draw import figures, layout, plots
 
     with ExitStack() as stack:
+        of_study = options.plot in SAMPLES
         either = options.plot in (BRANCH, *OF_EITHER)
-        opened: Callable[[str], Run | Study] = read_either if either else read
+        opened: Callable[[str], Run | Study] = read_study if of_study else read_either if either else read
         runs = [stack.enter_context(opened(path)) for path in options.files]
         stack.enter_context(mpl.style.context(plots.STYLE))
-        if options.pad is not None and not either:
+        if options.pad is not None and not (either or of_study):
             layout.shown_pads([run for run in runs if isinstance(run, Run)], options.pad)
         own = (name for name, plots_with in OWN_OPTIONS.items() if options.plot in plots_with)
         more = {name: getattr(options, name) for name in own if getattr(options, name) is not None}
-        if options.plot in OF_EITHER:
+        if options.plot in (*OF_EITHER, *SAMPLES):
             more |= {"where": kept(options)}
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
         stack.callback(plots.plt.close, figure)
@@ -380,7 +388,7 @@ def plot_parser() -> Parser:
         "--show", metavar="RESULT", help="result to draw (orbit_size, max_pressure, steps, ...)"
     )
     study.add_argument("--over", metavar="PARAMETER", help="parameter of the axis (speed_rpm, ...)")
-    study.add_argument("--as", dest="kind", choices=("lines", "map", "bifurcation"))
+    study.add_argument("--as", dest="kind", choices=("lines", "map", "bifurcation", "points"))
     study.add_argument(
         "--where",
         action="append",

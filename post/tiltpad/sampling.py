@@ -21,7 +21,9 @@ DISTRIBUTIONS = {
     "lognormal": ("median", "deviation"),
     "uniform": ("low", "high"),
 }
-METHODS = ("sobol", "lhs", "halton")
+#: The design for Sobol indices, and all ways to draw points.
+SALTELLI = "saltelli"
+METHODS = ("sobol", "lhs", "halton", SALTELLI)
 #: Most runs of a study.
 MOST = 1_000_000
 #: Name of a variable as the program knows it.
@@ -58,14 +60,20 @@ def sample(
     mean and deviation are those before the ends are cut, ("lognormal", median, deviation of the natural
     logarithm), ("uniform", low, high), or any of scipy.stats with its numbers, such as
     scipy.stats.triang(0.5, 70e-6, 20e-6). Points are drawn by `method`, "sobol" (scrambled, best where n is
-    a power of 2), "lhs" (Latin hypercube) or "halton" (scrambled); the same seed gives the same table. The
-    program checks the case, a file or groups as for `run`, with every row. What is wrong is a ValueError,
+    a power of 2), "lhs" (Latin hypercube) or "halton" (scrambled); the same seed gives the same table. With
+    "saltelli" n is the number of points of a design for Sobol indices: each has variables + 2 rows, A, B, and
+    A with each variable from B in turn. Any of these samples has first-order indices from `sensitivity`;
+    the design needs many more runs, and gives total indices of what no polynomial follows, too. The program
+    checks the case, a file or groups as for `run`, with every row. What is wrong is a ValueError,
     and the file is then left as it was. Needs scipy from 1.15 on.
     """
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 1 <= n <= MOST:
         raise ValueError(f"n = {n!r}: must be a whole number, 1 to {MOST}")
     if method not in METHODS:
         raise ValueError(f"method = {method!r}: must be one of {', '.join(map(repr, METHODS))}")
+    rows = n * (len(variables) + 2) if method == SALTELLI and isinstance(variables, Mapping) else n
+    if rows > MOST:
+        raise ValueError(f"n = {n!r}: {rows} runs, and a study has at most {MOST}")
     if not isinstance(variables, Mapping) or not variables:
         raise ValueError(f"variables = {variables!r}: must be distributions by name, {{'group%name': ...}}")
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
@@ -96,9 +104,21 @@ def points(dimensions: int, n: int, method: str, seed: int) -> np.ndarray:
     """Points of the unit cube, (dimension, point), less its faces."""
     from scipy.stats import qmc
 
+    if method == SALTELLI:
+        return saltelli(points(2 * dimensions, n, "sobol", seed))
     kinds = {"sobol": qmc.Sobol, "lhs": qmc.LatinHypercube, "halton": qmc.Halton}
     drawn = kinds[method](dimensions, rng=seed).random(n)
     return np.clip(drawn, HALF_STEP, 1 - HALF_STEP).T
+
+
+def saltelli(drawn: np.ndarray) -> np.ndarray:
+    """The design of Saltelli et al. (2010) from points of twice its dimensions, (dimension, point)."""
+    a, b = np.split(drawn, 2)
+    found = np.repeat(a[:, :, None], len(a) + 2, axis=2)
+    found[:, :, 1] = b
+    for own in range(len(a)):
+        found[own, :, 2 + own] = b[own]
+    return found.reshape(len(a), -1)
 
 
 def distribution(name: str, given: Any) -> Any:

@@ -7,6 +7,7 @@ module study_child
    use errors, only: error_type, numerics_error
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag
+   use study_file, only: study_file_type
    use record, only: record_type
    use record_message, only: description, take_description, numbers, take_numbers
    use processes, only: process_id, record_length, new_process, end_child, end_with_parent, open_pipe, close_pipe, &
@@ -132,9 +133,11 @@ contains
    end subroutine wait_for_end
 
    !> Starts a child, which waits for orders; `child` has no process where none could be started.
-   subroutine start(child, study, pipe, runner)
+   subroutine start(child, study, table, pipe, runner)
       class(child_type), intent(inout) :: child
       type(study_type), intent(in) :: study
+      !> The open file of the study, which the child lets go.
+      type(study_file_type), intent(inout) :: table
       integer, intent(in) :: pipe
       class(study_runner_type), intent(in) :: runner
       integer :: parent, process
@@ -150,6 +153,7 @@ contains
       process = new_process()
       if (process == 0) then
          call end_with_parent(parent)
+         call table%let_go()
          call close_end(child%returns(1))
          call run_in_child(study, child%orders(1), child%returns(2), pipe, runner)
       else if (process < 0) then

@@ -83,7 +83,7 @@ contains
          stopping = stop_requested() .or. allocated(error)
          do i = 1, size(children)
             if (children(i)%run /= 0 .or. next > size(wanted) .or. stopping) cycle
-            if (children(i)%process == 0) call children(i)%start(study, pipe(2), runner)
+            if (children(i)%process == 0) call children(i)%start(study, table, pipe(2), runner)
             if (children(i)%process /= 0) then
                call children(i)%order(next)
             else

@@ -41,6 +41,8 @@ module factories
    integer, parameter :: static_sweeps = 100000
    !> This number of volumes serves an arc of this length, rad, and shorter ones.
    real(wp), parameter :: usual_arc = 120*degree
+   !> Of forces from tables: what rounding leaves.
+   real(wp), parameter :: least_tolerance = 1e-12_wp
    !> Residual of over-relaxation over the relative tolerance of the march, at most, and what rounding leaves: films
    !> solved less well shake stiff pivots, and the steps become short.
    real(wp), parameter :: sor_tolerance = 1e-3_wp, least_residual = 1e-13_wp
@@ -58,6 +60,7 @@ contains
       character(len=:), allocatable :: solver
       integer :: cells, modes, volumes(2), condition
       real(wp), allocatable :: error, of_volumes
+      real(wp) :: of_tables
       type(direct_film_type) :: direct
       gaps = new_gaps(inputs)
       associate (f => inputs%film)
@@ -83,13 +86,14 @@ contains
             film = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), condition, error, of_volumes)
          case default
             direct = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), condition, error, of_volumes)
+            of_tables = max(f%table_tolerance, least_tolerance)
             if (accuracy == march_films) then
                ! cavitated films by volumes are dear, by modes they are cheap
                associate (usual => merge(1, 4, condition == cavitation_gumbel)*inputs%integration%relative_tolerance)
-                  film = new_table_film(direct, .true., merge(f%table_tolerance, usual, f%table_tolerance > 0))
+                  film = new_table_film(direct, .true., merge(of_tables, usual, f%table_tolerance > 0))
                end associate
             else if (f%table_tolerance > 0) then
-               film = new_table_film(direct, .false., f%table_tolerance)
+               film = new_table_film(direct, .false., of_tables)
             else
                film = new_table_film(direct, .false., merge(converged_error, converged_cavitated_error, &
                   & condition == cavitation_gumbel), converged_full_error)

@@ -125,7 +125,7 @@ contains
    !> The time step after one that took the unbalanced force from `last` to `now`: longer as it falls.
    elemental real(wp) function next_time_step(time_step, last, now)
       real(wp), intent(in) :: time_step, last, now
-      next_time_step = time_step*max(0.3_wp, 1.5_wp*last/max(now, 0.15_wp*last))
+      next_time_step = time_step*max(0.3_wp, 1.5_wp*last/max(now, 0.15_wp*last, tiny(now)))
    end function next_time_step
 
    !> The positions that move: all but those of pads that are held.

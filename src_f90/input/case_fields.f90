@@ -266,9 +266,9 @@ contains
       call v%number(inputs%output%checkpoint_seconds, 'checkpoint_seconds', 0.0_wp, 1e9_wp, 's', &
          & 'wall time between checkpoints, from which --resume continues; 0: only when a signal stops the run')
       call v%word(inputs%output%keep, 'keep', 'all last_revolutions summary', &
-         & 'samples in the results: all, those of the last spectrum_revolutions, or none; with summary a run of a' &
-         & //' study has no file but a row of the study; if left out, summary for the tasks equilibrium and coefficients, ' &
-         & //'else all')
+         & 'samples in the results: all, those of the last spectrum_revolutions, or none; with summary a run of a ' &
+         & //'study has no file but a row of the study; if left out, summary for the tasks equilibrium and ' &
+         & //'coefficients, else all')
 
       call v%group('coefficients', 'Stiffness, damping and stability, for the task coefficients')
       call v%list(inputs%coefficients%frequency_ratio, most_ratios, 'frequency_ratio', 0.0_wp, 1e6_wp, '1', &

@@ -122,10 +122,11 @@ contains
       if (.not. allocated(error)) then
          t = self%get_real('checkpoint/time')
          call self%get_text('history', history)
-         ok = self%has('checkpoint/time') .and. ieee_is_finite(t) .and. history /= ''
-         if (.not. self%has('statistics/steps')) ok = .false.
+         ok = self%has('statistics/steps')
+         if (ok) ok = self%has('checkpoint/time')
+         ok = ok .and. ieee_is_finite(t) .and. history /= ''
          if (present(state)) then
-            ok = ok .and. self%list_size('checkpoint/state') == size(state)
+            if (ok) ok = self%list_size('checkpoint/state') == size(state)
             call self%get_list('checkpoint/state', state)
             ok = ok .and. all(ieee_is_finite(state))
          end if

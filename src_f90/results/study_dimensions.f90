@@ -69,6 +69,9 @@ contains
    !> Place of a label; 0 where it is none of them.
    pure integer function place_of(label, labels) result(at)
       type(label_type), intent(in) :: label, labels(:)
+      at = 0
+      ! of a scale that the run does not have
+      if (ieee_is_nan(label%number)) return
       do at = 1, size(labels)
          if (allocated(label%text) .neqv. allocated(labels(at)%text)) cycle
          if (allocated(label%text)) then
@@ -88,7 +91,7 @@ contains
       integer :: i, before
       grown = .false.
       do i = 1, other%length()
-         if (place_of(other%labels(i), self%labels) > 0 .or. ieee_is_nan(other%labels(i)%number)) cycle
+         if (ieee_is_nan(other%labels(i)%number) .or. place_of(other%labels(i), self%labels) > 0) cycle
          if (self%has_texts) then
             before = 0
             if (i > 1) before = place_of(other%labels(i - 1), self%labels)

@@ -5,19 +5,15 @@ module study_file
    use kinds, only: wp
    use errors, only: error_type, raise, system_error
    use clock, only: wall_clock
-   use build_info, only: program_version
    use record, only: record_type
-   use case_inputs, only: case_type
-   use namelist_writer, only: namelist_of
    use parameter_study, only: study_type
+   use inherited_file, only: unlock, empty
    use hdf5_file, only: hdf5_type
-   use hdf5_rows, only: hdf5_rows_type, most_rows
    use hdf5_texts, only: text_type
    use working_file, only: working_file_type
-   use provenance, only: format_version, now
-   use study_columns, only: run_scale
    use study_rows, only: study_rows_type, not_run
    use study_parameters, only: parameter_type, parameters_of, write_parameters
+   use study_origin, only: put_origin, names_of, write_runs
    use study_marks, only: put_marks, check_marks, open_study, missing_runs
    use study_join, only: join_rows
    implicit none (type, external)
@@ -52,6 +48,8 @@ module study_file
       procedure :: finish
       !> Deletes what was not published, and frees the lock.
       procedure :: abandon
+      !> Forgets the file in a child process; nothing happens to it.
+      procedure :: let_go
       !> Shows other programs that this one lives, and has the system write; to be called often with a clock, s.
       procedure :: beat
       !> The dead process that held the file's lock; empty where there was none.
@@ -90,6 +88,7 @@ contains
          if (present(first)) from = first
          if (present(last)) to = last
          call self%create(self%working%part)
+         call unlock(self%hdf5_type)
          parameters = parameters_of(study)
          call put_origin(self, study, parameters)
          call write_runs(self, 1, study%runs)
@@ -100,76 +99,6 @@ contains
       end if
       if (allocated(error)) call self%abandon()
    end subroutine begin
-
-   !> What the file is and who made it.
-   subroutine put_origin(self, study, parameters)
-      class(study_file_type), intent(inout) :: self
-      type(study_type), intent(in) :: study
-      type(parameter_type), intent(in) :: parameters(:)
-      type(case_type) :: inputs
-      type(error_type), allocatable :: error
-      character(len=:), allocatable :: names
-      integer :: k, i
-      call self%put_flag('format_version', format_version)
-      call self%put_text('program', 'tiltpad')
-      call self%put_text('version', program_version)
-      call self%put_text('created', now())
-      call self%put_text('task', 'study')
-      ! the first run that is possible; runs that are not become rows with their reason
-      do k = 1, study%runs
-         call study%inputs(k, inputs, error)
-         if (.not. allocated(error)) exit
-      end do
-      if (allocated(error)) then
-         call self%put_text('title', '')
-         call self%put_text('input', '')
-      else
-         call self%put_text('title', inputs%about%title)
-         call self%put_text('input', namelist_of(inputs))
-      end if
-      call self%put_text('parameters', names_of(parameters))
-      names = ''
-      do i = 1, size(parameters)
-         if (i > 1) names = names//achar(10)
-         names = names//parameters(i)%variable
-      end do
-      call self%put_text('variables', names)
-      call put_marks(self, study)
-      call self%put_flag('finished', 0)
-      call self%put_text('missing', '')
-   end subroutine put_origin
-
-   !> The names of the parameters, separated by blanks.
-   pure function names_of(parameters) result(names)
-      type(parameter_type), intent(in) :: parameters(:)
-      character(len=:), allocatable :: names
-      integer :: i
-      names = ''
-      do i = 1, size(parameters)
-         if (i > 1) names = names//' '
-         names = names//parameters(i)%name
-      end do
-   end function names_of
-
-   !> Writes the scale of the runs, a new one for all or the rest of one that has fewer.
-   subroutine write_runs(self, first, last)
-      class(study_file_type), intent(inout) :: self
-      integer, intent(in) :: first, last
-      type(hdf5_rows_type) :: scale
-      integer :: from, i
-      if (first == 1) then
-         call scale%create(self, run_scale, [integer ::], last, 0.0_wp, .true.)
-         call self%describe(scale%id, '1', 'number of the run', run_scale, run_scale)
-      else
-         call scale%open(self, run_scale)
-         call scale%resize(self, [integer ::], last)
-      end if
-      do from = first, last, most_rows
-         call scale%write(self, from, reshape([(real(i, wp), i=from, min(from + most_rows - 1, last))], &
-            & [1, min(most_rows, last - from + 1)]))
-      end do
-      call scale%close(self)
-   end subroutine write_runs
 
    !> Opens a copy of the file of the name claimed, to go on with it. It must be of this study, which may have got more
    !> runs since.
@@ -300,12 +229,20 @@ contains
       call self%put_text('missing', missing_runs(self%rows%status == not_run))
    end subroutine note
 
+   subroutine let_go(self)
+      class(study_file_type), intent(inout) :: self
+      call empty(self%hdf5_type)
+      call self%close_all()
+   end subroutine let_go
+
    !> Opens the part, unless another run has taken the place of this one, whose part then has the name.
    subroutine open_part(self, error)
       class(study_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       call self%working%check_part(error)
-      if (.not. allocated(error)) call self%open(self%working%part, writing=.true.)
+      if (allocated(error)) return
+      call self%open(self%working%part, writing=.true.)
+      call unlock(self%hdf5_type)
    end subroutine open_part
 
    subroutine close_all(self)

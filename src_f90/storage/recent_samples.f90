@@ -108,17 +108,20 @@ contains
       integer(i8), intent(in) :: skip
       integer, intent(in) :: n
       real(wp), allocatable, intent(out) :: values(:, :)
-      integer :: k, i
+      integer :: k, at, up_to_end
       do k = 1, size(self%series)
          if (self%series(k)%name == name) exit
       end do
-      associate (own => self%series(k))
-         allocate (values(own%width, n))
-         do i = 1, n
-            associate (at => merge(0, self%place(skip + i - 1), skip + i == 1))
-               values(:, i) = self%values(own%before + 1:own%before + own%width, at)
-            end associate
-         end do
+      associate (first => self%series(k)%before + 1, last => self%series(k)%before + self%series(k)%width)
+         allocate (values(self%series(k)%width, n))
+         if (skip < self%first()) then
+            values = self%values(first:last, :n - 1)
+         else
+            at = self%place(skip)
+            up_to_end = min(n, self%room + 1 - at)
+            values(:, :up_to_end) = self%values(first:last, at:at + up_to_end - 1)
+            values(:, up_to_end + 1:) = self%values(first:last, 1:n - up_to_end)
+         end if
       end associate
    end subroutine part
 

@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -191,6 +192,21 @@ void tiltpad_begin_sync(const text_t *path)
    if (file < 0) return;
    sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);
    close(file);
+}
+
+/* Frees the lock of an open file, which children that have it open too would keep. */
+void tiltpad_unlock(const int *file)
+{
+   flock(*file, LOCK_UN);
+}
+
+/* Closes an open file but keeps its number, behind which there is nothing then: what is written is lost. */
+void tiltpad_empty(const int *file)
+{
+   int nothing = open("/dev/null", O_RDWR);
+   if (nothing < 0) return;
+   dup2(nothing, *file);
+   close(nothing);
 }
 
 /* Makes a folder, unless something of its name is there. */

@@ -28,6 +28,7 @@ from production import production
 from runner import Row, Runner
 from settings import ROOT
 from skips import kernels, skips, visits
+from studies import studies
 from warm import warm
 
 PARTS = {
@@ -41,6 +42,7 @@ PARTS = {
     "pads": pads,
     "orbits": orbits,
     "production": production,
+    "studies": studies,
     "peers": peers,
     "maps": maps,
     "warm": warm,

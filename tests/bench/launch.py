@@ -1,5 +1,5 @@
-"""Runs one command on one core, or on all, and prints its wall seconds, peak memory in MB, exit status and the
-seconds of processor time of it and its children.
+"""Runs one command on one core, or on all, and prints its wall seconds, peak memory in MB, exit status and
+the seconds of processor time of it and its children.
 
 usage: launch.py CORE|all LIMIT COMMAND...     (LIMIT: seconds after which it is killed)
 

@@ -4,6 +4,7 @@ import costs
 import maps
 import orbits
 import settings
+import studies
 import tables
 import warm
 from errors import JUMP
@@ -158,6 +159,12 @@ s more of a run takes; it contains reading, the contact table, the equilibrium, 
 
 {study}
 
+Studies whose runs keep their figures alone (`output%keep = 'summary'`) are one file from the beginning. The
+equilibria are those of the paper's bearing with seven sampled inputs; the study that is killed on its way is
+compared with the one that was not, number by number.
+
+{studies}
+
 ## Scaled and scalar absolute tolerances
 
 The paper gives its integrator one absolute tolerance, {absolute:g}, for states whose units range from
@@ -267,6 +274,7 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         checkpoints=costs.checkpoints(rows["production"]),
         runs=settings.RUNS,
         study=costs.study(rows["production"]),
+        studies=studies.written(rows["studies"]),
         absolute=settings.PEER_ABSOLUTE,
         relative=settings.PEER_RELATIVE,
         peer_film_tolerance=settings.PEER_FILM_TOLERANCE,

@@ -14,8 +14,8 @@ from runner import Row, Runner, launch
 from tables import short, table, verdict
 
 SPEEDS, SAMPLES, KILLED, MARCHES, DRAWN = "speeds", "samples", "killed", "marches", "drawn"
-#: Speeds of a map of coefficients; runs of a table of sampled inputs, and of a part of it, whose memory is compared;
-#: marches, and their revolutions.
+#: Speeds of a map of coefficients; runs of a table of sampled inputs, and of a part of it, whose memory is
+#: compared; marches, and their revolutions.
 MAP, TABLE, PART, LUGRE, REVOLUTIONS = 1000, 2**17, 2**14, 1000, 20
 #: Kills of the study of samples on its way, and the seconds between them.
 KILLS, BETWEEN = 10, 8
@@ -91,7 +91,10 @@ def killed(runner: Runner, folder: Path) -> Row:
         if process.returncode >= 0:
             break
     row = Row(runner.part, "study", KILLED, f"{TABLE}", "", time.perf_counter() - started, TABLE)
-    with tiltpad.read_study(folder / f"{TABLE}.h5") as whole, tiltpad.read_study(folder / "killed/study.h5") as study:
+    with (
+        tiltpad.read_study(folder / f"{TABLE}.h5") as whole,
+        tiltpad.read_study(folder / "killed/study.h5") as study,
+    ):
         same = all(
             np.array_equal(study[name], whole[name], equal_nan=True)
             for name in whole.names()
@@ -102,7 +105,8 @@ def killed(runner: Runner, folder: Path) -> Row:
 
 
 def marches(runner: Runner, folder: Path) -> Row:
-    """Marches with LuGre friction that keep their figures alone, on one core, and what they took by themselves."""
+    """Marches with LuGre friction that keep their figures alone, on one core, and what they took by
+    themselves."""
     case, speed = folder / "marches.nml", 3000
     duration = REVOLUTIONS * 60 / speed
     case.write_text(
@@ -138,7 +142,11 @@ def written(rows: list[Row]) -> str:
         memory = f"{row.memory_mb:.0f} MB" if row.memory_mb else ""
         wall = f"{short(row.wall_seconds)} s"
         if row.group == SPEEDS:
-            name, value, target = f"coefficients at {row.steps} speeds, processor time", row.work_seconds, MAP_SECONDS
+            name, value, target = (
+                f"coefficients at {row.steps} speeds, processor time",
+                row.work_seconds,
+                MAP_SECONDS,
+            )
             lines.append((name, f"{short(value)} s", each, memory, f"{target} s", verdict(value, target)))
         elif row.group == SAMPLES:
             whole = row.steps == TABLE
@@ -151,7 +159,9 @@ def written(rows: list[Row]) -> str:
             lines.append((name, wall, each, "", lost, ""))
         elif row.group == MARCHES:
             beyond = row.wall_seconds / row.march_seconds - 1
-            name = f"{row.steps} marches with LuGre friction of {REVOLUTIONS} revolutions: time beyond their own"
+            name = (
+                f"{row.steps} marches with LuGre friction of {REVOLUTIONS} revolutions: time beyond their own"
+            )
             lines.append((name, f"{beyond:.1%}", each, memory, f"{SHARE:.0%}", verdict(beyond, SHARE)))
         else:
             lines.append((f"{row.setting} of {row.steps} runs", wall, "", memory, f"{DRAWN_SECONDS} s",

@@ -21,8 +21,8 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[1] / "faults"))
 from injector import Fault, Injector  # noqa: E402
 
-# what a shell runs in the background ignores Ctrl-C, what nohup runs the end of its terminal, and so would the
-# commands that are tested
+# what a shell runs in the background ignores Ctrl-C, what nohup runs the end of its terminal, and so would
+# the commands that are tested
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
 

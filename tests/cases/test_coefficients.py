@@ -53,7 +53,17 @@ def check_modes(group, modes, pivot):
 def test_study_goes_on_without_equilibrium(tiltpad, root, tmp_path):
     """A load between pads that nothing carries: its run is marked, the others are whole."""
     loads = "sweep%rotor%static_load(2)=0,1e5,1000"
-    arguments = ("--output", tmp_path / "map", "--quiet", "--set", TASK, "--set", loads, "--set", "output%keep='all'")
+    arguments = (
+        "--output",
+        tmp_path / "map",
+        "--quiet",
+        "--set",
+        TASK,
+        "--set",
+        loads,
+        "--set",
+        "output%keep='all'",
+    )
     done = tiltpad(root / "input/paper/steady_tr.nml", *arguments)
     assert done.returncode == 2
     assert "run 2 (rotor%static_load(2) = 1e5): no equilibrium found" in done.stderr

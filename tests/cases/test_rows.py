@@ -5,7 +5,6 @@ import os
 import re
 import resource
 import signal
-import subprocess
 
 import h5py
 import numpy as np
@@ -82,7 +81,9 @@ def test_bits_do_not_depend_on_the_number_of_processes(tiltpad, case, text):
 
 def test_failed_runs_are_rows(tiltpad, case):
     """With status and reason; the console has the first hundred."""
-    folder = case("&case task='equilibrium' /\n&sweep rotor%static_load(2)=0:1e5:1e5 rotor%mass=1001:1120:1 /\n")
+    folder = case(
+        "&case task='equilibrium' /\n&sweep rotor%static_load(2)=0:1e5:1e5 rotor%mass=1001:1120:1 /\n"
+    )
     done = tiltpad("case.nml", cwd=folder)
     assert done.returncode == 2
     *told, total = done.stderr.splitlines()
@@ -141,8 +142,10 @@ def test_killed_again_and_again(tiltpad, start, case, loaded, number):
         wait_for(lambda: attempt > 6 or (folder / "case.h5").exists() or process.poll() is not None)
         before = set(done)
         wait_for(
-            lambda: process.poll() is not None
-            or (attempt < 7 and (folder / "case.h5").exists() and known(folder / "case.h5") > len(before))
+            lambda: (
+                process.poll() is not None
+                or (attempt < 7 and (folder / "case.h5").exists() and known(folder / "case.h5") > len(before))
+            )
         )
         assert len([name for name in os.listdir(folder) if name.startswith("case.h5")]) <= 3
         process.send_signal(number)

@@ -160,6 +160,7 @@ STUDY = [
     by_command(command.main, "study"),
     *(by_command(command.main, "study", options=("--as", kind)) for kind in diagrams.KINDS),
     by_command(command.main, "study", options=("--show", "wall_seconds")),
+    *(by_command(command.main, plot) for plot in command.SAMPLES),
 ]
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import tiltpad
 from tiltpad import figures, plots
 
@@ -52,6 +53,29 @@ def test_the_worked_examples(root, program, tmp_path):
             assert options.output.endswith(".csv") or f"](images/{options.output})" in page
     for picture in re.findall(r"\]\((images/[\w.]+)\)", page):
         assert (root / "docs" / picture).exists()
+
+
+def test_the_worked_example_of_tolerances(root, program, tmp_path, monkeypatch, capsys):
+    """A small one: its Python draws the table, the program runs it, and it answers which input matters."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("TILTPAD", str(program))
+    (tmp_path / "input").symlink_to(root / "input")
+    draws, asks = re.findall(r"```python\n(.*?)```", (root / "docs/examples.md").read_text(), re.DOTALL)
+    assert ", 256, " in draws
+    exec(draws, {})
+    whole = (tmp_path / "tolerances.csv").read_text()
+    assert whole == (root / "input/examples/tolerances.csv").read_text()
+    (tmp_path / "tolerances.csv").write_text("".join(whole.splitlines(keepends=True)[:33]))
+    with tiltpad.run("input/examples/tolerances.nml", "runs", sweep={"file": "tolerances.csv"}) as study:
+        assert study.done.all()
+    (tmp_path / "tolerances.h5").symlink_to("runs/study.h5")
+    exec(asks, {})
+    assert capsys.readouterr().out.startswith("Share(runs=")
+    with tiltpad.read_study("tolerances.h5") as study:
+        found = tiltpad.sensitivity(study, "threshold_rpm", pivot="locked")
+        assert {found.inputs[k] for k in np.argsort(found.first)[-2:]} == {"assembled_clearance", "preload"}
+        assert figures.tornado(study, show="threshold_rpm", pivot="locked").axes
+    plots.plt.close("all")
 
 
 def test_the_notebook(root, program, tmp_path, monkeypatch, capsys):

@@ -33,6 +33,7 @@ PLOTS = [
         "study",
         "branch",
         *command.OF_EITHER,
+        *command.SAMPLES,
     )
 ]
 STEADY = [plot for plot in PLOTS if plot not in ("orders", "waterfall")]

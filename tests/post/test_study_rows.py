@@ -25,10 +25,13 @@ CASES = {
     "&sweep thermal%model = 'none', pad\nrotor%mass = 1000, 2000\noil%supply_temperature = 40, 50 /",
     "failures": "&case task='equilibrium' / &output keep='all' / "
     "&sweep rotor%static_load(1) = 0, 1e11, -1e3 /",
-    "marches that fail": f"{SHORT} &sweep integration%max_steps = 100000, 30\nfriction%model = 'none', lugre /",
-    "tasks": f"{SHORT} &sweep case%task = march, equilibrium, coefficients\npads%motion = tilting_only, tilting_radial /",
-    "orbits": "&case task='periodic' / &output samples_per_revolution=60 / &sweep rotor%unbalance = 0.01, 0.02 /",
-    "last revolutions": "&output keep='last_revolutions', spectrum_revolutions=8, samples_per_revolution=60 / "
+    "marches that fail": f"{SHORT} &sweep integration%max_steps = 100000, 30\n"
+    "friction%model = 'none', lugre /",
+    "tasks": f"{SHORT} &sweep case%task = march, equilibrium, coefficients\n"
+    "pads%motion = tilting_only, tilting_radial /",
+    "orbits": "&case task='periodic' / &output samples_per_revolution=60 / "
+    "&sweep rotor%unbalance = 0.01, 0.02 /",
+    "last revolutions": "&output keep='last_revolutions' spectrum_revolutions=8 samples_per_revolution=60 / "
     "&sweep operation%duration = 0.005, 0.05, 0.15 /",
 }
 

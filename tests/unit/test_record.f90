@@ -206,6 +206,7 @@ contains
       type(record_type) :: record, found
       type(hdf5_type) :: file
       character(len=:), allocatable :: path
+      integer :: sizes(3)
       integer :: i, k
       path = scratch_path('record.h5')
       call file%create(path)
@@ -224,9 +225,9 @@ contains
          call write_record(record, file, .false.)
          call expect(.not. allocated(file%failure), 'written with another size')
       end do
-      call expect(file%list_size('checkpoint/state') == 5, 'the last size')
-      call expect(file%list_size('revolution') == 5, 'of a scale')
-      call expect(file%list_size('by_revolution/lowest_y') == 5, 'and of what is over it')
+      sizes = [file%list_size('checkpoint/state'), file%list_size('revolution'), &
+         & file%list_size('by_revolution/lowest_y')]
+      call expect(all(sizes == 5), 'the last size')
       call record%delete('checkpoint')
       call write_record(record, file, .false.)
       call expect(.not. file%has('checkpoint'), 'what was deleted is not in the file')

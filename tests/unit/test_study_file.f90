@@ -2,13 +2,15 @@
 !> and joined studies; what is refused. And the record of a run, read back from its file.
 program test_study_file
    use, intrinsic :: iso_c_binding, only: c_int, c_long
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, system_error
    use files, only: delete_file
+   use processes, only: new_process, end_child, exit_status, process_id, stop_process, ended, pause_seconds
    use record, only: record_type
    use record_file, only: write_record
+   use record_message, only: numbers, take_numbers
    use record_reader, only: read_record
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type
@@ -17,7 +19,7 @@ program test_study_file
    use parameter_study, only: study_type, study_from_text
    use study_file, only: study_file_type
    use study_marks, only: missing_runs
-   use scratch, only: scratch_path, file_there, write_bytes, bytes_of
+   use scratch, only: scratch_path, for_shell, file_there, write_bytes, bytes_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
    !> Runs of the study of most cases; each has other labels than the last.
@@ -54,6 +56,7 @@ program test_study_file
    if (runs('names_of_parameters')) call names_of_parameters()
    if (runs('continued')) call continued()
    if (runs('checkpoints')) call checkpoints()
+   if (runs('read_meanwhile')) call read_meanwhile()
    if (runs('grown')) call grown()
    if (runs('other_studies')) call other_studies()
    if (runs('joined')) call joined()
@@ -407,6 +410,8 @@ contains
       call begin(table, path, study)
       call make_record(1, record)
       call table%add(1, 2, 'the film closes'//char(255)//newline, record, 1)
+      ! of another process come numbers for all, which are none where a run has not what one before it had
+      call take_numbers(record, spread(ieee_value(1.0_wp, ieee_quiet_nan), 1, size(numbers(record))))
       call table%add(2, 3, '', record, 1)
       call expect(table%has_row(1) .and. .not. table%has_row(2) .and. .not. table%has_row(3), 'runs that are to be run')
       call expect(table%status(1) == 2 .and. table%status(2) == 3 .and. table%status(3) == -2, 'status')
@@ -553,6 +558,63 @@ contains
       call table%abandon()
       call clear()
    end subroutine checkpoints
+
+   !> Anybody can read what was published, though children have the file open that it was; a child that lets it go has
+   !> it no more, and changes nothing.
+   subroutine read_meanwhile()
+      type(study_type) :: study
+      type(study_file_type) :: table
+      type(record_type) :: records(2)
+      type(error_type), allocatable :: error
+      type(hdf5_type) :: file
+      character(len=:), allocatable :: how
+      integer :: child, i
+      logical :: over
+      call make_study(4, study)
+      call begin(table, path, study)
+      do i = 1, 2
+         child = new_process()
+         if (child == 0) then
+            call pause_seconds(1000)
+            call end_child(0)
+         end if
+         call add(table, [i], records)
+         call table%checkpoint(error)
+         call expect_no_error(error, 'a checkpoint')
+         call expect(open_files(child) == 1, 'the child has the file')
+         call file%open(path, writing=.false.)
+         call expect(.not. allocated(file%failure), 'it can be read')
+         call file%close()
+         call stop_process(child)
+         over = ended(child, .true., how)
+      end do
+      call add(table, [4], records)
+      child = new_process()
+      if (child == 0) then
+         call table%let_go()
+         ! none is open
+         call table%let_go()
+         call end_child(open_files(process_id()))
+      end if
+      call expect(exit_status(child) == 0, 'the child has no file open')
+      call add(table, [3], records)
+      call table%finish(error)
+      call expect_no_error(error, 'finish')
+      call write_study(other, 4, [1, 2, 3, 4])
+      call expect_same(path, other, 'after a child')
+      call clear()
+   end subroutine read_meanwhile
+
+   !> How many files of these tests a process has open, but for the lock.
+   integer function open_files(process) result(count)
+      integer, intent(in) :: process
+      integer :: unit
+      call execute_command_line('ls -l /proc/'//to_text(process)//'/fd | grep "'//path(index(path, '/', back=.true.) &
+         & + 1:)//'" | grep -vc lock >'//for_shell(other))
+      open (newunit=unit, file=other, action='read')
+      read (unit, *) count
+      close (unit)
+   end function open_files
 
    !> A study that has got more runs keeps its rows.
    subroutine grown()

@@ -161,6 +161,11 @@ def chosen_pivot(source: Run | Study, pivot: str | None) -> tuple[str, int]:
         )
     if ("coefficients" if isinstance(source, Run) else "stiffness") not in source:
         raise NotInRunError(source.without("coefficients"))
+    return place_of_pivot(source, pivot)
+
+
+def place_of_pivot(source: Run | Study, pivot: str | None) -> tuple[str, int]:
+    """The same of any result that has values for each of the pivots."""
     there = [str(each) for each in source["pivot"]]
     if pivot is None:
         return there[0], 0

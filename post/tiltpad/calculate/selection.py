@@ -1,5 +1,6 @@
 """Runs of a study by the values of their parameters."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -11,6 +12,12 @@ from tiltpad.files.study import Study
 
 #: The parameter over which results are drawn where runs differ in it.
 SPEED = "speed_rpm"
+
+
+#: Most values of a parameter in a message.
+MOST_WORDS = 50
+#: A sample has a parameter of more values than this, and this many times fewer runs than combinations.
+LEVELS, COMBINATIONS = 10, 4
 
 
 class ArgumentError(ValueError):
@@ -33,7 +40,15 @@ class ArgumentError(ValueError):
 
 
 def selected(study: Study, where: Mapping[str, Any]) -> np.ndarray:
-    """True for the runs with the given values of parameters, (run,)."""
+    """True for the runs with the given values of parameters that have been run, (run,)."""
+    chosen = matching(study, where) & ~study.pending
+    if not chosen.any():
+        raise ValueError(f"{study.path}: none of these runs has been run yet")
+    return chosen
+
+
+def matching(study: Study, where: Mapping[str, Any]) -> np.ndarray:
+    """True for the runs with the given values of parameters, also those not run yet, (run,)."""
     chosen = np.ones(study.length("run"), dtype=bool)
     for name, value in where.items():
         needs(name, study.parameters, "where", "a parameter")
@@ -46,12 +61,19 @@ def selected(study: Study, where: Mapping[str, Any]) -> np.ndarray:
         else:
             here = np.array([spelled(value) in (spelled(each), spelled(written(each))) for each in values])
         if not here.any():
-            there = ", ".join(each if isinstance(each, str) else f"{each:g}" for each in distinct(values))
-            raise ValueError(f"{study.path}: no run with {name} = {value}: there are {there}")
+            raise ValueError(f"{study.path}: no run with {name} = {value}: there are {in_words(values)}")
         chosen &= here
     if not chosen.any():
         raise ValueError(f"{study.path}: no run with all of these values")
     return chosen
+
+
+def in_words(values: np.ndarray) -> str:
+    """The different values of a parameter; of many the first and the last."""
+    texts = [each if isinstance(each, str) else f"{each:g}" for each in distinct(values)]
+    if len(texts) > MOST_WORDS:
+        return f"{texts[0]} ... {texts[-1]}, {len(texts)} values"
+    return ", ".join(texts)
 
 
 def default_over(study: Study, several: Sequence[str], chosen: np.ndarray) -> str:
@@ -65,7 +87,19 @@ def default_over(study: Study, several: Sequence[str], chosen: np.ndarray) -> st
 
 def varying(study: Study, chosen: np.ndarray) -> list[str]:
     """The parameters in which the chosen runs differ."""
-    return [name for name in study.parameters if len(distinct(study[name][chosen])) > 1]
+    return [name for name in study.parameters if differ(study[name][chosen])]
+
+
+def differ(values: np.ndarray) -> bool:
+    """True for more than one value; nan and empty texts are none."""
+    known = values[values != ""] if values.dtype.kind == "O" else values[np.isfinite(values)]
+    return bool(len(known) and (known != known[0]).any())
+
+
+def sampled(study: Study, chosen: np.ndarray) -> bool:
+    """True for runs that are a sample of their parameters, and no grid of values or a row of them."""
+    counts = [len(distinct(study[name][chosen])) for name in study.parameters]
+    return max(counts, default=0) > LEVELS and math.prod(counts) > COMBINATIONS * chosen.sum()
 
 
 def axis_of(study: Study, over: str | None, chosen: np.ndarray) -> str:

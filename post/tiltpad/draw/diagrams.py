@@ -12,29 +12,32 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from tiltpad.calculate import selection
-from tiltpad.calculate.coefficients import chosen_pivot
-from tiltpad.draw.layout import DENSE, dots, part_color
+from tiltpad.calculate.results import DEFAULTS, Result, result
+from tiltpad.calculate.sensitivity import some
+from tiltpad.draw.layout import DENSE, cloud, dots, part_color
 from tiltpad.draw.plots import on_axes
 from tiltpad.files import units
-from tiltpad.files.study import PIVOTS, POINTS, Study
-from tiltpad.files.units import Shown, described, literal
+from tiltpad.files.study import POINTS, Study
+from tiltpad.files.units import Shown, literal
 
 #: Kinds of diagrams.
-KINDS = ("lines", "map", "bifurcation")
-#: Results that are drawn where none is asked for.
-DEFAULTS = ("orbit_size", "least_damping_ratio", "equilibrium_min_film_thickness")
+KINDS = ("lines", "map", "bifurcation", "points")
 #: Maximum number of lines in one diagram.
 MOST_LINES = 10
 #: Up to this number of values of a second parameter there is a line for each, beyond it a map.
 LINES_UP_TO = 6
-#: Values of the runs, and the unit in which they are shown.
-Result = tuple[np.ndarray, Shown]
 #: An axis is logarithmic if its values rise by equal factors, over this ratio at least.
 LOG_FROM = 9.9
+#: Most points of a sample, and most marks of runs that were not done, across a panel and at its edge.
+MOST_POINTS, MOST_MARKS, EDGE = 20000, 300, 150
 #: Characters on a line of the vertical axis' label.
 LABEL = 38
 #: A run that was not done: in a cell of a map, and over an axis.
 FAILED = {"linestyle": "", "marker": "x", "color": "0.4", "markersize": 5, "zorder": 4}
+AT_EDGE = {
+    **{"linestyle": "", "marker": "|", "color": "C1", "markersize": 5, "markeredgewidth": 0.7},
+    "rasterized": True,
+}
 NOT_DONE = {"linestyle": (0, (1, 2)), "color": "0.5", "linewidth": 1.2, "zorder": 0.5, "gid": "not done"}
 
 
@@ -49,7 +52,7 @@ def diagram(
     pad: int | None = None,
     pivot: str | None = None,
 ) -> Axes:
-    """A result of the runs over a parameter: lines, a map over two of them, or a bifurcation diagram.
+    """A result of the runs over a parameter: lines, a map over two of them, a bifurcation diagram, or points.
 
     `show` is a result, by default the first of DEFAULTS that the study has (poincare_y for a bifurcation
     diagram); with `pad` (1, 2, ...) it is a result of the pads; `pivot` chooses of which pivots results of
@@ -64,28 +67,17 @@ def diagram(
     others = [name for name in several if name != over]
     kind = kind or default_kind(study, show, over, others, chosen)
     selection.needs(kind, KINDS, "kind", "a kind of diagram")
-    draw = {"lines": lines, "map": field, "bifurcation": bifurcation}[kind]
+    draw = {"lines": lines, "map": field, "bifurcation": bifurcation, "points": points}[kind]
     revolutions = draw is bifurcation
     if show is None:
         first = next((name for name in DEFAULTS if name in study), DEFAULTS[0])
         show = "poincare_y" if revolutions else first
-    if show in study and study.scales(show) == PIVOTS:
-        shown = of_pivot(study, show, pivot)
-    else:
-        shown = result(study, show, revolutions, pad)
-    return draw(study, ax, shown, over, others, chosen)
-
-
-def of_pivot(study: Study, name: str, pivot: str | None) -> Result:
-    """A result of pivots, (run,): of the ones that are asked for, or of the first."""
-    own, k = chosen_pivot(study, pivot)
-    shown = described(study, name)
-    return study[name][:, k], shown._replace(text=f"{shown.text}, pivots {literal(own)}")
+    return draw(study, ax, result(study, show, pad, pivot, revolutions), over, others, chosen)
 
 
 def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray) -> Axes:
     """A line for every combination of the other parameters; a dotted line across where a run failed."""
-    values, shown = show
+    values, shown = show[:2]
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
     too_many(groups, others)
@@ -113,26 +105,23 @@ def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
             f"{study.path}: a map needs two parameters that are numbers: {parameters_in_words(study)}"
         )
     second = max(numeric, key=lambda name: len(selection.distinct(study[name][chosen])))
-    values, shown = show
+    values, shown = show[:2]
     (at, x), (beside, y) = (axis(study, name, ax, which) for name, which in ((over, "x"), (second, "y")))
     columns, rows = (np.unique(each[chosen & np.isfinite(each)]) for each in (x, y))
     table = np.full((len(rows), len(columns)), np.nan)
-    taken = np.zeros(table.shape, dtype=bool)
-    for k in np.flatnonzero(chosen & np.isfinite(x) & np.isfinite(y)):
-        cell = np.searchsorted(rows, y[k]), np.searchsorted(columns, x[k])
-        if taken[cell]:
-            rest = ", ".join(name for name in others if name != second) or "nothing"
-            raise selection.ArgumentError(
-                "{path}: a map has one run in each cell, here are several that differ in {rest}: "
-                "choose by {where}",
-                path=study.path,
-                rest=rest,
-            )
-        taken[cell] = True
-        if study.done[k]:
-            table[cell] = shown.factor * values[k]
-        else:
-            ax.plot(x[k], y[k], **FAILED)
+    placed = chosen & np.isfinite(x) & np.isfinite(y)
+    cells = np.searchsorted(rows, y[placed]), np.searchsorted(columns, x[placed])
+    if len(np.unique(np.ravel_multi_index(cells, table.shape))) < placed.sum():
+        rest = ", ".join(name for name in others if name != second) or "nothing"
+        raise selection.ArgumentError(
+            "{path}: a map has one run in each cell, here are several that differ in {rest}: "
+            "choose by {where}",
+            path=study.path,
+            rest=rest,
+        )
+    done = study.done[placed]
+    table[cells] = np.where(done, shown.factor * values[placed], np.nan)
+    ax.plot(x[placed][~done], y[placed][~done], **FAILED)
     if not np.isfinite(table).any():
         raise ValueError(f"{study.path}: no finite {shown.label} to draw")
     image = ax.pcolormesh(
@@ -148,11 +137,26 @@ def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
     return ax
 
 
+def points(
+    study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray
+) -> Axes:
+    """A point for each run of a sample, whatever the other parameters; those that failed along the edge."""
+    values, shown = show[:2]
+    at, place = axis(study, over, ax, "x")
+    drawn = some(np.flatnonzero(chosen & study.done), MOST_POINTS)
+    failed = some(np.flatnonzero(chosen & study.failed), EDGE)
+    ax.plot(place[drawn], shown.factor * values[drawn], **cloud(len(drawn)))
+    ax.plot(place[failed], np.zeros(len(failed)), transform=ax.get_xaxis_transform(), **AT_EDGE)
+    ax.set(xlabel=at.label, ylabel=fill(shown.label, LABEL))
+    explain(study, ax, (), chosen, AT_EDGE)
+    return ax
+
+
 def bifurcation(
     study: Study, ax: Axes, show: Result, over: str, others: Sequence[str], chosen: np.ndarray
 ) -> Axes:
     """A state once a revolution over a parameter: one point if the motion repeats every revolution."""
-    values, shown = show
+    values, shown = show[:2]
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
     too_many(groups, others)
@@ -176,41 +180,14 @@ def bifurcation(
 
 
 def default_kind(study: Study, show: str | None, over: str, others: Sequence[str], chosen: np.ndarray) -> str:
-    """A bifurcation diagram for Poincare points, a map over two numbers of many values, otherwise lines."""
+    """A bifurcation diagram for Poincare points, points of a sample, a map over two numbers, else lines."""
     if show in POINTS:
         return "bifurcation"
+    if selection.sampled(study, chosen):
+        return "points"
     if len(others) == 1 and selection.is_number(study, over) and selection.is_number(study, others[0]):
         return "map" if len(selection.distinct(study[others[0]][chosen])) > LINES_UP_TO else "lines"
     return "lines"
-
-
-def result(study: Study, name: str, revolutions: bool, pad: int | None) -> Result:
-    """A result, (run,) or with `revolutions` (run, revolution); with `pad` that of a pad."""
-    if name in (*DEFAULTS, *POINTS) and name not in study:
-        raise ValueError(f"{study.path}: no {name} in this study: no run has it")
-    results = [
-        each
-        for each in study.names()
-        if each not in ("run", "file", "reason", *study.parameters) and study.about(each, "units")
-    ]
-    wanted = ("run", *(["revolution"] if revolutions else []), *(["pad"] if pad is not None else []))
-    if not all(each in study for each in wanted):
-        raise ValueError(f"{study.path}: no Poincare points in this study: no run has them")
-    what = f"{'Poincare points' if revolutions else 'a result'}{' of a pad' if pad is not None else ''}"
-    has = study.scales(name) if name in results else ()
-    if "pad" in has and pad is None:
-        raise selection.ArgumentError("{show}: {own} has a value for each pad: choose one by {pad}", own=name)
-    if "revolution" in has and not revolutions:
-        raise selection.ArgumentError("{show}: {own} is once a revolution: {kind} bifurcation", own=name)
-    selection.needs(name, [each for each in results if study.scales(each) == wanted], "show", what)
-    values, shown = study[name], described(study, name, POINTS.get(name, name.removeprefix("pad_")))
-    if pad is None:
-        return values, shown
-    if not 1 <= pad <= (last := study.length("pad")):
-        raise selection.ArgumentError(
-            "{pad} {own}: must be 1 to {last}, the pads of this study", own=pad, last=last
-        )
-    return values[..., pad - 1], shown._replace(text=f"{shown.text}, pad {pad}")
 
 
 def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarray]:
@@ -251,8 +228,8 @@ def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tup
     for k in np.flatnonzero(chosen):
         if all(value == value and value != "" for value in keys[k]):
             found.setdefault(keys[k], []).append(int(k))
-    rank = {name: selection.distinct(study[name]) for name in others}
-    keys = sorted(found, key=lambda key: [rank[name].index(v) for name, v in zip(others, key, strict=True)])
+    rank = {name: {v: k for k, v in enumerate(selection.distinct(study[name]))} for name in others}
+    keys = sorted(found, key=lambda key: [rank[name][v] for name, v in zip(others, key, strict=True)])
     return [(", ".join(map(selection.written, key)), np.array(found[key])) for key in keys]
 
 
@@ -269,7 +246,7 @@ def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) ->
 def mark_failed(ax: Axes, place: np.ndarray, color: str | None) -> None:
     """Lines across the axes, which no one takes for points."""
     style = NOT_DONE if color is None else NOT_DONE | {"color": color}
-    for at in place[np.isfinite(place)]:
+    for at in some(place[np.isfinite(place)], MOST_MARKS):
         ax.axvline(at, **style)
 
 

@@ -18,6 +18,7 @@ from tiltpad.draw.branches import branch, multipliers, response
 from tiltpad.draw.films import film, pressure
 from tiltpad.draw.orbits import equilibrium, orbit
 from tiltpad.draw.runups import orders, runup, size, waterfall
+from tiltpad.draw.samples import distribution, scatter, tornado
 from tiltpad.draw.vibrations import campbell, coefficients, stability
 from tiltpad.draw.warm import temperatures
 from tiltpad.files.read import Run
@@ -207,5 +208,6 @@ FIGURES = {
         *(orbit, equilibrium, size, poincare, waveform, multipliers, spectrum),
         *(hysteresis, friction, sticking, runup, orders, waterfall, pressure, film),
         *(coefficients, stability, campbell, response, branch, temperatures),
+        *(tornado, distribution, scatter),
     )
 }

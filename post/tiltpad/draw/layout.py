@@ -31,6 +31,8 @@ DASHES = (
 )
 #: From this number of points on, a line has no marks.
 DENSE = 60
+#: From this number of runs on, their points are small.
+CLOUD = 500
 #: More runs or parts than this have colours along a scale.
 FEW = 7
 SCALE = "viridis"
@@ -38,6 +40,8 @@ SCALE = "viridis"
 SHORTEST_AXIS = 2e-4
 #: A picture file has this number of remarks under it; the report has all.
 MOST_REMARKS = 3
+#: Of more runs of a study that were not done, a picture has only the number.
+FEW_FAILURES = 20
 
 
 class Several(list):
@@ -85,14 +89,25 @@ def of_several(draw: Callable[..., Figure]) -> Callable[..., Figure]:
 def remark_unfinished(fig: Figure, source: Run | Study, name: str = "") -> None:
     """Says below the picture that a run did not come to its end, or which runs of a study, and why."""
     if isinstance(source, Run):
-        said = [] if source.complete else [f"incomplete{source.end()}"]
+        said, failed = ([] if source.complete else [f"incomplete{source.end()}"]), 0
     else:
+        failed, pending = int(source.failed.sum()), int(source.pending.sum())
         # where the reason stands comes first, its numbers are in the report
-        said = [textwrap.shorten(str(each), 3 * width(fig), placeholder=" ...") for each in source.failures()]
-    for text in said[:MOST_REMARKS]:
+        first = source.failures(MOST_REMARKS) if failed <= FEW_FAILURES else []
+        said = [textwrap.shorten(str(each), 3 * width(fig), placeholder=" ...") for each in first]
+        if pending:
+            remark(fig, f"{name}: " * bool(name) + f"{not_run_yet(pending)}", "C1")
+    for text in said:
         remark(fig, f"{name}: {text}" if name else text, "C1")
-    if len(said) > MOST_REMARKS:
-        remark(fig, f"and {len(said) - MOST_REMARKS} more; the report of the study has all", "C1")
+    if failed > FEW_FAILURES:
+        remark(fig, f"{failed} runs were not done; the report of the study has the reasons", "C1")
+    elif failed > MOST_REMARKS:
+        remark(fig, f"and {failed - MOST_REMARKS} more; the report of the study has all", "C1")
+
+
+def not_run_yet(pending: int) -> str:
+    """That runs are still to be run, in words."""
+    return "1 run has not been run yet" if pending == 1 else f"{pending} runs have not been run yet"
 
 
 def remark(fig: Figure, text: str, color: str = "0.3") -> None:
@@ -150,6 +165,12 @@ def parts(texts: Sequence[str], runs: Sequence[Run]) -> list[tuple[str, dict[str
 def dots(points: int) -> dict[str, Any]:
     """Marks of the points of a line, unless they would hide it."""
     return {"marker": "o", "markersize": 3} if points < DENSE else {}
+
+
+def cloud(runs: int) -> dict[str, Any]:
+    """Points of this number of runs, small where they are many."""
+    size = 3.5 if runs < CLOUD else 2
+    return {"linestyle": "", "marker": ".", "markersize": size, "markeredgewidth": 0, "rasterized": True}
 
 
 def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str, Any]]], **own: Any) -> None:

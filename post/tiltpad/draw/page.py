@@ -35,6 +35,9 @@ PICTURES = {
     "coefficients": "Stiffness and damping at the journal.",
     "stability": "Damping ratio and logarithmic decrement of the modes.",
     "campbell": "Frequencies of the modes over the speed.",
+    "tornado": "What the inputs do to the result, and their shares of its variance.",
+    "distribution": "Results of the runs with their 5, 50 and 95 % percentiles.",
+    "scatter": "Results over the inputs, a point for each run.",
 }
 
 

@@ -7,20 +7,17 @@ from pathlib import Path
 
 import numpy as np
 
-from tiltpad.calculate.selection import distinct, written
+from tiltpad.calculate.results import key_results
+from tiltpad.calculate.selection import distinct, sampled, written
 from tiltpad.draw import figures
 from tiltpad.draw.diagrams import label
+from tiltpad.draw.layout import not_run_yet
 from tiltpad.draw.page import page, paragraph, picture, section, table
+from tiltpad.draw.sample_report import sample
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.study import Study
-from tiltpad.files.units import described, digits
+from tiltpad.files.units import digits
 
-#: Results of the table and of the curves, those that the study has.
-KEYS = (
-    *("orbit_size", "min_film_thickness", "max_pressure", "friction_work", "stick_fraction"),
-    *("equilibrium_eccentricity_ratio", "equilibrium_min_film_thickness", "equilibrium_max_pressure"),
-    *("equilibrium_total_power_loss", "least_damping_ratio", "threshold_rpm"),
-)
 #: Columns of the table, and its rows.
 COLUMNS, ROWS = 6, 300
 #: Pictures of whole studies.
@@ -32,11 +29,12 @@ def study_report(study: Study) -> str:
     title = study.title or Path(study.path).stem
     by = study.attributes
     origin = f"{Path(study.path).name}: {by['program']} {by['version']}, {by['created']}"
+    whole = np.ones(len(study.done), dtype=bool)
     parts = [
         f"<p class=origin>{escape(origin)}</p>",
         summary(study),
+        *(sample(study) if sampled(study, whole) else [section("Curves", "".join(curves(study)))]),
         section("Runs that were not done", failures(study)),
-        section("Curves", "".join(curves(study))),
         section("Runs", runs(study)),
         section("Input of the first run", f"<pre>{escape(by.get('input', '').strip())}</pre>"),
     ]
@@ -45,9 +43,9 @@ def study_report(study: Study) -> str:
 
 def summary(study: Study) -> str:
     """How many runs there are and were done, and what they differ in."""
-    count, done = len(study.done), int(study.done.sum())
+    count, done, pending = len(study.done), int(study.done.sum()), int(study.pending.sum())
     missing = study.attributes.get("missing", "")
-    text = f"{count} runs, {done} of them done."
+    text = f"{count} runs, {done} of them done." + f" {not_run_yet(pending)}.".capitalize() * (pending > 0)
     for name in study.parameters:
         values = distinct(study[name])
         if values:
@@ -62,9 +60,14 @@ def failures(study: Study) -> str:
     """A row for each run that was not done, with the recorded reason."""
     rows = [
         (f"{each.run}", *(written(value) for value in each.values.values()), each.how, each.reason)
-        for each in study.failures()[:ROWS]
+        for each in study.failures(ROWS)
     ]
-    return table(("run", *named(study), "end", "reason"), rows, words=True)
+    return table(("run", *named(study), "end", "reason"), rows, words=True) + more(int(study.failed.sum()))
+
+
+def more(rows: int) -> str:
+    """That a table has not all of these rows."""
+    return paragraph(f"and {rows - ROWS} more, in the file." if rows > ROWS else "")
 
 
 def named(study: Study) -> list[str]:
@@ -74,38 +77,33 @@ def named(study: Study) -> list[str]:
 
 def runs(study: Study) -> str:
     """Parameters and key results of every run."""
-    keys = [name for name in KEYS if name in study and np.isfinite(values(study, name)).any()][:COLUMNS]
-    shown = [described(study, name) for name in keys]
-    columns = [values(study, name) for name in keys]
+    keys = key_results(study)[:COLUMNS]
+    first = slice(0, ROWS)
+    parameters = [study.values(name, first) for name in study.parameters]
+    ends = {True: "yes", False: "no"}
     rows = [
         (
-            f"{study.run[k]}",
-            *(written(study[name][k]) for name in study.parameters),
-            "yes" if study.done[k] else "no",
-            *(digits(own.factor * column[k]) for own, column in zip(shown, columns, strict=True)),
+            f"{number}",
+            *map(written, own),
+            ends[bool(done)],
+            *(digits(key.shown.factor * key.values[k]) for key in keys),
         )
-        for k in range(min(len(study.done), ROWS))
+        for k, (number, done, *own) in enumerate(
+            zip(study.values("run", first), study.done[first], *parameters, strict=True)
+        )
     ]
-    rest = len(study.done) - ROWS
-    heads = ("run", *named(study), "done", *(each.label for each in shown))
-    return table(heads, rows) + paragraph(f"and {rest} more, in the file." if rest > 0 else "")
-
-
-def values(study: Study, name: str) -> np.ndarray:
-    """A result of each run; of pivots, of the first ones."""
-    found = study[name]
-    return found if found.ndim == 1 else found[:, 0]
+    heads = ("run", *named(study), "done", *(key.shown.label for key in keys))
+    return table(heads, rows) + more(len(study.done))
 
 
 def curves(study: Study) -> Iterator[str]:
     """The key results over the parameters, and the pictures that only some studies have."""
-    for name in KEYS:
-        if name in study and study.parameters and np.isfinite(values(study, name)).any():
-            try:
-                caption = f"{described(study, name).text.replace('$', '')}.".capitalize()
-                yield picture(name, partial(figures.study, study, name), caption, remarks=False)
-            except ValueError:
-                continue
+    for each in key_results(study) if study.parameters else []:
+        try:
+            caption = f"{each.shown.text.replace('$', '')}.".capitalize()
+            yield picture(each.name, partial(figures.study, study, each.name), caption, remarks=False)
+        except ValueError:
+            continue
     for name in PICTURES:
         try:
             yield picture(name, partial(figures.FIGURES[name], [study]), remarks=False)

@@ -276,7 +276,9 @@ def parts(
     if not found:
         raise NotInRunError(f"{sources[0].path}: no run in this study whose parameters are known")
     if len(found) > MOST:
-        raise ValueError(f"{len(found)} kinds of lines are more than {MOST}: choose by where")
+        raise ValueError(
+            f"{len(found)} kinds of lines are more than {MOST}: choose by where; a sample is drawn by scatter"
+        )
     return found
 
 

@@ -65,7 +65,8 @@ class Archive:
         "asperities",
         "oil",
         "periodic",
-        "summary", "by_revolution",
+        "summary",
+        "by_revolution",
     )
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"

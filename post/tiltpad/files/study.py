@@ -41,13 +41,14 @@ class Failure(NamedTuple):
         return f"run {self.run}{f' ({own})' if own else ''} {self.how}{why}"
 
 
-#: How a run ended, by its status.
+#: How a run ended, by its status, and the status of one that is still to be run.
+PENDING = -2
 ENDS = {
     2: "failed in its numerics",
     3: "failed at a file or the system",
     4: "was stopped",
     -1: "has not ended",
-    -2: "has not been run",
+    PENDING: "has not been run yet",
 }
 
 
@@ -112,17 +113,33 @@ class Study(Archive):
         """True for the runs that were done, (run,)."""
         return self.status == 0
 
-    def failures(self) -> list[Failure]:
-        """The runs that were not done, with their recorded reasons."""
-        reasons = self.reason if "reason" in self else np.full(len(self.done), "", dtype=object)
+    @property
+    def pending(self) -> np.ndarray:
+        """True for the runs that have not been run yet, (run,)."""
+        return self.status == PENDING
+
+    @property
+    def failed(self) -> np.ndarray:
+        """True for the runs that were run and not done, (run,)."""
+        return ~self.done & ~self.pending
+
+    def failures(self, most: int | None = None) -> list[Failure]:
+        """The runs that were run and not done, with their recorded reasons; the first `most` of them."""
+        status, failed = self.status, np.flatnonzero(self.failed)[:most]
+        if not len(failed):
+            return []
+        parameters = {name: self[name][failed] for name in self.parameters}
+        reasons = self.reason[failed] if "reason" in self else [""] * len(failed)
         return [
             Failure(
-                int(self.run[k]),
-                {name: self[name][k] for name in self.parameters},
-                ENDS.get(self.status[k], "cannot be read"),
-                reasons[k],
+                int(number),
+                {name: values[k] for name, values in parameters.items()},
+                ENDS.get(own, "cannot be read"),
+                reason,
             )
-            for k in np.flatnonzero(~self.done)
+            for k, (number, own, reason) in enumerate(
+                zip(self.run[failed], status[failed], reasons, strict=True)
+            )
         ]
 
     def result(self, run: int) -> Run:
@@ -136,10 +153,14 @@ class Study(Archive):
             raise ValueError(f"{self.path}: no run {run}; there are {self.run[0]:g} to {self.run[-1]:g}")
         name = self["file"][places[0]] if "file" in self else ""
         if not name:
-            raise RunError(f"{self.path}: run {run} has no file of its own; output%keep = 'all' keeps its samples")
+            raise RunError(
+                f"{self.path}: run {run} has no file of its own; output%keep = 'all' keeps its samples"
+            )
         # the study, or a link to it, may be beside its files
         folders = [Path(self.path).parent, Path(self.path).resolve().parent]
-        return read(next((folder / name for folder in folders if (folder / name).exists()), folders[0] / name))
+        return read(
+            next((folder / name for folder in folders if (folder / name).exists()), folders[0] / name)
+        )
 
     def check_whole(self) -> None:
         """Refuses the result of one run, and a study without its parameters."""
@@ -159,7 +180,7 @@ class Study(Archive):
     def sound(self, name: str, values: Any) -> Any:
         if np.asarray(values).dtype.kind != "O":
             return values
-        texts = [plain(each) for each in np.atleast_1d(values)]
+        texts = [plain(each) if each else "" for each in np.atleast_1d(values)]
         if not all(isinstance(each, str) for each in texts):
             raise ValueError("not an array of texts")
         return np.array(texts, dtype=object).reshape(np.shape(values))

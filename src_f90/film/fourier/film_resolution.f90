@@ -80,7 +80,7 @@ contains
          self%more_modes = (usual_error/tolerance)**(1.0_wp/3)
       end if
       if (self%floods .or. .not. self%follows) then
-         self%modes = count([(((2*k - 1)*pi/(aspect(gap)*cells))**2/12 <= stiffest_mode, k=1, modes)])
+         self%modes = count([((2*k - 1)*pi <= sqrt(12*stiffest_mode)*aspect(gap)*cells, k=1, modes)])
       end if
    end function new_resolution
 

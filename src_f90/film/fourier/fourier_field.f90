@@ -144,8 +144,9 @@ contains
       associate (n => pad%n, h => pad%h, gap => pad%gap)
          ! how fast a layer falls as the film becomes thicker
          falling = 1.5_wp*(pad%e(2)*pad%sine(n) - pad%e(1)*pad%cosine(n))/h(n)
+         ! a film half as thick as long has no layer at its edge
          flows(1) = pad%radius*4/pi &
-            & *log(1/tan(pi*h(n)*gap%machined_clearance/(2*gap%axial_length))) - gap%axial_length*falling
+            & *log(1/tan(min(pi/4, pi*h(n)*gap%machined_clearance/(2*gap%axial_length)))) - gap%axial_length*falling
          flows(2) = 0
          do b = 1, pad%axial%blocks
             leading = slope(pad%q(:, n, b), pad%q(:, n - 1, b), pad%q(:, n - 2, b), pad%a(:, n, b), &

@@ -1,0 +1,89 @@
+"""Results of a study by name: a value of each run, and how it is shown."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tiltpad.calculate.coefficients import place_of_pivot
+from tiltpad.calculate.selection import ArgumentError, needs
+from tiltpad.files.study import PIVOTS, POINTS, Study
+from tiltpad.files.units import Shown, described, literal
+
+#: Results that are drawn where none is asked for.
+DEFAULTS = ("orbit_size", "least_damping_ratio", "equilibrium_min_film_thickness")
+#: Key results of a study, of which it has some.
+KEYS = (
+    *("orbit_size", "min_film_thickness", "max_pressure", "friction_work", "stick_fraction"),
+    *("equilibrium_eccentricity_ratio", "equilibrium_min_film_thickness", "equilibrium_max_pressure"),
+    *("equilibrium_maximum_temperature", "equilibrium_total_power_loss"),
+    *("least_damping_ratio", "threshold_rpm"),
+)
+
+
+class Result(NamedTuple):
+    """A result: values of the runs, (run,) or (run, revolution), how they are shown, dataset, its pivots."""
+
+    values: np.ndarray
+    shown: Shown
+    name: str
+    pivot: str | None = None
+
+
+def result(
+    study: Study,
+    name: str,
+    pad: int | None = None,
+    pivot: str | None = None,
+    revolutions: bool = False,
+) -> Result:
+    """A result, (run,) or with `revolutions` (run, revolution); with `pad` (1, 2, ...) that of a pad.
+
+    One of small vibrations is of the given pivots, by default of the first. Raises ValueError where the
+    study has no such result.
+    """
+    if name in study and study.scales(name) == PIVOTS:
+        own, k = place_of_pivot(study, pivot)
+        shown = described(study, name)
+        text = f"{shown.text}, pivots {literal(own)}"
+        return Result(study[name][:, k], shown._replace(text=text), name, own)
+    if name in (*DEFAULTS, *POINTS) and name not in study:
+        raise ValueError(f"{study.path}: no {name} in this study: no run has it")
+    wanted = ("run", *(["revolution"] if revolutions else []), *(["pad"] if pad is not None else []))
+    if not all(each in study for each in wanted):
+        raise ValueError(f"{study.path}: no Poincare points in this study: no run has them")
+    has = study.scales(name) if name in study and is_result(study, name) else ()
+    if "pad" in has and pad is None:
+        raise ArgumentError("{show}: {own} has a value for each pad: choose one by {pad}", own=name)
+    if "revolution" in has and not revolutions:
+        raise ArgumentError("{show}: {own} is once a revolution: {kind} bifurcation", own=name)
+    if has != wanted:
+        what = f"{'Poincare points' if revolutions else 'a result'}{' of a pad' if pad is not None else ''}"
+        there = [each for each in study.names() if is_result(study, each) and study.scales(each) == wanted]
+        needs(name, there, "show", what)
+    shown = described(study, name, POINTS.get(name, name.removeprefix("pad_")))
+    if pad is None:
+        return Result(study[name], shown, name)
+    if not 1 <= pad <= (last := study.length("pad")):
+        raise ArgumentError("{pad} {own}: must be 1 to {last}, the pads of this study", own=pad, last=last)
+    text = f"{shown.text}, pad {pad}"
+    return Result(study[name][..., pad - 1], shown._replace(text=text), name)
+
+
+def is_result(study: Study, name: str) -> bool:
+    """True for a dataset of the runs' results, which have a unit."""
+    others = ("run", "file", "reason", *study.parameters, *study.GROUPS)
+    return name not in others and bool(study.about(name, "units"))
+
+
+def key_results(study: Study, pivot: str | None = None) -> list[Result]:
+    """The key results that runs of the study have; without `pivot` of the first pivots that have them."""
+    found = []
+    for name in KEYS:
+        if name in study:
+            several = study.scales(name) == PIVOTS and pivot is None
+            for own in [str(each) for each in study["pivot"]] if several else [pivot]:
+                one = result(study, name, pivot=own)
+                if np.isfinite(one.values).any():
+                    found.append(one)
+                    break
+    return found
