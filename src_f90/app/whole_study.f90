@@ -9,6 +9,7 @@ module whole_study
    use namelist_writer, only: namelist_of
    use files, only: is_regular
    use processes, only: processors
+   use working_file, only: clear_leftovers
    use record, only: record_type
    use study_child, only: study_runner_type
    use study_file, only: study_file_type
@@ -21,6 +22,8 @@ module whole_study
 
    !> Performs a run of a study as a run of its own, or what is left of it.
    type, extends(study_runner_type) :: case_runner_type
+      !> Whether there are runs that have files.
+      logical :: filed = .false.
       !> Where runs have files.
       character(len=:), allocatable :: folder
       integer :: runs = 0, verified_states = 0
@@ -66,8 +69,11 @@ contains
          if (.not. filed .or. wanted(k)) cycle
          if (mixed) call study%inputs(k, inputs, error)
          ! a file that is gone is made again
-         wanted(k) = inputs%output%keep /= 'summary' .and. .not. is_regular(result_path(output, k, study%runs))
+         if (inputs%output%keep == 'summary') cycle
+         wanted(k) = .not. is_regular(result_path(output, k, study%runs))
+         if (.not. wanted(k)) call clear_leftovers(result_path(output, k, study%runs))
       end do
+      runner%filed = filed
       runner%folder = output
       runner%runs = study%runs
       runner%verified_states = verified_states
@@ -128,6 +134,8 @@ contains
       class(case_runner_type), intent(in) :: self
       integer, intent(in) :: k
       character(len=:), allocatable :: name
+      name = ''
+      if (.not. self%filed) return
       name = result_path(self%folder, k, self%runs)
       if (is_regular(name)) then
          name = name(1 + index(self%folder, '/', back=.true.):)

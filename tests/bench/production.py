@@ -81,7 +81,8 @@ def runs(runner: Runner) -> Iterator[Row]:
 
 def timed(runner: Runner, folder: Path, text: str) -> float:
     """Wall seconds of a case, on all cores; a study goes on from what it has, a run starts anew."""
-    (folder / "case.h5").unlink(missing_ok=True)
+    if "&sweep" not in text:
+        (folder / "case.h5").unlink(missing_ok=True)
     (folder / "case.nml").write_text(text)
     os.sync()
     started = time.perf_counter()

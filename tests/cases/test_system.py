@@ -465,7 +465,12 @@ def test_all_that_the_program_touches(start, tiltpad, case, loaded, tmp_path):
     (case / "case.nml").write_text(f"{study}&sweep operation%speed_rpm=4000,5000 /\n")
     (case / "case.h5").unlink()
     tiltpad("case.nml", "-q", cwd=case, env=environment, status=0)
-    own = {f"{what} {file}.h5.{side}" for what in "wd" for side in ("part", "lock") for file in ("case", "case/N")}
+    own = {
+        f"{what} {file}.h5.{side}"
+        for what in "wd"
+        for side in ("part", "lock")
+        for file in ("case", "case/N")
+    }
     own -= {"d case.h5.part", "d case/N.h5.part"}
     found = touched(log, case)
     assert {line for line in found if line[0] != "r"} == own | {

@@ -1,5 +1,6 @@
 """Judges what a fault left, and what the next command made of it."""
 
+import re
 import signal
 from contextlib import suppress
 from pathlib import Path
@@ -14,6 +15,12 @@ from injector import Fault
 RESUMED = 1e-2
 #: Groups of a result that two runs of one case need not have in common.
 OWN_GROUPS = ("statistics",)
+#: Such columns of a study.
+OWN_COLUMNS = re.compile(
+    r".*_seconds|steps|resumes|.*_evaluations|.*_failures|film_(cells|fourier|nodes|passes|profiles|table|volumes)"
+)
+#: Statuses of rows that a study has not yet, or that are to be run again.
+NOT_RUN = (-2, 3)
 #: What h5py raises.
 UNREADABLE = (OSError, KeyError, RuntimeError)
 #: Of files that are more than parts and locks.
@@ -26,11 +33,13 @@ class Result:
     def __init__(self, path: Path):
         self.values: dict[str, np.ndarray] = {}
         with h5py.File(path) as file:
-            self.complete = bool(file.attrs.get("complete", 1))
+            self.complete = bool(file.attrs.get("complete", file.attrs.get("finished", 1)))
             file.visititems(self.note)
+        self.complete &= not np.isin(self.values.get("status", 0), NOT_RUN).any()
 
     def note(self, name: str, each: h5py.Dataset | h5py.Group) -> None:
-        if isinstance(each, h5py.Dataset) and name.partition("/")[0] not in OWN_GROUPS:
+        own = name.partition("/")[0] in OWN_GROUPS or OWN_COLUMNS.fullmatch(name)
+        if isinstance(each, h5py.Dataset) and not own:
             self.values[name] = each[()]
 
     def differences(self, other: "Result", exact: int | None = None) -> list[str]:
@@ -45,12 +54,18 @@ class Result:
         return found
 
     def beginning(self, whole: "Result") -> list[str]:
-        """Arrays of a checkpoint that are not the beginning of those of the whole result."""
+        """Arrays of a checkpoint that are not the beginning of the whole result's; of a study its rows."""
         found = []
+        status = self.values.get("status", np.zeros(0))
         for name, values in self.values.items():
             expected = whole.values.get(name)
             series = "/" not in name and expected is not None and values.ndim
-            if series and not same(values, expected[: len(values)], None):
+            there = (
+                ~np.isin(status, NOT_RUN)
+                if len(status) and series and len(values) == len(status)
+                else slice(None)
+            )
+            if series and not same(values[there], expected[: len(values)][there], None):
                 found.append(name)
         return found
 
@@ -180,7 +195,9 @@ def after_next(
             found += [f"{path}: another page"] * ((folder / path).read_bytes() != content)
             continue
         result = Result(folder / path)
-        wrong = result.differences(undisturbed.results[path], kept.get(path) if command.marches else None)
+        # the rows of a study may be those of marches that went on
+        samples = 0 if "status" in result.values else kept.get(path)
+        wrong = result.differences(undisturbed.results[path], samples if command.marches else None)
         found += [f"{path}: other values: {wrong[:3]}"] * bool(wrong)
         found += [f"{path}: incomplete"] * (not result.complete)
     return found

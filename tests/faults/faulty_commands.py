@@ -27,6 +27,7 @@ CASES = {
     "branch": "&case task='branch' / &output checkpoint_seconds=1e-9 /\n"
     "&branch of='equilibrium', parameter='rotor%mass', last=2150, step=100, max_step=100 /\n",
     "study": MARCH + "&sweep operation%speed_rpm=4000,5000,6000,7000 /\n",
+    "rows": "&case task='equilibrium' /\n&sweep operation%speed_rpm=4000:7000:10 /\n",
 }
 #: Files from which on tiltpad-collect has workers, at two processors.
 MANY = 200
@@ -82,7 +83,7 @@ def going_on(case: str) -> tuple[str, ...]:
 
 EQUILIBRIUM = (run_of("march", "--set", "case%task=equilibrium", "--output", "equilibrium.h5"), None)
 COLLECT, REPORT, PLOT = "tiltpad-collect", "tiltpad-report", "tiltpad-plot"
-PART_OF_STUDY = (COLLECT, "study/0001.h5", "study/0002.h5", "-o", "study.h5")
+PART_OF_STUDY = (COLLECT, "study/0001.h5", "study/0002.h5", "-o", "collected.h5")
 COMMANDS = (
     Command("march", run_of("march"), ("march.h5",), then=going_on("march"), marches=True),
     Command(
@@ -97,9 +98,10 @@ COMMANDS = (
         Command(task, run_of(task), (f"{task}.h5",), task, then=going_on(task))
         for task in ("branch", "periodic", "coefficients")
     ),
-    Command("study", run_of("study", "--jobs", "2"), ("study/*.h5",), "study", marches=True),
+    Command("study", run_of("study", "--jobs", "2"), ("study.h5", "study/*.h5"), "study", marches=True),
+    Command("study of rows", run_of("rows", "--jobs", "2"), ("rows.h5",), "rows"),
     Command(
-        "collect", (COLLECT, "study"), ("study.h5",), "study",
+        "collect", (COLLECT, "study", "-o", "collected.h5"), ("collected.h5",), "study",
         before=((run_of("study"), None), (PART_OF_STUDY, None)),
     ),
     Command("collect, with workers", (COLLECT, "many"), ("many.h5",), before=(EQUILIBRIUM,), make=hard_links),

@@ -70,7 +70,9 @@ def test_parameters_and_results_are_those_of_the_members(study, copy):
             kept = study.poincare_y[k][np.isfinite(study.poincare_y[k])]
             # the same cubic, whose terms are added in another order
             for own, point in ((kept, "journal_y"), (study.poincare_tilt[k][-len(kept) :], "pad_tilt")):
-                np.testing.assert_allclose(own, points[point], rtol=1e-14, atol=1e-14 * abs(points[point]).max())
+                np.testing.assert_allclose(
+                    own, points[point], rtol=1e-14, atol=1e-14 * abs(points[point]).max()
+                )
     with tiltpad.read(copy / "0006.h5") as run:
         work = [tiltpad.friction_work(run, pad) for pad in (1, 2)]
         stuck = [tiltpad.stick_fraction(run, pad) for pad in (1, 2)]
@@ -208,7 +210,9 @@ def test_a_folder_of_two_studies(tiltpad, tmp_path, monkeypatch, capsys):
     """Files of another study over the same variable are seen, of any size; a study that grew is one."""
     monkeypatch.chdir(tmp_path)
     keep = "&output keep='all' /"
-    (tmp_path / "case.nml").write_text(f"&case task='equilibrium' /\n{keep}\n&sweep operation%speed_rpm=1:2:1 /\n")
+    (tmp_path / "case.nml").write_text(
+        f"&case task='equilibrium' /\n{keep}\n&sweep operation%speed_rpm=1:2:1 /\n"
+    )
 
     def ran(name, values, folder=None):
         varied = ["--set", f"sweep%operation%speed_rpm={values}"]
