@@ -81,18 +81,7 @@ contains
       children_know = .false.
       do
          stopping = stop_requested() .or. allocated(error)
-         do i = 1, size(children)
-            if (children(i)%run /= 0 .or. next > size(wanted) .or. stopping) cycle
-            if (children(i)%process == 0) call children(i)%start(study, table, pipe(2), runner)
-            if (children(i)%process /= 0) then
-               call children(i)%order(next)
-            else
-               ! no process could be started: later, when one of ours has ended, if there is one
-               if (any(children%run /= 0)) exit
-               call note(next, error_type(system_error, 'no process could be started for it'), tally)
-            end if
-            next = next_run(wanted, next + 1)
-         end do
+         if (.not. stopping) call give_orders(children, study, table, pipe(2), runner, wanted, next, tally)
          if (stopping .and. .not. children_know) then
             children_know = .true.
             do i = 1, size(children)
@@ -115,6 +104,31 @@ contains
       if (.not. quiet) print '(a)', to_text(size(wanted))//' runs: '//totals(size(wanted), tally)//'; ' &
          & //fixed_text(wall_clock() - started, 2)//' s; in '//table%path()
    end subroutine perform_runs
+
+   !> Orders each child that waits to perform the next run that is wanted.
+   subroutine give_orders(children, study, table, pipe, runner, wanted, next, tally)
+      type(child_type), intent(inout) :: children(:)
+      type(study_type), intent(in) :: study
+      type(study_file_type), intent(inout) :: table
+      integer, intent(in) :: pipe
+      class(study_runner_type), intent(in) :: runner
+      logical, intent(in) :: wanted(:)
+      integer, intent(inout) :: next
+      type(tally_type), intent(inout) :: tally
+      integer :: i
+      do i = 1, size(children)
+         if (children(i)%run /= 0 .or. next > size(wanted)) cycle
+         if (children(i)%process == 0) call children(i)%start(study, table, pipe, runner)
+         if (children(i)%process /= 0) then
+            call children(i)%order(next)
+         else
+            ! no process could be started: later, when one of ours has ended, if there is one
+            if (any(children%run /= 0)) exit
+            call note(next, error_type(system_error, 'no process could be started for it'), tally)
+         end if
+         next = next_run(wanted, next + 1)
+      end do
+   end subroutine give_orders
 
    !> The first run from the k-th on that is wanted; behind the last where there is none.
    pure integer function next_run(wanted, k) result(next)

@@ -1,7 +1,6 @@
 !> A whole study: its file, with a row for each run, and where runs have files of their own the folder of these.
 module whole_study
-   use kinds, only: wp
-   use errors, only: error_type, raise, system_error
+   use errors, only: error_type
    use case_inputs, only: case_type
    use result_size, only: size_note
    use assignments, only: assignment_type, target_text

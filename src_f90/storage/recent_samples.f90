@@ -4,7 +4,7 @@ module recent_samples
    use record, only: record_type
    implicit none (type, external)
    private
-   public :: recent_samples_type, series_type
+   public :: recent_samples_type
 
    type :: series_type
       character(len=:), allocatable :: name, units, long_name

@@ -7,7 +7,7 @@ module record
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: record_type, dataset_type, attribute_type, move_record
+   public :: record_type, dataset_type, move_record
 
    !> What a dataset holds: numbers, a whole number, or texts.
    integer, parameter, public :: of_reals = 1, of_counts = 2, of_texts = 3
