@@ -169,13 +169,19 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
 def signals_stop() -> Iterator[None]:
     """Lets the signals that end a process stop the work as Ctrl-C does, so that nothing is left of it."""
 
+    came = []
+
     def stop(number: int, _: object) -> NoReturn:
+        came.append(number)
         raise KeyboardInterrupt(number)
 
     ending = (each for each in (signal.SIGTERM, signal.SIGHUP) if signal.getsignal(each) == signal.SIG_DFL)
     former = {each: signal.signal(each, stop) for each in ending}
     try:
         yield
+        if came:
+            # it came where Python lets nothing out, as in the end of an object
+            raise KeyboardInterrupt(came[0])
     finally:
         for each, handler in former.items():
             signal.signal(each, handler)

@@ -97,6 +97,8 @@ def set_task(dice: Random, variables: dict[str, Variable], found: dict[str, tupl
     """A task, with what belongs to it and without what does not."""
     task = dice.choice(("march", "equilibrium", *DRAWN))
     found["case%task"] = (task.encode(),)
+    if task == "branch":
+        found.pop("output%keep", None)
     if task not in OF_TASK:
         return
     for key in (*OF_MARCH, *(START if task == "coefficients" else ())):

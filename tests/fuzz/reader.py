@@ -184,6 +184,10 @@ def resolve(assignments: list[Assignment], variables: dict[str, Variable]) -> di
         found[key] = words(variable, here) if variable.is_text else numbers(variable, here, pads)
         if variable.fixes_pads:
             pads = len(found[key])
+    if "output%keep" not in given and found["case%task"][0] in (b"equilibrium", b"coefficients"):
+        found["output%keep"] = (b"summary",)
+    if found["case%task"] == (b"branch",) and found["output%keep"] != (b"all",):
+        raise Refused("a branch keeps all of its points")
     if found["operation%final_speed_rpm"] == (None,):
         found["operation%final_speed_rpm"] = found["operation%speed_rpm"]
     for key in FOLLOWING:

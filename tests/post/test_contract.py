@@ -178,7 +178,7 @@ def test_statistics(file, case_name):
 def test_xarray_reads_it_as_it_is(result):
     path = result("lugre")
     with xarray.open_dataset(path, engine="h5netcdf") as root:
-        assert dict(root.sizes) == {"time": 6 * 360 + 181, "pad": 2}
+        assert dict(root.sizes) == {"time": 6 * 360 + 181, "pad": 2, "revolution": 7}
         assert root["pad_tilt"].dims == ("time", "pad")
         assert root["journal_y"].dims == ("time",)
         assert root["journal_y"].attrs["units"] == "m"

@@ -170,14 +170,14 @@ def test_texts_of_the_user_are_drawn_as_they_are(tmp_path):
 
 
 def test_a_study_of_rows_is_read_as_a_collected_one(runs_of, tmp_path, capsys):
-    """Without files of the runs and links to them, and with rows of runs that are still to be run."""
+    """Without files of the runs, and with rows of runs that are still to be run."""
     case = "&case task='coefficients' / &coefficients frequency_ratio=0.5, 1 /"
     folder = runs_of(tmp_path / "speeds", case, {"operation%speed_rpm": [3000, 4000, 5000, 6000]})
     whole, rows = tmp_path / "whole.h5", tmp_path / "rows.h5"
     tiltpad.collect(folder, whole)
     rows.write_bytes(whole.read_bytes())
     with h5py.File(rows, "r+") as file:
-        del file["runs"], file["file"]
+        del file["file"]
         for name, column in file.items():
             if column.shape[:1] == (4,) and column.dtype.kind == "f" and name not in ("speed_rpm", "mode"):
                 column[3] = np.nan

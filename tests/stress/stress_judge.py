@@ -46,7 +46,9 @@ CAUSES = {
 PREFIX = "tiltpad: error: "
 NO_MESSAGE = ("At line", "runtime", "Backtrace", "HDF5-DIAG", "CVODE ERROR", "NaN", "Infinity", "with code")
 #: What is no number where no oil flows or nothing moves.
-NO_NUMBER = re.compile(r"equilibrium/temperature_rise|summary/(whirl|pad)_order$")
+NO_NUMBER = re.compile(
+    r"equilibrium/temperature_rise|summary/(whirl|pad)_order$|by_revolution/(low|high)est_"
+)
 STATES = ("journal_y", "journal_z", "pad_tilt", "pivot_deflection")
 
 

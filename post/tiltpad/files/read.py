@@ -208,6 +208,8 @@ class Run(Archive):
             return f"its task is '{self.task}'"
         if self.task in ("equilibrium", "coefficients", "branch"):
             return f"its task is '{self.task}', nothing was marched in time"
+        if not self.samples and self.complete and (keep := self.input["output"].get("keep")) == "summary":
+            return f"it kept no samples (output%keep = '{keep}')"
         if not self.samples:
             return "it ended before its first sample"
         operation = self.input["operation"]
