@@ -12,6 +12,7 @@ module whole_study
    use record, only: record_type
    use study_child, only: study_runner_type
    use study_file, only: study_file_type
+   use study_marks, only: is_collected
    use study_folder, only: result_path, prepare_folder, check_folder
    use study_runs, only: perform_runs
    use run_case, only: run_task, way_out
@@ -60,7 +61,7 @@ contains
       filed = mixed .or. first%output%keep /= 'summary'
       if (filed) call prepare_folder(output, error)
       if (filed .and. .not. allocated(error)) call check_folder(study, output, overwrite, error)
-      if (.not. allocated(error)) call open_table(study, output//'.h5', overwrite, quiet, table, error)
+      if (.not. allocated(error)) call open_table(study, output//'.h5', filed, overwrite, quiet, table, error)
       if (allocated(error)) return
       wanted = [(.not. table%has_row(k), k=1, study%runs)]
       inputs = first
@@ -91,11 +92,12 @@ contains
          & i=1, size(varied))])
    end function keeps_differ
 
-   !> Opens the file of a study: a new one, or that of the same study to go on with.
-   subroutine open_table(study, path, overwrite, quiet, table, error)
+   !> Opens the file of a study: a new one, or that of the same study to go on with. `filed`: runs have files of their
+   !> own, from which tiltpad-collect may have made one.
+   subroutine open_table(study, path, filed, overwrite, quiet, table, error)
       type(study_type), intent(in) :: study
       character(len=*), intent(in) :: path
-      logical, intent(in) :: overwrite, quiet
+      logical, intent(in) :: filed, overwrite, quiet
       type(study_file_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
       call table%claim(path, error)
@@ -103,6 +105,13 @@ contains
       if (.not. quiet .and. table%taken_from() /= '') print '(a)', path//': '//table%taken_from() &
          & //', which wrote it, has ended'
       if (is_regular(path)) then
+         if (filed) then
+            ! it is made anew of the same files
+            if (is_collected(path)) then
+               call table%begin(study, error)
+               return
+            end if
+         end if
          call table%reopen(study, error)
          if (.not. allocated(error)) return
          if (.not. overwrite) then

@@ -12,7 +12,7 @@ module study_marks
    use study_rows, only: study_rows_type
    implicit none (type, external)
    private
-   public :: put_marks, check_marks, open_study, missing_runs
+   public :: put_marks, check_marks, is_collected, open_study, missing_runs
 
    character(len=*), parameter :: marks_name = 'study_marks'
 
@@ -38,6 +38,10 @@ contains
       type(run_tag) :: first, last
       character(len=:), allocatable :: marks
       integer :: runs
+      if (.not. file%has_attribute(marks_name)) then
+         call raise(error, system_error, path//': is a study that tiltpad-collect wrote')
+         return
+      end if
       call file%get_flag('runs', runs)
       call file%get_text(marks_name, marks)
       if (allocated(file%failure)) then
@@ -58,6 +62,20 @@ contains
          end if
       end if
    end subroutine check_marks
+
+   !> Whether a file is a study that tiltpad-collect made of results.
+   logical function is_collected(path)
+      character(len=*), intent(in) :: path
+      type(hdf5_type) :: file
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: task
+      is_collected = .false.
+      call open_result(path, file, error)
+      if (allocated(error)) return
+      call file%get_text('task', task)
+      if (task == 'study') is_collected = .not. file%has_attribute(marks_name)
+      call file%close()
+   end function is_collected
 
    !> Opens a study for reading, once a child process has read all of its structure and texts.
    subroutine open_study(path, file, error)

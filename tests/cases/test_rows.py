@@ -117,8 +117,27 @@ def test_another_study_is_refused(tiltpad, case):
         done = tiltpad("case.nml", "-q", "--set", change, cwd=folder, status=3)
         assert f"case.h5: {reason}; --overwrite replaces it, and --output names another place" in done.stderr
         assert (folder / "case.h5").read_bytes() == before
+    with h5py.File(folder / "case.h5", "r+") as file:
+        del file.attrs["study_marks"]
+    done = tiltpad("case.nml", "-q", cwd=folder, status=3)
+    assert "case.h5: is a study that tiltpad-collect wrote; --overwrite replaces it" in done.stderr
     tiltpad("case.nml", "-q", "--set", "rotor%gravity=9", "--overwrite", cwd=folder, status=0)
     assert (folder / "case.h5").read_bytes() != before
+
+
+def test_a_study_that_was_collected(tiltpad, case):
+    """Where runs have files it is made anew of these, and no run is performed again."""
+    folder = case(QUICK.format(last=1003))
+    keep = ("--set", "output%keep=all")
+    tiltpad("case.nml", "-q", *keep, cwd=folder, status=0)
+    files = {path: path.stat().st_mtime_ns for path in (folder / "case").iterdir()}
+    with h5py.File(folder / "case.h5", "r+") as file:
+        del file.attrs["study_marks"]
+    tiltpad("case.nml", "-q", *keep, cwd=folder, status=0)
+    assert {path: path.stat().st_mtime_ns for path in (folder / "case").iterdir()} == files
+    with h5py.File(folder / "case.h5") as file:
+        assert "study_marks" in file.attrs
+        assert list(file["status"]) == [0, 0, 0]
 
 
 def test_a_study_grows(tiltpad, case):
