@@ -13,6 +13,8 @@ module whole_study
    use study_child, only: study_runner_type
    use study_file, only: study_file_type
    use study_marks, only: is_collected
+   use hdf5_file, only: hdf5_type
+   use restart, only: open_result
    use study_folder, only: result_path, prepare_folder, check_folder
    use study_runs, only: perform_runs
    use run_case, only: run_task, way_out
@@ -114,15 +116,32 @@ contains
          end if
          call table%reopen(study, error)
          if (.not. allocated(error)) return
-         if (.not. overwrite) then
-            error%message = error%message//way_out
-            return
-         end if
+         call refuse_foreign(path, overwrite, error)
+         if (allocated(error)) return
          call table%claim(path, error)
          if (allocated(error)) return
       end if
       call table%begin(study, error)
    end subroutine open_table
+
+   !> Keeps the error that a file is in the way, unless it may be overwritten; what is no result never is.
+   subroutine refuse_foreign(path, overwrite, error)
+      character(len=*), intent(in) :: path
+      logical, intent(in) :: overwrite
+      type(error_type), allocatable, intent(inout) :: error
+      type(error_type), allocatable :: foreign
+      type(hdf5_type) :: file
+      logical :: older
+      call open_result(path, file, foreign, older)
+      if (allocated(foreign) .and. .not. older) then
+         error%message = error%message//'; it is not replaced'
+      else if (overwrite) then
+         deallocate (error)
+      else
+         error%message = error%message//way_out
+      end if
+      call file%close()
+   end subroutine refuse_foreign
 
    !> Performs a run, and prints nothing.
    subroutine perform(self, inputs, tag, results, error)

@@ -58,10 +58,17 @@ contains
       type(restart_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       type(hdf5_type) :: file
-      character(len=:), allocatable :: input
+      character(len=:), allocatable :: input, task
       integer :: complete
+      task = ''
       call open_result(path, file, error, found%older)
       if (allocated(error)) return
+      if (file%has_attribute('task')) call file%get_text('task', task)
+      if (task == 'study') then
+         call raise(error, system_error, path//': a study, which goes on when its case is run again')
+         call file%close()
+         return
+      end if
       call file%get_flag('complete', complete)
       call file%get_text('input', input)
       found%checkpoint = file%has('checkpoint/time')

@@ -125,6 +125,26 @@ def test_another_study_is_refused(tiltpad, case):
     assert (folder / "case.h5").read_bytes() != before
 
 
+def test_what_is_no_study_is_not_replaced(tiltpad, case):
+    """Not with --overwrite either where it is no result; --resume names the way that a study goes on."""
+    folder = case(QUICK.format(last=1003))
+    (folder / "case.h5").write_bytes(b"precious")
+    for options in ((), ("--overwrite",)):
+        done = tiltpad("case.nml", "-q", *options, cwd=folder, status=3)
+        assert done.stderr.endswith(
+            "case.h5: not a result file (HDF5); tiltpad CASE.nml runs a case; it is not replaced\n"
+        )
+        assert (folder / "case.h5").read_bytes() == b"precious"
+    assert sorted(os.listdir(folder)) == ["case.h5", "case.nml"]
+    (folder / "case.h5").unlink()
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    done = tiltpad("--resume", "case.h5", cwd=folder, status=3)
+    assert done.stderr == "tiltpad: error: case.h5: a study, which goes on when its case is run again\n"
+    (folder / "other.nml").write_text("&case task='equilibrium' /\n")
+    done = tiltpad("other.nml", "-q", "-o", "case.h5", cwd=folder, status=3)
+    assert done.stderr.count("\n") == 1
+
+
 def test_a_study_that_was_collected(tiltpad, case):
     """Where runs have files it is made anew of these, and no run is performed again."""
     folder = case(QUICK.format(last=1003))
