@@ -5,6 +5,8 @@ module guarded_open
    use hdf5_base, only: start_hdf5
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
+   use record, only: record_type
+   use record_reader, only: read_record
    use processes, only: new_process, end_child, limit_child, exit_status
    use system_texts, only: system_reason
    implicit none (type, external)
@@ -51,6 +53,7 @@ contains
       character(len=*), parameter :: texts(*) = [character(len=11) :: 'program', 'input', 'reason', 'history', &
          & 'sweep', 'study_marks']
       character(len=:), allocatable :: text
+      type(record_type) :: results
       integer :: i
       call file%open(path, writing=.false.)
       if (file%id < 0) return
@@ -62,6 +65,8 @@ contains
       end do
       if (allocated(file%failure)) call end_child(1)
       call read_group(file, '/')
+      ! what a run reads that goes on
+      call read_record(file, results)
       call file%close()
    end subroutine read_all
 
