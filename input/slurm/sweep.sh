@@ -1,16 +1,18 @@
 #!/bin/bash
 # The runs of a study, as an array of jobs or all in one job:
-#    sbatch --array=1-TASKS%AT_A_TIME input/slurm/sweep.sh CASE.nml [RUNS_A_TASK]
+#    sbatch --array=1-BLOCKS%AT_A_TIME input/slurm/sweep.sh CASE.nml
 #    sbatch --cpus-per-task=CORES input/slurm/sweep.sh CASE.nml
-# The results are CASE/0001.h5, ... in the folder of submission. A job that is requeued or submitted again continues
-# from the last checkpoints and skips complete runs. A run that fails does not stop the others.
+#    sbatch --array=TASK input/slurm/sweep.sh CASE.nml BLOCKS
+# The last makes one task of an array of BLOCKS tasks again. Each task performs a block of the runs on its cores, into a
+# file of its own; the last one to end makes the study, CASE.h5, in the folder of submission. A job that is requeued or
+# submitted again continues from the last checkpoints and skips complete runs. A run that fails does not stop the others.
 #SBATCH --ntasks=1 --cpus-per-task=1 --mem-per-cpu=1G
 #SBATCH --time=01:00:00
 #SBATCH --signal=B:USR1@60
 #SBATCH --requeue --open-mode=append
 
-if [ $# -eq 0 ] || [ $# -gt 2 ] || [[ ! ${2:-1} =~ ^[1-9][0-9]{0,8}$ ]]; then
-   echo "usage: sbatch [sbatch options] sweep.sh CASE.nml [RUNS_A_TASK]" >&2
+if [ $# -eq 0 ] || [ $# -gt 2 ]; then
+   echo "usage: sbatch [sbatch options] sweep.sh CASE.nml [BLOCKS]" >&2
    exit 1
 fi
 
@@ -59,17 +61,5 @@ finish() {
 
 # a name that begins with - is no option
 [[ $1 != -* ]] || set -- "./$1" "${@:2}"
-if [ -z "$SLURM_ARRAY_TASK_ID" ]; then
-   run tiltpad --jobs "$SLURM_CPUS_ON_NODE" "$1"
-   finish $?
-fi
-
-runs=$(tiltpad --count "$1") || exit
-each=${2:-1}
-last=$((SLURM_ARRAY_TASK_ID * each))
-worst=0
-for ((k = last - each + 1; k <= last && k <= runs; k++)); do
-   run tiltpad --run "$k" "$1" || worst=$(($? > worst ? $? : worst))
-   [ -n "$signal" ] && finish 4
-done
-finish "$worst"
+run tiltpad --jobs "$SLURM_CPUS_ON_NODE" --block "${SLURM_ARRAY_TASK_ID:-1}/${2:-${SLURM_ARRAY_TASK_COUNT:-1}}" "$1"
+finish $?

@@ -3,6 +3,7 @@ module arguments
    use text, only: shortened, to_text, lower_case, whole_number
    use variable_names, only: meant_variable, meant_word
    use errors, only: error_type, raise, require, input_error
+   use study_blocks, only: block_type
    implicit none (type, external)
    private
    public :: arguments_type, read_arguments, print_help
@@ -10,7 +11,7 @@ module arguments
    !> Longest override, and how many there may be.
    integer, parameter :: longest = 4096, most = 1000
    character(len=*), parameter :: options = '--output --overwrite --resume --set --check --verify --jobs --run ' &
-      & //'--count --quiet --reference --version --help'
+      & //'--block --count --quiet --reference --version --help'
 
    type :: arguments_type
       !> 'run', 'check', 'count', 'help', 'version' or 'reference'.
@@ -21,6 +22,9 @@ module arguments
       character(len=longest), allocatable :: overrides(:)
       !> Run of a study, and how many at a time; 0 where not given.
       integer :: run = 0, jobs = 0
+      !> Block of the runs of a study; all, where it is not given.
+      type(block_type) :: share
+      logical :: blocks = .false.
       !> States whose films are solved closely after a run; 0: none.
       integer :: verify = 0
       logical :: quiet = .false., overwrite = .false.
@@ -58,7 +62,7 @@ contains
             given%quiet = .true.
          case ('--overwrite')
             given%overwrite = .true.
-         case ('--output', '-o', '--resume', '--set', '--verify', '--run', '--jobs')
+         case ('--output', '-o', '--resume', '--set', '--verify', '--run', '--block', '--jobs')
             if (i == command_argument_count()) then
                call raise(error, input_error, word//': a value must follow; see tiltpad --help')
                return
@@ -103,6 +107,9 @@ contains
          call read_whole(word, value, given%verify, error)
       case ('--run')
          call read_whole(word, value, given%run, error)
+      case ('--block')
+         call read_block(value, given%share, error)
+         given%blocks = .true.
       case ('--jobs')
          call read_whole(word, value, given%jobs, error)
       case default
@@ -135,11 +142,13 @@ contains
          & //'--count', error)
       call require(given%jobs == 0 .or. runs .and. given%run == 0, '--jobs: is for all runs of a study; not with ' &
          & //'--run, --check or --count', error)
+      call require(.not. given%blocks .or. runs .and. given%run == 0, '--block: is for many runs of a study; not ' &
+         & //'with --run, --check or --count', error)
       call require(given%task /= 'count' .or. given%run == 0, '--count and --run: one of them at a time', error)
       if (given%case_file /= '') return
       call require(resumes, 'no case given; usage: tiltpad [options] CASE.nml, see tiltpad --help', error)
-      call require(given%task /= 'count' .and. given%jobs == 0 .and. given%run == 0, '--count, --jobs and --run: are ' &
-         & //'for a case with a study, and --resume for one run', error)
+      call require(given%task /= 'count' .and. given%jobs == 0 .and. given%run == 0 .and. .not. given%blocks, &
+         & '--count, --jobs, --run and --block: are for a case with a study, and --resume for one run', error)
       call require(size(given%overrides) == 0, '--set changes the case; a resumed run keeps its own', error)
    end subroutine check_arguments
 
@@ -173,6 +182,19 @@ contains
       if (number == 0) call raise(error, input_error, option//' '//value//': must be a whole number, 1 or more')
    end subroutine read_whole
 
+   !> A block, "I/N".
+   subroutine read_block(value, share, error)
+      character(len=*), intent(in) :: value
+      type(block_type), intent(out) :: share
+      type(error_type), allocatable, intent(out) :: error
+      integer :: slash
+      slash = index(value, '/')
+      share%number = whole_number(value(:slash - 1))
+      share%of = whole_number(value(slash + 1:))
+      call require(share%number >= 1 .and. share%number <= share%of, '--block '//value//': must be I/N, the I-th of ' &
+         & //'N blocks, with I from 1 to N', error)
+   end subroutine read_block
+
    !> The i-th word of the command line, of any length.
    function argument(i)
       integer, intent(in) :: i
@@ -202,6 +224,8 @@ contains
          & '  --check                 reads, checks and prints the resolved case; runs nothing', &
          & '  --verify N              solves the films in N states of the complete run closely, and says how far', &
          & '                          its own are from them; with --resume also those of a complete result', &
+         & '  --block I/N             performs the I-th of N blocks of the runs of a study, for instance as a', &
+         & '                          task of an array job; the last that ends joins them', &
          & '  --jobs N                performs N runs of a study at a time; default: one for each processor', &
          & '  --run K                 performs (with --check: prints) only run K of a study', &
          & '  --count                 prints the number of runs of the case; 1 without a group &sweep', &

@@ -5,6 +5,7 @@ module study_folder
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag
    use files, only: is_regular, make_folder, remove_folder, other_number
+   use study_blocks, only: block_type
    use restart, only: restart_type, read_result, refuse_other_case, is_of_other_study
    use run_case, only: way_out
    use stop_signals, only: stop_requested, stop_reason
@@ -44,11 +45,12 @@ contains
       if (refusal /= '') call raise(error, system_error, 'cannot write into the folder '//folder//': '//refusal)
    end subroutine prepare_folder
 
-   !> Refuses a folder with results of another study: results that are not those of this study's runs, unless they
-   !> may be overwritten, and numbers that this study does not have. The study may have grown. What cannot be read is
-   !> left to its run.
-   subroutine check_folder(study, folder, overwrite, error)
+   !> Refuses a folder with results of another study: results that are not those of a block of this study's runs,
+   !> unless they may be overwritten, and numbers that this study does not have. The study may have grown. What cannot
+   !> be read is left to its run.
+   subroutine check_folder(study, share, folder, overwrite, error)
       type(study_type), intent(in) :: study
+      type(block_type), intent(in) :: share
       character(len=*), intent(in) :: folder
       logical, intent(in) :: overwrite
       type(error_type), allocatable, intent(out) :: error
@@ -61,7 +63,7 @@ contains
       if (other /= '') call raise(error, system_error, folder//'/'//other//': is no run of this study, which has ' &
          & //to_text(study%runs)//'; remove it, or name another folder with --output')
       if (overwrite) return
-      do k = 1, study%runs
+      do k = share%first(study%runs), share%last(study%runs)
          if (stop_requested()) call raise(error, stopped, stop_reason()//'; no run was started')
          if (allocated(error)) return
          path = result_path(folder, k, study%runs)

@@ -8,13 +8,14 @@ module study_runs
    use processes, only: open_pipe, wait_for_record, ended, stop_process
    use study_child, only: child_type, report_type, read_report, study_runner_type, pause
    use study_file, only: study_file_type
+   use study_blocks, only: block_type
    use hdf5_base, only: start_hdf5
    use stop_signals, only: stop_requested, stop_reason
    use clock, only: wall_clock
    use progress, only: progress_type, new_progress
    implicit none (type, external)
    private
-   public :: perform_runs, check_runs
+   public :: perform_runs, check_runs, tally_type, new_tally, tell
 
    !> Seconds of rows that a kill may lose, where a checkpoint does not take longer than a twentieth of it.
    real(wp), parameter :: longest_loss = 10
@@ -29,54 +30,54 @@ module study_runs
       !> Number, status and message of the first failed runs.
       integer, allocatable :: runs(:)
       type(error_type), allocatable :: errors(:)
+      !> Clock when the first was started, s.
+      real(wp) :: started = 0
    end type tally_type
 
 contains
 
-   !> Reads and checks every run; the error is the first bad run's, or that a signal came.
-   subroutine check_runs(study, error)
+   !> Reads and checks every run of a block; the error is the first bad run's, or that a signal came.
+   subroutine check_runs(study, share, error)
       type(study_type), intent(in) :: study
+      type(block_type), intent(in) :: share
       type(error_type), allocatable, intent(out) :: error
       type(case_type) :: inputs
       integer :: k
-      do k = 1, study%runs
+      do k = share%first(study%runs), share%last(study%runs)
          call study%inputs(k, inputs, error)
          if (stop_requested()) call raise(error, stopped, stop_reason()//'; no run was started')
          if (allocated(error)) return
       end do
    end subroutine check_runs
 
-   !> Performs the runs of a checked study that are wanted, `jobs` at a time, each into its row of the open file of the
-   !> study, which is closed at the end. A failed run stops no other; a noted signal does, and a file that cannot be
-   !> written: then those that run are sent a signal, and waited for. `failures` has an error for each of the first
-   !> failed runs; `error` says how many failed, or which signal came.
-   subroutine perform_runs(study, table, wanted, checkpoint_seconds, jobs, quiet, runner, failures, error)
+   !> Performs the runs of a checked study that are wanted, `jobs` at a time, each into its row of the open file, which
+   !> is published at the end. A failed run stops no other; a noted signal does, and a file that cannot be written: then
+   !> those that run are sent a signal, and waited for.
+   subroutine perform_runs(study, table, wanted, runs, checkpoint_seconds, jobs, quiet, runner, tally, error)
       type(study_type), intent(in) :: study
       type(study_file_type), intent(inout) :: table
       logical, intent(in) :: wanted(:)
+      !> How many there are, with those that have their rows.
+      integer, intent(in) :: runs
       !> Wall time between checkpoints, s; 0: none.
       real(wp), intent(in) :: checkpoint_seconds
       integer, intent(in) :: jobs
       logical, intent(in) :: quiet
       class(study_runner_type), intent(in) :: runner
-      type(error_type), allocatable, intent(out) :: failures(:)
+      type(tally_type), intent(inout) :: tally
       type(error_type), allocatable, intent(out) :: error
       type(child_type) :: children(max(1, min(jobs, count(wanted))))
-      type(tally_type) :: tally
       type(progress_type) :: progress
-      real(wp) :: started, now
+      real(wp) :: now
       integer :: pipe(2), next, i
       logical :: stopping, children_know
 
-      allocate (failures(0))
       if (.not. open_pipe(pipe)) then
          call raise(error, system_error, 'the system has no pipe for the runs of the study')
          return
       end if
       call start_hdf5()
-      started = wall_clock()
-      call begin_tally(table, wanted, tally)
-      progress = new_progress(real(tally%done + tally%failed, wp), real(size(wanted), wp), quiet)
+      progress = new_progress(real(tally%done + tally%failed, wp), real(runs, wp), quiet)
       next = next_run(wanted, 1)
       children_know = .false.
       do
@@ -92,17 +93,14 @@ contains
          call look(children, pipe(1), table, runner, tally)
          call progress%report_runs(tally%done + tally%failed, tally%failed)
          now = wall_clock()
-         call table%beat(int(now - started))
+         call table%beat(int(now))
          if (.not. allocated(error)) call table%checkpoint_if_due(now, min(checkpoint_seconds, longest_loss), error)
       end do
       do i = 1, size(children)
          if (children(i)%process /= 0) call children(i)%dismiss()
       end do
       call progress%clear()
-      if (.not. allocated(error)) call table%finish(error)
-      if (.not. allocated(error)) call conclude(study, tally, failures, error)
-      if (.not. quiet) print '(a)', to_text(size(wanted))//' runs: '//totals(size(wanted), tally)//'; ' &
-         & //fixed_text(wall_clock() - started, 2)//' s; in '//table%path()
+      if (.not. allocated(error)) call table%publish(error)
    end subroutine perform_runs
 
    !> Orders each child that waits to perform the next run that is wanted.
@@ -138,23 +136,16 @@ contains
       next = merge(size(wanted) + 1, k - 1 + next, next == 0)
    end function next_run
 
-   !> Counts the runs that have their rows.
-   subroutine begin_tally(table, wanted, tally)
-      type(study_file_type), intent(in) :: table
-      logical, intent(in) :: wanted(:)
-      type(tally_type), intent(out) :: tally
-      integer :: k
+   !> Begins with runs that have their rows and ended so.
+   function new_tally(status) result(tally)
+      integer, intent(in) :: status(:)
+      type(tally_type) :: tally
       allocate (tally%runs(0), tally%errors(0))
-      do k = 1, size(wanted)
-         if (wanted(k) .or. .not. table%has_row(k)) cycle
-         if (table%status(k) == 0) then
-            tally%done = tally%done + 1
-         else
-            tally%failed = tally%failed + 1
-            tally%status = max(tally%status, table%status(k))
-         end if
-      end do
-   end subroutine begin_tally
+      tally%started = wall_clock()
+      tally%done = count(status == 0)
+      tally%failed = size(status) - tally%done
+      tally%status = max(0, maxval(status))
+   end function new_tally
 
    !> Waits a while for a report, takes all that are there, and enters the runs that have ended.
    subroutine look(children, pipe, table, runner, tally)
@@ -220,10 +211,15 @@ contains
       end select
    end subroutine note
 
-   !> The first failed runs' errors, in order, and the error of the whole: 4 after a signal; else the highest.
-   subroutine conclude(study, tally, failures, error)
+   !> Prints what became of this number of runs. `failures` are the first failed ones' errors, in order; `error` is that
+   !> of the whole: 4 after a signal; else the highest.
+   subroutine tell(study, tally, path, runs, quiet, failures, error)
       type(study_type), intent(in) :: study
       type(tally_type), intent(in) :: tally
+      !> The file of the rows.
+      character(len=*), intent(in) :: path
+      integer, intent(in) :: runs
+      logical, intent(in) :: quiet
       type(error_type), allocatable, intent(out) :: failures(:)
       type(error_type), allocatable, intent(out) :: error
       type(run_tag) :: tag
@@ -234,16 +230,16 @@ contains
          failures(n)%message = 'run '//to_text(tally%runs(n))//' ('//replaced(tag%study, achar(10), ', ')//'): ' &
             & //failures(n)%message
       end do
+      if (.not. quiet) print '(a)', to_text(runs)//' runs: '//totals(runs, tally)//'; ' &
+         & //fixed_text(wall_clock() - tally%started, 2)//' s; in '//path
       if (stop_requested()) then
-         call raise(error, stopped, stop_reason()//'; of ' &
-            & //to_text(study%runs)//' runs '//totals(study%runs, tally))
+         call raise(error, stopped, stop_reason()//'; of '//to_text(runs)//' runs '//totals(runs, tally))
       else if (tally%stopped > 0) then
-         call raise(error, stopped, to_text(tally%stopped)//' of '//to_text(study%runs) &
-            & //' runs were stopped by a signal')
+         call raise(error, stopped, to_text(tally%stopped)//' of '//to_text(runs)//' runs were stopped by a signal')
       else if (tally%failed > 0) then
-         call raise(error, tally%status, to_text(tally%failed)//' of '//to_text(study%runs)//' runs failed')
+         call raise(error, tally%status, to_text(tally%failed)//' of '//to_text(runs)//' runs failed')
       end if
-   end subroutine conclude
+   end subroutine tell
 
    !> "997 done, 3 failed".
    function totals(runs, tally)

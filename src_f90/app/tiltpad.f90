@@ -91,7 +91,7 @@ contains
       if (allocated(error)) return
       whole_study = study%given .and. given%run == 0
       if (whole_study .and. given%task /= 'count') then
-         call check_runs(study, error)
+         call check_runs(study, given%share, error)
       else
          call study%inputs(max(1, given%run), inputs, error)
       end if
@@ -114,7 +114,8 @@ contains
       if (allocated(error)) return
       if (study%given) call mark_study(study)
       if (whole_study) then
-         call perform_study(study, output, given%jobs, given%verify, given%overwrite, given%quiet, failures, error)
+         call perform_study(study, given%share, output, given%jobs, given%verify, given%overwrite, given%quiet, &
+            & failures, error)
          do i = 1, size(failures)
             call complain(failures(i))
          end do
@@ -138,8 +139,8 @@ contains
       type(arguments_type), intent(in) :: given
       type(study_type), intent(in) :: study
       type(error_type), allocatable, intent(out) :: error
-      call require(study%given .or. given%run == 0 .and. given%jobs == 0, given%case_file//': no group &sweep in it, ' &
-         & //'which --run and --jobs are for', error)
+      call require(study%given .or. given%run == 0 .and. given%jobs == 0 .and. .not. given%blocks, given%case_file &
+         & //': no group &sweep in it, which --run, --block and --jobs are for', error)
       call require(.not. study%given .or. given%resumed == '', '--resume goes on with one run; the runs of ' &
          & //given%case_file//' go on when it is run again', error)
       call require(given%run <= study%runs, '--run '//to_text(given%run)//': must be 1 to '//to_text(study%runs) &

@@ -1,5 +1,6 @@
 !> A whole study: its file, with a row for each run, and where runs have files of their own the folder of these.
 module whole_study
+   use kinds, only: wp
    use errors, only: error_type
    use case_inputs, only: case_type
    use result_size, only: size_note
@@ -12,24 +13,21 @@ module whole_study
    use record, only: record_type
    use study_child, only: study_runner_type
    use study_file, only: study_file_type
-   use study_marks, only: is_collected
-   use hdf5_file, only: hdf5_type
-   use restart, only: open_result
+   use study_rows, only: not_run, stays
+   use study_blocks, only: block_type, path_type, refuse_written
    use study_folder, only: result_path, prepare_folder, check_folder
-   use study_runs, only: perform_runs
-   use run_case, only: run_task, way_out
+   use study_runs, only: perform_runs, tally_type, new_tally, tell
+   use joined_blocks, only: study_place_type, open_table, open_joined, delete_blocks, join_blocks, status_elsewhere
+   use run_case, only: run_task
+   use stop_signals, only: stop_requested
    implicit none (type, external)
    private
    public :: perform_study, mark_study
 
    !> Performs a run of a study as a run of its own, or what is left of it.
    type, extends(study_runner_type) :: case_runner_type
-      !> Whether there are runs that have files.
-      logical :: filed = .false.
-      !> Where runs have files.
-      character(len=:), allocatable :: folder
+      type(study_place_type) :: place
       integer :: runs = 0, verified_states = 0
-      logical :: overwrite = .false.
    contains
       procedure :: perform
       procedure :: own_file
@@ -37,52 +35,117 @@ module whole_study
 
 contains
 
-   !> Performs the runs of a checked and marked study into `output`.h5, and where they keep samples into files in the
-   !> folder `output`; those that have their rows are not run again, unless the file may be overwritten. `failures`
-   !> has an error for each of the first failed runs.
-   subroutine perform_study(study, output, jobs, verified_states, overwrite, quiet, failures, error)
+   !> Performs the runs of a block of a checked and marked study into its file, or of the whole study into `output`.h5,
+   !> and where they keep samples into files in the folder `output`; those that have their rows are not run again.
+   !> The block that finds all others finished joins them. `failures` has an error for each of the first failed runs.
+   subroutine perform_study(study, share, output, jobs, verified_states, overwrite, quiet, failures, error)
       type(study_type), intent(in) :: study
+      type(block_type), intent(in) :: share
       character(len=*), intent(in) :: output
       !> Runs at a time; 0 for as many as there are processors.
       integer, intent(in) :: jobs, verified_states
       logical, intent(in) :: overwrite, quiet
       type(error_type), allocatable, intent(out) :: failures(:)
       type(error_type), allocatable, intent(out) :: error
-      type(study_file_type) :: table
       type(case_runner_type) :: runner
-      type(case_type) :: first, inputs
-      logical :: wanted(study%runs), filed, mixed
-      integer :: k
+      type(error_type), allocatable :: of_joining
+      type(tally_type) :: tally
+      character(len=:), allocatable :: path
+      type(case_type) :: first
+      logical, allocatable :: filed(:), missing(:)
+      integer :: runs, k
       allocate (failures(0))
+      runs = share%last(study%runs) - share%first(study%runs) + 1
       call study%inputs(1, first, error)
       if (allocated(error)) return
-      if (.not. quiet) then
-         if (size_note(first, study%runs) /= '') print '(a)', size_note(first, study%runs)
+      if (.not. quiet .and. runs > 0) then
+         if (size_note(first, runs) /= '') print '(a)', size_note(first, runs)
       end if
-      mixed = keeps_differ(study)
-      filed = mixed .or. first%output%keep /= 'summary'
-      if (filed) call prepare_folder(output, error)
-      if (filed .and. .not. allocated(error)) call check_folder(study, output, overwrite, error)
-      if (.not. allocated(error)) call open_table(study, output//'.h5', filed, overwrite, quiet, table, error)
+      filed = which_have_files(study, first)
+      runner = case_runner_type(study_place_type(output, any(filed), overwrite, quiet), study%runs, verified_states)
+      if (any(filed)) call prepare_folder(output, error)
+      if (any(filed) .and. .not. allocated(error)) call check_folder(study, share, output, overwrite, error)
       if (allocated(error)) return
-      wanted = [(.not. table%has_row(k), k=1, study%runs)]
-      inputs = first
-      do k = 1, study%runs
-         if (.not. filed .or. wanted(k)) cycle
-         if (mixed) call study%inputs(k, inputs, error)
+      allocate (missing(study%runs), source=.false.)
+      do k = share%first(study%runs), share%last(study%runs)
          ! a file that is gone is made again
-         if (inputs%output%keep == 'summary') cycle
-         wanted(k) = .not. is_regular(result_path(output, k, study%runs))
-         if (.not. wanted(k)) call clear_leftovers(result_path(output, k, study%runs))
+         if (.not. filed(k)) cycle
+         missing(k) = .not. is_regular(result_path(output, k, study%runs))
+         if (.not. missing(k)) call clear_leftovers(result_path(output, k, study%runs))
       end do
-      runner%filed = filed
-      runner%folder = output
-      runner%runs = study%runs
-      runner%verified_states = verified_states
-      runner%overwrite = overwrite
-      call perform_runs(study, table, wanted, first%output%checkpoint_seconds, merge(jobs, processors(), jobs > 0), &
-         & quiet, runner, failures, error)
+      call perform_block(study, share, missing, first%output%checkpoint_seconds, &
+         & merge(jobs, processors(), jobs > 0), runner, tally, path, error)
+      if (allocated(error)) return
+      call tell(study, tally, path, runs, quiet, failures, error)
+      if (share%of == 1 .or. stop_requested()) return
+      call join_blocks(study, runner%place, share%of, of_joining)
+      if (allocated(of_joining)) call move_alloc(of_joining, error)
    end subroutine perform_study
+
+   !> Performs the runs of a block that have no row to stay, or whose own file is missing. `path` is the file of the
+   !> rows.
+   subroutine perform_block(study, share, missing, checkpoint_seconds, jobs, runner, tally, path, error)
+      type(study_type), intent(in) :: study
+      type(block_type), intent(in) :: share
+      logical, intent(in) :: missing(:)
+      real(wp), intent(in) :: checkpoint_seconds
+      integer, intent(in) :: jobs
+      type(case_runner_type), intent(in) :: runner
+      type(tally_type), intent(out) :: tally
+      character(len=:), allocatable, intent(out) :: path
+      type(error_type), allocatable, intent(out) :: error
+      type(study_file_type) :: table
+      type(path_type), allocatable :: taken(:)
+      integer, allocatable :: status(:)
+      logical, allocatable :: wanted(:)
+      integer :: k, first, last
+      first = share%first(study%runs)
+      last = share%last(study%runs)
+      path = share%path(runner%place%name)
+      allocate (status(study%runs), source=not_run)
+      allocate (taken(0))
+      if (share%of == 1) then
+         call refuse_written(runner%place%name, error)
+         if (.not. allocated(error)) call open_joined(study, runner%place, table, taken, error)
+      else
+         call status_elsewhere(study, runner%place, status, error)
+         if (allocated(error)) return
+         if (all(stays(status(first:last)) .and. .not. missing(first:last)) .and. .not. is_regular(path)) then
+            path = runner%place%name//'.h5'
+            tally = new_tally(status(first:last))
+            return
+         end if
+         call open_table(study, runner%place, share, table, error)
+      end if
+      if (.not. allocated(error)) then
+         status = [(merge(table%status(k), status(k), table%has_row(k)), k=1, study%runs)]
+         wanted = .not. stays(status) .or. missing
+         wanted(:first - 1) = .false.
+         wanted(last + 1:) = .false.
+         tally = new_tally(pack(status(first:last), .not. wanted(first:last)))
+         call perform_runs(study, table, wanted, last - first + 1, checkpoint_seconds, jobs, runner%place%quiet, &
+            & runner, tally, error)
+      end if
+      if (.not. allocated(error)) call delete_blocks(taken)
+      call table%abandon()
+   end subroutine perform_block
+
+   !> Which runs of a study have files of their own.
+   function which_have_files(study, first) result(filed)
+      type(study_type), intent(in) :: study
+      !> Its first run.
+      type(case_type), intent(in) :: first
+      logical :: filed(study%runs)
+      type(case_type) :: inputs
+      type(error_type), allocatable :: ignored
+      integer :: k
+      filed = first%output%keep /= 'summary'
+      if (.not. keeps_differ(study)) return
+      do k = 1, study%runs
+         call study%inputs(k, inputs, ignored)
+         filed(k) = inputs%output%keep /= 'summary'
+      end do
+   end function which_have_files
 
    !> Whether some runs may have files and others not: which they have follows from the task, where it is not given.
    logical function keeps_differ(study)
@@ -94,55 +157,6 @@ contains
          & i=1, size(varied))])
    end function keeps_differ
 
-   !> Opens the file of a study: a new one, or that of the same study to go on with. `filed`: runs have files of their
-   !> own, from which tiltpad-collect may have made one.
-   subroutine open_table(study, path, filed, overwrite, quiet, table, error)
-      type(study_type), intent(in) :: study
-      character(len=*), intent(in) :: path
-      logical, intent(in) :: filed, overwrite, quiet
-      type(study_file_type), intent(inout) :: table
-      type(error_type), allocatable, intent(out) :: error
-      call table%claim(path, error)
-      if (allocated(error)) return
-      if (.not. quiet .and. table%taken_from() /= '') print '(a)', path//': '//table%taken_from() &
-         & //', which wrote it, has ended'
-      if (is_regular(path)) then
-         if (filed) then
-            ! it is made anew of the same files
-            if (is_collected(path)) then
-               call table%begin(study, error)
-               return
-            end if
-         end if
-         call table%reopen(study, error)
-         if (.not. allocated(error)) return
-         call refuse_foreign(path, overwrite, error)
-         if (allocated(error)) return
-         call table%claim(path, error)
-         if (allocated(error)) return
-      end if
-      call table%begin(study, error)
-   end subroutine open_table
-
-   !> Keeps the error that a file is in the way, unless it may be overwritten; what is no result never is.
-   subroutine refuse_foreign(path, overwrite, error)
-      character(len=*), intent(in) :: path
-      logical, intent(in) :: overwrite
-      type(error_type), allocatable, intent(inout) :: error
-      type(error_type), allocatable :: foreign
-      type(hdf5_type) :: file
-      logical :: older
-      call open_result(path, file, foreign, older)
-      if (allocated(foreign) .and. .not. older) then
-         error%message = error%message//'; it is not replaced'
-      else if (overwrite) then
-         deallocate (error)
-      else
-         error%message = error%message//way_out
-      end if
-      call file%close()
-   end subroutine refuse_foreign
-
    !> Performs a run, and prints nothing.
    subroutine perform(self, inputs, tag, results, error)
       class(case_runner_type), intent(in) :: self
@@ -152,8 +166,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: path
       path = ''
-      if (inputs%output%keep /= 'summary') path = result_path(self%folder, tag%number, tag%runs)
-      call run_task(inputs, path, tag, self%verified_states, .true., self%overwrite, .true., results, error)
+      if (inputs%output%keep /= 'summary') path = result_path(self%place%name, tag%number, tag%runs)
+      call run_task(inputs, path, tag, self%verified_states, .true., self%place%overwrite, .true., results, error)
    end subroutine perform
 
    !> The folder is beside the file of the study.
@@ -162,10 +176,10 @@ contains
       integer, intent(in) :: k
       character(len=:), allocatable :: name
       name = ''
-      if (.not. self%filed) return
-      name = result_path(self%folder, k, self%runs)
+      if (.not. self%place%filed) return
+      name = result_path(self%place%name, k, self%runs)
       if (is_regular(name)) then
-         name = name(1 + index(self%folder, '/', back=.true.):)
+         name = name(1 + index(self%place%name, '/', back=.true.):)
       else
          name = ''
       end if

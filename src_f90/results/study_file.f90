@@ -11,7 +11,7 @@ module study_file
    use hdf5_file, only: hdf5_type
    use hdf5_texts, only: text_type
    use working_file, only: working_file_type
-   use study_rows, only: study_rows_type, not_run
+   use study_rows, only: study_rows_type, not_run, stays
    use study_parameters, only: parameter_type, parameters_of, write_parameters
    use study_origin, only: put_origin, names_of, write_runs
    use study_marks, only: put_marks, check_marks, open_study, missing_runs
@@ -45,6 +45,7 @@ module study_file
       procedure :: checkpoint_if_due
       procedure :: checkpoint
       procedure :: join
+      procedure :: publish
       procedure :: finish
       !> Deletes what was not published, and frees the lock.
       procedure :: abandon
@@ -54,6 +55,8 @@ module study_file
       procedure :: beat
       !> The dead process that held the file's lock; empty where there was none.
       procedure :: taken_from
+      !> Who has the lock, where it was refused for that; else empty.
+      procedure :: held_by
       procedure :: path
       !> What has gone wrong with the file so far.
       procedure :: error_of
@@ -72,8 +75,8 @@ contains
       call self%working%claim(path, error)
    end subroutine claim
 
-   !> Starts a new file under the name claimed, with no row yet. The parameters are those of all runs, or of a block of
-   !> them, from `first` to `last`, where the file is one of many that are to be joined.
+   !> Starts a new file under the name claimed, with no row yet. Numbers and parameters are those of all runs, or of a
+   !> block of them, from `first` to `last`, where the file is one of many that are to be joined.
    subroutine begin(self, study, error, first, last)
       class(study_file_type), intent(inout) :: self
       type(study_type), intent(in) :: study
@@ -91,7 +94,7 @@ contains
          call unlock(self%hdf5_type)
          parameters = parameters_of(study)
          call put_origin(self, study, parameters)
-         call write_runs(self, 1, study%runs)
+         call write_runs(self, study%runs, from, to, .false.)
          call write_parameters(self, study, parameters, from, to, .false.)
          call self%rows%begin(self, study%runs, names_of(parameters))
          self%last_checkpoint = wall_clock()
@@ -121,7 +124,7 @@ contains
          call self%rows%read_layout(self, names_of(parameters))
          runs = self%rows%table%runs
          if (study%runs > runs) then
-            call write_runs(self, runs + 1, study%runs)
+            call write_runs(self, study%runs, runs + 1, study%runs, .true.)
             call write_parameters(self, study, parameters, runs + 1, study%runs, .true.)
             call self%rows%resize(self, study%runs)
             call put_marks(self, study)
@@ -133,11 +136,11 @@ contains
       if (allocated(error)) call self%abandon()
    end subroutine reopen
 
-   !> Whether run k has a row that is to stay. The row of one that the system failed is to be written again.
+   !> Whether run k has a row that is to stay.
    pure logical function has_row(self, k)
       class(study_file_type), intent(in) :: self
       integer, intent(in) :: k
-      has_row = self%rows%status(k) /= not_run .and. self%rows%status(k) /= system_error
+      has_row = stays(self%rows%status(k))
    end function has_row
 
    pure integer function status(self, k)
@@ -198,18 +201,21 @@ contains
       self%taken = self%last_checkpoint - started
    end subroutine checkpoint
 
-   !> Adds all rows of another file of this study that this one has not.
-   subroutine join(self, path, error)
+   !> Adds all rows of another file of this study that this one has not. Where the error is that file's, nothing of it
+   !> was added, and there is no failure.
+   subroutine join(self, study, path, error)
       class(study_file_type), intent(inout) :: self
+      type(study_type), intent(in) :: study
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
       call self%error_of(error)
-      if (.not. allocated(error)) call join_rows(self, self%rows, path, error)
+      if (.not. allocated(error)) call join_rows(self, self%rows, study, path, error)
       if (.not. allocated(error)) call self%error_of(error)
    end subroutine join
 
-   !> Writes what is left, publishes the file and frees its lock. It is finished where all runs have a row.
-   subroutine finish(self, error)
+   !> Writes what is left and publishes the file, which is finished where all runs have a row. Nothing can be added
+   !> then.
+   subroutine publish(self, error)
       class(study_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       logical :: exchanged
@@ -217,6 +223,13 @@ contains
       call self%close_all()
       call self%error_of(error)
       if (.not. allocated(error)) call self%working%publish(exchanged, error)
+   end subroutine publish
+
+   !> Publishes the file and frees its lock.
+   subroutine finish(self, error)
+      class(study_file_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      call self%publish(error)
       call self%abandon()
    end subroutine finish
 
@@ -271,6 +284,13 @@ contains
       character(len=:), allocatable :: taken_from
       taken_from = self%working%lock%taken_from
    end function taken_from
+
+   function held_by(self)
+      class(study_file_type), intent(in) :: self
+      character(len=:), allocatable :: held_by
+      held_by = ''
+      if (allocated(self%working%lock%held_by)) held_by = self%working%lock%held_by
+   end function held_by
 
    !> Name of the file, as it was given.
    function path(self)

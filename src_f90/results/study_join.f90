@@ -2,62 +2,53 @@
 module study_join
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
-   use errors, only: error_type, raise, system_error
+   use errors, only: error_type, system_error
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: rows_a_chunk
    use hdf5_texts, only: text_type
    use study_dimensions, only: list_type, positions
    use study_columns, only: column_type, new_column_type
    use study_rows, only: study_rows_type, not_run
-   use study_marks, only: open_study
+   use parameter_study, only: study_type
+   use study_marks, only: open_rows
    implicit none (type, external)
    private
    public :: join_rows
 
 contains
 
-   !> Adds the rows of the study `path` to those of an open file, where it has none, or only one of a run that the
-   !> system failed. Both must be of one study with the same number of runs.
-   subroutine join_rows(file, rows, path, error)
+   !> Adds the rows of another file of the same study to those of an open file, where it has none, or only one of a run
+   !> that the system failed. The other may have fewer runs. One that cannot be read any more once rows were added is a
+   !> failure of the open file.
+   subroutine join_rows(file, rows, study, path, error)
       class(hdf5_type), intent(inout) :: file
       type(study_rows_type), intent(inout) :: rows
+      type(study_type), intent(in) :: study
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
       type(hdf5_type) :: other_file
       type(study_rows_type) :: other
-      character(len=:), allocatable :: names, marks, other_marks
-      type(new_column_type), allocatable :: new(:)
       logical, allocatable :: wanted(:)
       integer :: i
-      call open_study(path, other_file, error)
+      call open_rows(path, study, other_file, other, error)
       if (allocated(error)) return
-      call file%get_text('study_marks', marks)
-      call other_file%get_text('study_marks', other_marks)
-      call other_file%get_text('parameters', names)
-      call other%read_layout(other_file, names)
-      if (.not. allocated(other_file%failure)) then
-         if (other%table%runs /= rows%table%runs .or. other_marks /= marks .or. names /= rows%table%coordinates) then
-            call raise(error, system_error, path//': is of another study')
-         end if
-      end if
-      if (.not. allocated(error) .and. .not. allocated(other_file%failure)) then
-         call rows%flush(file)
-         wanted = other%status /= not_run .and. (rows%status == not_run .or. rows%status == system_error)
-         allocate (new(size(other%table%columns)))
-         do i = 1, size(new)
-            new(i) = new_of(other, other%table%columns(i))
-         end do
+      call rows%flush(file)
+      associate (status => rows%status(:size(other%status)))
+         wanted = other%status /= not_run .and. (status == not_run .or. status == system_error)
+      end associate
+      if (any(wanted)) then
          call rows%table%extend(file, rows%status /= not_run, other%table%dimensions, &
-            & spread(.true., 1, size(other%table%dimensions)), new)
+            & spread(.true., 1, size(other%table%dimensions)), &
+            & [(new_of(other, other%table%columns(i)), i=1, size(other%table%columns))])
          do i = 1, size(rows%table%columns)
             call join_column(file, rows, i, other_file, other, wanted)
          end do
          call join_texts(file, rows, other_file, other, wanted)
-         where (wanted) rows%status = other%status
+         where (wanted) rows%status(:size(wanted)) = other%status
+         if (allocated(other_file%failure) .and. .not. allocated(file%failure)) file%failure = path//': damaged: ' &
+            & //other_file%failure
       end if
       call other%close(other_file)
-      if (allocated(other_file%failure) .and. .not. allocated(error)) call raise(error, system_error, &
-         & path//': damaged: '//other_file%failure)
       call other_file%close()
    end subroutine join_rows
 

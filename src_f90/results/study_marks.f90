@@ -12,7 +12,7 @@ module study_marks
    use study_rows, only: study_rows_type
    implicit none (type, external)
    private
-   public :: put_marks, check_marks, is_collected, open_study, missing_runs
+   public :: put_marks, check_marks, is_collected, open_study, open_rows, missing_runs
 
    character(len=*), parameter :: marks_name = 'study_marks'
 
@@ -114,6 +114,28 @@ contains
       call rows%reasons%read(file, 1, rows%reasons%length, texts)
       if (rows%files%id >= 0) call rows%files%read(file, 1, rows%files%length, texts)
    end subroutine read_all
+
+   !> Opens a file of this study, which may have fewer runs, and reads which rows and columns it has.
+   subroutine open_rows(path, study, file, rows, error)
+      character(len=*), intent(in) :: path
+      type(study_type), intent(in) :: study
+      class(hdf5_type), intent(inout) :: file
+      type(study_rows_type), intent(inout) :: rows
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: names
+      call open_study(path, file, error)
+      if (allocated(error)) return
+      call check_marks(path, file, study, error)
+      if (.not. allocated(error)) then
+         call file%get_text('parameters', names)
+         call rows%read_layout(file, names)
+         if (rows%table%runs > study%runs) call file%check_read(-1, 'find as many rows as there are runs')
+         if (.not. allocated(file%failure)) return
+         call raise(error, system_error, path//': damaged: '//file%failure)
+         call rows%close(file)
+      end if
+      call file%close()
+   end subroutine open_rows
 
    !> The numbers of runs that are missing, in few words: "3, 7-9".
    pure function missing_runs(missing) result(text)

@@ -68,22 +68,24 @@ contains
       end do
    end function names_of
 
-   !> Writes the scale of the runs, a new one for all or the rest of one that has fewer.
-   subroutine write_runs(file, first, last)
+   !> Writes the numbers of the runs `first` to `last` into their scale: a new one for this number of runs, or, with
+   !> `again`, one that has fewer.
+   subroutine write_runs(file, runs, first, last, again)
       class(hdf5_type), intent(inout) :: file
-      integer, intent(in) :: first, last
+      integer, intent(in) :: runs, first, last
+      logical, intent(in) :: again
       type(hdf5_rows_type) :: scale
-      integer :: from, i
-      if (first == 1) then
-         call scale%create(file, run_scale, [integer ::], last, 0.0_wp, .true.)
-         call file%describe(scale%id, '1', 'number of the run', run_scale, run_scale)
-      else
+      integer :: from, to, i
+      if (again) then
          call scale%open(file, run_scale)
-         call scale%resize(file, [integer ::], last)
+         call scale%resize(file, [integer ::], runs)
+      else
+         call scale%create(file, run_scale, [integer ::], runs, 0.0_wp, .true.)
+         call file%describe(scale%id, '1', 'number of the run', run_scale, run_scale)
       end if
       do from = first, last, most_rows
-         call scale%write(file, from, reshape([(real(i, wp), i=from, min(from + most_rows - 1, last))], &
-            & [1, min(most_rows, last - from + 1)]))
+         to = min(from + most_rows - 1, last)
+         call scale%write(file, from, reshape([(real(i, wp), i=from, to)], [1, to - from + 1]))
       end do
       call scale%close(file)
    end subroutine write_runs

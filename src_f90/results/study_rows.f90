@@ -3,6 +3,7 @@
 module study_rows
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
+   use errors, only: system_error
    use text, only: printable
    use record, only: record_type
    use hdf5_file, only: hdf5_type
@@ -12,7 +13,7 @@ module study_rows
    use row_mapping, only: row_mapping_type
    implicit none (type, external)
    private
-   public :: study_rows_type, not_run
+   public :: study_rows_type, not_run, stays
 
    !> The status of a run that has no row.
    integer, parameter :: not_run = -2
@@ -263,4 +264,10 @@ contains
       call self%reasons%close(file)
       call self%files%close(file)
    end subroutine close_rows
+
+   !> Whether the row of a run that ended so is to stay. The row of one that the system failed is to be written again.
+   elemental logical function stays(status)
+      integer, intent(in) :: status
+      stays = status /= not_run .and. status /= system_error
+   end function stays
 end module study_rows

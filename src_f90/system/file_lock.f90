@@ -37,6 +37,8 @@ module file_lock
       integer, public :: watch_free = 3*beat_seconds, watch_held = 120
       !> The dead process whose lock was taken, "process 12 on node1"; empty where there was none.
       character(len=:), allocatable, public :: taken_from
+      !> Who has the lock where it was refused for that; else empty.
+      character(len=:), allocatable, public :: held_by
       !> Identities of the files that the dead process had made and not deleted, separated by blanks.
       character(len=:), allocatable, public :: files_left
       character(len=:), allocatable :: files
@@ -105,6 +107,7 @@ contains
       integer :: found, waited, watched
       self%path = path//'.lock'
       self%taken_from = ''
+      self%held_by = ''
       self%files_left = ''
       self%files = ''
       waited = 0
@@ -122,7 +125,8 @@ contains
          if (found /= held .and. waited >= watched) exit
          call close_lock(self)
          if (holder /= first .or. waited >= watched) then
-            call raise(error, system_error, 'cannot write '//path//': '//described(holder)//' is writing it')
+            self%held_by = described(holder)
+            call raise(error, system_error, 'cannot write '//path//': '//self%held_by//' is writing it')
             return
          end if
          ! opened anew each time, as network file systems look anew only then

@@ -5,6 +5,7 @@ module files
    implicit none (type, external)
    private
    public :: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, unlock_file
+   public :: block_names
    public :: empty_file, real_path, is_regular, file_identity, untold, make_folder, remove_folder, other_number
 
    !> Stands for the identity that the system does not tell.
@@ -98,6 +99,11 @@ module files
          integer(c_int), value :: digits
          integer(c_long), value :: last
       end function c_other_number
+
+      type(c_ptr) function c_block_names(path, ending) bind(c, name='tiltpad_block_names')
+         import :: c_char, c_ptr
+         character(kind=c_char, len=*), intent(in) :: path, ending
+      end function c_block_names
    end interface
 
 contains
@@ -134,4 +140,11 @@ contains
       character(len=:), allocatable :: name
       name = fortran_text(c_other_number(folder, int(digits, c_int), int(last, c_long)))
    end function other_number
+
+   !> The names in its folder that are the path's with ".IofN" and an ending, in order, each with a slash behind it.
+   function block_names(path, ending) result(names)
+      character(len=*), intent(in) :: path, ending
+      character(len=:), allocatable :: names
+      names = fortran_text(c_block_names(path, ending))
+   end function block_names
 end module files

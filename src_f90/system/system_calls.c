@@ -239,6 +239,36 @@ const char *tiltpad_other_number(const text_t *folder, int digits, long last)
    return found;
 }
 
+/* Names in the folder of a path that are that path's with ".IofN" and an ending, in order, each with a slash behind. */
+const char *tiltpad_block_names(const text_t *path, const text_t *ending)
+{
+   static char *found;
+   C_STRING(name, path);
+   C_STRING(tail, ending);
+   char *slash = strrchr(name, '/'), *stem = slash ? slash + 1 : name;
+   struct dirent **entries;
+   size_t length = 0, stem_length = strlen(stem);
+   int count;
+   if (slash) *slash = 0;
+   count = scandir(!slash ? "." : *name ? name : "/", &entries, NULL, alphasort);
+   found = realloc(found, 1);
+   for (int i = 0; i < count; i++) {
+      char *entry = entries[i]->d_name, *more;
+      int end = 0;
+      if (strncmp(entry, stem, stem_length) == 0) sscanf(entry + stem_length, ".%*[0-9]of%*[0-9]%n", &end);
+      if (end > 0 && strcmp(entry + stem_length + end, tail) == 0
+          && (more = realloc(found, length + strlen(entry) + 2))) {
+         found = more;
+         length += sprintf(found + length, "%s/", entry);
+      }
+      free(entries[i]);
+   }
+   if (count >= 0) free(entries);
+   if (!found) return "";
+   found[length] = 0;
+   return found;
+}
+
 /* ---- locks ------------------------------------------------------------------------------------- */
 
 /* Whether it can be a lock file: an ordinary file with this name alone, or with none any more. */

@@ -57,6 +57,23 @@ int clock_gettime(clockid_t clock, struct timespec *now)
 """
 
 
+def in_a_mount_namespace(script, cwd=None, **names):
+    """Runs a shell script with mounts of its own."""
+    if os.geteuid() != 0 or not shutil.which("unshare"):
+        pytest.skip("needs root for a file system of its own")
+    probe = subprocess.run(["unshare", "-m", "true"], capture_output=True)
+    if probe.returncode != 0:
+        pytest.skip("no mount namespaces here")
+    return subprocess.run(
+        ["unshare", "-m", "sh", "-e", "-c", script],
+        capture_output=True,
+        text=True,
+        timeout=TIMEOUT,
+        cwd=cwd,
+        env={**os.environ, **{name: str(value) for name, value in names.items()}},
+    )
+
+
 def wait_for(condition, process=None, seconds=TIMEOUT):
     """Until the condition holds. A process, where one is given, must not end before."""
     end = time.monotonic() + seconds
@@ -177,13 +194,17 @@ def loaded(tmp_path):
 
 @pytest.fixture
 def failing(tmp_path):
-    """failing("write", 12, "ENOSPC"): the environment in which it fails; `always`: all after it, too."""
+    """failing("write", 12, "ENOSPC"): the environment in which it fails; `always`: and all after it."""
     if not (shutil.which("cc") or shutil.which("gcc")):
         pytest.skip("no C compiler")
-    folder = tmp_path / "injector"
-    folder.mkdir()
-    injector = Injector(folder)
-    return lambda *fault, always=False: injector.environment(folder / "counts", Fault(*fault, always))
+    library = tmp_path / "injector"
+    library.mkdir()
+    injector = Injector(library)
+
+    def environment(*fault, always=False, folder=None):
+        return injector.environment(library / "counts", Fault(*fault, always), folder)
+
+    return environment
 
 
 @pytest.fixture

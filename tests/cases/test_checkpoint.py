@@ -13,7 +13,16 @@ import h5py
 import numpy as np
 import pytest
 import tiltpad as package
-from conftest import ENDLESS, EVERY_STEP, TIMEOUT, one_error, shorten, wait_for, wait_for_checkpoint
+from conftest import (
+    ENDLESS,
+    EVERY_STEP,
+    TIMEOUT,
+    in_a_mount_namespace,
+    one_error,
+    shorten,
+    wait_for,
+    wait_for_checkpoint,
+)
 
 CASE = "&friction model='lugre' / &operation duration=0.5 / &output checkpoint_seconds=0.01 /\n"
 #: What a case may add: every kind of state, film and end that a resumed run must take up.
@@ -372,24 +381,6 @@ def test_a_reader_keeps_what_it_opened(start, case):
 
 
 # ---- disks -------------------------------------------------------------------------------------
-
-
-def in_a_mount_namespace(script, **names):
-    """Runs a shell script with mounts of its own."""
-    if os.geteuid() != 0 or not shutil.which("unshare"):
-        pytest.skip("needs root for a file system of its own")
-    probe = subprocess.run(["unshare", "-m", "true"], capture_output=True)
-    if probe.returncode != 0:
-        pytest.skip("no mount namespaces here")
-    return subprocess.run(
-        ["unshare", "-m", "sh", "-e", "-c", script],
-        capture_output=True,
-        text=True,
-        timeout=TIMEOUT,
-        env={**os.environ, **{name: str(value) for name, value in names.items()}},
-    )
-
-
 def test_a_full_disk_keeps_the_last_checkpoint(program, case, whole):
     """Whatever is written when the disk is full; room made, the run goes on."""
     for size in (6, 8, 9, 11):

@@ -10,7 +10,15 @@ import time
 import h5py
 import numpy as np
 import pytest
-from conftest import FAST_CLOCK, TIMEOUT, arrays, one_error, wait_for, wait_for_checkpoint
+from conftest import (
+    FAST_CLOCK,
+    TIMEOUT,
+    arrays,
+    in_a_mount_namespace,
+    one_error,
+    wait_for,
+    wait_for_checkpoint,
+)
 
 #: What depends on the moment.
 TIMES = ("wall_seconds", "film_seconds", "film_building_seconds", "output_seconds", "checkpoint_seconds")
@@ -234,6 +242,40 @@ def test_a_full_disk(tiltpad, start, case, loaded):
         assert 0 < known(folder / "case.h5") < 1500
     tiltpad("case.nml", "-q", cwd=folder, status=0)
     expect_same(rows(folder / "whole.h5"), rows(folder / "case.h5"))
+
+
+def test_a_small_disk(tiltpad, program, case):
+    """However much room there is: one line, no row of a checkpoint is lost, and with more room it goes on."""
+    folder = case(QUICK.format(last=2500))
+    tiltpad("case.nml", "-q", "-o", "whole", cwd=folder, status=0)
+    checkpoints = 0
+    for part in (0.3, 0.6, 0.9, 1.2, 1.5):
+        done = in_a_mount_namespace(
+            """
+            mkdir -p disk; mount -t tmpfs -o size=${SIZE}k tmpfs disk; cd disk
+            status=0; $PROGRAM -q ../case.nml || status=$?
+            ls; test $status = 3
+            rm -f ../full.h5; test ! -e case.h5 || cp case.h5 ../full.h5
+            mount -o remount,size=100m .
+            $PROGRAM -q ../case.nml
+            cp case.h5 ../case.h5
+            """,
+            PROGRAM=program,
+            SIZE=int(part * (folder / "whole.h5").stat().st_size / 1024),
+            cwd=folder,
+        )
+        assert done.returncode == 0, done.stderr
+        assert done.stderr.startswith("tiltpad: error: cannot write ")
+        assert done.stderr.endswith("no space left on device\n")
+        assert done.stderr.count("\n") == 1
+        assert done.stdout in ("", "case.h5\n")
+        expect_same(rows(folder / "whole.h5"), rows(folder / "case.h5"))
+        if (folder / "full.h5").exists():
+            with h5py.File(folder / "full.h5") as full, h5py.File(folder / "case.h5") as file:
+                there = full["status"][:] == 0
+                checkpoints += there.any()
+                np.testing.assert_array_equal(full["wall_seconds"][:][there], file["wall_seconds"][:][there])
+    assert checkpoints > 0
 
 
 # ---- what is kept of single runs ---------------------------------------------------------------------

@@ -164,7 +164,7 @@ for option; do
    shift
 done
 for ((k = 1; k <= ${tasks%%%*}; k++)); do
-   SLURM_ARRAY_TASK_ID=$k "$@" >&2 || exit
+   SLURM_ARRAY_TASK_COUNT=${tasks%%%*} SLURM_ARRAY_TASK_ID=$k "$@" >&2 || exit
 done
 [[ $tasks ]] || "$@" >&2 || exit
 echo "7;here"
@@ -205,9 +205,9 @@ def test_jobs_take_any_name(job, tmp_path, name):
     (tmp_path / f"here/{name}.h5").unlink()
     case.write_text("&operation duration=0.01 /\n&sweep operation%speed_rpm=5000, 6000, 7000 /\n")
     runs = {f"{name}/000{k}.h5" for k in (1, 2, 3)}
-    runs |= {case.name, f"{name}.h5"}
-    assert job("sweep.sh", case.name) == runs
-    assert job("submit.sh", case.name, "2") == runs
+    assert job("sweep.sh", case.name) == {case.name, *runs, f"{name}.h5"}
+    (tmp_path / f"here/{name}.h5").unlink()
+    assert job("submit.sh", case.name, "2") == {case.name, *runs, f"{name}.h5"}
 
 
 def test_the_manual_page_has_every_option(root, tiltpad):

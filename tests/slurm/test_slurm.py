@@ -166,10 +166,20 @@ def test_cancelled_job_is_not_requeued(cluster, scripts, case):
     check_whole(result, resumed=True)
 
 
+def check_study(path: Path) -> None:
+    """All runs have their rows, once, and no file of a block is left."""
+    with tiltpad.read_study(path) as study:
+        assert list(study["run"]) == list(RUNS)
+        assert list(study["status"]) == [2.0 if k == FAILING else 0.0 for k in RUNS]
+        np.testing.assert_array_equal(np.isnan(study["orbit_size"]), [k == FAILING for k in RUNS])
+    assert not list(path.parent.glob("*of*.h5*"))
+    assert not list(path.parent.glob("*.lock"))
+
+
 def test_task_requeues_itself_alone_when_its_time_is_over(cluster, scripts, folder):
     write(folder, "speeds.nml", six_speeds())
     # the last task that starts has the number of the whole array
-    array = cluster.submit("--array=1-2", scripts / "sweep.sh", "speeds.nml", cwd=folder)
+    array = cluster.submit("--array=1-2", scripts / "sweep.sh", "speeds.nml", "6", cwd=folder)
     cluster.wait_for(lambda: len(cluster.running(array)) == 2, "both tasks")
     task = next(k for k in (1, 2) if cluster.job(f"{array}_{k}")["JobId"] == array)
     begun(cluster, folder / f"speeds/000{task}.h5")
@@ -177,7 +187,9 @@ def test_task_requeues_itself_alone_when_its_time_is_over(cluster, scripts, fold
     for k in (1, 2):
         assert outcome(cluster.ended(f"{array}_{k}")) == ("COMPLETED", "0:0", str(int(k == task)))
         check_whole(folder / f"speeds/000{k}.h5", resumed=k == task)
+        assert (folder / f"speeds.{k}of6.h5").exists()
     assert "stopped by signal 10" in (folder / f"slurm-{array}_{task}.out").read_text()
+    assert not (folder / "speeds.h5").exists()
 
 
 def test_study_in_one_job_goes_on(cluster, scripts, folder):
@@ -189,40 +201,64 @@ def test_study_in_one_job_goes_on(cluster, scripts, folder):
     for k in RUNS:
         if k != FAILING:
             check_whole(folder / f"speeds/{k:04d}.h5", resumed=k <= 2)
+    check_study(folder / "speeds.h5")
 
 
-def test_several_members_a_task(cluster, scripts, folder):
-    write(folder, "speeds.nml", six_speeds(duration=0.5))
-    array = cluster.submit("--array=1-2", scripts / "sweep.sh", "speeds.nml", "4", cwd=folder)
-    assert outcome(cluster.ended(f"{array}_1")) == ("FAILED", "2:0", "0")
-    assert outcome(cluster.ended(f"{array}_2")) == ("COMPLETED", "0:0", "0")
+def test_killed_and_requeued_tasks_of_an_array(cluster, scripts, folder):
+    """The last to end joins the blocks: here the one that was killed, after it is requeued."""
+    write(folder, "speeds.nml", six_speeds(duration=20))
+    array = cluster.submit("--array=1-3", "--cpus-per-task=2", scripts / "sweep.sh", "speeds.nml", cwd=folder)
+    for k in (1, 2, 4):
+        begun(cluster, folder / f"speeds/{k:04d}.h5")
+    os.kill(writer(folder / "speeds.2of3.h5"), signal.SIGKILL)
+    cluster.ask("scontrol", "requeue", f"{array}_1")
+    assert outcome(cluster.ended(f"{array}_2")) == ("FAILED", "137:0", "0")
+    assert outcome(cluster.ended(f"{array}_1")) == ("COMPLETED", "0:0", "1")
+    assert outcome(cluster.ended(f"{array}_3")) == ("COMPLETED", "0:0", "0")
+    assert not (folder / "speeds.h5").exists()
+    cluster.ask("scontrol", "requeue", f"{array}_2")
+    assert outcome(cluster.ended(f"{array}_2")) == ("FAILED", "2:0", "1")
+    check_study(folder / "speeds.h5")
     for k in RUNS:
         if k != FAILING:
-            check_whole(folder / f"speeds/{k:04d}.h5", resumed=False)
+            check_whole(folder / f"speeds/{k:04d}.h5", resumed=k in (1, 2, 4))
+
+
+def test_one_task_again(cluster, scripts, folder):
+    """By its number, or the whole study in one job, which takes the rows of the others."""
+    write(folder, "speeds.nml", six_speeds(duration=0.5))
+    for name, last in (("one", ("--array=2",)), ("all", ())):
+        (folder / name).mkdir()
+        study = write(folder / name, "speeds.nml", (folder / "speeds.nml").read_text())
+        first = cluster.submit("--array=1,3", scripts / "sweep.sh", study.name, "3", cwd=study.parent)
+        for k in (1, 3):
+            assert outcome(cluster.ended(f"{first}_{k}")) == ("COMPLETED", "0:0", "0")
+        blocks = ("3",) if last else ()
+        again = cluster.submit(*last, scripts / "sweep.sh", study.name, *blocks, cwd=study.parent)
+        assert outcome(cluster.ended(again)) == ("FAILED", "2:0", "0")
+        check_study(study.with_suffix(".h5"))
 
 
 def test_study(cluster, scripts, folder):
     at_a_time = 2
     assert at_a_time < cluster.processors
     write(folder, "speeds.nml", six_speeds(duration=6))
-    said = cluster.ask(scripts / "submit.sh", "speeds.nml", "1", str(at_a_time), cwd=folder)
-    array, collection = re.findall(r"job ([0-9]+)", said)
+    said = cluster.ask(scripts / "submit.sh", "speeds.nml", "5", str(at_a_time), cwd=folder)
+    assert "6 runs in 5 blocks" in said
+    (array,) = re.findall(r"job ([0-9]+)", said)
     seen = []
 
     def watched() -> bool:
         seen.append(len(cluster.running(array)))
-        return cluster.job(collection)["JobState"] in ("COMPLETED", "FAILED")
+        return cluster.ask("squeue", "-h", "-j", array) == ""
 
     cluster.wait_for(watched, "the study")
     assert max(seen) == at_a_time
-    for k in RUNS:
+    # the blocks 1, 1, 1, 1 and 2
+    for k in range(1, 6):
         expected = ("FAILED", "2:0", "0") if k == FAILING else ("COMPLETED", "0:0", "0")
         assert outcome(cluster.job(f"{array}_{k}")) == expected
-    assert outcome(cluster.job(collection)) == ("COMPLETED", "0:0", "0")
-    with tiltpad.read_study(folder / "speeds.h5") as study:
-        assert list(study["run"]) == list(RUNS)
-        assert list(study["status"]) == [2.0 if k == FAILING else 0.0 for k in RUNS]
-        np.testing.assert_array_equal(np.isnan(study["orbit_size"]), [k == FAILING for k in RUNS])
+    check_study(folder / "speeds.h5")
     cluster.ask("tiltpad-plot", "study", "speeds.h5", "-o", "study.png", cwd=folder)
     assert (folder / "study.png").read_bytes().startswith(b"\x89PNG")
 

@@ -1,0 +1,122 @@
+!> The blocks of a study, whose runs are performed by several programs, each into a file of its own that is joined with
+!> the others when all are finished.
+module study_blocks
+   use kinds, only: i8
+   use text, only: to_text
+   use errors, only: error_type
+   use files, only: delete_file, block_names
+   use working_file, only: working_file_type, clear_leftovers
+   use hdf5_file, only: hdf5_type
+   use parameter_study, only: study_type
+   use study_rows, only: study_rows_type, not_run
+   use study_marks, only: open_rows
+   implicit none (type, external)
+   private
+   public :: block_type, path_type, block_paths, refuse_written, read_status, delete_block
+
+   !> One of some blocks of runs that follow each other, whose sizes differ by one at most.
+   type :: block_type
+      integer :: number = 1, of = 1
+   contains
+      !> Its first and last run of this number; the last is before the first in an empty block.
+      procedure :: first
+      procedure :: last
+      procedure :: path
+   end type block_type
+
+   type :: path_type
+      character(len=:), allocatable :: path
+   end type path_type
+
+contains
+
+   pure integer function first(self, runs)
+      class(block_type), intent(in) :: self
+      integer, intent(in) :: runs
+      first = int((self%number - 1_i8)*runs/self%of) + 1
+   end function first
+
+   pure integer function last(self, runs)
+      class(block_type), intent(in) :: self
+      integer, intent(in) :: runs
+      last = int(int(self%number, i8)*runs/self%of)
+   end function last
+
+   !> The file of its rows: NAME.03of16.h5; NAME.h5 where the block is the whole study.
+   pure function path(self, name)
+      class(block_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: path, number
+      number = to_text(self%number)
+      path = name
+      if (self%of > 1) path = path//'.'//repeat('0', len(to_text(self%of)) - len(number))//number//'of' &
+         & //to_text(self%of)
+      path = path//'.h5'
+   end function path
+
+   !> The files of blocks that there are of the study NAME, however many blocks it was given.
+   function block_paths(name) result(paths)
+      character(len=*), intent(in) :: name
+      type(path_type), allocatable :: paths(:)
+      paths = paths_with('.h5', name)
+   end function block_paths
+
+   !> The files beside a study that are named like its blocks' with this ending.
+   function paths_with(ending, name) result(paths)
+      character(len=*), intent(in) :: ending, name
+      type(path_type), allocatable :: paths(:)
+      character(len=:), allocatable :: names, folder
+      integer :: i, from, length
+      folder = name(:index(name, '/', back=.true.))
+      names = block_names(name, ending)
+      allocate (paths(count([(names(i:i) == '/', i=1, len(names))])))
+      from = 1
+      do i = 1, size(paths)
+         length = index(names(from:), '/')
+         paths(i)%path = folder//names(from:from + length - 2)
+         from = from + length
+      end do
+   end function paths_with
+
+   !> An error where somebody writes the rows of a block of the study NAME.
+   subroutine refuse_written(name, error)
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable, intent(out) :: error
+      type(path_type), allocatable :: locks(:)
+      type(working_file_type) :: work
+      integer :: i
+      locks = paths_with('.h5.lock', name)
+      do i = 1, size(locks)
+         associate (lock => locks(i)%path)
+            call work%claim(lock(:len(lock) - len('.lock')), error)
+         end associate
+         if (allocated(error)) return
+         call work%release()
+      end do
+   end subroutine refuse_written
+
+   !> The exit status of each run in a file of this study, `not_run` where there is no row; it may have fewer runs.
+   subroutine read_status(path, study, status, error)
+      character(len=*), intent(in) :: path
+      type(study_type), intent(in) :: study
+      integer, intent(out) :: status(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(hdf5_type) :: file
+      type(study_rows_type) :: rows
+      status = not_run
+      call open_rows(path, study, file, rows, error)
+      if (allocated(error)) return
+      status(:size(rows%status)) = rows%status
+      call rows%close(file)
+      call file%close()
+   end subroutine read_status
+
+   !> Deletes the file of a block and what a killed program has left beside it, unless somebody writes it.
+   subroutine delete_block(path)
+      character(len=*), intent(in) :: path
+      logical :: locked
+      call clear_leftovers(path)
+      inquire (file=path//'.lock', exist=locked)
+      if (.not. locked) call delete_file(path)
+   end subroutine delete_block
+end module study_blocks
