@@ -3,7 +3,7 @@ module linear_analysis
    use kinds, only: wp
    use errors, only: error_type
    use case_inputs, only: case_type
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_fine
    use linear_bearing, only: bearing_coefficients_type, find_coefficients
@@ -22,13 +22,13 @@ contains
       character(len=*), intent(in) :: what
       type(bearing_coefficients_type), intent(out) :: found
       type(equilibrium_type), intent(out), optional :: static
-      type(bearing_model), intent(out), optional :: fine
+      type(machine_model), intent(out), optional :: fine
       real(wp), allocatable, intent(out), optional :: y(:)
-      type(bearing_model) :: model, converged
+      type(machine_model) :: model, converged
       type(equilibrium_type) :: own
       type(error_type), allocatable :: error
       real(wp), allocatable :: state(:)
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       call find_equilibrium(model, own, error)
       if (.not. allocated(error)) then
          model%oil%viscosity = own%viscosity

@@ -9,11 +9,11 @@ module tiltpad_library
    use case_inputs, only: case_type
    use case_namelist, only: case_from_text
    use factories, only: make_law, make_friction
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
    use tilting_pad_bearing, only: pad_sample
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use contact_law, only: contact_law_type, contact_point
    use friction, only: friction_law, friction_response
    use kinds, only: degree
@@ -47,7 +47,7 @@ contains
       character(len=2000), intent(out) :: message
       type(error_type), allocatable :: error
       type(case_type) :: inputs
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(pad_sample) :: samples(pads)
       real(c_double), allocatable :: y(:)
       integer :: i
@@ -65,13 +65,13 @@ contains
                phi(:, i) = (along - 1 + inputs%pads%pivot_ratio(i))*arc(i)
             end do
          end associate
-         samples = model%bearing%sampled()
+         samples = model%bearings(1)%sampled()
          force(1, :) = samples%film_force(1)
          force(2, :) = samples%film_force(2)
          max_pressure = samples%max_pressure
          min_film_thickness = samples%min_film_thickness
          z = 0.5_c_double*inputs%bearing%axial_length*across
-         call model%bearing%pressure_field(phi, z, pressure)
+         call model%bearings(1)%pressure_field(phi, z, pressure)
       end if
       call tell(error, status, message)
    end subroutine film_pressure
@@ -91,7 +91,7 @@ contains
       character(len=2000), intent(out) :: message
       type(error_type), allocatable :: error
       type(case_type) :: inputs
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(bearing_losses_type) :: finder
       type(pad_loss) :: found(pads)
       integer :: i, k
@@ -99,7 +99,7 @@ contains
       if (.not. allocated(error)) then
          finder = new_bearing_losses(inputs)
          do k = 1, n
-            call finder%find(model%bearing, journal_motion(journal(:2, k), journal(3:4, k)), &
+            call finder%find(model%bearings(1), journal_motion(journal(:2, k), journal(3:4, k)), &
                & [(pad_state(tilt(1, i, k), tilt(2, i, k), pivot_deflection(1, i, k), pivot_deflection(2, i, k)), &
                   i=1, pads)], &
                & model%oil, model%point%speed(time(k)), found)
@@ -184,7 +184,7 @@ contains
       character(len=*), intent(in) :: text, name
       real(c_double), intent(in) :: viscosity(:)
       type(case_type), intent(out) :: inputs
-      type(bearing_model), intent(out) :: model
+      type(machine_model), intent(out) :: model
       type(error_type), allocatable, intent(out) :: error
       call case_from_text(text, name, inputs, error)
       if (allocated(error)) return
@@ -194,7 +194,7 @@ contains
          return
       end if
       if (inputs%film%solver == 'auto') inputs%film%solver = 'direct'
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       if (all(viscosity > 0)) model%oil%viscosity = viscosity
    end subroutine read_bearing
 

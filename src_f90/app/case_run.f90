@@ -5,7 +5,7 @@ module case_run
    use parameter_study, only: run_tag
    use errors, only: error_type, stopped
    use ode_model, only: integrator_counts_type
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use run_file, only: run_file_type
    use provenance, only: running
    use summary_group, only: run_extremes_type
@@ -30,7 +30,7 @@ module case_run
       !> True once there are results that are worth a file.
       logical :: computed = .false.
       type(run_file_type) :: file
-      type(bearing_model) :: model
+      type(machine_model) :: model
       !> Of all samples.
       type(run_extremes_type) :: extremes
       !> Simulated time reached, s.
@@ -121,7 +121,7 @@ contains
          call statistics%put('error_test_failures', counts%error_test_failures, 'steps refused by the error test')
          call statistics%put('convergence_failures', counts%convergence_failures, 'Newton iterations that failed')
       end associate
-      associate (films => self%model%bearing%film%counters)
+      associate (films => self%model%bearings(1)%film%counters)
          call statistics%put('film_fourier', films%fourier, 'pads solved by axial modes in the march')
          call statistics%put('film_volumes', films%volumes, 'pads solved on finite volumes in the march')
          call statistics%put('film_passes', films%passes, &

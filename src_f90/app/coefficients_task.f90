@@ -6,7 +6,7 @@ module coefficients_task
    use errors, only: error_type, add_context, stopped
    use case_inputs, only: case_type
    use equilibrium, only: equilibrium_type
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use static_model, only: make_fine
    use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type
    use thermal_equilibrium, only: settle
@@ -27,7 +27,7 @@ contains
    subroutine run_coefficients(run, error)
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(out) :: error
-      type(bearing_model) :: fine
+      type(machine_model) :: fine
       type(equilibrium_type) :: static
       type(bearing_coefficients_type) :: found
       real(wp), allocatable :: y(:)

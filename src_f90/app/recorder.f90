@@ -6,7 +6,7 @@ module recorder
    use marching, only: march_observer_type
    use ode_model, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
-   use equations_of_motion, only: model_sample
+   use bearing_samples, only: bearing_sample, take_sample
    use march_results, only: add_sample
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
@@ -22,7 +22,7 @@ module recorder
       logical, private :: checkpoint_due = .false.
       type(periodicity), private :: orbit
       !> The last sample, and how many there were; its memory is used again.
-      type(model_sample), private :: taken
+      type(bearing_sample), private :: taken
       integer(i8), private :: samples = 0
    contains
       procedure :: sample
@@ -95,7 +95,7 @@ contains
       class(recorder_type), intent(inout) :: self
       real(wp), intent(in) :: t, y(:), output(:)
       type(error_type), allocatable, intent(out) :: error
-      call self%run%model%take_sample(t, y, output, self%taken)
+      call take_sample(self%run%model, t, y, output, 1, self%taken)
       call add_sample(self%run%file, self%taken, error)
       call self%run%extremes%add(self%taken)
       self%run%reached = t

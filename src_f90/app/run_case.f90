@@ -5,7 +5,7 @@ module run_case
    use case_inputs, only: case_type
    use result_size, only: memory_bytes, memory_advice, bytes_text
    use parameter_study, only: run_tag
-   use equations_of_motion, only: new_bearing_model
+   use equations_of_motion, only: new_machine_model
    use record, only: record_type, move_record
    use record_reader, only: read_record
    use hdf5_file, only: hdf5_type
@@ -59,7 +59,7 @@ contains
       if (allocated(error)) return
       if (.not. complete .or. run%verified_states > 0) then
          if (.not. quiet) call print_notes(inputs)
-         run%model = new_bearing_model(inputs)
+         run%model = new_machine_model(inputs)
       end if
       if (.not. complete) then
          call move_record(results, run%file%record_type)

@@ -4,7 +4,7 @@ module run_start
    use text, only: to_text
    use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
    use files, only: real_path
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
    use equilibrium, only: equilibrium_type, find_equilibrium, find_partial_equilibrium
    use namelist_writer, only: namelist_of
@@ -95,8 +95,8 @@ contains
             if (.not. allocated(error)) call note_oil(run)
             if (present(equilibrium_state) .and. .not. allocated(error)) equilibrium_state = y
             if (allocated(error) .or. .not. run%inputs%is_disturbed()) return
-            journal = model%rotor%journal(y(:model%rotor%states))
-            pads = model%layout%pad_states(y)
+            journal = model%rotor%journal(y(:model%rotor%states), 1)
+            pads = model%layout%bearings(1)%pad_states(y)
          else
             allocate (pads(model%layout%pads))
             if (from == 'file') call start_from_file(run, journal, pads, error)
@@ -196,7 +196,7 @@ contains
             call raise(error, input_error, 'start%file = '''//file//''': is the result of this run itself; name ' &
                & //'another with --output')
          else
-            call read_last_state(file, run%model%layout, journal, pads, error)
+            call read_last_state(file, run%model%layout%bearings(1), journal, pads, error)
             call add_context(error, 'start%file')
          end if
       end associate

@@ -8,9 +8,9 @@ module verification
    use clock, only: wall_clock
    use case_inputs, only: case_type
    use result_size, only: sample_count
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use film_comparison, only: film_comparison_type, film_difference, new_film_comparison
    use static_model, only: make_static, make_fine
    use heat_balance_equations, only: has_warm_oil
@@ -110,7 +110,7 @@ contains
          sample = sample_of(k, n, file%samples, run%inputs%output%samples_per_revolution)
          call file%part_of_samples('time', sample, 1, at)
          time(k) = at(1, 1)
-         call read_states(file%hdf5, run%model%layout, sample, journal, pads)
+         call read_states(file%hdf5, run%model%layout%bearings(1), sample, journal, pads)
          call file%error_of(error)
          if (.not. allocated(error) .and. .not. all_finite(journal, pads)) call raise(error, system_error, run%path &
             & //': damaged: a state is not a number')
@@ -145,7 +145,7 @@ contains
       real(wp), allocatable, intent(out) :: time(:)
       type(film_difference), allocatable, intent(out) :: found(:, :)
       type(film_comparison_type) :: comparison
-      type(bearing_model) :: static
+      type(machine_model) :: static
       type(pad_state) :: pads(run%model%layout%pads)
       real(wp) :: journal(2)
       allocate (time(0), found(size(pads), 1))
@@ -155,8 +155,8 @@ contains
          call make_static(run%model, run%model%point%cavitation, static)
       end if
       journal = [file%get_real('equilibrium/journal_y'), file%get_real('equilibrium/journal_z')]
-      if (static%layout%tilting) call file%get_list('equilibrium/pad_tilt', pads%tilt)
-      if (static%layout%radial) call file%get_list('equilibrium/pivot_deflection', pads%pivot_deflection)
+      if (static%layout%bearings(1)%tilting) call file%get_list('equilibrium/pad_tilt', pads%tilt)
+      if (static%layout%bearings(1)%radial) call file%get_list('equilibrium/pivot_deflection', pads%pivot_deflection)
       if (has_warm_oil(static)) call file%get_list('equilibrium/viscosity', static%oil%viscosity)
       comparison = new_film_comparison(run%inputs)
       call comparison%compare(static, 0.0_wp, static%static_state(journal, pads%tilt, pads%pivot_deflection), &

@@ -6,7 +6,7 @@ module bearing_losses
    use film_solver, only: film_motion, film_oil, film_ok
    use film_losses, only: film_losses_type, film_loss
    use asperity_contact, only: asperity_load
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, frame_of, motion_of
    use tilting_pad, only: tilting_pad_type
    use tilting_pad_bearing, only: tilting_pad_bearing_type

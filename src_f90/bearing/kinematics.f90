@@ -2,7 +2,7 @@
 module kinematics
    use kinds, only: wp
    use film_solver, only: film_motion
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    implicit none (type, external)
    private
    public :: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global

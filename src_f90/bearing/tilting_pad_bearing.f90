@@ -9,7 +9,7 @@ module tilting_pad_bearing
    use asperity_contact, only: asperity_contact_type, asperity_load
    use contact_table, only: contact_table_type
    use friction, only: friction_law
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, pad_frame, frame_of, motion_of, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
    use factories, only: make_film, make_contact, make_friction, new_asperities, new_pads, march_films, static_films
@@ -46,7 +46,7 @@ module tilting_pad_bearing
       !> False: the pivots slide freely, whatever the law.
       logical :: rubs = .true.
       !> Bearing clearance, m.
-      real(wp), private :: clearance = 0
+      real(wp) :: clearance = 0
       !> What its films are for (factories).
       integer, private :: accuracy = march_films
       !> Of the state evaluated last: speed, rad/s, and oil of the pads; frames and motions.

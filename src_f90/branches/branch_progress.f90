@@ -5,7 +5,7 @@ module branch_progress
    use errors, only: error_type, add_context, numerics_error, stopped
    use case_inputs, only: branch_type
    use case_parameter, only: case_parameter_type, find_parameter
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use static_model, only: make_fine, make_static
    use march_settings, only: march_settings_of
    use orbit_polynomials, only: orbit_type, points
@@ -35,7 +35,7 @@ module branch_progress
       type(equilibrium_problem_type) :: equilibria
       type(bearing_orbits_type) :: ode
       !> In equilibrium: of equilibria, with converged films; of orbits with warm oil, for its viscosities.
-      type(bearing_model) :: static
+      type(machine_model) :: static
       !> Number of the branch that is followed, and of its points; the length of the next step.
       integer :: branch = 1, points = 0
       real(wp) :: length = 0
@@ -70,7 +70,7 @@ contains
    !> What follows from the case of a model; marches have taken this many steps already.
    subroutine prepare(self, model, steps, error)
       class(branch_progress_type), intent(inout), target :: self
-      type(bearing_model), intent(in), target :: model
+      type(machine_model), intent(in), target :: model
       integer(i8), intent(in) :: steps
       type(error_type), allocatable, intent(out) :: error
       associate (given => model%inputs%branch)
@@ -106,7 +106,7 @@ contains
    !> has.
    subroutine begin_oil(self, model, equilibrium_state)
       class(branch_progress_type), intent(inout), target :: self
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: equilibrium_state(:)
       call make_static(model, model%point%cavitation, self%static)
       allocate (self%ode%oil)
@@ -132,7 +132,7 @@ contains
    !> Where `go_on` will lead to the place of a checkpoint.
    subroutine begin_anywhere(self, model)
       class(branch_progress_type), intent(inout), target :: self
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp) :: nowhere(model%n)
       type(orbit_type) :: orbit
       nowhere = 0

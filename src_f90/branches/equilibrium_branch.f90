@@ -61,7 +61,7 @@ contains
       real(wp), intent(in) :: y(:)
       !> Its natural change.
       real(wp), intent(in) :: parameter, unit
-      integer :: i
+      integer, allocatable :: tilts(:)
       problem%bearing = bearing
       associate (model => bearing%model)
          problem%positions = y(model%layout%positions())
@@ -70,11 +70,8 @@ contains
          problem%n = size(problem%positions) + size(problem%viscosity)
          problem%scale = clearances(model)
          allocate (problem%force(size(problem%positions)), source=reference_force(model))
-         if (model%layout%tilting) then
-            associate (own => [(model%layout%first_position(i), i=1, model%layout%pads)])
-               problem%force(own) = problem%force(own)*model%bearing%pads%position%centre_distance
-            end associate
-         end if
+         tilts = model%layout%tilts()
+         problem%force(tilts) = problem%force(tilts)*model%tilt_lengths()
       end associate
       associate (n => size(problem%positions), one => spread(1.0_wp, 1, size(problem%viscosity)))
          ! viscosities count, too: where films are thin they run away while the positions hardly move
@@ -142,7 +139,7 @@ contains
       associate (model => self%bearing%model, n => size(self%positions))
          if (size(self%viscosity) > 0) model%oil%viscosity = self%viscosity
          call model%evaluate(0.0_wp, self%state(), want_derivatives, ok)
-         imbalance(:n) = forces(model, 0.0_wp)
+         imbalance(:n) = forces(model, 0.0_wp, self%state())
          imbalance(n + 1:) = 0
          if (.not. ok) then
             call raise(error, numerics_error, model%refusal)
@@ -180,7 +177,7 @@ contains
       real(wp), allocatable, intent(out) :: growth(:)
       logical, intent(out) :: ok
       associate (model => self%bearing%model)
-         call rotor_eigenvalues(linear_bearing_of(model, self%pivot, self%stiffness, self%damping), model%rotor%mass, &
+         call rotor_eigenvalues(linear_bearing_of(model, self%pivot, self%stiffness, self%damping), &
             & self%cross_stiffness, values, ok)
          values = values(largest_first(values%re))
          growth = values%re/model%point%speed(0.0_wp)

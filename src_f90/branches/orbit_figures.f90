@@ -1,7 +1,8 @@
 !> What a point of a branch is drawn by: how far journal and pads go in a period, and the vibration with the shaft.
 module orbit_figures
    use kinds, only: wp, i8, pi
-   use equations_of_motion, only: bearing_model, model_sample
+   use equations_of_motion, only: machine_model
+   use bearing_samples, only: bearing_sample, take_sample
    use orbit_problem, only: orbit_problem_type
    implicit none (type, external)
    private
@@ -24,7 +25,7 @@ contains
 
    !> The figures of an orbit, from a number of samples in each revolution.
    subroutine find_orbit_figures(model, problem, samples, figures)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(orbit_problem_type), intent(in) :: problem
       integer, intent(in) :: samples
       type(orbit_figures_type), intent(out) :: figures
@@ -40,7 +41,7 @@ contains
          t = problem%orbit%time(figures%intervals)*k/n
          call problem%orbit%state_at(t, y)
          call figures%add_state(model, t, y)
-         associate (journal => model%rotor%journal(y(:model%rotor%states)), angle => 2*pi*k/samples)
+         associate (journal => model%rotor%journal(y(:model%rotor%states), 1), angle => 2*pi*k/samples)
             synchronous = synchronous + journal%position*cmplx(cos(angle), sin(angle), wp)
          end associate
       end do
@@ -54,12 +55,12 @@ contains
    !> Takes a state at time t, s, into the figures: of an equilibrium the only one.
    subroutine add_state(figures, model, t, y)
       class(orbit_figures_type), intent(inout) :: figures
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: t, y(:)
-      type(model_sample) :: sample
+      type(bearing_sample) :: sample
       real(wp) :: none(model%outputs)
       none = 0
-      call model%take_sample(t, y, none, sample)
+      call take_sample(model, t, y, none, 1, sample)
       associate (position => sample%journal%position, tilt => sample%states%tilt, &
          & film => sample%loads%min_film_thickness)
          if (.not. allocated(figures%film)) then

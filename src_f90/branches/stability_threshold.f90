@@ -4,7 +4,7 @@ module stability_threshold
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_is_nan, ieee_quiet_nan
    use kinds, only: wp
    use errors, only: error_type, asked_to_stop, stopped
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use case_parameter, only: case_parameter_type, find_parameter
    use linear_bearing, only: pivot_name, bearing_coefficients_type
    use newton_method, only: branch_point_type
@@ -28,12 +28,12 @@ contains
    !> eigenvalue crosses the imaginary axis; no number where none does. The model, a static one, is in equilibrium in y.
    !> An error only of status `stopped`, where `give_up` says so.
    subroutine find_thresholds(model, y, found, error, give_up)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(bearing_coefficients_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(bearing_model), target :: moving
+      type(machine_model), target :: moving
       type(case_parameter_type) :: speed
       type(equilibrium_problem_type) :: problem
       type(branch_options) :: options

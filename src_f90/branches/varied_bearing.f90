@@ -8,7 +8,7 @@ module varied_bearing
    use heat_balance, only: oil_temperatures_type
    use thermal_equilibrium, only: solve_thermal_equilibrium
    use heat_balance_equations, only: state_balance_type, find_temperatures
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use marching, only: march_options
    use cvode_integrator, only: integrator_type
    use orbit_polynomials, only: orbit_type
@@ -19,7 +19,7 @@ module varied_bearing
    public :: varied_bearing_type, bearing_orbits_type
 
    type :: varied_bearing_type
-      type(bearing_model), pointer :: model => null()
+      type(machine_model), pointer :: model => null()
       type(case_parameter_type) :: parameter
    contains
       procedure :: set_value

@@ -8,7 +8,7 @@ module equilibrium
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use pseudo_transient, only: follow_motion, unbalanced, newtons, residual_limit
    use force_balance, only: stability_at
    use pad_elimination, only: eliminate_pads, search_pads
@@ -35,11 +35,11 @@ contains
    !> temperatures of warm oil; an error where none is found, or, of status `stopped`, where `give_up`, asked between
    !> evaluations of the films, says so.
    subroutine find_equilibrium(model, found, error, give_up)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(bearing_model) :: warm, static
+      type(machine_model) :: warm, static
       type(search_traces) :: traces
       real(wp), allocatable :: y(:)
       integer :: guess
@@ -70,11 +70,11 @@ contains
 
    !> The equilibrium with the viscosities that the model has.
    subroutine find_isothermal(model, found, error, give_up)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(bearing_model) :: static
+      type(machine_model) :: static
       type(search_traces) :: traces
       real(wp), allocatable :: y(:)
       logical :: by_full_films
@@ -104,13 +104,13 @@ contains
 
    !> Notes whether a march can start from a partial equilibrium, and which pads are held there.
    subroutine note_partial(model, traces, give_up)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(search_traces), intent(inout) :: traces
       procedure(asked_to_stop), optional :: give_up
       type(equilibrium_type) :: partial
       type(error_type), allocatable :: error
       logical, allocatable :: held(:)
-      if (.not. model%layout%tilting) return
+      if (.not. model%layout%bearings(1)%tilting) return
       call find_partial_equilibrium(model, partial, held, error, give_up)
       if (.not. allocated(error)) traces%held = held
    end subroutine note_partial
@@ -118,23 +118,23 @@ contains
    !> From the best start along the load; with films that cavitate also from the equilibrium with full films: on the way
    !> a pad may lose its film and with it all stiffness.
    subroutine search_first(model, static, y, residual, by_full_films, films_fail, error, give_up)
-      type(bearing_model), intent(in) :: model
-      type(bearing_model), intent(inout) :: static
+      type(machine_model), intent(in) :: model
+      type(machine_model), intent(inout) :: static
       real(wp), allocatable, intent(out) :: y(:)
       real(wp), intent(out) :: residual
       !> Whether full films led there; whether the search from the best start ended at a film that did not converge.
       logical, intent(out) :: by_full_films, films_fail
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(bearing_model) :: whole
+      type(machine_model) :: whole
       type(error_type), allocatable :: second_error
       real(wp), allocatable :: y_whole(:)
       y = best_start(static, give_up)
       call follow_motion(static, y, residual, error, give_up, &
-         & most=merge(first_iterations, huge(first_iterations), static%bearing%film%cavitates()))
-      films_fail = .not. static%bearing%films_converge()
+         & most=merge(first_iterations, huge(first_iterations), static%bearings(1)%film%cavitates()))
+      films_fail = .not. static%bearings(1)%films_converge()
       by_full_films = .false.
-      if (.not. allocated(error) .or. .not. static%bearing%film%cavitates()) return
+      if (.not. allocated(error) .or. .not. static%bearings(1)%film%cavitates()) return
       if (error%status == stopped) return
       call make_static(model, .false., whole)
       y_whole = best_start(whole, give_up)
@@ -155,7 +155,7 @@ contains
 
    !> The start, among positions along the load, with the smallest unbalanced force.
    function best_start(model, give_up) result(y)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       procedure(asked_to_stop), optional :: give_up
       real(wp) :: y(model%n), trial(model%n), smallest, force
       integer :: k
@@ -167,7 +167,7 @@ contains
          trial = start(model, k)
          call model%evaluate(0.0_wp, trial, .false., ok)
          if (.not. ok) cycle
-         force = unbalanced(model)
+         force = unbalanced(model, trial)
          if (force < smallest) then
             smallest = force
             y = trial
@@ -178,11 +178,11 @@ contains
    !> From every start by every method, up to the first stable equilibrium; where there is none, `found` is the one that
    !> grows least, or has no pads. All is sought with quick films; their equilibrium leads to the model's own.
    subroutine search_wider(static, found, traces, give_up)
-      type(bearing_model), intent(inout) :: static
+      type(machine_model), intent(inout) :: static
       type(equilibrium_type), intent(inout) :: found
       type(search_traces), intent(inout) :: traces
       procedure(asked_to_stop), optional :: give_up
-      type(bearing_model) :: quick
+      type(machine_model) :: quick
       type(equilibrium_type) :: candidate
       type(error_type), allocatable :: error
       real(wp) :: y(static%n)
@@ -226,7 +226,7 @@ contains
    !> Brings y near an equilibrium by one of the methods. Pads that find no equilibrium of their own are sought from
    !> many tilts, once.
    subroutine approach(model, method, y, traces, ok, give_up)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       character(len=*), intent(in) :: method
       real(wp), intent(inout) :: y(:)
       type(search_traces), intent(inout) :: traces
@@ -253,7 +253,7 @@ contains
 
    !> Describes the equilibrium y, where the model was evaluated last, and says whether a motion can start there.
    logical function is_usable(model, y, found, traces)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
       type(equilibrium_type), intent(inout) :: found
       type(search_traces), intent(inout) :: traces
@@ -268,12 +268,12 @@ contains
    !> find their equilibrium. An error where the journal finds none, or, of status `stopped`, where `give_up`, asked
    !> between evaluations of the films, says so. The record has no stability.
    subroutine find_partial_equilibrium(model, found, held, error, give_up)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       logical, allocatable, intent(out) :: held(:)
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(bearing_model) :: static, quick
+      type(machine_model) :: static, quick
       real(wp) :: y(model%n)
       logical :: in_equilibrium(model%layout%pads), ok
       integer :: k

@@ -2,7 +2,7 @@
 module equilibrium_refusal
    use kinds, only: wp, degree, pi
    use text, only: to_text
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use force_balance, only: masses, force_derivatives, find_vibrations
    implicit none (type, external)
    private
@@ -32,7 +32,7 @@ contains
 
    !> The message of a refusal: the cause, what the searches found, and what may help.
    function refusal(model, traces) result(message)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(search_traces), intent(in) :: traces
       character(len=:), allocatable :: message
       message = 'no equilibrium found at '//to_text(model%point%speed_rpm)//' rpm: '
@@ -52,7 +52,7 @@ contains
 
    !> Notes how a statically unstable equilibrium is left, in which the derivatives of the model were taken last.
    subroutine note_divergence(model, traces)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(search_traces), intent(inout) :: traces
       real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
       complex(wp) :: values(2*size(stiffness, 1)), shapes(size(stiffness, 1), 2*size(stiffness, 1))
@@ -65,9 +65,9 @@ contains
       k = maxloc(values%re, dim=1, mask=abs(values%im) <= 0)
       traces%divergence = values(k)%re
       edge = 0
-      do i = 1, merge(size(edge), 0, model%layout%tilting)
-         associate (gap => model%bearing%pads(i)%gap)
-            edge(i) = abs(shapes(model%layout%first_position(i), k))*0.5_wp*gap%arc()*gap%pad_radius()
+      do i = 1, merge(size(edge), 0, model%layout%bearings(1)%tilting)
+         associate (gap => model%bearings(1)%pads(i)%gap)
+            edge(i) = abs(shapes(model%layout%bearings(1)%first_position(i), k))*0.5_wp*gap%arc()*gap%pad_radius()
          end associate
       end do
       traces%leaving = edge >= moves*max(maxval(edge), norm2(abs(shapes(:2, k))))
@@ -75,7 +75,7 @@ contains
 
    !> The most likely cause with what helps.
    function cause(model, traces)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(search_traces), intent(in) :: traces
       character(len=:), allocatable :: cause
       integer :: pads
@@ -83,7 +83,7 @@ contains
       if (.not. norm2(model%point%load) > 0 .and. pads <= 2) then
          cause = 'without load '//to_text(pads)//trim(merge(' pad pushes', ' pads push ', pads == 1)) &
             & //' the journal away; give it a load or pads on all sides'
-      else if (.not. model%layout%tilting .and. load_on_pads(model)) then
+      else if (.not. model%layout%bearings(1)%tilting .and. load_on_pads(model)) then
          cause = 'the films do not hold the journal; try another load (rotor%static_load) or clearance'
       else if (pads == 1 .and. .not. load_on_pads(model)) then
          cause = 'the load points past the only pad; turn the load (rotor%static_load) or the pad ' &
@@ -106,7 +106,8 @@ contains
          cause = listed(traces%held)//' (unloaded) did not come to equilibrium'//help(traces)
       else
          cause = 'the search did not end; try another load or clearance'
-         if (model%layout%tilting) cause = cause//', or a march from another start ('//other_start(traces)//')'
+         if (model%layout%bearings(1)%tilting) cause = cause//', or a march from another start (' &
+            & //other_start(traces)//')'
       end if
    end function cause
 
@@ -133,23 +134,23 @@ contains
 
    !> The angle to which the load points, deg, counted as that of a pivot.
    real(wp) function load_angle(model)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       load_angle = anint(10*atan2(model%point%load(1), model%point%load(2))/degree)/10
    end function load_angle
 
    !> True where pads can carry the load: a pad that tilts carries through its pivot, so that the load must lie between
    !> pivots less than half a turn apart (or, of one pad, point through it); a fixed pad carries with all its arc.
    pure logical function load_on_pads(model)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), allocatable :: angles(:)
       real(wp) :: load(2), first(2), second(2), turn, part(2)
       integer :: i, k
       load_on_pads = .true.
       if (.not. norm2(model%point%load) > 0) return
       load = model%point%load/norm2(model%point%load)
-      associate (pads => model%bearing%pads)
+      associate (pads => model%bearings(1)%pads)
          angles = pads%position%angle
-         if (.not. model%layout%tilting) then
+         if (.not. model%layout%bearings(1)%tilting) then
             angles = [angles - pads%gap%trailing_angle, angles + pads%gap%leading_angle]
             if (any(pads%gap%arc() >= pi)) return
          end if

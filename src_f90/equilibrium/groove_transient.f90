@@ -7,7 +7,7 @@ module groove_transient
    use errors, only: error_type, add_context, asked_to_stop
    use heat_balance, only: oil_temperatures_type
    use viscosity_history, only: viscosity_history_type, new_viscosity_history
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use static_model, only: make_static
    use heat_balance_equations, only: state_balance_type, find_temperatures
    use thermal_equilibrium, only: solve_thermal_equilibrium
@@ -26,12 +26,12 @@ contains
    !> The history of the viscosities in a march of a model from its equilibrium y, whose viscosities it has, over a
    !> duration, s. An error where a speed has no equilibrium.
    subroutine find_groove_transient(model, y, duration, history, error, give_up)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:), duration
       type(viscosity_history_type), intent(out) :: history
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(bearing_model) :: static
+      type(machine_model) :: static
       type(state_balance_type) :: balance
       type(oil_temperatures_type) :: oil, next
       real(wp), dimension(model%layout%pads) :: entering, before, rate, time_constant
@@ -68,7 +68,7 @@ contains
 
    !> Times, s, between which the speed changes by equal factors; near standstill nothing is followed.
    subroutine set_nodes(model, duration, time)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: duration
       real(wp), allocatable, intent(out) :: time(:)
       real(wp) :: ratio, first

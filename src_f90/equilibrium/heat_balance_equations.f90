@@ -10,7 +10,8 @@ module heat_balance_equations
    use pad_gap, only: pad_gap_type
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
-   use equations_of_motion, only: bearing_model, model_sample
+   use equations_of_motion, only: machine_model
+   use bearing_samples, only: bearing_sample, take_sample
    use force_balance, only: forces
    use static_model, only: equilibrium_type
    implicit none (type, external)
@@ -59,21 +60,21 @@ contains
 
    !> True where the oil of a model has temperatures.
    pure logical function has_warm_oil(model)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       has_warm_oil = model%inputs%thermal%model /= 'none'
    end function has_warm_oil
 
    !> Losses and flows of the state y of a model with its viscosities.
    subroutine find_losses(model, y, balance)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
       logical :: stays
       stays = allocated(balance%gaps)
-      if (stays) stays = .not. any(balance%gaps%differs(model%bearing%pads%gap))
+      if (stays) stays = .not. any(balance%gaps%differs(model%bearings(1)%pads%gap))
       if (.not. stays) then
          balance%finder = new_bearing_losses(model%inputs)
-         balance%gaps = model%bearing%pads%gap
+         balance%gaps = model%bearings(1)%pads%gap
       end if
       balance%heat = new_heat_balance(model%inputs)
       if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), balance%lack(model%layout%pads))
@@ -82,17 +83,17 @@ contains
 
    !> The same beside a state whose losses were found.
    subroutine find_again(model, y, balance, losses)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
       type(pad_loss), intent(out) :: losses(:)
-      call balance%finder%find(model%bearing, model%rotor%journal(y(:model%rotor%states)), model%layout%pad_states(y), &
-         & model%oil, model%point%speed(0.0_wp), losses)
+      call balance%finder%find(model%bearings(1), model%rotor%journal(y(:model%rotor%states), 1), &
+         & model%layout%bearings(1)%pad_states(y), model%oil, model%point%speed(0.0_wp), losses)
    end subroutine find_again
 
    !> What the viscosities lack in a state y.
    subroutine find_lack(model, y, balance, kept)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
       !> Where grooves and shaft keep their temperatures: these.
@@ -120,11 +121,11 @@ contains
    !> of the viscosities; positions over their sizes, which are such that a film that is an bearing clearance thick
    !> changes by as much. Pads are moved together: the losses of each follow from the journal and from its own state.
    subroutine find_lack_slopes(model, y, balance, sizes, slopes)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:), sizes(:)
       type(state_balance_type), intent(inout) :: balance
       real(wp), intent(out) :: slopes(:, :)
-      type(model_sample) :: sample
+      type(bearing_sample) :: sample
       type(pad_loss) :: moved(model%layout%pads)
       ! not size(moved), which gfortran takes for 0 where procedures are contained
       real(wp), dimension(model%layout%pads) :: films, thicker
@@ -133,18 +134,18 @@ contains
       integer :: i, k, journal
       slopes = 0
       none = 0
-      call model%take_sample(0.0_wp, y, none, sample)
+      call take_sample(model, 0.0_wp, y, none, 1, sample)
       change = difference*minval(sample%loads%min_film_thickness)/model%inputs%bearing%assembled_clearance
       films = model%oil%viscosity
       thicker = films*exp(difference)
       x = model%layout%positions()
-      journal = model%layout%rotor/2
+      journal = model%rotor%positions
       do k = 1, journal
          call find_moved([k])
          call set_slope(k, moved, films, change)
       end do
-      do k = 0, model%layout%motion/2 - 1
-         own = k + [(model%layout%first_position(i), i=1, size(moved))]
+      do k = 0, model%layout%bearings(1)%motion/2 - 1
+         own = k + [(model%layout%bearings(1)%first_position(i), i=1, size(moved))]
          call find_moved(own)
          do i = 1, size(own)
             call set_slope(own(i), merge_loss(i), films, change)
@@ -190,18 +191,18 @@ contains
    !> The derivatives of the forces at the state y over the logarithms of the viscosities. The model is evaluated there
    !> with its viscosities at the end.
    subroutine find_force_slopes(model, y, slopes)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
       real(wp), intent(out) :: slopes(:, :)
       real(wp) :: films(model%layout%pads), now(size(slopes, 1))
       integer :: i
       logical :: ok
       films = model%oil%viscosity
-      now = forces(model, 0.0_wp)
+      now = forces(model, 0.0_wp, y)
       do i = 1, size(films)
          model%oil%viscosity = [films(:i - 1), films(i)*exp(difference), films(i + 1:)]
          call model%evaluate(0.0_wp, y, .false., ok)
-         slopes(:, i) = (forces(model, 0.0_wp) - now)/difference
+         slopes(:, i) = (forces(model, 0.0_wp, y) - now)/difference
       end do
       model%oil%viscosity = films
       call model%evaluate(0.0_wp, y, .false., ok)
@@ -209,7 +210,7 @@ contains
 
    !> The temperatures of the oil in a state y whose heat has a balance.
    subroutine find_temperatures(model, y, balance, oil, kept)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
       type(oil_temperatures_type), intent(out) :: oil
@@ -221,7 +222,7 @@ contains
 
    !> Refuses a state whose heat, found last by find_lack, has no balance, or at which oil boils.
    subroutine check_heat(model, balance, error, kept)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(state_balance_type), intent(in) :: balance
       type(error_type), allocatable, intent(out) :: error
       type(oil_temperatures_type), intent(in), optional :: kept
@@ -246,7 +247,7 @@ contains
 
    !> The figures of an equilibrium of the model.
    subroutine find_static_figures(model, static, figures)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(in) :: static
       type(static_figures_type), intent(out) :: figures
       type(state_balance_type) :: balance

@@ -5,9 +5,9 @@ module pad_elimination
    use kinds, only: wp
    use errors, only: asked_to_stop, asked
    use linear_algebra, only: solve_2x2
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, pad_frame, frame_of, motion_of
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use force_balance, only: forces, pad_derivatives
    use pseudo_transient, only: reference_force, next_time_step, longest_move, shortest_move, trace, set_free, &
       & static_derivatives, newton_step
@@ -39,7 +39,7 @@ contains
    !> Moves journal and pads from y to equilibrium, nearly. Pads that find no equilibrium stand at zero tilt on their
    !> pivots.
    subroutine eliminate_pads(model, y, in_equilibrium, ok, give_up)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       !> Which pads are in equilibrium; whether the journal is.
       logical, intent(out) :: in_equilibrium(:), ok
@@ -49,8 +49,8 @@ contains
       real(wp) :: time_step, unbalanced, last
       real(wp), allocatable :: force(:), step(:)
       integer :: iteration
-      journal = model%rotor%journal(y(:model%rotor%states))
-      pads = model%layout%pad_states(y)
+      journal = model%rotor%journal(y(:model%rotor%states), 1)
+      pads = model%layout%bearings(1)%pad_states(y)
       time_step = 1/model%point%speed(0.0_wp)
       last = 0
       do iteration = 1, journal_iterations
@@ -59,7 +59,7 @@ contains
          if (ok) call settle_pads(model, journal, pads, in_equilibrium, ok)
          if (ok .and. .not. all(in_equilibrium)) call put_down(model, journal, pads, in_equilibrium, ok)
          if (.not. ok) exit
-         force = forces(model, 0.0_wp)
+         force = forces(model, 0.0_wp, model%state(journal, pads))
          force(of_journal + 1:) = 0
          unbalanced = norm2(force)
          if (unbalanced <= journal_limit*reference_force(model)) exit
@@ -75,7 +75,7 @@ contains
 
    !> Every pad to its own equilibrium with the journal where it is; which of them found it.
    subroutine settle_pads(model, journal, pads, in_equilibrium, ok)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pads(:)
       logical, intent(inout) :: in_equilibrium(:)
@@ -100,7 +100,7 @@ contains
    !> Moves the pads that are not in equilibrium to one that they find from other tilts and gaps, and says which are in
    !> equilibrium then. The smallest gap comes first, and of one gap the thinnest film is kept: it holds the pad best.
    subroutine search_pads(model, y, in_equilibrium)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       logical, intent(inout) :: in_equilibrium(:)
       type(journal_motion) :: journal
@@ -108,8 +108,8 @@ contains
       real(wp) :: thinnest(size(pads)), film
       logical :: tried(size(pads)), found(size(pads)), ok
       integer :: i, k, n
-      journal = model%rotor%journal(y(:model%rotor%states))
-      pads = model%layout%pad_states(y)
+      journal = model%rotor%journal(y(:model%rotor%states), 1)
+      pads = model%layout%bearings(1)%pad_states(y)
       do n = 1, gaps
          thinnest = huge(thinnest)
          do k = 1, size(leanings)
@@ -119,7 +119,7 @@ contains
                if (.not. tried(i)) cycle
                trial(i) = leaning(model, i, journal, least_gap**(1 - real(n, wp)/gaps), leanings(k))
                tried(i) = film_of(model, i, journal, trial(i)) > 0 &
-                  & .and. abs(trial(i)%tilt) < model%bearing%pads(i)%largest_tilt
+                  & .and. abs(trial(i)%tilt) < model%bearings(1)%pads(i)%largest_tilt
             end do
             found = .not. tried
             call settle_pads(model, journal, trial, found, ok)
@@ -133,7 +133,7 @@ contains
          end do
          in_equilibrium = in_equilibrium .or. thinnest < huge(thinnest)
          ! the gap of a rigid pivot is given
-         if (all(in_equilibrium) .or. .not. model%layout%radial) exit
+         if (all(in_equilibrium) .or. .not. model%layout%bearings(1)%radial) exit
       end do
       y = model%state(journal, pads)
    end subroutine search_pads
@@ -141,16 +141,16 @@ contains
    !> A pad that floats in a gap, over its clearance, or stands on its pivot where that is less, and leans by a part of
    !> what closes the gap.
    pure type(pad_state) function leaning(model, i, journal, gap, part) result(pad)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: i
       type(journal_motion), intent(in) :: journal
       real(wp), intent(in) :: gap, part
       type(pad_frame) :: frame
       real(wp) :: on_pivot
-      associate (of => model%bearing%pads(i))
+      associate (of => model%bearings(1)%pads(i))
          frame = frame_of(of%position, journal, pad)
          on_pivot = of%gap%machined_clearance - of%position%centre_distance + norm2([frame%along, frame%outward])
-         if (model%layout%radial) pad%pivot_deflection = min(gap*of%gap%machined_clearance - on_pivot, 0.0_wp)
+         if (of%radial) pad%pivot_deflection = min(gap*of%gap%machined_clearance - on_pivot, 0.0_wp)
          pad%tilt = atan2(frame%along, -frame%outward) + part*max(on_pivot + pad%pivot_deflection, 0.0_wp) &
             & /(0.5_wp*of%gap%arc()*of%gap%pad_radius())
       end associate
@@ -158,17 +158,17 @@ contains
 
    !> Unbalanced force of every pad, N.
    pure function unbalanced_forces(model) result(forces)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp) :: forces(model%layout%pads)
-      associate (loads => model%bearing%loads, pads => model%bearing%pads)
+      associate (loads => model%bearings(1)%loads, pads => model%bearings(1)%pads)
          forces = abs(loads%moment)/pads%position%centre_distance
-         if (model%layout%radial) forces = max(forces, abs(loads%radial))
+         if (model%layout%bearings(1)%radial) forces = max(forces, abs(loads%radial))
       end associate
    end function unbalanced_forces
 
    !> One step of a pad alone, shortened until nothing moves too far and its film stays open.
    subroutine move_pad(model, i, journal, pad, time_step)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: i
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pad
@@ -181,9 +181,11 @@ contains
       do
          step = solve_2x2(stiffness + damping/time_step, -force)
          trial = pad_state(tilt=pad%tilt + step(1), pivot_deflection=pad%pivot_deflection + step(2))
-         if (max(abs(step(1)*model%bearing%pads(i)%gap%arc()*model%bearing%pads(i)%gap%pad_radius()), abs(step(2))) &
-            & <= longest_move*clearance .and. film_of(model, i, journal, trial) >= least_film*film &
-            & .and. abs(trial%tilt) < model%bearing%pads(i)%largest_tilt) exit
+         associate (of => model%bearings(1)%pads(i))
+            if (max(abs(step(1)*of%gap%arc()*of%gap%pad_radius()), abs(step(2))) <= longest_move*clearance &
+               & .and. film_of(model, i, journal, trial) >= least_film*film &
+               & .and. abs(trial%tilt) < of%largest_tilt) exit
+         end associate
          time_step = 0.5_wp*time_step
          if (time_step*model%point%speed(0.0_wp) < shortest_step) return
       end do
@@ -193,15 +195,15 @@ contains
    !> A pad's own forces and their derivatives over its positions and, with the trace of damping, rates, in the state
    !> evaluated last; the second position of a rigid pivot does not move.
    pure subroutine pad_balance(model, i, force, stiffness, damping)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: i
       real(wp), intent(out) :: force(2), stiffness(2, 2), damping(2, 2)
       real(wp) :: over_positions(4, 4), over_rates(4, 4)
-      force = [model%bearing%loads(i)%moment, model%bearing%loads(i)%radial]
-      call pad_derivatives(model, i, over_positions, over_rates)
+      force = [model%bearings(1)%loads(i)%moment, model%bearings(1)%loads(i)%radial]
+      call pad_derivatives(model%bearings(1), i, over_positions, over_rates)
       stiffness = over_positions(3:4, 3:4)
-      damping = over_rates(3:4, 3:4) - trace*model%point%speed(0.0_wp)*model%bearing%pads(i)%masses()
-      if (model%layout%radial) return
+      damping = over_rates(3:4, 3:4) - trace*model%point%speed(0.0_wp)*model%bearings(1)%pads(i)%masses()
+      if (model%layout%bearings(1)%radial) return
       force(2) = 0
       stiffness(1, 2) = 0
       stiffness(2, :) = [0, 1]
@@ -212,7 +214,7 @@ contains
    !> Puts the pads that are not in equilibrium at zero tilt on their pivots, where their films are open there, and
    !> evaluates.
    subroutine put_down(model, journal, pads, in_equilibrium, ok)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pads(:)
       logical, intent(in) :: in_equilibrium(:)
@@ -228,7 +230,7 @@ contains
    !> The step of the journal, in a time step that is shortened until it does not move too far, and of the pads that
    !> follow to their own equilibrium at once.
    subroutine find_step(model, in_equilibrium, force, time_step, step, ok)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       logical, intent(in) :: in_equilibrium(:)
       real(wp), intent(in) :: force(:)
       real(wp), intent(inout) :: time_step
@@ -252,7 +254,7 @@ contains
 
    !> Moves journal and pads by the step, or by a part that leaves the films open.
    subroutine move_journal(model, journal, pads, time_step, step)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(journal_motion), intent(inout) :: journal
       type(pad_state), intent(inout) :: pads(:)
       real(wp), intent(inout) :: time_step, step(:)
@@ -264,8 +266,8 @@ contains
       do
          y = model%state(journal, pads)
          y(model%layout%positions()) = y(model%layout%positions()) + step
-         moved = model%rotor%journal(y(:model%rotor%states))
-         trial = model%layout%pad_states(y)
+         moved = model%rotor%journal(y(:model%rotor%states), 1)
+         trial = model%layout%bearings(1)%pad_states(y)
          open = all([(film_of(model, i, moved, trial(i)) >= least_film*film_of(model, i, journal, pads(i)), &
             & i=1, size(pads))])
          ! a film that is closed already, or nearly, stops no journal for ever
@@ -279,11 +281,11 @@ contains
 
    !> Least thickness of a pad's film, m.
    pure real(wp) function film_of(model, i, journal, pad)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: i
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pad
-      associate (of => model%bearing%pads(i))
+      associate (of => model%bearings(1)%pads(i))
          film_of = of%gap%min_film_thickness(motion_of(of%position, frame_of(of%position, journal, pad), journal, &
             & pad), of%directions)
       end associate

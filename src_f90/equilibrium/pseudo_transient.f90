@@ -8,7 +8,7 @@ module pseudo_transient
    use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
    use linear_algebra, only: dgesv
    use state_layout, only: at_deflection
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use force_balance, only: forces, force_derivatives, masses
    implicit none (type, external)
    private
@@ -39,7 +39,7 @@ contains
    !> Follows the motion without inertia from y to equilibrium, where y is then. An error says why it did not come to
    !> equilibrium, or, of status `stopped`, that `give_up`, asked between evaluations of the films, said so.
    subroutine follow_motion(model, y, residual, error, give_up, held, first_step, most)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       !> Largest unbalanced force over the reference force.
       real(wp), intent(out) :: residual
@@ -67,7 +67,7 @@ contains
          call raise(error, numerics_error, model%refusal//' at the start')
          return
       end if
-      force = unbalanced(model, free)
+      force = unbalanced(model, y, free)
       residual = force/reference_force(model)
       iterations = 0
       do while (.not. residual <= residual_limit)
@@ -91,7 +91,7 @@ contains
             call raise(error, numerics_error, model%refusal)
             return
          end if
-         next = unbalanced(model, free)
+         next = unbalanced(model, y, free)
          stuck = move < shortest_move .and. next > 0.5_wp*force
          time_step = next_time_step(time_step, force, next)
          force = next
@@ -101,7 +101,7 @@ contains
 
    !> What is said of a search that does not end.
    function last_words(model, iterations, force)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: iterations
       !> Largest unbalanced force, N.
       real(wp), intent(in) :: force
@@ -112,7 +112,7 @@ contains
 
    !> "12.5 N, 0.02 of the load".
    function shown(model, force)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       !> N
       real(wp), intent(in) :: force
       character(len=:), allocatable :: shown
@@ -130,22 +130,25 @@ contains
 
    !> The positions that move: all but those of pads that are held.
    pure subroutine set_free(model, held, free)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       logical, intent(in), optional :: held(:)
       logical, intent(out) :: free(:)
-      integer :: i, own
+      integer :: b, i
       free = .true.
       if (.not. present(held)) return
-      do i = 1, size(held)
-         own = model%layout%first_position(i)
-         free(own:own + model%layout%motion/2 - 1) = .not. held(i)
+      do b = 1, size(model%bearings)
+         associate (of => model%layout%bearings(b))
+            do i = 1, of%pads
+               free(of%own_positions(i)) = .not. held(of%other_pads + i)
+            end do
+         end associate
       end do
    end subroutine set_free
 
    !> The step of the positions from y, in a time step that is shortened until nothing moves too far. `ok` is false
    !> where the equations are singular.
    subroutine find_step(model, y, free, time_step, step, move, ok)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
       logical, intent(in) :: free(:)
       real(wp), intent(inout) :: time_step
@@ -158,7 +161,7 @@ contains
       call model%evaluate(0.0_wp, y, .true., ok)
       if (ok) call static_derivatives(model, stiffness, damping)
       do while (ok)
-         call newton_step(stiffness, damping, forces(model, 0.0_wp), free, time_step, step, ok)
+         call newton_step(stiffness, damping, forces(model, 0.0_wp, y), free, time_step, step, ok)
          if (.not. all(ieee_is_finite(step))) ok = .false.
          if (.not. ok) exit
          move = maxval(abs(step/clearances(model)))
@@ -171,7 +174,7 @@ contains
    !> Moves y by the step, or by a part of it that the model admits, and evaluates the model there. `ok` is false
    !> where it admits none.
    subroutine take_step(model, y, time_step, step, ok)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:), time_step, step(:)
       logical, intent(out) :: ok
       real(wp) :: trial(model%n)
@@ -191,19 +194,22 @@ contains
 
    !> Bearing clearance in the unit of each position (tilt: at the pad's edge).
    pure function clearances(model)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), allocatable :: clearances(:)
       real(wp) :: scale(model%n)
-      integer :: i
+      integer :: b, i
       scale = model%scale
-      if (model%layout%radial) scale(model%layout%before([(i, i=1, model%layout%pads)]) + at_deflection) &
-         & = model%inputs%bearing%assembled_clearance
+      do b = 1, size(model%bearings)
+         associate (of => model%layout%bearings(b))
+            if (of%radial) scale(of%before([(i, i=1, of%pads)]) + at_deflection) = model%bearings(b)%clearance
+         end associate
+      end do
       clearances = scale(model%layout%positions())
    end function clearances
 
    !> Derivatives of the forces over positions and, with the trace of damping, rates, in the state evaluated last.
    pure subroutine static_derivatives(model, stiffness, damping)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(out) :: stiffness(:, :), damping(:, :)
       call force_derivatives(model, stiffness, damping)
       damping = damping - trace*model%point%speed(0.0_wp)*masses(model)
@@ -229,20 +235,18 @@ contains
       ok = info == 0
    end subroutine newton_step
 
-   !> Largest unbalanced force in the state evaluated last, N, at positions that are free.
-   pure real(wp) function unbalanced(model, free)
-      type(bearing_model), intent(in) :: model
+   !> Largest unbalanced force in the state y, which was evaluated last, N, at positions that are free.
+   pure real(wp) function unbalanced(model, y, free)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
       logical, intent(in), optional :: free(:)
       real(wp) :: force(model%layout%n_positions())
-      integer :: i
-      force = forces(model, 0.0_wp)
-      if (model%layout%tilting) then
-         associate (own => [(model%layout%first_position(i), i=1, model%layout%pads)])
-            force(own) = force(own)/model%bearing%pads%position%centre_distance
-         end associate
-      end if
+      integer, allocatable :: tilts(:)
+      force = forces(model, 0.0_wp, y)
+      tilts = model%layout%tilts()
+      force(tilts) = force(tilts)/model%tilt_lengths()
       if (present(free)) force = merge(force, 0.0_wp, free)
-      associate (rotor => model%layout%rotor/2)
+      associate (rotor => model%rotor%positions)
          unbalanced = max(norm2(force(:rotor)), maxval(abs(force(rotor + 1:))))
       end associate
    end function unbalanced
@@ -250,11 +254,18 @@ contains
    !> What unbalanced forces are measured by: the load, or, without load, the heaviest pad, or the drag of a film as
    !> thick as the pad clearance; at least a share of the largest force of a film in the state evaluated last.
    pure real(wp) function reference_force(model)
-      type(bearing_model), intent(in) :: model
-      associate (gap => model%bearing%pads%gap, loads => model%bearing%loads)
-         reference_force = max(norm2(model%point%load), maxval(model%bearing%pads%weight), &
-            & maxval(model%oil%viscosity*model%point%speed(0.0_wp)*gap%journal_radius**2*gap%arc()*gap%axial_length &
-            & /gap%machined_clearance), least_load*maxval(hypot(loads%journal(1), loads%journal(2))))
-      end associate
+      type(machine_model), intent(in) :: model
+      integer :: b
+      reference_force = norm2(model%point%load)
+      do b = 1, size(model%bearings)
+         associate (gap => model%bearings(b)%pads%gap, loads => model%bearings(b)%loads, &
+            & first => model%layout%bearings(b)%other_pads + 1, &
+            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
+            reference_force = max(reference_force, maxval(model%bearings(b)%pads%weight), &
+               & maxval(model%oil(first:last)%viscosity*model%point%speed(0.0_wp)*gap%journal_radius**2*gap%arc() &
+               & *gap%axial_length/gap%machined_clearance), &
+               & least_load*maxval(hypot(loads%journal(1), loads%journal(2))))
+         end associate
+      end do
    end function reference_force
 end module pseudo_transient

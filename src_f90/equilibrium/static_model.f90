@@ -5,10 +5,10 @@ module static_model
    use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use factories, only: converged_films, quick_films
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_frame, pad_state, frame_of
    use tilting_pad_bearing, only: pad_sample
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use errors, only: error_type, stopped, asked_to_stop
    use pseudo_transient, only: follow_motion, newtons
    use force_balance, only: stability_type
@@ -42,16 +42,16 @@ contains
 
    !> A copy of the model at the static operating point, its films solved closely.
    subroutine make_static(model, cavitation, static)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       logical, intent(in) :: cavitation
-      type(bearing_model), intent(out) :: static
+      type(machine_model), intent(out) :: static
       static = model
       call stand_still(static, cavitation)
-      call static%bearing%use_in_statics(static%inputs)
+      call static%bearings(1)%use_in_statics(static%inputs)
    end subroutine make_static
 
    subroutine stand_still(model, cavitation)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       logical, intent(in) :: cavitation
       type(operating_point_type) :: point
       point = model%point%static()
@@ -65,24 +65,24 @@ contains
       !> Of the oil on every pad, Pa s.
       real(wp), intent(in) :: viscosity(:)
       logical, intent(in) :: cavitation
-      type(bearing_model), intent(out) :: quick
-      quick = new_bearing_model(inputs, quick_films)
+      type(machine_model), intent(out) :: quick
+      quick = new_machine_model(inputs, quick_films)
       call stand_still(quick, cavitation)
       quick%oil%viscosity = viscosity
    end subroutine make_quick
 
    !> The same with films that are converged, where the case leaves their solver to the program.
    subroutine make_fine(model, fine)
-      type(bearing_model), intent(in) :: model
-      type(bearing_model), intent(out) :: fine
-      fine = new_bearing_model(model%inputs, converged_films)
+      type(machine_model), intent(in) :: model
+      type(machine_model), intent(out) :: fine
+      fine = new_machine_model(model%inputs, converged_films)
       call stand_still(fine, model%point%cavitation)
    end subroutine make_fine
 
    !> Brings a state that is near equilibrium to equilibrium by Newton's method. Volumes of cavitated films make their
    !> force leap by less than its error; where the equilibrium lies in a leap, y ends beside it.
    subroutine solve_equilibrium(model, y, residual, error, give_up, held, most)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
@@ -102,7 +102,7 @@ contains
    !> Start k: the journal at its fraction of the clearance down the load (among fixed pads from the middle of their
    !> bores), pivots carrying a share of it, and pads that tilt tilted so that every film converges.
    function start(model, k) result(y)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: k
       real(wp) :: y(model%n)
       type(journal_motion) :: journal
@@ -112,13 +112,15 @@ contains
       associate (load => model%point%load, bearing => model%inputs%bearing)
          if (norm2(load) > 0) then
             journal%position = fractions(k)*bearing%assembled_clearance*load/norm2(load)
-            if (model%layout%radial) pads%pivot_deflection = &
-               & model%bearing%contact%law%pivot_deflection(norm2(load)/size(pads))
+            if (model%layout%bearings(1)%radial) pads%pivot_deflection = &
+               & model%bearings(1)%contact%law%pivot_deflection(norm2(load)/size(pads))
          end if
-         if (.not. model%layout%tilting) journal%position = journal%position + middle_of_bores(model)
+         if (.not. model%layout%bearings(1)%tilting) journal%position = journal%position + middle_of_bores(model)
          do i = 1, size(pads)
-            frame = frame_of(model%bearing%pads(i)%position, journal, pads(i))
-            pads(i)%tilt = (frame%along + bearing%machined_clearance/3)/model%bearing%pads(i)%position%centre_distance
+            associate (position => model%bearings(1)%pads(i)%position)
+               frame = frame_of(position, journal, pads(i))
+               pads(i)%tilt = (frame%along + bearing%machined_clearance/3)/position%centre_distance
+            end associate
          end do
       end associate
       y = model%state(journal, pads)
@@ -126,9 +128,9 @@ contains
 
    !> The mean of the places, m, at which the journal lies in the middle of a pad's bore, among pads without tilt.
    pure function middle_of_bores(model) result(middle)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp) :: middle(2)
-      associate (b => model%inputs%bearing, pads => model%bearing%pads)
+      associate (b => model%inputs%bearing, pads => model%bearings(1)%pads)
          middle = -(b%machined_clearance - b%assembled_clearance)/size(pads) &
             & *[sum(pads%position%sin_angle), sum(pads%position%cos_angle)]
       end associate
@@ -136,15 +138,15 @@ contains
 
    !> The record of the equilibrium y, where the model was evaluated last.
    subroutine describe(model, y, found)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
       type(equilibrium_type), intent(inout) :: found
       type(journal_motion) :: journal
       type(pad_state) :: pads(model%layout%pads)
       type(pad_sample) :: samples(model%layout%pads)
-      journal = model%rotor%journal(y(:model%rotor%states))
-      pads = model%layout%pad_states(y)
-      samples = model%bearing%sampled()
+      journal = model%rotor%journal(y(:model%rotor%states), 1)
+      pads = model%layout%bearings(1)%pad_states(y)
+      samples = model%bearings(1)%sampled()
       found%journal = journal%position
       found%tilt = pads%tilt
       found%pivot_deflection = pads%pivot_deflection

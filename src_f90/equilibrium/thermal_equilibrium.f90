@@ -9,7 +9,7 @@ module thermal_equilibrium
    use errors, only: error_type, raise, numerics_error, asked_to_stop, asked
    use heat_balance, only: oil_temperatures_type
    use oil_properties, only: viscosity
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use force_balance, only: stability_at
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_lack, check_heat
    use static_model, only: equilibrium_type, describe, solve_equilibrium, start
@@ -33,7 +33,7 @@ contains
    !> Gives the oil viscosities to search with: those that it would have at one of the starts of a search; those of some
    !> warming; those of cold oil.
    subroutine guess_oil(model, guess)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       integer, intent(in) :: guess
       type(state_balance_type) :: balance
       real(wp), dimension(model%layout%pads) :: wanted, balanced
@@ -53,7 +53,7 @@ contains
    !> Brings a state that is near equilibrium to equilibrium, as solve_equilibrium does, and the oil, where it is warm,
    !> to the temperatures of this equilibrium: the model then has its viscosities.
    subroutine solve_thermal_equilibrium(model, y, residual, error, give_up, held, kept)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
@@ -95,7 +95,7 @@ contains
    !> Brings an equilibrium that another model has found to that of this one, whose films differ a little; y is its
    !> state.
    subroutine settle(model, found, y, error, give_up)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       type(equilibrium_type), intent(inout) :: found
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
@@ -113,7 +113,7 @@ contains
    !> Brings a state in equilibrium to equilibrium again after a step of the logarithms of the viscosities, or after the
    !> longest part of it that Newton's method can follow.
    subroutine follow(model, y, step, residual, error, give_up, held)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:), step(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error

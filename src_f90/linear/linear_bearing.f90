@@ -6,8 +6,8 @@ module linear_bearing
    use kinds, only: wp, pi
    use linear_algebra, only: zgesv
    use errors, only: error_type, raise, numerics_error
-   use equations_of_motion, only: bearing_model
-   use force_balance, only: force_derivatives, add_sticking, masses, find_vibrations
+   use equations_of_motion, only: machine_model
+   use force_balance, only: force_derivatives, bearing_derivatives, add_sticking, masses, find_vibrations
    implicit none (type, external)
    private
    public :: linear_bearing_of, pivot_name
@@ -16,12 +16,12 @@ module linear_bearing
    !> Length of the names of pivots.
    integer, parameter :: pivot_name = 6
 
-   !> In the order of layout%positions(), the first two of which are the journal's.
+   !> In the order of layout%positions(), the first of which are the rotor's.
    type :: linear_bearing_type
       !> 'free': the pivots slide without friction; 'stuck': as their law of friction has it in equilibrium; 'locked':
       !> no pad tilts.
       character(len=pivot_name) :: pivot = ''
-      !> Of the pads alone: kg, kg m, kg m^2; -dF/dx and -dF/dv of the forces and moments F.
+      !> kg, kg m, kg m^2; -dF/dx and -dF/dv of the forces and moments F.
       real(wp), allocatable :: mass(:, :), stiffness(:, :), damping(:, :)
       !> Positions that move.
       logical, allocatable :: moves(:)
@@ -61,14 +61,15 @@ contains
 
    !> The coefficients that the case asks for, of a model without friction in equilibrium in y.
    subroutine find_coefficients(model, y, found, error)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
       type(bearing_coefficients_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
+      type(linear_bearing_type), allocatable :: with_rotor(:)
       logical :: ok
       integer :: i, k
       associate (given => model%inputs%coefficients, speed => model%point%speed(0.0_wp))
-         call linearize(model, y, found%bearings, ok)
+         call linearize(model, y, found%bearings, with_rotor, ok)
          if (.not. ok) then
             call raise(error, numerics_error, 'at the equilibrium '//model%refusal)
             return
@@ -81,8 +82,7 @@ contains
                      & found%damping(:, :, k, i), ok)
                   if (.not. ok) exit
                end do
-               if (ok) call find_modes(found%bearings(i), model%rotor%mass, given%cross_stiffness, lengths(model), &
-                  & found%modes(i), ok)
+               if (ok) call find_modes(with_rotor(i), given%cross_stiffness, lengths(model), found%modes(i), ok)
                if (.not. ok) then
                   call raise(error, numerics_error, 'the linear equations of the pads with '//found%bearings(i)%pivot &
                      & //' pivots are singular')
@@ -95,47 +95,46 @@ contains
 
    !> What stands for 1 rad of a tilt: the distance from the pivot to the centre of the pad's arc, m; 1 for others.
    pure function lengths(model)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), allocatable :: lengths(:)
-      integer :: i
       allocate (lengths(model%layout%n_positions()), source=1.0_wp)
-      if (.not. model%layout%tilting) return
-      do i = 1, model%layout%pads
-         lengths(model%layout%first_position(i)) = model%bearing%pads(i)%position%centre_distance
-      end do
+      lengths(model%layout%tilts()) = model%tilt_lengths()
    end function lengths
 
-   !> The bearing of a model without friction in equilibrium in the state y, for each way that the pivots of its case
-   !> may behave. `ok` is false where the films have no derivatives.
-   subroutine linearize(model, y, bearings, ok)
-      type(bearing_model), intent(inout) :: model
+   !> The bearings of a model without friction in equilibrium in the state y, alone and with the rotor, for each way
+   !> that the pivots of its case may behave. `ok` is false where the films have no derivatives.
+   subroutine linearize(model, y, alone, with_rotor, ok)
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
-      type(linear_bearing_type), allocatable, intent(out) :: bearings(:)
+      type(linear_bearing_type), allocatable, intent(out) :: alone(:), with_rotor(:)
       logical, intent(out) :: ok
       real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: over_positions, over_rates
       integer :: i
       call model%evaluate(0.0_wp, y, .true., ok)
       if (.not. ok) return
-      call force_derivatives(model, over_positions, over_rates)
       associate (pivots => pivots_of(model))
-         bearings = [(linear_bearing_of(model, pivots(i), over_positions, over_rates), i=1, size(pivots))]
+         call force_derivatives(model, over_positions, over_rates)
+         with_rotor = [(linear_bearing_of(model, pivots(i), over_positions, over_rates), i=1, size(pivots))]
+         call bearing_derivatives(model, over_positions, over_rates)
+         alone = [(linear_bearing_of(model, pivots(i), over_positions, over_rates), i=1, size(pivots))]
+      end associate
+      associate (n => model%rotor%positions)
+         do i = 1, size(alone)
+            alone(i)%mass(:n, :n) = 0
+         end do
       end associate
    end subroutine linearize
 
-   !> The bearing of a model with pivots that behave in one of these ways, from the derivatives of the forces in the
-   !> state where it was evaluated last.
+   !> A model with pivots that behave in one of these ways, from the derivatives of the forces in the state where it was
+   !> evaluated last.
    pure type(linear_bearing_type) function linear_bearing_of(model, pivot, over_positions, over_rates) result(bearing)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       character(len=*), intent(in) :: pivot
       real(wp), intent(in) :: over_positions(:, :), over_rates(:, :)
-      integer :: k
       bearing%pivot = pivot
       allocate (bearing%moves(size(over_rates, 1)), source=.true.)
-      if (pivot == 'locked' .and. model%layout%tilting) then
-         bearing%moves(model%layout%first_position([(k, k=1, model%layout%pads)])) = .false.
-      end if
+      if (pivot == 'locked') bearing%moves(model%layout%tilts()) = .false.
       bearing%mass = masses(model)
-      bearing%mass(:journal, :journal) = 0
       bearing%stiffness = over_positions
       bearing%damping = over_rates
       if (pivot == 'stuck') call add_sticking(model, bearing%stiffness, bearing%damping)
@@ -145,7 +144,7 @@ contains
 
    !> The ways that the pivots of a model's case may behave; fixed pads have one.
    pure function pivots_of(model) result(pivots)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       character(len=pivot_name), allocatable :: pivots(:)
       if (.not. model%inputs%tilting()) then
          pivots = [character(len=pivot_name) :: 'locked']
@@ -188,11 +187,11 @@ contains
       damping = left%im/frequency
    end subroutine condense
 
-   !> The modes of a bearing with a rotor of this mass, kg, and cross-coupled stiffness, N/m. `ok` is false where the
-   !> eigenvalues are not found.
-   subroutine find_modes(bearing, rotor_mass, cross_stiffness, lengths, modes, ok)
+   !> The modes of rotor and pads with a cross-coupled stiffness, N/m. `ok` is false where the eigenvalues are not
+   !> found.
+   subroutine find_modes(bearing, cross_stiffness, lengths, modes, ok)
       type(linear_bearing_type), intent(in) :: bearing
-      real(wp), intent(in) :: rotor_mass, cross_stiffness
+      real(wp), intent(in) :: cross_stiffness
       !> What stands for 1 rad of a position's, m; 1 where it is a displacement.
       real(wp), intent(in) :: lengths(:)
       type(vibration_modes_type), intent(out) :: modes
@@ -203,7 +202,7 @@ contains
       logical, allocatable :: waiting(:)
       integer :: i, n, next
       kept = pack([(i, i=1, size(bearing%moves))], bearing%moves)
-      call rotor_eigenvalues(bearing, rotor_mass, cross_stiffness, values, ok, shapes)
+      call rotor_eigenvalues(bearing, cross_stiffness, values, ok, shapes)
       if (.not. ok) return
       ratio = damping_ratio(values)
       waiting = values%im >= 0
@@ -221,28 +220,24 @@ contains
       where (modes%eigenvalue%im > 0) modes%log_decrement = -2*pi*modes%eigenvalue%re/modes%eigenvalue%im
    end subroutine find_modes
 
-   !> The eigenvalues, 1/s, of a bearing with a rotor as above, and the shapes of the positions that move.
-   subroutine rotor_eigenvalues(bearing, rotor_mass, cross_stiffness, values, ok, shapes)
+   !> The eigenvalues, 1/s, of rotor and pads as above, and the shapes of the positions that move.
+   subroutine rotor_eigenvalues(bearing, cross_stiffness, values, ok, shapes)
       type(linear_bearing_type), intent(in) :: bearing
-      real(wp), intent(in) :: rotor_mass, cross_stiffness
+      real(wp), intent(in) :: cross_stiffness
       complex(wp), allocatable, intent(out) :: values(:)
       logical, intent(out) :: ok
       complex(wp), allocatable, intent(out), optional :: shapes(:, :)
-      real(wp), allocatable, dimension(:, :) :: mass, stiffness
+      real(wp), allocatable, dimension(:, :) :: stiffness
       integer, allocatable :: kept(:)
       integer :: i
       kept = pack([(i, i=1, size(bearing%moves))], bearing%moves)
       allocate (values(2*size(kept)))
       if (present(shapes)) allocate (shapes(size(kept), 2*size(kept)))
-      mass = bearing%mass(kept, kept)
       stiffness = bearing%stiffness(kept, kept)
-      do i = 1, journal
-         mass(i, i) = mass(i, i) + rotor_mass
-      end do
       ! what is displaced along y is pushed along z, and what is displaced along z against y: forward
       stiffness(1, 2) = stiffness(1, 2) + cross_stiffness
       stiffness(2, 1) = stiffness(2, 1) - cross_stiffness
-      call find_vibrations(mass, -stiffness, -bearing%damping(kept, kept), values, ok, shapes)
+      call find_vibrations(bearing%mass(kept, kept), -stiffness, -bearing%damping(kept, kept), values, ok, shapes)
    end subroutine rotor_eigenvalues
 
    !> The one of least ratio, and of these the one of least size.

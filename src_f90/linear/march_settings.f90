@@ -2,7 +2,7 @@
 module march_settings
    use kinds, only: wp, i8, pi
    use marching, only: march_options
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
    public :: march_settings_of
@@ -24,7 +24,7 @@ contains
 
    !> Those of a model after this many steps.
    type(march_options) function march_settings_of(model, steps) result(options)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer(i8), intent(in) :: steps
       associate (integration => model%inputs%integration)
          options%relative_tolerance = integration%relative_tolerance
@@ -34,10 +34,10 @@ contains
          options%short_step = 2*pi/(model%inputs%highest_speed()*many_steps)
       end associate
       associate (tolerance => options%absolute_tolerance)
-         if (model%bearing%smooth()) options%derivatives_age = smooth_derivatives_age
-         if (.not. model%layout%radial) then
+         if (model%bearings(1)%smooth()) options%derivatives_age = smooth_derivatives_age
+         if (.not. model%layout%bearings(1)%radial) then
             tolerance = rigid_tolerance*tolerance
-         else if (.not. model%bearing%smooth()) then
+         else if (.not. model%bearings(1)%smooth()) then
             tolerance = friction_tolerance*tolerance
          end if
       end associate

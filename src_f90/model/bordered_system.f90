@@ -1,107 +1,164 @@
-!> Bordered block-diagonal matrices: a border that knows all blocks, and blocks, of the same size each, that know the
-!> border and themselves but not each other. Here the border is the rotor and a block a pad. Solved block by block, so
-!> that the cost grows with the number of blocks and not with its cube.
+!> Bordered block-diagonal matrices: a border that knows all blocks, and groups of blocks that know a pair of the border
+!> and themselves but not each other. Here the border are the journals, a group is a bearing and a block a pad. Solved
+!> block by block, so that the cost grows with the number of blocks and not with its cube.
 module bordered_system
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: bordered_matrix, new_bordered_matrix
+   public :: bordered_matrix, block_group, new_bordered_matrix
 
+   !> Unknowns of the border that a group knows: the displacements of a journal. Most unknowns of a block: tilt and
+   !> pivot deflection.
+   integer, parameter :: pair = 2, largest_block = 2, with_pair = pair + largest_block
    !> Rows are filled up to a multiple of this, for vector instructions.
    integer, parameter :: simd_width = 4
-   !> Border of a rigid journal's rates, and the length of the rows of its pads.
-   integer, parameter :: usual_border = 2, usual_width = 8
+   !> Length of the rows of a block, and of those of a border of one pair.
+   integer, parameter :: usual_width = 8
 
-   !> Matrix on the unknowns (border, block 1, block 2, ...), each block with m of them.
-   type :: bordered_matrix
-      integer :: border = 0, m = 0
-      !> Border over border; border over block (border, m, block), block over border (m, border, block), block over
-      !> itself.
-      real(wp), allocatable :: corner(:, :), across(:, :, :), down(:, :, :), block(:, :, :)
+   !> Blocks of m unknowns each, 0 to 2.
+   type :: block_group
+      integer :: m = 0
+      !> The pair of the border over a block (pair, m, block), a block over the pair (m, pair, block), over itself.
+      real(wp), allocatable :: across(:, :, :), down(:, :, :), block(:, :, :)
       !> Rows of the blocks' systems, (column, row, block): the block itself, its border columns, the right-hand side.
       real(wp), allocatable, private :: rows(:, :, :)
+   end type block_group
+
+   !> Matrix on the unknowns (pair of group 1, pair of group 2, ..., blocks of group 1, ...).
+   type :: bordered_matrix
+      type(block_group), allocatable :: groups(:)
+      !> What stands on the border where gamma is 0: the identity, if nothing else is put there.
+      real(wp), allocatable :: border(:, :)
+      !> Of each group its pair over itself, (pair, pair, group).
+      real(wp), allocatable :: corner(:, :, :)
    contains
       procedure :: solve
    end type bordered_matrix
 
 contains
 
-   !> A matrix of zeros with a border of this size and a number of blocks of m unknowns each.
-   pure function new_bordered_matrix(border, m, blocks) result(matrix)
-      integer, intent(in) :: border, m, blocks
+   !> A matrix of zeros with groups of these numbers of blocks, of m unknowns each.
+   pure function new_bordered_matrix(m, blocks) result(matrix)
+      integer, intent(in) :: m(:), blocks(:)
       type(bordered_matrix) :: matrix
-      integer :: width
-      width = max(usual_width, simd_width*((m + border + simd_width)/simd_width))
-      matrix%border = border
-      matrix%m = m
-      allocate (matrix%corner(border, border), source=0.0_wp)
-      allocate (matrix%across(border, m, blocks), matrix%down(m, border, blocks), source=0.0_wp)
-      allocate (matrix%block(m, m, blocks), matrix%rows(width, m, blocks), source=0.0_wp)
+      integer :: g
+      allocate (matrix%groups(size(m)))
+      allocate (matrix%corner(pair, pair, size(m)), matrix%border(pair*size(m), pair*size(m)), source=0.0_wp)
+      do g = 1, pair*size(m)
+         matrix%border(g, g) = 1
+      end do
+      do g = 1, size(m)
+         associate (group => matrix%groups(g))
+            group%m = m(g)
+            allocate (group%across(pair, m(g), blocks(g)), group%down(m(g), pair, blocks(g)), source=0.0_wp)
+            allocate (group%block(m(g), m(g), blocks(g)), group%rows(usual_width, m(g), blocks(g)), source=0.0_wp)
+         end associate
+      end do
    end function new_bordered_matrix
 
-   !> b := (1 - gamma A)^(-1) b. `ok` is false where this matrix is singular.
+   !> Length of a row of n unknowns and the right-hand side.
+   pure integer function row_width(n)
+      integer, intent(in) :: n
+      row_width = simd_width*((n + simd_width)/simd_width)
+   end function row_width
+
+   !> b := (B - gamma A)^(-1) b, with B the identity but on the border. `ok` is false where this matrix is singular.
+   !> Each block's unknowns are written through the border's, and these are solved for. The matrix is the identity
+   !> where gamma is small, and rates come after what they are rates of; so the pivots stay on the diagonal.
    pure subroutine solve(self, gamma, b, ok)
       class(bordered_matrix), intent(inout) :: self
       real(wp), intent(in) :: gamma
       real(wp), intent(inout), contiguous :: b(:)
       logical, intent(out) :: ok
+      real(wp) :: border(max(usual_width, row_width(size(self%border, 1))), size(self%border, 1))
+      real(wp) :: part(pair + 1, pair)
       logical :: singular
-      associate (width => size(self%rows, 1), blocks => size(self%block, 3))
-         ! sizes that the compiler knows make it three times as fast
-         if (self%border == usual_border .and. self%m == 2) then
-            call solve_system(usual_width, usual_border, 2, blocks, gamma, self%corner, self%across, self%down, &
-               & self%block, self%rows, b, singular)
-         else
-            call solve_system(width, self%border, self%m, blocks, gamma, self%corner, self%across, self%down, &
-               & self%block, self%rows, b, singular)
-         end if
-      end associate
+      integer :: g, j, n, o
+      singular = .false.
+      n = size(self%border, 1)
+      border = 0
+      do j = 1, n
+         border(:n, j) = self%border(j, :)
+         border(n + 1, j) = b(j)
+      end do
+      o = n
+      do g = 1, size(self%groups)
+         associate (group => self%groups(g), at => pair*(g - 1), blocks => size(self%groups(g)%block, 3))
+            do j = 1, pair
+               part(:pair, j) = border(at + 1:at + pair, at + j) - gamma*self%corner(j, :, g)
+               part(pair + 1, j) = border(n + 1, at + j)
+            end do
+            ! sizes that the compiler knows make it three times as fast
+            if (group%m == 2) then
+               call reduce(usual_width, 2, blocks, gamma, group%across, group%down, group%block, group%rows, &
+                  & b(o + 1:), part, singular)
+            else
+               call reduce(usual_width, group%m, blocks, gamma, group%across, group%down, group%block, &
+                  & group%rows, b(o + 1:), part, singular)
+            end if
+            do j = 1, pair
+               border(at + 1:at + pair, at + j) = part(:pair, j)
+               border(n + 1, at + j) = part(pair + 1, j)
+            end do
+            o = o + group%m*blocks
+         end associate
+      end do
+      if (n == pair) then
+         call eliminate(usual_width, pair, border, singular)
+      else
+         call eliminate(size(border, 1), n, border, singular)
+      end if
+      b(:n) = border(n + 1, :)
+      o = n
+      do g = 1, size(self%groups)
+         associate (group => self%groups(g))
+            call restore(group%m, size(group%block, 3), group%rows, b(pair*g - 1:pair*g), b(o + 1:))
+            o = o + group%m*size(group%block, 3)
+         end associate
+      end do
       ok = .not. singular .and. all(ieee_is_finite(b))
    end subroutine solve
 
-   !> Each block's unknowns are written through the border's, and these are solved for. The matrix is the identity
-   !> where gamma is small, and rates come after what they are rates of; so the pivots stay on the diagonal.
-   pure subroutine solve_system(width, n, m, blocks, gamma, corner, across, down, block, rows, b, singular)
-      !> Length of a row; unknowns of the border, of a block; blocks.
-      integer, value :: width, n, m, blocks
-      real(wp), intent(in) :: gamma, corner(n, n), across(n, m, blocks), down(m, n, blocks), block(m, m, blocks)
-      real(wp), intent(inout) :: rows(width, m, blocks), b(n + m*blocks)
-      logical, intent(out) :: singular
-      real(wp) :: border(width, n), factor
-      integer :: i, j, k, o
-      singular = .false.
-      border = 0
-      do j = 1, n
-         border(:n, j) = -gamma*corner(j, :)
-         border(j, j) = border(j, j) + 1
-         border(n + 1, j) = b(j)
-      end do
+   !> Writes the unknowns of a group's blocks through its pair, whose rows (pair and right-hand side, row) gain what
+   !> follows.
+   pure subroutine reduce(width, m, blocks, gamma, across, down, block, rows, b, border, singular)
+      !> Length of a row; unknowns of a block; blocks.
+      integer, value :: width, m, blocks
+      real(wp), intent(in) :: gamma, across(pair, m, blocks), down(m, pair, blocks), block(m, m, blocks), b(m*blocks)
+      real(wp), intent(inout) :: rows(width, m, blocks), border(pair + 1, pair)
+      logical, intent(inout) :: singular
+      real(wp) :: factor
+      integer :: i, j, k
       do i = 1, blocks
-         o = n + (i - 1)*m
          do j = 1, m
             rows(:m, j, i) = -gamma*block(j, :, i)
             rows(j, j, i) = rows(j, j, i) + 1
-            rows(m + 1:m + n, j, i) = -gamma*down(j, :, i)
-            rows(m + n + 1, j, i) = b(o + j)
+            rows(m + 1:m + pair, j, i) = -gamma*down(j, :, i)
+            rows(m + pair + 1, j, i) = b((i - 1)*m + j)
          end do
          call eliminate(width, m, rows(:, :, i), singular)
          do k = 1, m
-            do j = 1, n
+            do j = 1, pair
                factor = gamma*across(j, k, i)
-               border(:n + 1, j) = border(:n + 1, j) + factor*rows(m + 1:m + n + 1, k, i)
+               border(:, j) = border(:, j) + factor*rows(m + 1:m + pair + 1, k, i)
             end do
          end do
       end do
-      call eliminate(width, n, border, singular)
-      b(:n) = border(n + 1, :)
+   end subroutine reduce
+
+   !> The unknowns of a group's blocks from those of its pair.
+   pure subroutine restore(m, blocks, rows, of_pair, b)
+      integer, value :: m, blocks
+      real(wp), intent(in) :: rows(usual_width, m, blocks), of_pair(pair)
+      real(wp), intent(inout) :: b(m*blocks)
+      integer :: i, j
       do i = 1, blocks
-         o = n + (i - 1)*m
          do j = 1, m
-            b(o + j) = rows(m + n + 1, j, i) - dot_product(rows(m + 1:m + n, j, i), b(:n))
+            b((i - 1)*m + j) = rows(m + pair + 1, j, i) - dot_product(rows(m + 1:m + pair, j, i), of_pair)
          end do
       end do
-   end subroutine solve_system
+   end subroutine restore
 
    !> Gauss-Jordan elimination of the first n columns of rows held side by side.
    pure subroutine eliminate(width, n, rows, singular)

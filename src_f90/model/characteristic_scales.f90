@@ -5,8 +5,8 @@ module characteristic_scales
    use operating_point, only: operating_point_type
    use kinematics, only: pad_state
    use tilting_pad_bearing, only: tilting_pad_bearing_type
-   use rigid_journal, only: rigid_journal_type
-   use state_layout, only: state_layout_type
+   use abstract_rotor, only: rotor_type
+   use state_layout, only: state_layout_type, pads_layout_type
    implicit none (type, external)
    private
    public :: state_scales
@@ -19,19 +19,36 @@ contains
    !> Characteristic scale of each state: clearance; clearance over pad length; the pivot deflection under the load;
    !> the deflection at which bristles yield; rates: times the highest speed, but the tilt rate not above
    !> ten times that at which friction changes its direction, or its moment would be no better than 1e-2.
-   pure function state_scales(inputs, point, rotor, bearing, layout) result(scale)
+   pure function state_scales(inputs, point, rotor, bearings, layout) result(scale)
       type(case_type), intent(in) :: inputs
       type(operating_point_type), intent(in) :: point
-      type(rigid_journal_type), intent(in) :: rotor
-      type(tilting_pad_bearing_type), intent(in) :: bearing
+      class(rotor_type), intent(in) :: rotor
+      type(tilting_pad_bearing_type), intent(in) :: bearings(:)
       type(state_layout_type), intent(in) :: layout
       real(wp) :: scale(layout%n)
+      real(wp) :: speed
+      integer :: b
+      speed = inputs%highest_speed()
+      associate (n => rotor%positions)
+         scale(:n) = rotor%scales([(inputs%bearing%assembled_clearance, b=1, size(bearings))])
+         scale(n + 1:2*n) = scale(:n)*speed
+      end associate
+      do b = 1, size(bearings)
+         call layout%bearings(b)%put_pads(pad_scales(inputs, point, bearings(b), layout%bearings(b), speed), scale)
+      end do
+   end function state_scales
+
+   !> Those of the pads of a bearing with this case, at the highest speed, rad/s.
+   pure function pad_scales(inputs, point, bearing, layout, speed) result(pads)
+      type(case_type), intent(in) :: inputs
+      type(operating_point_type), intent(in) :: point
+      type(tilting_pad_bearing_type), intent(in) :: bearing
+      type(pads_layout_type), intent(in) :: layout
+      real(wp), intent(in) :: speed
       type(pad_state) :: pads(layout%pads)
-      real(wp) :: speed, force
+      real(wp) :: force
       integer :: i
       associate (b => inputs%bearing, friction => bearing%friction)
-         speed = inputs%highest_speed()
-         scale(:rotor%states) = rotor%scales(b%assembled_clearance, speed)
          do i = 1, size(pads)
             pads(i)%tilt = b%assembled_clearance/((b%journal_radius + b%machined_clearance) &
                & *inputs%pads%arc_deg(i)*degree)
@@ -48,6 +65,5 @@ contains
                & /inputs%friction%bristle_stiffness
          end do
       end associate
-      call layout%put_pads(pads, scale)
-   end function state_scales
+   end function pad_scales
 end module characteristic_scales

@@ -7,7 +7,7 @@ module film_comparison
    use case_inputs, only: case_type
    use factories, only: converged_films, usual_arc
    use tilting_pad_bearing, only: pad_sample
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    implicit none (type, external)
    private
    public :: film_comparison_type, film_difference, new_film_comparison
@@ -36,7 +36,7 @@ module film_comparison
 
    type :: film_comparison_type
       private
-      type(bearing_model) :: close, less_close
+      type(machine_model) :: close, less_close
       !> Of each pad the least force that counts as carried, N.
       real(wp), allocatable :: least(:)
    contains
@@ -49,9 +49,9 @@ contains
    function new_film_comparison(inputs) result(comparison)
       type(case_type), intent(in) :: inputs
       type(film_comparison_type) :: comparison
-      comparison%close = new_bearing_model(closely(inputs, closest, film_adapted), converged_films)
-      comparison%less_close = new_bearing_model(closely(inputs, less_close, even), converged_films)
-      associate (weight => comparison%close%bearing%pads%weight)
+      comparison%close = new_machine_model(closely(inputs, closest, film_adapted), converged_films)
+      comparison%less_close = new_machine_model(closely(inputs, less_close, even), converged_films)
+      associate (weight => comparison%close%bearings(1)%pads%weight)
          comparison%least = least_share*merge(weight, norm2(comparison%close%point%load), weight > 0)
       end associate
    end function new_film_comparison
@@ -73,7 +73,7 @@ contains
    !> Compares the films of a model, of each pad, in the state y at time t, s.
    subroutine compare(self, model, t, y, found)
       class(film_comparison_type), intent(inout) :: self
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: t, y(:)
       type(film_difference), intent(out) :: found(:)
       type(pad_sample), dimension(size(found)) :: own, close, less_close
@@ -100,8 +100,8 @@ contains
 
    !> Gives a model the operating point and the oil of another.
    subroutine adapt(model, other)
-      type(bearing_model), intent(inout) :: model
-      type(bearing_model), intent(in) :: other
+      type(machine_model), intent(inout) :: model
+      type(machine_model), intent(in) :: other
       call model%set_point(other%point)
       model%oil = other%oil
       model%oil_history = other%oil_history
@@ -109,7 +109,7 @@ contains
 
    !> The films of all pads, each on its own: one that cannot be solved leaves the others.
    subroutine take_films(model, t, y, films, found)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: t, y(:)
       type(pad_sample), intent(out) :: films(:)
       type(film_difference), intent(inout) :: found(:)
@@ -122,6 +122,6 @@ contains
          call model%evaluate(t, y, .false., ok, chosen)
          if (.not. ok) found(i)%refusal = model%refusal
       end do
-      films = model%bearing%sampled()
+      films = model%bearings(1)%sampled()
    end subroutine take_films
 end module film_comparison

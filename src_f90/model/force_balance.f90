@@ -1,14 +1,15 @@
-!> The forces on journal and pads, their derivatives over positions and rates, and the masses: not divided by each
+!> The forces on rotor and pads, their derivatives over positions and rates, and the masses: not divided by each
 !> other, in the order of layout%positions(); the eigenvalues of small vibrations about an equilibrium, and what they
 !> say of it.
 module force_balance
    use kinds, only: wp
    use linear_algebra, only: find_eigenvalues, dgesv
    use friction, only: friction_response
-   use equations_of_motion, only: bearing_model
+   use tilting_pad_bearing, only: tilting_pad_bearing_type
+   use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
-   public :: forces, force_derivatives, pad_derivatives, masses, add_sticking
+   public :: forces, force_derivatives, bearing_derivatives, pad_derivatives, masses, add_sticking
    public :: stability_type, stability_at, stability_of, find_vibrations
 
    !> How a state in equilibrium answers a small disturbance.
@@ -25,99 +26,120 @@ module force_balance
 
 contains
 
-   !> Forces on the journal along y and z, N, and of each pad the moment, N m, and (pivots that yield) the radial force,
-   !> N, in the state evaluated last, at time t, s.
-   pure function forces(model, t)
-      type(bearing_model), intent(in) :: model
-      real(wp), intent(in) :: t
+   !> Forces on the displacements of the rotor, N, and of each pad the moment, N m, and (pivots that yield) the radial
+   !> force, N, in the state y, which was evaluated last, at time t, s.
+   pure function forces(model, t, y)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: t, y(:)
       real(wp) :: forces(model%layout%n_positions())
-      integer :: i, own, last
-      associate (layout => model%layout, loads => model%bearing%loads)
-         forces(:layout%rotor/2) = model%rotor%force(model%point, t)
-         do i = 1, layout%pads
-            forces(:layout%rotor/2) = forces(:layout%rotor/2) + loads(i)%journal
-            own = layout%first_position(i)
-            last = own + layout%motion/2 - 1
-            associate (of_pad => [loads(i)%moment, loads(i)%radial])
-               forces(own:last) = of_pad(:layout%motion/2)
-            end associate
-         end do
-      end associate
-   end function forces
-
-   !> Derivatives of the forces over positions and over rates, where the derivatives of the bearing were taken last,
-   !> with those of friction in the state evaluated last.
-   pure subroutine force_derivatives(model, over_positions, over_rates)
-      type(bearing_model), intent(in) :: model
-      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
-      real(wp) :: positions(4, 4), rates(4, 4)
-      integer :: i
-      over_positions = 0
-      over_rates = 0
-      do i = 1, model%layout%pads
-         call pad_derivatives(model, i, positions, rates)
-         associate (at => model%layout%positions_of(i), n => 2 + model%layout%motion/2)
-            over_positions(at, at) = over_positions(at, at) + positions(:n, :n)
-            over_rates(at, at) = over_rates(at, at) + rates(:n, :n)
+      integer :: b, i
+      forces(:model%rotor%positions) = model%rotor%force(y(:model%rotor%states), model%point, t)
+      do b = 1, size(model%bearings)
+         associate (of => model%layout%bearings(b), loads => model%bearings(b)%loads)
+            do i = 1, of%pads
+               forces(of%journal) = forces(of%journal) + loads(i)%journal
+               associate (of_pad => [loads(i)%moment, loads(i)%radial])
+                  forces(of%own_positions(i)) = of_pad(:of%motion/2)
+               end associate
+            end do
          end associate
       end do
+   end function forces
+
+   !> Derivatives of these forces over positions and over rates, where the derivatives of the bearings were taken last,
+   !> with those of friction in the state evaluated last.
+   pure subroutine force_derivatives(model, over_positions, over_rates)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      real(wp), dimension(model%rotor%positions, model%rotor%positions) :: stiffness, damping
+      call bearing_derivatives(model, over_positions, over_rates)
+      call model%rotor%force_derivatives(model%point%speed(0.0_wp), stiffness, damping)
+      associate (n => model%rotor%positions)
+         over_positions(:n, :n) = over_positions(:n, :n) + stiffness
+         over_rates(:n, :n) = over_rates(:n, :n) + damping
+      end associate
    end subroutine force_derivatives
+
+   !> Those of the bearings' forces alone.
+   pure subroutine bearing_derivatives(model, over_positions, over_rates)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      real(wp) :: positions(4, 4), rates(4, 4)
+      integer :: b, i
+      over_positions = 0
+      over_rates = 0
+      do b = 1, size(model%bearings)
+         do i = 1, model%layout%bearings(b)%pads
+            call pad_derivatives(model%bearings(b), i, positions, rates)
+            associate (at => model%layout%bearings(b)%positions_of(i))
+               over_positions(at, at) = over_positions(at, at) + positions(:size(at), :size(at))
+               over_rates(at, at) = over_rates(at, at) + rates(:size(at), :size(at))
+            end associate
+         end do
+      end do
+   end subroutine bearing_derivatives
 
    !> What a pad adds to these: derivatives of the force on the journal along y and z, of its own moment and radial
    !> force over the displacements of the journal, its tilt and pivot deflection, and over their rates.
-   pure subroutine pad_derivatives(model, pad, over_positions, over_rates)
-      type(bearing_model), intent(in) :: model
+   pure subroutine pad_derivatives(bearing, pad, over_positions, over_rates)
+      type(tilting_pad_bearing_type), intent(in) :: bearing
       integer, intent(in) :: pad
       real(wp), intent(out) :: over_positions(4, 4), over_rates(4, 4)
       real(wp), parameter :: moment(2) = [1.0_wp, 0.0_wp]
       real(wp) :: over_deflection(2)
-      associate (bearing => model%bearing)
-         call bearing%derivatives(pad)%as_matrices(over_positions, over_rates)
-         call bearing%pads(pad)%add_friction(bearing%loads(pad)%friction, bearing%derivatives(pad)%contact, moment, &
-            & over_positions, over_rates, over_deflection)
-      end associate
+      call bearing%derivatives(pad)%as_matrices(over_positions, over_rates)
+      call bearing%pads(pad)%add_friction(bearing%loads(pad)%friction, bearing%derivatives(pad)%contact, moment, &
+         & over_positions, over_rates, over_deflection)
    end subroutine pad_derivatives
 
    !> Adds to the derivatives of the forces at rest what friction adds where the pivots stick, under the pivot loads
    !> evaluated last: bristles that are not deflected move with the pivot; a law without them has its slope at no
    !> velocity.
    pure subroutine add_sticking(model, over_positions, over_rates)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(inout) :: over_positions(:, :), over_rates(:, :)
       type(friction_response) :: friction
-      integer :: i, tilt
-      do i = 1, model%layout%pads
-         tilt = model%layout%first_position(i)
-         call model%bearing%friction%evaluate(0.0_wp, 0.0_wp, model%bearing%loads(i)%contact, friction)
-         associate (square => model%bearing%pads(i)%ball_radius**2)
-            over_positions(tilt, tilt) = over_positions(tilt, tilt) &
-               & - square*friction%force_deflection*friction%rate_velocity
-            over_rates(tilt, tilt) = over_rates(tilt, tilt) - square*friction%force_velocity
+      integer :: b, i, tilt
+      do b = 1, size(model%bearings)
+         associate (bearing => model%bearings(b))
+            do i = 1, size(bearing%pads)
+               tilt = model%layout%bearings(b)%first_position(i)
+               call bearing%friction%evaluate(0.0_wp, 0.0_wp, bearing%loads(i)%contact, friction)
+               associate (square => bearing%pads(i)%ball_radius**2)
+                  over_positions(tilt, tilt) = over_positions(tilt, tilt) &
+                     & - square*friction%force_deflection*friction%rate_velocity
+                  over_rates(tilt, tilt) = over_rates(tilt, tilt) - square*friction%force_velocity
+               end associate
+            end do
          end associate
       end do
    end subroutine add_sticking
 
-   !> Masses of the positions: kg of the journal, and of each pad the matrix of eqs (3)-(4).
+   !> Masses of the positions: those of the rotor, and of each pad the matrix of eqs (3)-(4).
    pure function masses(model)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp) :: masses(model%layout%n_positions(), model%layout%n_positions())
       real(wp) :: of_pad(2, 2)
-      integer :: i, own, last
+      integer :: b, i
       masses = 0
-      do i = 1, model%layout%rotor/2
-         masses(i, i) = model%rotor%mass
-      end do
-      do i = 1, model%layout%pads
-         own = model%layout%first_position(i)
-         last = own + model%layout%motion/2 - 1
-         of_pad = model%bearing%pads(i)%masses()
-         masses(own:last, own:last) = of_pad(:last - own + 1, :last - own + 1)
+      associate (n => model%rotor%positions)
+         masses(:n, :n) = model%rotor%masses()
+      end associate
+      do b = 1, size(model%bearings)
+         associate (of => model%layout%bearings(b))
+            do i = 1, of%pads
+               of_pad = model%bearings(b)%pads(i)%masses()
+               associate (own => of%own_positions(i), m => of%motion/2)
+                  masses(own, own) = of_pad(:m, :m)
+               end associate
+            end do
+         end associate
       end do
    end function masses
 
    !> The stability of a model in equilibrium in the state y.
    subroutine stability_at(model, y, stability, ok)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
       type(stability_type), intent(out) :: stability
       !> False where the films have no derivatives or the eigenvalues are not found.

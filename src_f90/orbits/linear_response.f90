@@ -4,7 +4,7 @@ module linear_response
    use kinds, only: wp, pi
    use linear_algebra, only: zgesv, find_eigenvalues
    use operating_point, only: operating_point_type
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
    public :: go_to_response, longest_interval
@@ -22,7 +22,7 @@ contains
    !> Puts a state in equilibrium into the steady motion of the linearised equations under the unbalance, without
    !> friction, at t = 0: it is near the periodic orbit, and free of a march. Other states stay.
    subroutine go_to_response(model, y)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       type(operating_point_type) :: point, free
       complex(wp) :: matrix(model%n, model%n), response(model%n, 2)
@@ -57,7 +57,7 @@ contains
 
    !> The longest interval, s, that shows the vibrations about state y that last longer than a period, s.
    real(wp) function longest_interval(model, y, period) result(longest)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:), period
       real(wp) :: rates(model%n), jacobian(model%n, model%n)
       complex(wp) :: values(model%n)

@@ -7,7 +7,7 @@ module periodic_orbit
    use marching, only: march_options
    use ode_model, only: integrator_counts_type
    use cvode_integrator, only: integrator_type
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use orbit_polynomials, only: orbit_type
    use newton_method, only: newton_options
    use orbit_refinement, only: refined_orbit_type, close_on_meshes, linearize_along
@@ -62,7 +62,7 @@ contains
    !> there, the motion from y itself as the case is marched. A numerics error where the march ends, or where it does
    !> not repeat and Newton's method finds no orbit; one of status `stopped`, where `give_up` says so.
    subroutine find_periodic_orbit(model, march, y, found, error, give_up)
-      type(bearing_model), intent(inout), target :: model
+      type(machine_model), intent(inout), target :: model
       !> Tolerances of a march; they choose the mesh.
       type(march_options), intent(in) :: march
       real(wp), intent(in) :: y(:)
@@ -118,7 +118,7 @@ contains
    !> Starts at state y as the case is marched.
    subroutine start_march(integrator, model, march, y, found, options, error)
       type(integrator_type), intent(inout) :: integrator
-      type(bearing_model), intent(inout), target :: model
+      type(machine_model), intent(inout), target :: model
       type(march_options), intent(in) :: march
       real(wp), intent(in) :: y(:)
       type(periodic_orbit_type), intent(in) :: found
@@ -140,7 +140,7 @@ contains
    !> Closes the last period of a march by Newton's method, or its mean with the period before where these are far from
    !> each other. Where that fails, but the march repeats this period, it is the orbit.
    subroutine close_or_accept(model, before, repetition, found, error, give_up)
-      type(bearing_model), intent(inout), target :: model
+      type(machine_model), intent(inout), target :: model
       type(orbit_type), intent(inout) :: before
       type(march_repetition_type), intent(in) :: repetition
       type(periodic_orbit_type), intent(inout) :: found
@@ -177,7 +177,7 @@ contains
 
    !> Newton's method on the collocation of an orbit.
    subroutine close_orbit(model, found, error, give_up)
-      type(bearing_model), intent(inout), target :: model
+      type(machine_model), intent(inout), target :: model
       type(periodic_orbit_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
@@ -211,7 +211,7 @@ contains
 
    !> Takes the last period of a march that repeats as the orbit, with the multipliers along it.
    subroutine follow_march(model, found, error)
-      type(bearing_model), intent(inout), target :: model
+      type(machine_model), intent(inout), target :: model
       type(periodic_orbit_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       type(parametric_ode_type), target :: ode

@@ -6,9 +6,9 @@ module last_state
    use errors, only: error_type, raise, system_error
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
-   use state_layout, only: state_layout_type
+   use state_layout, only: pads_layout_type
    use restart, only: restart_type, read_result, open_result
    implicit none (type, external)
    private
@@ -24,7 +24,7 @@ contains
    !> the states of this layout.
    subroutine read_last_state(path, layout, journal, pads, error)
       character(len=*), intent(in) :: path
-      type(state_layout_type), intent(in) :: layout
+      type(pads_layout_type), intent(in) :: layout
       type(journal_motion), intent(inout) :: journal
       type(pad_state), intent(inout) :: pads(:)
       type(error_type), allocatable, intent(out) :: error
@@ -50,7 +50,7 @@ contains
       character(len=*), intent(in) :: path
       class(hdf5_type), intent(inout) :: file
       type(restart_type), intent(in) :: found
-      type(state_layout_type), intent(in) :: layout
+      type(pads_layout_type), intent(in) :: layout
       type(error_type), allocatable, intent(out) :: error
       type(hdf5_series_type) :: time
       logical :: bristles
@@ -98,7 +98,7 @@ contains
    !> The states in a sample; the file keeps a failure where one is not there.
    subroutine read_states(file, layout, at, journal, pads)
       class(hdf5_type), intent(inout) :: file
-      type(state_layout_type), intent(in) :: layout
+      type(pads_layout_type), intent(in) :: layout
       integer(i8), intent(in) :: at
       type(journal_motion), intent(inout) :: journal
       type(pad_state), intent(inout) :: pads(:)

@@ -9,7 +9,7 @@ module march_results
    use record, only: record_type
    use summary_group, only: put_figure
    use viscosity_history, only: viscosity_history_type
-   use equations_of_motion, only: model_sample
+   use bearing_samples, only: bearing_sample
    use run_file, only: run_file_type
    implicit none (type, external)
    private
@@ -23,7 +23,7 @@ contains
    !> Adds a sample: the one list of what is sampled.
    subroutine add_sample(file, sample, error)
       type(run_file_type), intent(inout) :: file
-      type(model_sample), intent(in) :: sample
+      type(bearing_sample), intent(in) :: sample
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: values(of_journal + of_pad*size(sample%states))
       logical :: first

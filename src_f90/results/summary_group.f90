@@ -3,7 +3,7 @@
 module summary_group
    use kinds, only: wp
    use record, only: record_type
-   use equations_of_motion, only: model_sample
+   use bearing_samples, only: bearing_sample
    implicit none (type, external)
    private
    public :: put_figure, figure, pad_figures, has_figure, run_extremes_type
@@ -75,7 +75,7 @@ contains
 
    subroutine add(self, sample)
       class(run_extremes_type), intent(inout) :: self
-      type(model_sample), intent(in) :: sample
+      type(bearing_sample), intent(in) :: sample
       integer :: i
       if (.not. allocated(self%force)) then
          allocate (self%force(size(sample%loads)), self%touches(size(sample%loads)))

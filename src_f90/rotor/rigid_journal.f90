@@ -1,111 +1,117 @@
-!> The rotor: a rigid journal whose mass stands in the bearing, eqs (1)-(2). Its states are its displacements and
-!> then their rates. A model knows no more of a rotor than the procedures here.
+!> A rigid journal whose mass stands in one bearing, eqs (1)-(2).
 module rigid_journal
    use kinds, only: wp
    use operating_point, only: operating_point_type
+   use abstract_rotor, only: rotor_type
    implicit none (type, external)
    private
-   public :: rigid_journal_type, journal_motion
+   public :: new_rigid_journal
 
-   !> States: y, z, their rates.
-   integer, parameter :: y_z(2) = [1, 2], rates_of_y_z(2) = [3, 4]
-
-   !> Motion of the journal in a bearing: (y, z), m, and rates, m/s.
-   type :: journal_motion
-      real(wp) :: position(2) = 0, velocity(2) = 0
-   end type journal_motion
-
-   type :: rigid_journal_type
-      !> Number of states: displacements, and as many rates.
-      integer :: states = 4
+   type, extends(rotor_type) :: rigid_journal_type
       !> Mass, kg.
       real(wp) :: mass = 0
    contains
-      procedure :: journal
-      procedure :: with_journal
       procedure :: scales
       procedure :: force
       procedure :: turn
-      procedure :: rates
-      procedure :: rate_derivatives
-      procedure :: own_derivatives
+      procedure :: accelerations
+      procedure :: masses
+      procedure :: force_derivatives
+      procedure :: newton_rows
+      procedure :: newton_matrix
+      procedure :: newton_right
+      procedure :: row_accelerations
    end type rigid_journal_type
 
 contains
 
-   !> The motion of the journal in the bearing, from the rotor's states.
-   pure type(journal_motion) function journal(self, states)
-      class(rigid_journal_type), intent(in) :: self
-      real(wp), intent(in) :: states(:)
-      journal = journal_motion(states(y_z), states(rates_of_y_z))
-   end function journal
+   !> A journal of this mass, kg.
+   pure type(rigid_journal_type) function new_rigid_journal(mass) result(journal)
+      real(wp), intent(in) :: mass
+      journal%positions = 2
+      journal%states = 4
+      journal%journals = 1
+      journal%mass = mass
+   end function new_rigid_journal
 
-   !> The rotor's states with this motion of the journal.
-   pure function with_journal(self, journal) result(states)
+   pure function scales(self, clearances)
       class(rigid_journal_type), intent(in) :: self
-      type(journal_motion), intent(in) :: journal
-      real(wp) :: states(self%states)
-      states(y_z) = journal%position
-      states(rates_of_y_z) = journal%velocity
-   end function with_journal
-
-   !> Characteristic scale of each state, with the clearance, m, and the highest speed, rad/s.
-   pure function scales(self, clearance, speed)
-      class(rigid_journal_type), intent(in) :: self
-      real(wp), intent(in) :: clearance, speed
-      real(wp) :: scales(self%states)
-      scales(y_z) = clearance
-      scales(rates_of_y_z) = clearance*speed
+      real(wp), intent(in) :: clearances(:)
+      real(wp) :: scales(self%positions)
+      scales = clearances(1)
    end function scales
 
-   !> Load and unbalance along y and z at time t, N; in a run-up with the tangential force of the unbalance.
-   pure function force(self, point, t)
+   !> Load and unbalance.
+   pure function force(self, states, point, t)
       class(rigid_journal_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
       type(operating_point_type), intent(in) :: point
       real(wp), intent(in) :: t
-      real(wp) :: force(2), phase, speed, direction(2)
+      real(wp) :: force(self%positions), phase, speed, direction(2)
       phase = point%shaft_angle(t)
       speed = point%speed(t)
       direction = [cos(phase), sin(phase)]
       force = point%load + point%unbalance*(speed**2*direction + point%acceleration*[direction(2), -direction(1)])
    end function force
 
-   !> How the force changes with time at constant speed, N/s.
+   !> The unbalance turns.
    pure function turn(self, point, t)
       class(rigid_journal_type), intent(in) :: self
       type(operating_point_type), intent(in) :: point
       real(wp), intent(in) :: t
-      real(wp) :: turn(2), phase
+      real(wp) :: turn(self%positions), phase
       phase = point%shaft_angle(t)
       turn = point%unbalance*point%speed(t)**3*[-sin(phase), cos(phase)]
    end function turn
 
-   !> Rates of the states under a force on the journal along y and z, N.
-   pure function rates(self, states, force)
+   pure function accelerations(self, force)
       class(rigid_journal_type), intent(in) :: self
-      real(wp), intent(in) :: states(:), force(2)
-      real(wp) :: rates(self%states)
-      rates(y_z) = states(rates_of_y_z)
-      rates(rates_of_y_z) = force/self%mass
-   end function rates
+      real(wp), intent(in) :: force(:)
+      real(wp) :: accelerations(self%positions)
+      accelerations = force/self%mass
+   end function accelerations
 
-   !> What derivatives of the force on the journal, (2, any), add to those of the rates, (state, any).
-   pure function rate_derivatives(self, force) result(derivatives)
+   pure function masses(self)
       class(rigid_journal_type), intent(in) :: self
-      real(wp), intent(in) :: force(:, :)
-      real(wp) :: derivatives(self%states, size(force, 2))
-      derivatives(y_z, :) = 0
-      derivatives(rates_of_y_z, :) = force/self%mass
-   end function rate_derivatives
+      real(wp) :: masses(self%positions, self%positions)
+      masses = reshape([self%mass, 0.0_wp, 0.0_wp, self%mass], [2, 2])
+   end function masses
 
-   !> Derivatives of the rates over the states under a given force on the journal.
-   pure function own_derivatives(self) result(derivatives)
+   !> No force depends on the motion.
+   pure subroutine force_derivatives(self, speed, over_positions, over_rates)
       class(rigid_journal_type), intent(in) :: self
-      real(wp) :: derivatives(self%states, self%states)
-      integer :: i
-      derivatives = 0
-      do i = 1, size(y_z)
-         derivatives(y_z(i), rates_of_y_z(i)) = 1
-      end do
-   end function own_derivatives
+      real(wp), intent(in) :: speed
+      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      over_positions = 0
+      over_rates = 0
+   end subroutine force_derivatives
+
+   !> P = 1/M: accelerations.
+   pure function newton_rows(self, forces) result(rows)
+      class(rigid_journal_type), intent(in) :: self
+      real(wp), intent(in) :: forces(:, :)
+      real(wp) :: rows(2, size(forces, 2))
+      rows = forces/self%mass
+   end function newton_rows
+
+   pure function newton_matrix(self, gamma, speed) result(matrix)
+      class(rigid_journal_type), intent(in) :: self
+      real(wp), intent(in) :: gamma, speed
+      real(wp) :: matrix(self%positions, self%positions)
+      matrix = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
+   end function newton_matrix
+
+   pure subroutine newton_right(self, gamma, x, u)
+      class(rigid_journal_type), intent(in) :: self
+      real(wp), intent(in) :: gamma, x(:)
+      real(wp), intent(inout) :: u(:)
+   end subroutine newton_right
+
+   pure function row_accelerations(self, rows, journal) result(accelerations)
+      class(rigid_journal_type), intent(in) :: self
+      real(wp), intent(in) :: rows(:, :)
+      integer, intent(in) :: journal
+      real(wp) :: accelerations(self%positions, size(rows, 2))
+      accelerations = rows
+   end function row_accelerations
 end module rigid_journal

@@ -5,7 +5,7 @@ program test_coefficients
    use kinds, only: wp, pi
    use text, only: to_text
    use case_inputs, only: case_type
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use force_balance, only: forces
    use input_cases, only: case_of
    use linear_analysis, only: analyse
@@ -132,7 +132,7 @@ contains
       !> Of the scale of each state that the differences span.
       real(wp), intent(in) :: part, tolerance
       type(bearing_coefficients_type) :: found
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:)
       call analyse(inputs, what, found, fine=model, y=y)
       associate (x => model%layout%positions(), v => model%layout%rates())
@@ -143,7 +143,7 @@ contains
 
    !> Derivatives of the forces over these states.
    function over(model, y, states, part) result(slopes)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:), part
       integer, intent(in) :: states(:)
       real(wp) :: slopes(size(states), size(states)), shifted(size(y))
@@ -157,7 +157,7 @@ contains
                shifted(states(k)) = y(states(k)) + side*step
                call model%evaluate(0.0_wp, shifted, .false., ok)
                call expect(ok, 'a state beside the rest')
-               slopes(:, k) = slopes(:, k) + side*forces(model, 0.0_wp)/(2*step)
+               slopes(:, k) = slopes(:, k) + side*forces(model, 0.0_wp, shifted)/(2*step)
             end do
          end associate
       end do
@@ -252,13 +252,14 @@ contains
       real(wp), intent(in) :: stiffness, damping
       type(bearing_coefficients_type) :: found
       type(equilibrium_type) :: static
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), parameter :: radius = 13e-3_wp - 15e-6_wp
       integer :: i
       character(len=:), allocatable :: what
       what = inputs%friction%model//', '//inputs%pads%motion
       call analyse(inputs, what, found, static, model)
-      associate (free => found%bearings(1), stuck => found%bearings(2), at => model%layout%first_position([1, 2]))
+      associate (free => found%bearings(1), stuck => found%bearings(2), &
+         & at => model%layout%tilts())
          do i = 1, 2
             associate (normal => radius**2*static%pivot_load(i))
                free%stiffness(at(i), at(i)) = free%stiffness(at(i), at(i)) + stiffness*normal

@@ -4,17 +4,17 @@ module energy_ledger
    use kinds, only: wp
    use ode_model, only: ode_model_type
    use film_solver, only: film_motion
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, frame_of, motion_of
    use tilting_pad_bearing, only: pad_sample
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
    public :: ledger, energy_of
 
    !> The bearing with the work done, the friction's share of it, and the sum of its amounts.
    type, extends(ode_model_type) :: ledger
-      type(bearing_model) :: bearing
+      type(machine_model) :: bearing
       !> Whether a pad has touched the journal.
       logical :: touched = .false.
    contains
@@ -41,8 +41,8 @@ contains
             self%refusal = b%refusal
             return
          end if
-         films = b%bearing%sampled()
-         pads = b%layout%pad_states(y)
+         films = b%bearings(1)%sampled()
+         pads = b%layout%bearings(1)%pad_states(y)
          speed = b%point%speed(t)
          phase = b%point%shaft_angle(t)
          ! unbalance; films on journal and pads; friction; what eqs (3)-(4) hold beside a potential
@@ -50,13 +50,13 @@ contains
          power(1) = b%point%unbalance*speed**2*(cos(phase)*y(3) + sin(phase)*y(4))
          do pad = 1, b%layout%pads
             associate (force => films(pad)%film_force)
-               a = b%bearing%pads(pad)%position%angle - pads(pad)%tilt
+               a = b%bearings(1)%pads(pad)%position%angle - pads(pad)%tilt
                frame = reshape([cos(a), -sin(a), sin(a), cos(a)], [2, 2])
                film = matmul(frame, force)
                power(2) = power(2) + dot_product(film, y(3:4)) &
-                  & - force(1)*b%bearing%pads(pad)%position%centre_distance*pads(pad)%tilt_rate
+                  & - force(1)*b%bearings(1)%pads(pad)%position%centre_distance*pads(pad)%tilt_rate
                power(3) = power(3) - films(pad)%friction_moment*pads(pad)%tilt_rate
-               if (b%layout%radial) then
+               if (b%layout%bearings(1)%radial) then
                   weight = p%mass(pad)*b%inputs%rotor%gravity
                   power(2) = power(2) - force(2)*pads(pad)%pivot_deflection_rate
                   power(4) = power(4) + (p%mass(pad)*p%centre_radial(pad)*pads(pad)%tilt_rate**2 - weight*sin(a)) &
@@ -64,7 +64,7 @@ contains
                end if
             end associate
          end do
-         if (any(b%bearing%asperity%touches)) then
+         if (any(b%bearings(1)%asperity%touches)) then
             self%touched = .true.
             call add_asperities(b, y(:n), pads, power(5:6))
          end if
@@ -77,7 +77,7 @@ contains
    !> Power of the asperities beside what they store: of their friction, and what eqs (3)-(4) hold beside a potential,
    !> as their arms are those of the arc's centre.
    subroutine add_asperities(bearing, y, pads, power)
-      type(bearing_model), intent(in) :: bearing
+      type(machine_model), intent(in) :: bearing
       real(wp), intent(in) :: y(:)
       type(pad_state), intent(in) :: pads(:)
       real(wp), intent(inout) :: power(2)
@@ -85,10 +85,10 @@ contains
       type(film_motion) :: motion
       real(wp) :: pushed(2), friction, coefficient
       integer :: i
-      journal = bearing%rotor%journal(y(:4))
+      journal = bearing%rotor%journal(y(:4), 1)
       coefficient = bearing%inputs%asperity%friction_coefficient
       do i = 1, size(pads)
-         associate (load => bearing%bearing%asperity(i), pad => bearing%bearing%pads(i))
+         associate (load => bearing%bearings(1)%asperity(i), pad => bearing%bearings(1)%pads(i))
             if (.not. load%touches) cycle
             motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
             ! the force is -pushed + coefficient (pushed(2), -pushed(1))
@@ -107,16 +107,16 @@ contains
          integer, intent(in) :: i
          real(wp), intent(in) :: force(2)
          real(wp) :: a
-         a = bearing%bearing%pads(i)%position%angle - pads(i)%tilt
+         a = bearing%bearings(1)%pads(i)%position%angle - pads(i)%tilt
          taken = dot_product(force, [cos(a)*y(3) - sin(a)*y(4), sin(a)*y(3) + cos(a)*y(4)]) &
-            & - force(1)*bearing%bearing%pads(i)%position%centre_distance*pads(i)%tilt_rate
-         if (bearing%layout%radial) taken = taken - force(2)*pads(i)%pivot_deflection_rate
+            & - force(1)*bearing%bearings(1)%pads(i)%position%centre_distance*pads(i)%tilt_rate
+         if (bearing%layout%bearings(1)%radial) taken = taken - force(2)*pads(i)%pivot_deflection_rate
       end function taken
    end subroutine add_asperities
 
    !> What the asperities of a pad store, J: the pressure's potential by the midpoint rule over the arc.
    real(wp) function pressed(bearing, y, pad)
-      type(bearing_model), intent(in) :: bearing
+      type(machine_model), intent(in) :: bearing
       real(wp), intent(in) :: y(:)
       integer, intent(in) :: pad
       integer, parameter :: n = 1000000
@@ -125,10 +125,11 @@ contains
       type(pad_state), allocatable :: pads(:)
       real(wp) :: phi, depth
       integer :: i
-      journal = bearing%rotor%journal(y(:4))
-      pads = bearing%layout%pad_states(y)
+      journal = bearing%rotor%journal(y(:4), 1)
+      pads = bearing%layout%bearings(1)%pad_states(y)
       pressed = 0
-      associate (p => bearing%bearing%pads(pad), gap => bearing%bearing%pads(pad)%gap, a => bearing%inputs%asperity)
+      associate (p => bearing%bearings(1)%pads(pad), gap => bearing%bearings(1)%pads(pad)%gap, &
+         & a => bearing%inputs%asperity)
          motion = motion_of(p%position, frame_of(p%position, journal, pads(pad)), journal, pads(pad))
          do i = 1, n
             phi = -gap%trailing_angle + (i - 0.5_wp)*gap%arc()/n
@@ -171,23 +172,23 @@ contains
 
    !> Energy of a state: (kinetic of the journal, of the pads, height, stored in pivots and asperities), J.
    function energy_of(bearing, y) result(energy)
-      type(bearing_model), intent(in) :: bearing
+      type(machine_model), intent(in) :: bearing
       real(wp), intent(in) :: y(:)
       real(wp) :: energy(4), a
       type(pad_state), allocatable :: pads(:)
       integer :: pad
       energy = 0
-      pads = bearing%layout%pad_states(y)
+      pads = bearing%layout%bearings(1)%pad_states(y)
       associate (b => bearing, p => bearing%inputs%pads, r => bearing%inputs%rotor)
          energy(1) = 0.5_wp*r%mass*dot_product(y(3:4), y(3:4))
          energy(3) = r%mass*r%gravity*y(1) - dot_product(r%static_load, y(1:2))
          do pad = 1, b%layout%pads
             associate (state => pads(pad))
-               a = b%bearing%pads(pad)%position%angle - state%tilt
+               a = b%bearings(1)%pads(pad)%position%angle - state%tilt
                energy(2) = energy(2) + 0.5_wp*p%inertia(pad)*state%tilt_rate**2
                energy(3) = energy(3) + p%mass(pad)*r%gravity &
                   & *(p%centre_tangential(pad)*cos(a) + p%centre_radial(pad)*sin(a))
-               if (b%layout%radial) then
+               if (b%layout%bearings(1)%radial) then
                   energy(2) = energy(2) + p%mass(pad)*(0.5_wp*state%pivot_deflection_rate**2 &
                      & + p%centre_tangential(pad)*state%tilt_rate*state%pivot_deflection_rate)
                   energy(4) = energy(4) + stored(b, state%pivot_deflection)
@@ -202,7 +203,7 @@ contains
    !> integrand is smooth but for the seams of the table, where its second derivative jumps by 1e-3 of
    !> itself: an error below 1e-10 with 2000 intervals.
    real(wp) function stored(bearing, depth)
-      type(bearing_model), intent(in) :: bearing
+      type(machine_model), intent(in) :: bearing
       real(wp), intent(in) :: depth
       integer, parameter :: n = 2000
       real(wp) :: s, force, stiffness
@@ -211,7 +212,7 @@ contains
       if (depth <= 0) return
       do k = 1, n
          s = real(k, wp)/n
-         call bearing%bearing%contact%lookup(s**2*depth, force, stiffness)
+         call bearing%bearings(1)%contact%lookup(s**2*depth, force, stiffness)
          stored = stored + force*2*s*depth/n*merge(1.0_wp, merge(4.0_wp, 2.0_wp, mod(k, 2) == 1), k == n)/3
       end do
    end function stored
@@ -223,7 +224,7 @@ program test_energy_balance
    use errors, only: error_type
    use case_inputs, only: case_type
    use state_layout, only: at_tilt_rate
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use sampled_march, only: march_samples
    use energy_ledger, only: ledger, energy_of
@@ -265,7 +266,7 @@ contains
       character(len=*), intent(in) :: motion, friction
       real(wp), intent(in) :: unbalance
       type(case_type) :: inputs
-      type(bearing_model) :: bearing
+      type(machine_model) :: bearing
       type(equilibrium_type) :: static
       type(error_type), allocatable :: error
       real(wp) :: rubbed
@@ -273,7 +274,7 @@ contains
       character(len=:), allocatable :: what
       what = motion//', '//friction//', unbalance '//to_text(unbalance)
       inputs = shaken_case(motion, friction, unbalance)
-      bearing = new_bearing_model(inputs)
+      bearing = new_machine_model(inputs)
       call find_equilibrium(bearing, static, error)
       call expect_no_error(error, 'the equilibrium is found')
       call closes(inputs, bearing%static_state(static%journal + [10e-6_wp, 5e-6_wp], static%tilt + [1e-4_wp, &
@@ -292,7 +293,7 @@ contains
       character(len=*), intent(in) :: motion
       real(wp), intent(in) :: coefficient
       type(case_type) :: inputs
-      type(bearing_model) :: bearing
+      type(machine_model) :: bearing
       real(wp), allocatable :: start(:)
       real(wp) :: rubbed
       logical :: touched
@@ -301,10 +302,10 @@ contains
       inputs = case_of('&pads pivot_angle_deg = -45, 225, 90, centre_tangential = 2e-3, -3e-3, 1e-3, motion = ''' &
          & //motion//''' / &film cavitation = ''gumbel'' / &rotor unbalance = 0 / &asperity friction_coefficient = ' &
          & //exact_text(coefficient)//' /')
-      bearing = new_bearing_model(inputs)
+      bearing = new_machine_model(inputs)
       start = bearing%static_state([-55e-6_wp, 0.0_wp], [-0.2e-3_wp, 1.03e-3_wp, -3.4e-3_wp], [7e-6_wp, 7e-6_wp, &
          & 1e-6_wp])
-      start(bearing%layout%before(3) + at_tilt_rate) = -1
+      start(bearing%layout%bearings(1)%before(3) + at_tilt_rate) = -1
       call closes(inputs, start, what, rubbed, touched)
       call expect(touched, 'the edge strikes, '//what)
       call expect(merge(rubbed < 0, abs(rubbed) <= 0, coefficient > 0), 'friction takes work alone: ' &
@@ -315,7 +316,7 @@ contains
    subroutine striking(coefficient)
       real(wp), intent(in) :: coefficient
       type(case_type) :: inputs
-      type(bearing_model) :: bearing
+      type(machine_model) :: bearing
       real(wp), allocatable :: start(:)
       real(wp) :: rubbed
       logical :: touched
@@ -325,7 +326,7 @@ contains
       ! rough surfaces, which the film does not keep apart
       inputs%asperity%roughness = 3e-6_wp
       inputs%asperity%friction_coefficient = coefficient
-      bearing = new_bearing_model(inputs)
+      bearing = new_machine_model(inputs)
       start = bearing%static_state([-60e-6_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp])
       start(3:4) = [-0.5_wp, 0.2_wp]
       call closes(inputs, start, what, rubbed, touched)
@@ -366,7 +367,7 @@ contains
       type(ledger), target :: model
       real(wp), allocatable :: y(:, :)
       integer(i8) :: count
-      model%bearing = new_bearing_model(inputs)
+      model%bearing = new_machine_model(inputs)
       model%n = model%bearing%n + 3
       allocate (y(model%n, 1))
       associate (n => model%bearing%n)

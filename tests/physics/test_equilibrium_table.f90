@@ -8,7 +8,7 @@ program test_equilibrium_table
    use film_solver, only: film_oil, film_motion, film_response, cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film
-   use equations_of_motion, only: new_bearing_model
+   use equations_of_motion, only: new_machine_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
@@ -53,7 +53,7 @@ contains
    type(equilibrium_type) function found_in(inputs) result(found)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable :: error
-      call find_equilibrium(new_bearing_model(inputs), found, error)
+      call find_equilibrium(new_machine_model(inputs), found, error)
       call expect_no_error(error, 'found: '//inputs%pads%motion//', '//to_text(inputs%operation%speed_rpm) &
          & //' rpm')
    end function found_in
@@ -218,7 +218,7 @@ contains
       type(error_type), allocatable :: error
       inputs = paper_case(motion, 3000.0_wp)
       inputs%rotor%static_load = [3*2000*9.81_wp, 0.0_wp]
-      call find_equilibrium(new_bearing_model(inputs), found, error)
+      call find_equilibrium(new_machine_model(inputs), found, error)
       call expect_error(error, numerics_error, 'no equilibrium found', 'a load away from the pads, '//motion)
    end subroutine no_equilibrium
 end program test_equilibrium_table

@@ -5,14 +5,14 @@ program test_fixed_pads
    use text, only: to_text
    use errors, only: error_type
    use case_inputs, only: case_type
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: force_derivatives
    use film_solver, only: film_solver_type, film_motion, film_response
    use pad_gap, only: pad_gap_type
    use factories, only: make_film, march_films
    use paper_bearing, only: paper_oil
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, frame_of, motion_of
    use equilibrium, only: equilibrium_type, find_equilibrium
    use pad_behaviour, only: whirl_of
@@ -58,16 +58,16 @@ contains
       character(len=*), intent(in) :: cavitation, solver
       real(wp) :: force(2)
       type(case_type) :: inputs
-      type(bearing_model) :: model
+      type(machine_model) :: model
       logical :: ok
       inputs = fixed_case([-90.0_wp], [360.0_wp], length_ratio)
       inputs%film%cavitation = cavitation
       inputs%film%solver = solver
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       call model%evaluate(0.0_wp, model%static_state([-eccentricity*inputs%bearing%assembled_clearance, 0.0_wp], &
          & [0.0_wp], [0.0_wp]), .false., ok)
       call expect(ok, 'a film at '//to_text(eccentricity))
-      force = model%bearing%loads(1)%journal*[1, -1]
+      force = model%bearings(1)%loads(1)%journal*[1, -1]
    end function forces_of
 
    !> Narrow bearings: half of the oil film, Ocvirk's forces. The flow along the arc, which they leave out, is of the
@@ -141,7 +141,7 @@ contains
       type(case_type), intent(inout) :: inputs
       real(wp), intent(in) :: sommerfeld
       type(static_state_type), intent(out) :: rest
-      type(bearing_model), intent(out) :: model
+      type(machine_model), intent(out) :: model
       type(equilibrium_type) :: found
       type(error_type), allocatable :: error
       real(wp) :: load, k(2, 2), c(2, 2)
@@ -151,7 +151,7 @@ contains
          b%viscosity = sommerfeld*load*(b%assembled_clearance/b%journal_radius)**2 &
             & /(inputs%operation%speed_rpm/60*b%axial_length*2*b%journal_radius)
       end associate
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       call find_equilibrium(model, found, error)
       call expect_no_error(error, 'an equilibrium at S = '//to_text(sommerfeld))
       if (allocated(error)) return
@@ -185,7 +185,7 @@ contains
       type(static_state_type), intent(in) :: table
       type(case_type) :: inputs
       type(static_state_type) :: rest
-      type(bearing_model) :: model
+      type(machine_model) :: model
       integer :: k
       character(len=:), allocatable :: what
       inputs = two_grooves(length_ratio)
@@ -207,7 +207,7 @@ contains
    !> of the bearing, away from the pivot. Where a bore is cylindrical it does not matter where it is anchored.
    subroutine lobes()
       type(case_type) :: inputs
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(static_state_type) :: rest, elsewhere
       type(film_motion) :: motion
       type(pad_state) :: still
@@ -216,10 +216,11 @@ contains
       inputs = fixed_case([-100.0_wp, 80.0_wp], [160.0_wp, 150.0_wp], 0.5_wp)
       inputs%pads%pivot_ratio = [0.9_wp, 0.3_wp]
       inputs%bearing%machined_clearance = 2*inputs%bearing%assembled_clearance
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       journal = [1.1e-5_wp, -2.3e-5_wp]
       do i = 1, 2
-         associate (pad => model%bearing%pads(i), b => inputs%bearing, angle => inputs%pads%pivot_angle_deg(i)*degree)
+         associate (pad => model%bearings(1)%pads(i), b => inputs%bearing, &
+            & angle => inputs%pads%pivot_angle_deg(i)*degree)
             motion = motion_of(pad%position, frame_of(pad%position, journal_motion(journal), still), &
                & journal_motion(journal), still)
             middle = -(b%machined_clearance - b%assembled_clearance)*[sin(angle), cos(angle)]
@@ -309,7 +310,7 @@ contains
    subroutine rotor_at(speed, rest, model, found)
       real(wp), intent(in) :: speed
       type(static_state_type), intent(out) :: rest
-      type(bearing_model), intent(out) :: model
+      type(machine_model), intent(out) :: model
       type(equilibrium_type), intent(out) :: found
       type(case_type) :: inputs
       type(error_type), allocatable :: error
@@ -326,7 +327,7 @@ contains
    !> frequency, half the shaft speed.
    subroutine threshold()
       type(static_state_type) :: rest
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(equilibrium_type) :: found
       real(wp) :: critical, stiffness, ratio
       integer :: i
@@ -356,7 +357,7 @@ contains
       real(wp), parameter :: beside = 1e-3_wp
       integer, parameter :: revolutions = 150, last = 40
       type(static_state_type) :: rest
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(equilibrium_type) :: found
       real(wp), allocatable :: places(:, :), size_of(:)
       real(wp) :: growth, order, amplitude
@@ -387,7 +388,7 @@ contains
 
    !> How far the journal is off its rest at most, in clearances, in each revolution.
    pure function sizes(model, found, places)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(in) :: found
       real(wp), intent(in) :: places(:, :)
       real(wp) :: sizes(size(places, 2)/samples)
@@ -403,7 +404,7 @@ contains
    !> The places of the journal, (y or z, sample), m, of this many revolutions, from a part of the clearance beside its
    !> rest.
    subroutine march_from(model, found, beside, revolutions, places)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       type(equilibrium_type), intent(in) :: found
       real(wp), intent(in) :: beside
       integer, intent(in) :: revolutions

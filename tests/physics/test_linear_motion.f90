@@ -2,13 +2,13 @@
 !> growth and decay on both sides of the threshold of stability.
 module forced_motion
    use kinds, only: wp
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
    public :: forced_model
 
    !> A model with a harmonic force on the journal.
-   type, extends(bearing_model) :: forced_model
+   type, extends(machine_model) :: forced_model
       !> Along y and z, N; angular frequency, rad/s.
       real(wp) :: force(2) = 0, frequency = 0
    contains
@@ -22,8 +22,8 @@ contains
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok
-      call self%bearing_model%rhs(t, y, dydt, ok)
-      if (ok) dydt(3:4) = dydt(3:4) + self%force*cos(self%frequency*t)/self%rotor%mass
+      call self%machine_model%rhs(t, y, dydt, ok)
+      if (ok) dydt(3:4) = dydt(3:4) + self%force*cos(self%frequency*t)/self%inputs%rotor%mass
    end subroutine forced_rhs
 end module forced_motion
 
@@ -34,7 +34,7 @@ program test_linear_motion
    use operating_point, only: operating_point_type
    use sampled_march, only: march_samples
    use linear_analysis, only: analyse
-   use equations_of_motion, only: bearing_model
+   use equations_of_motion, only: machine_model
    use linear_bearing, only: bearing_coefficients_type, vibration_modes_type
    use forced_motion, only: forced_model
    use check, only: runs, expect, expect_close, report
@@ -64,7 +64,7 @@ contains
    subroutine response()
       type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:)
       complex(wp) :: z(2, 2), expected(2, 2)
       real(wp) :: frequency
@@ -77,7 +77,7 @@ contains
          z = measured(model, y, frequency)
          expected = cmplx(found%stiffness(:, :, k, 1), frequency*found%damping(:, :, k, 1), wp)
          do i = 1, 2
-            expected(i, i) = expected(i, i) - frequency**2*model%rotor%mass
+            expected(i, i) = expected(i, i) - frequency**2*model%inputs%rotor%mass
          end do
          call expect_close(maxval(abs(z - expected)), 0.0_wp, 1e-5_wp*maxval(abs(expected)), 'at ' &
             & //to_text(inputs%coefficients%frequency_ratio(k))//' of the speed')
@@ -86,13 +86,13 @@ contains
 
    !> What the marched motion has for the force along y and z over the displacement, N/m.
    function measured(model, rest, frequency) result(z)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: rest(:), frequency
       complex(wp) :: z(2, 2), x(2, 2), determinant
       type(forced_model), target :: forced
       real(wp), parameter :: force = 10
       integer :: k
-      forced%bearing_model = model
+      forced%machine_model = model
       forced%frequency = frequency
       do k = 1, 2
          forced%force = 0
@@ -129,7 +129,7 @@ contains
       real(wp), intent(in) :: expected
       type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:)
       real(wp) :: threshold
       integer :: side, i
@@ -157,11 +157,11 @@ contains
    !> Growth, 1/s, of a mode in a march that starts with its shape, in the journal's speed: the largest of a vibration
    !> over that four vibrations before. Bristles move with the pads.
    real(wp) function growth(model, rest, modes)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: rest(:)
       type(vibration_modes_type), intent(in) :: modes
       integer, parameter :: samples = 100, periods = 6, last = 4
-      type(bearing_model), target :: moving
+      type(machine_model), target :: moving
       type(operating_point_type) :: point
       real(wp) :: y(size(rest)), states(model%n, periods*samples), period, fastest(periods)
       integer :: k
@@ -173,9 +173,11 @@ contains
       associate (layout => moving%layout, shape => 1e-9_wp*modes%shape(:, 1))
          y(layout%positions()) = y(layout%positions()) + shape%re
          y(layout%rates()) = y(layout%rates()) + real(modes%eigenvalue(1)*shape)
-         if (layout%bristles) then
+         if (layout%bearings(1)%bristles) then
             do k = 1, layout%pads
-               y(layout%bristle(k)) = moving%bearing%pads(k)%ball_radius*real(shape(layout%first_position(k)))
+               associate (of => layout%bearings(1))
+                  y(of%bristle(k)) = moving%bearings(1)%pads(k)%ball_radius*real(shape(of%first_position(k)))
+               end associate
             end do
          end if
       end associate

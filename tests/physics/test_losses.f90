@@ -12,7 +12,7 @@ program test_losses
    use elimination_film, only: elimination_film_type, new_elimination_film
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use random_films, only: film_state, random_film, shown, shaft_speed
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use heat_balance_equations, only: static_figures_type, find_static_figures
    use paper_bearing, only: paper_oil, paper_pad, offset_pad
@@ -143,11 +143,11 @@ contains
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures
       type(error_type), allocatable :: error
-      type(bearing_model) :: model
+      type(machine_model) :: model
       inputs = case_type()
       inputs%pads%motion = 'tilting_only'
       call complete_case(inputs, error)
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       call find_equilibrium(model, static, error)
       call expect_no_error(error, 'equilibrium')
       call find_static_figures(model, static, figures)

@@ -6,7 +6,7 @@ program test_newton_euler
    use case_inputs, only: case_type
    use tilting_pad_bearing, only: pad_sample
    use state_layout, only: at_tilt, at_tilt_rate, at_deflection_rate
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -32,7 +32,7 @@ contains
 
    !> Random places, velocities and bristles, with films open and pivots loaded.
    function random_state(model) result(y)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), allocatable :: y(:)
       integer :: pad
       y = model%static_state([between(-50e-6_wp, 0.0_wp), between(-10e-6_wp, 10e-6_wp)], &
@@ -40,9 +40,11 @@ contains
          & 9e-6_wp)])
       y(3:4) = [between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
       do pad = 1, 2
-         y(model%layout%before(pad) + at_tilt_rate) = between(-5.0_wp, 5.0_wp)
-         if (model%layout%radial) y(model%layout%before(pad) + at_deflection_rate) = between(-5e-3_wp, 5e-3_wp)
-         y(model%layout%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
+         associate (of => model%layout%bearings(1))
+            y(of%before(pad) + at_tilt_rate) = between(-5.0_wp, 5.0_wp)
+            if (of%radial) y(of%before(pad) + at_deflection_rate) = between(-5e-3_wp, 5e-3_wp)
+            y(of%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
+         end associate
       end do
    end function random_state
 
@@ -51,26 +53,26 @@ contains
    !> acts at C. The pivot accelerates by eta'' along z'. Then m a_C = sum of forces, whose y' part gives T,
    !> and I_C delta'' = moment about C, with I_C = I_P - m |C|**2; turning is positive from y' to z'.
    subroutine pad_radial()
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:), f(:)
       type(pad_sample), allocatable :: films(:)
       real(wp) :: a, tilt_acceleration, radial_acceleration, rate, acceleration(2), weight(2), film(2), tangential
       real(wp) :: moment, inertia, friction, sizes(2), total
       integer :: pad
       logical :: ok
-      model = new_bearing_model(offset_case('tilting_radial'))
+      model = new_machine_model(offset_case('tilting_radial'))
       y = random_state(model)
       allocate (f(model%n))
       call model%rhs(0.01_wp, y, f, ok)
-      films = model%bearing%sampled()
+      films = model%bearings(1)%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
-         associate (p => model%inputs%pads, loads => model%bearing%loads(pad), &
-            & arm => model%bearing%pads(pad)%position%centre_distance)
-            a = model%bearing%pads(pad)%position%angle - y(model%layout%before(pad) + at_tilt)
-            rate = y(model%layout%before(pad) + at_tilt_rate)
-            tilt_acceleration = f(model%layout%before(pad) + at_tilt_rate)
-            radial_acceleration = f(model%layout%before(pad) + at_deflection_rate)
+         associate (p => model%inputs%pads, loads => model%bearings(1)%loads(pad), &
+            & arm => model%bearings(1)%pads(pad)%position%centre_distance)
+            a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
+            rate = y(model%layout%bearings(1)%before(pad) + at_tilt_rate)
+            tilt_acceleration = f(model%layout%bearings(1)%before(pad) + at_tilt_rate)
+            radial_acceleration = f(model%layout%bearings(1)%before(pad) + at_deflection_rate)
             ! C = (C_xi, C_eta) turns with the pad: C' = rate (-C_eta, C_xi) and so on
             associate (c_t => p%centre_tangential(pad), c_r => p%centre_radial(pad), m => p%mass(pad))
                acceleration = [-tilt_acceleration*c_r - rate**2*c_t, &
@@ -81,7 +83,7 @@ contains
                total = film(2) + weight(2) - loads%contact
                sizes(1) = abs(film(2)) + abs(weight(2)) + abs(loads%contact)
                call expect_close(m*acceleration(2), total, rounding*sizes(1), 'Newton, pad '//to_text(pad))
-               friction = model%bearing%pads(pad)%ball_radius*loads%friction%force
+               friction = model%bearings(1)%pads(pad)%ball_radius*loads%friction%force
                ! arms from C: arc centre (-c_t, -arm - c_r); pivot (-c_t, -c_r)
                moment = -c_t*film(2) + (arm + c_r)*film(1) - c_t*(-loads%contact) + c_r*tangential - friction
                inertia = p%inertia(pad) - m*(c_t**2 + c_r**2)
@@ -94,35 +96,35 @@ contains
 
    !> Without radial motion moments about the pivot, which is at rest, do.
    subroutine pad_tilting_only()
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:), f(:)
       type(pad_sample), allocatable :: films(:)
       real(wp) :: a, moment, friction, sizes
       integer :: pad
       logical :: ok
-      model = new_bearing_model(offset_case('tilting_only'))
+      model = new_machine_model(offset_case('tilting_only'))
       y = random_state(model)
       allocate (f(model%n))
       call model%rhs(0.01_wp, y, f, ok)
-      films = model%bearing%sampled()
+      films = model%bearings(1)%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
-         associate (p => model%inputs%pads, arm => model%bearing%pads(pad)%position%centre_distance)
-            a = model%bearing%pads(pad)%position%angle - y(model%layout%before(pad) + at_tilt)
-            friction = model%bearing%pads(pad)%ball_radius*model%bearing%loads(pad)%friction%force
+         associate (p => model%inputs%pads, arm => model%bearings(1)%pads(pad)%position%centre_distance)
+            a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
+            friction = model%bearings(1)%pads(pad)%ball_radius*model%bearings(1)%loads(pad)%friction%force
             ! C x weight, with weight along (-cos a, -sin a)
             moment = -films(pad)%film_force(1)*arm - friction + p%mass(pad)*500 &
                & *(-p%centre_tangential(pad)*sin(a) + p%centre_radial(pad)*cos(a))
             sizes = abs(films(pad)%film_force(1))*arm + abs(friction) + p%mass(pad)*500*0.03_wp
-            call expect_close(p%inertia(pad)*f(model%layout%before(pad) + at_tilt_rate), moment, rounding*sizes, &
-               & 'moments about the pivot')
+            call expect_close(p%inertia(pad)*f(model%layout%bearings(1)%before(pad) + at_tilt_rate), moment, &
+               & rounding*sizes, 'moments about the pivot')
          end associate
       end do
    end subroutine pad_tilting_only
 
    !> Mass times acceleration of the journal is load, unbalance and the films' forces, turned one by one.
    subroutine journal()
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(case_type) :: inputs
       real(wp), allocatable :: y(:), f(:)
       type(pad_sample), allocatable :: films(:)
@@ -131,18 +133,18 @@ contains
       logical :: ok
       inputs = offset_case('tilting_radial')
       inputs%rotor%static_load = [300.0_wp, -700.0_wp]
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       y = random_state(model)
       allocate (f(model%n))
       t = between(0.0_wp, 0.01_wp)
       call model%rhs(t, y, f, ok)
-      films = model%bearing%sampled()
+      films = model%bearings(1)%sampled()
       associate (w => model%point%speed(0.0_wp))
          total = inputs%rotor%static_load + [-2000*500.0_wp, 0.0_wp] + 0.01_wp*w**2*[cos(w*t), sin(w*t)]
       end associate
       sizes = norm2(total)
       do pad = 1, 2
-         a = model%bearing%pads(pad)%position%angle - y(model%layout%before(pad) + at_tilt)
+         a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
          associate (force => films(pad)%film_force)
             total = total + force(1)*[cos(a), -sin(a)] + force(2)*[sin(a), cos(a)]
             sizes = sizes + norm2(force)

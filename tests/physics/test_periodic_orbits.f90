@@ -8,7 +8,7 @@ program test_periodic_orbits
    use marching, only: march_options
    use cvode_integrator, only: integrator_type
    use factories, only: converged_films
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use force_balance, only: force_derivatives, masses, find_vibrations
    use orbit_polynomials, only: orbit_type
@@ -51,12 +51,12 @@ contains
    subroutine find(inputs, tolerance, model, found)
       type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: tolerance
-      type(bearing_model), intent(out), target :: model
+      type(machine_model), intent(out), target :: model
       type(periodic_orbit_type), intent(out) :: found
       type(equilibrium_type) :: static
       type(march_options) :: options
       type(error_type), allocatable :: error
-      model = new_bearing_model(inputs, converged_films)
+      model = new_machine_model(inputs, converged_films)
       call find_equilibrium(model, static, error)
       if (.not. allocated(error)) then
          options%relative_tolerance = tolerance
@@ -70,7 +70,7 @@ contains
 
    !> Values of an independent program: to the digits given.
    subroutine published()
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(periodic_orbit_type) :: found
       real(wp), allocatable :: y(:)
       real(wp) :: low(2), high(2)
@@ -101,7 +101,7 @@ contains
    subroutine vanishing(motion)
       character(len=*), intent(in) :: motion
       type(case_type) :: inputs
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(periodic_orbit_type) :: found
       complex(wp), allocatable :: values(:), expected(:)
       real(wp), allocatable, dimension(:, :) :: stiffness, damping
@@ -133,7 +133,7 @@ contains
       !> Of the march; factor by which the error falls; what is left of it.
       real(wp), intent(in) :: tolerance, factor, limit
       type(case_type) :: inputs
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(periodic_orbit_type) :: found
       !> Of multipliers whose orbits are closed to 1e-9.
       real(wp), parameter :: rounding = 1e-8_wp
@@ -153,7 +153,7 @@ contains
 
    !> Halves the intervals of an orbit, closes it anew and gives its multipliers.
    function refined(model, orbit) result(values)
-      type(bearing_model), intent(inout), target :: model
+      type(machine_model), intent(inout), target :: model
       type(orbit_type), intent(inout) :: orbit
       complex(wp), allocatable :: values(:)
       type(error_type), allocatable :: error
@@ -175,7 +175,7 @@ contains
    !> A march over the period returns to the start: what it errs by in some thousand steps of 1e-8.
    subroutine returns(friction)
       character(len=*), intent(in) :: friction
-      type(bearing_model), target :: model
+      type(machine_model), target :: model
       type(periodic_orbit_type) :: found
       type(march_options) :: options
       type(integrator_type) :: integrator

@@ -5,7 +5,7 @@ program test_thermal_equilibrium
    use case_inputs, only: case_type
    use input_cases, only: case_of
    use linear_analysis, only: analyse
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use heat_balance_equations, only: static_figures_type, find_static_figures
    use linear_bearing, only: bearing_coefficients_type
@@ -41,10 +41,10 @@ contains
       type(case_type), intent(in) :: inputs
       type(equilibrium_type), intent(out) :: static
       type(static_figures_type), intent(out), optional :: figures
-      type(bearing_model), intent(out), optional :: model
-      type(bearing_model) :: own
+      type(machine_model), intent(out), optional :: model
+      type(machine_model) :: own
       type(error_type), allocatable :: error
-      own = new_bearing_model(inputs)
+      own = new_machine_model(inputs)
       call find_equilibrium(own, static, error)
       call expect_no_error(error, 'equilibrium')
       if (allocated(error)) return
@@ -58,7 +58,7 @@ contains
    subroutine published()
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(bearing_coefficients_type) :: found
       real(wp), parameter :: outlet(4) = [64.208_wp, 65.475_wp, 51.683_wp, 50.079_wp]
       call solve(case_of('&operation speed_rpm = 4000/'//fillon), static, figures, model)
@@ -75,7 +75,7 @@ contains
    subroutine cross_stiffness()
       type(equilibrium_type) :: static
       type(static_figures_type) :: figures
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(bearing_coefficients_type) :: found
       call solve(case_of('&pads motion = ''tilting_only''/ &film cavitation = ''none''/'//vg46), static, figures, &
          & model)
@@ -134,10 +134,10 @@ contains
 
    !> A film that makes more heat than its oil carries off.
    subroutine boiling()
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(equilibrium_type) :: static
       type(error_type), allocatable :: error
-      model = new_bearing_model(case_of('&operation speed_rpm = 150/ &rotor mass = 5000/ &pads motion =' &
+      model = new_machine_model(case_of('&operation speed_rpm = 150/ &rotor mass = 5000/ &pads motion =' &
          & //' ''tilting_only''/ &oil grade = 10/ &thermal model = ''pad''/'))
       call find_equilibrium(model, static, error)
       call expect_error(error, numerics_error, 'above 300 C, where mineral oil boils', 'refused')
@@ -149,7 +149,7 @@ contains
       real(wp) :: viscosities(2)
       type(case_type) :: inputs
       type(equilibrium_type) :: static
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(viscosity_history_type) :: history
       type(error_type), allocatable :: error
       inputs = case_of('&operation speed_rpm = 3000, final_speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)

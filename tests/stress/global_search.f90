@@ -23,7 +23,7 @@ program global_search
    use tilting_pad, only: tilting_pad_type
    use operating_point, only: operating_point_type
    use state_layout, only: at_tilt, at_deflection
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces, force_derivatives, stability_at, stability_type
    use pseudo_transient, only: unbalanced, reference_force, residual_limit
    implicit none (type, external)
@@ -77,7 +77,7 @@ contains
       type(case_type) :: inputs
       type(error_type), allocatable :: error
       character(len=:), allocatable :: text
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(operating_point_type) :: point
       type(curve_type), allocatable :: curves(:)
       call read_text(path, text, error)
@@ -88,7 +88,7 @@ contains
       end if
       ! the same films without tables and without iteration
       if (inputs%film%solver == 'auto' .or. inputs%film%solver == 'sor') inputs%film%solver = 'direct'
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       point = model%point%static()
       call model%set_point(point)
       call make_curves(inputs, model, curves)
@@ -98,7 +98,7 @@ contains
    !> Of every pad the pieces of its curve.
    subroutine make_curves(inputs, model, curves)
       type(case_type), intent(in) :: inputs
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(curve_type), allocatable, intent(out) :: curves(:)
       type(table_type), allocatable :: tables(:)
       integer :: like(inputs%pad_count()), i
@@ -112,7 +112,7 @@ contains
    !> The tables of all shapes, and which of them is a pad's.
    subroutine make_tables(inputs, model, like, tables)
       type(case_type), intent(in) :: inputs
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(out) :: like(:)
       type(table_type), allocatable, intent(out) :: tables(:)
       type(case_type) :: shapes
@@ -147,7 +147,7 @@ contains
       do j = 1, distances
          do k = 1, leanings
             do s = 1, size(first)
-               motion(s) = motion_at(model%bearing%pads(first(s))%position%centre_distance, tables(s)%rho(j), &
+               motion(s) = motion_at(model%bearings(1)%pads(first(s))%position%centre_distance, tables(s)%rho(j), &
                   & tables(s)%b(k, j))
             end do
             call film%evaluate(motion, model%oil(first), model%point%speed(0.0_wp), .false., response)
@@ -168,12 +168,12 @@ contains
 
    !> Distances, and at each the leanings between those that close the film.
    subroutine set_places(model, i, table)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: i
       type(table_type), intent(inout) :: table
       real(wp) :: gap, ends(2)
       integer :: j, k
-      associate (pad => model%bearing%pads(i), clearance => model%bearing%pads(i)%gap%machined_clearance)
+      associate (pad => model%bearings(1)%pads(i), clearance => model%bearings(1)%pads(i)%gap%machined_clearance)
          do j = 1, distances
             gap = clearance*gaps(j)
             table%rho(j) = pad%position%centre_distance - clearance + gap
@@ -208,7 +208,7 @@ contains
 
    !> The pieces along which a pad's moments balance and (pivots that yield) its forces along the radius.
    subroutine make_curve(model, i, table, pieces)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: i
       type(table_type), intent(in) :: table
       type(piece_type), allocatable, intent(out) :: pieces(:)
@@ -218,7 +218,7 @@ contains
       real(wp) :: t
       pieces = [piece_type ::]
       roots = 0
-      associate (pad => model%bearing%pads(i), position => model%bearing%pads(i)%position)
+      associate (pad => model%bearings(1)%pads(i), position => model%bearings(1)%pads(i)%position)
          do j = 1, distances
             ! over the leaning, against the tilt: a moment that grows brings the pad back
             moment = -table%along(:, j)*position%centre_distance &
@@ -251,7 +251,7 @@ contains
 
    !> Adds the piece between two places, up to where the pivot can hold the pad there.
    subroutine add_piece(model, i, rho, b, force, stable, pieces)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: i
       real(wp), intent(in) :: rho(2), b(2), force(2)
       logical, intent(in) :: stable
@@ -259,10 +259,10 @@ contains
       type(piece_type) :: piece, afloat
       real(wp) :: contact(2), r(2), t
       integer :: k
-      associate (pad => model%bearing%pads(i))
+      associate (pad => model%bearings(1)%pads(i))
          contact = -force - pad%weight*pad%position%sin_angle
          piece = piece_type(pad%position%pivot_radius - rho, force, b, 0.0_wp, stable)
-         if (model%layout%radial) then
+         if (model%layout%bearings(1)%radial) then
             if (all(contact < 0)) return
             r = rho
             if (any(contact < 0)) then
@@ -280,7 +280,8 @@ contains
                contact(k) = 0
             end if
             do k = 1, 2
-               if (contact(k) > 0) piece%pivot_deflection(k) = model%bearing%contact%law%pivot_deflection(contact(k))
+               if (contact(k) > 0) piece%pivot_deflection(k) &
+                  & = model%bearings(1)%contact%law%pivot_deflection(contact(k))
             end do
             piece%way = pad%position%pivot_radius + piece%pivot_deflection - r
          end if
@@ -291,7 +292,7 @@ contains
    !> Journal and pads from the curves, then by Newton's method on the whole; tells what was found.
    subroutine search_plane(path, model, curves)
       character(len=*), intent(in) :: path
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       type(curve_type), intent(in) :: curves(:)
       real(wp) :: y(model%n), place(2), reach
       type(stability_type) :: stability, best
@@ -330,7 +331,7 @@ contains
       else
          print '(a, 1x, a, 1x, i0, a, i0, *(1x, es12.5))', path, best%name, size(found, 2), ' of ', size(tried, 2), &
             & best%eigenvalue, y_best(:2)/model%inputs%bearing%assembled_clearance, &
-            & y_best(model%layout%before([(row, row=1, model%layout%pads)]) + at_tilt)
+            & y_best(model%layout%bearings(1)%before([(row, row=1, model%layout%pads)]) + at_tilt)
       end if
    end subroutine search_plane
 
@@ -341,13 +342,14 @@ contains
 
    !> Whether a state is, within a part of the clearance, one of a list.
    logical function known(model, y, list, part)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:), list(:, :), part
       real(wp) :: unit(size(y))
       integer :: k, i
       unit = model%scale
-      if (model%layout%radial) unit(model%layout%before([(i, i=1, model%layout%pads)]) + at_deflection) &
-         & = model%inputs%bearing%assembled_clearance
+      associate (of => model%layout%bearings(1))
+         if (of%radial) unit(of%before([(i, i=1, of%pads)]) + at_deflection) = model%inputs%bearing%assembled_clearance
+      end associate
       known = .false.
       do k = 1, size(list, 2)
          if (maxval(abs(y - list(:, k))/unit) < part) known = .true.
@@ -356,7 +358,7 @@ contains
 
    !> Newton's method for the journal on the curves of the pads, with a piece drawn for each at the start.
    subroutine journal_on_curves(model, curves, start, handicap, y, ok)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(curve_type), intent(in) :: curves(:)
       real(wp), intent(in) :: start(2)
       !> Of pieces that are not stable, in the draw.
@@ -365,7 +367,7 @@ contains
       logical, intent(out) :: ok
       integer :: iteration, i, at(size(curves))
       real(wp) :: place(2), force(2), slope(2, 2), step(2), t(size(curves)), out(2), length, reference
-      reference = max(norm2(model%point%load), maxval(model%bearing%pads%weight), 1.0_wp)
+      reference = max(norm2(model%point%load), maxval(model%bearings(1)%pads%weight), 1.0_wp)
       place = start
       at = 0
       do iteration = 1, 60
@@ -373,14 +375,14 @@ contains
          slope = 0
          ok = .true.
          do i = 1, size(curves)
-            associate (position => model%bearing%pads(i)%position)
+            associate (position => model%bearings(1)%pads(i)%position)
                out = [position%sin_angle, position%cos_angle]
                call choose(curves(i)%pieces, dot_product(place, out), handicap, at(i), t(i))
                if (at(i) == 0) then
                   ok = .false.
                   cycle
                end if
-               associate (piece => curves(i)%pieces(at(i)), pad => model%bearing%pads(i))
+               associate (piece => curves(i)%pieces(at(i)), pad => model%bearings(1)%pads(i))
                   force = force + out*(piece%force(1) + t(i)*(piece%force(2) - piece%force(1))) &
                      & - [out(2), -out(1)]*pad%weight*(pad%centre_tangential*out(1) - pad%centre_radial*out(2)) &
                      & /position%centre_distance
@@ -440,14 +442,14 @@ contains
 
    !> The state with the journal at a place and the pads on their pieces.
    function state_on_curves(model, curves, place, at, t) result(y)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       type(curve_type), intent(in) :: curves(:)
       real(wp), intent(in) :: place(2), t(:)
       integer, intent(in) :: at(:)
       real(wp) :: y(model%n), pivot_deflection(size(at)), tilt(size(at)), r(2), out(2)
       integer :: i
       do i = 1, size(at)
-         associate (piece => curves(i)%pieces(at(i)), position => model%bearing%pads(i)%position)
+         associate (piece => curves(i)%pieces(at(i)), position => model%bearings(1)%pads(i)%position)
             pivot_deflection(i) = piece%pivot_deflection(1) + t(i)*(piece%pivot_deflection(2) &
                & - piece%pivot_deflection(1))
             out = [position%sin_angle, position%cos_angle]
@@ -461,7 +463,7 @@ contains
 
    !> Newton's method on journal and pads, with steps cut where the films close or nothing improves.
    subroutine polish(model, y, ok)
-      type(bearing_model), intent(inout) :: model
+      type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       logical, intent(out) :: ok
       integer, allocatable :: x(:)
@@ -472,14 +474,14 @@ contains
       x = model%layout%positions()
       unit = model%scale(x)
       unit(3:) = merge(unit(3:), model%inputs%bearing%assembled_clearance, &
-         & .not. model%layout%radial .or. mod([(info, info=1, size(unit) - 2)], 2) == 1)
+         & .not. model%layout%bearings(1)%radial .or. mod([(info, info=1, size(unit) - 2)], 2) == 1)
       do iteration = 1, 60
          call model%evaluate(0.0_wp, y, .true., ok)
          if (.not. ok) return
-         residual = unbalanced(model)/reference_force(model)
+         residual = unbalanced(model, y)/reference_force(model)
          if (residual <= residual_limit) return
          call force_derivatives(model, stiffness, damping)
-         step = -forces(model, 0.0_wp)
+         step = -forces(model, 0.0_wp, y)
          call dgesv(size(step), 1, stiffness, size(step), pivots, step, size(step), info)
          ok = info == 0
          if (.not. ok) return
@@ -489,7 +491,7 @@ contains
             trial(x) = y(x) + part*step
             call model%evaluate(0.0_wp, trial, .false., ok)
             if (ok) then
-               next = unbalanced(model)/reference_force(model)
+               next = unbalanced(model, y)/reference_force(model)
                if (next < residual .or. cut > 8) exit
             end if
             part = 0.5_wp*part

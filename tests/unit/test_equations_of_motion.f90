@@ -3,12 +3,12 @@ program test_equations_of_motion
    use kinds, only: wp
    use text, only: to_text
    use case_inputs, only: case_type, unset
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
    use operating_point, only: operating_point_type
    use tilting_pad_bearing, only: pad_sample
    use state_layout, only: at_tilt, at_tilt_rate, at_deflection, at_deflection_rate
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use input_cases, only: case_of, listed
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -66,14 +66,14 @@ contains
       real(wp), intent(in) :: offset
       real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h]
       real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h), t = 1.234e-2_wp
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:), trial(:), f(:), found(:, :), expected(:, :)
       integer :: column, k, row, repeat
       logical :: ok, all_ok
       real(wp) :: worst
       character(len=:), allocatable :: what
       what = trim(motion)//', '//trim(friction)//', C_xi = '//to_text(offset)
-      model = new_bearing_model(heavy_case(motion, friction, offset))
+      model = new_machine_model(heavy_case(motion, friction, offset))
       allocate (f(model%n), found(model%n, model%n), expected(model%n, model%n))
       worst = 0
       all_ok = .true.
@@ -105,13 +105,13 @@ contains
    subroutine solutions(motion, friction)
       character(len=*), intent(in) :: motion, friction
       real(wp), parameter :: t = 1.234e-2_wp, gamma = 1e-5_wp
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: matrix(:, :), v(:), rates(:), b(:)
       integer :: k
       logical :: ok
       character(len=:), allocatable :: what
       what = trim(motion)//', '//trim(friction)
-      model = new_bearing_model(heavy_case(motion, friction, 0.003_wp))
+      model = new_machine_model(heavy_case(motion, friction, 0.003_wp))
       allocate (matrix(model%n, model%n), rates(model%n))
       call model%rhs_and_jacobian(t, moving_state(model), rates, matrix, ok)
       call expect(ok, 'the state is admitted, '//what)
@@ -125,65 +125,70 @@ contains
 
    !> The scale of a state; tilt rates are stepped in the scale of the friction's decay, 1 mm/s at the ball.
    pure real(wp) function step_scale(model, column)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: column
       integer :: pad
       step_scale = model%scale(column)
       do pad = 1, 2
-         if (column == model%layout%before(pad) + at_tilt_rate) step_scale = 0.2_wp
+         if (column == model%layout%bearings(1)%before(pad) + at_tilt_rate) step_scale = 0.2_wp
       end do
    end function step_scale
 
    !> Pads carrying, tilted, in motion, sliding at some mm/s: away from the switching points at rest and at v_c.
    function moving_state(model) result(y)
-      type(bearing_model), intent(in) :: model
+      type(machine_model), intent(in) :: model
       real(wp), allocatable :: y(:)
       integer :: pad
       y = model%static_state([between(-40e-6_wp, -20e-6_wp), between(-5e-6_wp, 5e-6_wp)], &
          & [between(-1e-4_wp, 1e-4_wp), between(6e-4_wp, 8e-4_wp)], [between(4e-6_wp, 8e-6_wp), between(4e-6_wp, &
          & 8e-6_wp)])
       y(3:4) = [between(-5e-3_wp, 5e-3_wp), between(-5e-3_wp, 5e-3_wp)]
-      if (.not. model%layout%tilting) return
+      if (.not. model%layout%bearings(1)%tilting) return
       do pad = 1, 2
-         y(model%layout%before(pad) + at_tilt_rate) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
-         if (model%layout%radial) y(model%layout%before(pad) + at_deflection_rate) = between(-2e-3_wp, 2e-3_wp)
-         if (model%layout%bristles) y(model%layout%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
+         associate (of => model%layout%bearings(1))
+            y(of%before(pad) + at_tilt_rate) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
+            if (of%radial) y(of%before(pad) + at_deflection_rate) = between(-2e-3_wp, 2e-3_wp)
+            if (of%bristles) y(of%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
+         end associate
       end do
    end function moving_state
 
    !> Positions grow at their rates, and every entry of the right-hand side is set.
    subroutine trivial_rows(motion)
       character(len=*), intent(in) :: motion
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:), f(:)
       logical :: ok
       integer :: pad
-      model = new_bearing_model(heavy_case(motion, 'lugre', 0.003_wp))
+      model = new_machine_model(heavy_case(motion, 'lugre', 0.003_wp))
       y = moving_state(model)
       allocate (f(model%n), source=huge(1.0_wp))
       call model%rhs(0.0_wp, y, f, ok)
       call expect(ok .and. all(f < huge(f)), 'every rate is set, '//motion)
       call expect_close(norm2(f(1:2) - y(3:4)), 0.0_wp, 0.0_wp, 'rates of the journal, '//motion)
       do pad = 1, 2
-         call expect_close(f(model%layout%before(pad) + at_tilt), y(model%layout%before(pad) + at_tilt_rate), 0.0_wp, &
-            & 'rate of the tilt, '//motion)
-         if (model%layout%radial) call expect_close(f(model%layout%before(pad) + at_deflection), &
-            & y(model%layout%before(pad) + at_deflection_rate), 0.0_wp, 'rate of the pivot deflection')
+         associate (of => model%layout%bearings(1))
+            call expect_close(f(of%before(pad) + at_tilt), y(of%before(pad) + at_tilt_rate), 0.0_wp, &
+               & 'rate of the tilt, '//motion)
+            if (.not. of%radial) cycle
+            call expect_close(f(of%before(pad) + at_deflection), y(of%before(pad) + at_deflection_rate), 0.0_wp, &
+               & 'rate of the pivot deflection')
+         end associate
       end do
    end subroutine trivial_rows
 
    !> Only the journal moves, by the films of pads as they stand without tilt; masses do not matter.
    subroutine fixed_pads()
       type(case_type) :: inputs
-      type(bearing_model) :: fixed, tilting
+      type(machine_model) :: fixed, tilting
       real(wp), allocatable :: y(:), f(:), f_tilting(:)
       logical :: ok, tilting_ok
       inputs = paper_case('tilting_only', 'none')
-      tilting = new_bearing_model(inputs)
+      tilting = new_machine_model(inputs)
       inputs%pads%motion = 'fixed'
       inputs%pads%mass = unset
       inputs%pads%inertia = unset
-      fixed = new_bearing_model(inputs)
+      fixed = new_machine_model(inputs)
       call expect(fixed%n == 4 .and. size(fixed%scale) == 4, 'the states of the journal')
       associate (w => fixed%point%speed(0.0_wp))
          call expect_close(maxval(abs(fixed%scale/[1.0_wp, 1.0_wp, w, w] - 80e-6_wp)), 0.0_wp, 1e-18_wp, 'their scales')
@@ -203,7 +208,7 @@ contains
    !> d = 1e-2/w: error (w d)**4/90 = 1e-10, rounding of angles up to 100 rad 1e-14/(w d)**2 = 1e-10.
    subroutine unbalance_force()
       type(case_type) :: inputs
-      type(bearing_model) :: with, without
+      type(machine_model) :: with, without
       real(wp), allocatable :: y(:), f(:), f0(:)
       real(wp) :: t, d, expected(2)
       logical :: ok
@@ -214,9 +219,9 @@ contains
       do k = 0, 5
          inputs%operation%final_speed_rpm = merge(1500, 60000, k < 2)
          inputs%rotor%unbalance = 0.5_wp
-         with = new_bearing_model(inputs)
+         with = new_machine_model(inputs)
          inputs%rotor%unbalance = 0
-         without = new_bearing_model(inputs)
+         without = new_machine_model(inputs)
          y = with%static_state([-4e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
          allocate (f(with%n), f0(with%n))
          t = 0.013_wp*k
@@ -245,35 +250,35 @@ contains
 
    !> Contact only pushes: none without pivot deflection; tilting only, it is the radial reaction or nothing.
    subroutine forces_by_definition()
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:), f(:)
       type(pad_sample), allocatable :: films(:)
       real(wp) :: reaction, a
       logical :: ok
       integer :: pad
-      model = new_bearing_model(paper_case('tilting_radial', 'lugre'))
+      model = new_machine_model(paper_case('tilting_radial', 'lugre'))
       y = model%static_state([-2e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [-1e-6_wp, 5e-6_wp])
-      y(model%layout%bristle(1)) = 1e-7_wp
-      y(model%layout%bristle(2)) = 1e-7_wp
+      y(model%layout%bearings(1)%bristle(1)) = 1e-7_wp
+      y(model%layout%bearings(1)%bristle(2)) = 1e-7_wp
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
-      call expect_close(model%bearing%loads(1)%contact, 0.0_wp, 0.0_wp, 'no contact without pivot deflection')
-      call expect_close(model%bearing%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction without contact')
-      call expect_close(model%bearing%loads(2)%friction%force, 0.1_wp*model%bearing%loads(2)%contact, &
-         & 1e-14_wp*model%bearing%loads(2)%contact, 'bristles carry in contact')
-      call expect(model%bearing%loads(2)%contact > 1e3_wp, 'contact under pivot deflection')
+      call expect_close(model%bearings(1)%loads(1)%contact, 0.0_wp, 0.0_wp, 'no contact without pivot deflection')
+      call expect_close(model%bearings(1)%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction without contact')
+      call expect_close(model%bearings(1)%loads(2)%friction%force, 0.1_wp*model%bearings(1)%loads(2)%contact, &
+         & 1e-14_wp*model%bearings(1)%loads(2)%contact, 'bristles carry in contact')
+      call expect(model%bearings(1)%loads(2)%contact > 1e3_wp, 'contact under pivot deflection')
       deallocate (f)
-      model = new_bearing_model(heavy_case('tilting_only', 'none', 0.0_wp))
+      model = new_machine_model(heavy_case('tilting_only', 'none', 0.0_wp))
       y = moving_state(model)
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
-      films = model%bearing%sampled()
+      films = model%bearings(1)%sampled()
       do pad = 1, 2
-         a = model%bearing%pads(pad)%position%angle - y(model%layout%before(pad) + at_tilt)
+         a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
          associate (p => model%inputs%pads)
             reaction = -films(pad)%film_force(2) - p%mass(pad)*300*sin(a) &
-               & + p%mass(pad)*p%centre_radial(pad)*y(model%layout%before(pad) + at_tilt_rate)**2
-            call expect_close(model%bearing%loads(pad)%contact, max(0.0_wp, reaction), 1e-12_wp*abs(reaction), &
+               & + p%mass(pad)*p%centre_radial(pad)*y(model%layout%bearings(1)%before(pad) + at_tilt_rate)**2
+            call expect_close(model%bearings(1)%loads(pad)%contact, max(0.0_wp, reaction), 1e-12_wp*abs(reaction), &
                & 'radial reaction of pad '//to_text(pad))
          end associate
       end do
@@ -283,30 +288,30 @@ contains
    !> Heavy pads above the journal hang from pivots that cannot pull.
    subroutine hanging_pads()
       type(case_type) :: inputs
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:), f(:)
       logical :: ok
       integer :: pad
       inputs = heavy_case('tilting_only', 'bengisu_akay', 0.0_wp)
       inputs%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       y = model%static_state([0.0_wp, 0.0_wp], [3e-4_wp, 3e-4_wp], [0.0_wp, 0.0_wp])
-      y(model%layout%before([1, 2]) + at_tilt_rate) = 0.3_wp
+      y(model%layout%bearings(1)%before([1, 2]) + at_tilt_rate) = 0.3_wp
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
       do pad = 1, 2
-         call expect(model%bearing%loads(pad)%radial < -1e3_wp, 'weight pulls a pad off its pivot')
-         call expect_close(model%bearing%loads(pad)%contact, 0.0_wp, 0.0_wp, 'a pivot does not pull')
-         call expect_close(model%bearing%loads(pad)%friction%force, 0.0_wp, 0.0_wp, 'nor rub then')
+         call expect(model%bearings(1)%loads(pad)%radial < -1e3_wp, 'weight pulls a pad off its pivot')
+         call expect_close(model%bearings(1)%loads(pad)%contact, 0.0_wp, 0.0_wp, 'a pivot does not pull')
+         call expect_close(model%bearings(1)%loads(pad)%friction%force, 0.0_wp, 0.0_wp, 'nor rub then')
       end do
    end subroutine hanging_pads
 
    !> What has no film is refused in words.
    subroutine refusals()
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:), f(:)
       logical :: ok
-      model = new_bearing_model(paper_case('tilting_radial', 'none'))
+      model = new_machine_model(paper_case('tilting_radial', 'none'))
       allocate (f(model%n))
       y = model%static_state([-4e-5_wp, 200e-6_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
       call model%rhs(0.0_wp, y, f, ok)

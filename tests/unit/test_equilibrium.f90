@@ -4,7 +4,7 @@ program test_equilibrium
    use kinds, only: wp
    use errors, only: error_type, numerics_error
    use case_inputs, only: case_type
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces
    use equilibrium, only: equilibrium_type, find_equilibrium, find_partial_equilibrium
    use equilibrium_refusal, only: search_traces, refusal
@@ -35,11 +35,11 @@ contains
       type(equilibrium_type) :: part, whole
       logical, allocatable :: held(:)
       type(error_type), allocatable :: error
-      call find_partial_equilibrium(new_bearing_model(case_type()), part, held, error)
+      call find_partial_equilibrium(new_machine_model(case_type()), part, held, error)
       call expect_no_error(error, 'the paper''s bearing')
       if (.not. allocated(held)) return
       call expect(.not. any(held), 'no pad is held')
-      call find_equilibrium(new_bearing_model(case_type()), whole, error)
+      call find_equilibrium(new_machine_model(case_type()), whole, error)
       call expect_close(norm2(part%journal - whole%journal), 0.0_wp, 1e-11_wp, 'the same place')
       call expect_close(maxval(abs(part%tilt - whole%tilt)), 0.0_wp, 1e-9_wp, 'the same tilts')
    end subroutine nothing_held
@@ -48,7 +48,7 @@ contains
    !> would turn over. Journal and lower pads are in balance, to 1e-8 of 2e4 N, with it at zero tilt.
    subroutine pad_held()
       type(case_type) :: inputs
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(equilibrium_type) :: found
       logical, allocatable :: held(:)
       type(error_type), allocatable :: error
@@ -57,7 +57,7 @@ contains
       ! its films are those of the search
       inputs = case_of('&pads pivot_angle_deg = -45, 225, 90 / &film solver = ''direct'' /')
       inputs%pads%centre_tangential(3) = 60e-3_wp
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       call find_partial_equilibrium(model, found, held, error)
       call expect_no_error(error, 'with a pad on top')
       if (.not. allocated(held)) return
@@ -66,7 +66,7 @@ contains
       call expect_close(found%pivot_deflection(3), 0.0_wp, 0.0_wp, 'on its pivot')
       call model%set_point(model%point%static())
       call model%evaluate(0.0_wp, model%static_state(found%journal, found%tilt, found%pivot_deflection), .false., ok)
-      force = forces(model, 0.0_wp)
+      force = forces(model, 0.0_wp, model%static_state(found%journal, found%tilt, found%pivot_deflection))
       call expect_close(maxval(abs(force(:2))), 0.0_wp, 1e-3_wp, 'the journal is in balance')
       call expect_close(maxval(abs(force([4, 6]))), 0.0_wp, 1e-3_wp, 'so are the loaded pads along their radius')
       call expect(abs(force(7)) > 1e-3_wp, 'and the held pad is not')
@@ -77,7 +77,7 @@ contains
       type(equilibrium_type) :: found
       logical, allocatable :: held(:)
       type(error_type), allocatable :: error
-      call find_partial_equilibrium(new_bearing_model(case_of('&rotor static_load = 58860, 0 /')), found, held, error)
+      call find_partial_equilibrium(new_machine_model(case_of('&rotor static_load = 58860, 0 /')), found, held, error)
       call expect_error(error, numerics_error, 'no partial equilibrium found', 'nothing carries the load')
    end subroutine no_partial
 
@@ -86,7 +86,7 @@ contains
       character(len=*), intent(in) :: case, words
       type(equilibrium_type) :: found
       type(error_type), allocatable :: error
-      call find_equilibrium(new_bearing_model(case_of(case)), found, error)
+      call find_equilibrium(new_machine_model(case_of(case)), found, error)
       call expect_error(error, numerics_error, words, 'refused: '//case)
    end subroutine searched
 
@@ -122,7 +122,7 @@ contains
       type(case_type), intent(in) :: inputs
       type(search_traces), intent(in) :: traces
       character(len=*), intent(in) :: words
-      call expect(index(refusal(new_bearing_model(inputs), traces), words) > 0, words//', not ' &
-         & //refusal(new_bearing_model(inputs), traces))
+      call expect(index(refusal(new_machine_model(inputs), traces), words) > 0, words//', not ' &
+         & //refusal(new_machine_model(inputs), traces))
    end subroutine says
 end program test_equilibrium

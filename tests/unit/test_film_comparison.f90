@@ -4,7 +4,7 @@ program test_film_comparison
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, i8
    use text, only: to_text
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use film_comparison, only: film_comparison_type, film_difference, new_film_comparison
    use verification, only: sample_of
    use verification_results, only: put_verification, states_figure
@@ -35,9 +35,9 @@ contains
       character(len=*), intent(in) :: text
       real(wp), intent(in) :: journal(2), tilt(:)
       type(film_difference), allocatable, intent(out) :: found(:)
-      type(bearing_model) :: model
+      type(machine_model) :: model
       type(film_comparison_type) :: comparison
-      model = new_bearing_model(case_of(text))
+      model = new_machine_model(case_of(text))
       comparison = new_film_comparison(model%inputs)
       allocate (found(model%layout%pads))
       call comparison%compare(model, 0.0_wp, model%static_state(journal, tilt, 0*tilt), found)

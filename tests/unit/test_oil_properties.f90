@@ -6,7 +6,7 @@ program test_oil_properties
    use namelist_writer, only: namelist_of
    use oil_properties, only: viscosity, viscosity_slope, density, reference_viscosity, kinematic_points, grades
    use bearing_numbers, only: sommerfeld_number
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use checked_case, only: derived_text
    use viscosity_history, only: viscosity_history_type, new_viscosity_history
    use check, only: runs, expect, expect_close, report
@@ -130,8 +130,8 @@ contains
    subroutine expect_films(s, mu)
       type(case_type), intent(in) :: s
       real(wp), intent(in) :: mu
-      type(bearing_model) :: model
-      model = new_bearing_model(s)
+      type(machine_model) :: model
+      model = new_machine_model(s)
       call expect_close(reference_viscosity(s), mu, 1e-15_wp, 'viscosity')
       call expect_close(model%oil(2)%viscosity, mu, 1e-15_wp, 'of the films')
       call expect_close(sommerfeld_number(s)/sommerfeld_number(case_type()), mu/19e-3_wp, 1e-13_wp, &

@@ -5,7 +5,7 @@ program test_small_vibrations
    use input_cases, only: case_of
    use sampled_march, only: march_samples
    use state_layout, only: at_tilt
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium, only: equilibrium_type, find_equilibrium
    use static_model, only: make_static
    use force_balance, only: stability_type, stability_of, find_vibrations
@@ -65,8 +65,8 @@ contains
       character(len=*), intent(in) :: case, expected
       !> How many are marched.
       integer, intent(in) :: periods
-      type(bearing_model) :: model
-      type(bearing_model), target :: static
+      type(machine_model) :: model
+      type(machine_model), target :: static
       type(equilibrium_type) :: found
       type(error_type), allocatable :: error
       real(wp), allocatable :: rest(:), y(:), states(:, :)
@@ -74,7 +74,7 @@ contains
       real(wp) :: period, size_of(periods)
       integer, allocatable :: tilts(:)
       integer :: k, sample
-      model = new_bearing_model(case_of(case))
+      model = new_machine_model(case_of(case))
       call find_equilibrium(model, found, error)
       call expect_no_error(error, 'equilibrium, '//expected)
       if (allocated(error)) return
@@ -83,7 +83,7 @@ contains
       rest = static%static_state(found%journal, found%tilt, found%pivot_deflection)
       y = rest
       y(1:2) = y(1:2) + 1e-5_wp*static%scale(1:2)
-      tilts = static%layout%before([(k, k=1, static%layout%pads)]) + at_tilt
+      tilts = static%layout%bearings(1)%before([(k, k=1, static%layout%pads)]) + at_tilt
       y(tilts) = y(tilts) + 1e-8_wp
       period = 2*pi/found%stability%eigenvalue%im
       allocate (states(static%n, periods*samples))

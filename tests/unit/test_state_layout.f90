@@ -1,32 +1,33 @@
-!> The states of a bearing: where they stand, and the balance of forces in them.
+!> The states of rotor and pads: where they stand, and the balance of forces in them.
 program test_state_layout
    use kinds, only: wp
    use text, only: to_text
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, columns, tilt_column
-   use state_layout, only: state_layout_type, new_state_layout, at_tilt, at_tilt_rate, at_deflection, at_deflection_rate
+   use state_layout, only: state_layout_type, pads_layout_type, pads_layout, new_state_layout, at_tilt, at_tilt_rate, &
+      & at_deflection, at_deflection_rate
    use case_inputs, only: case_type
-   use equations_of_motion, only: bearing_model, new_bearing_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces, force_derivatives, masses
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
    integer, parameter :: pads = 3
-   !> That of a rigid journal, and another.
-   integer, parameter :: rotors(*) = [4, 10]
    logical, parameter :: choices(2) = [.false., .true.]
    integer :: i, k, l
    character(len=*), parameter :: motions(3) = [character(len=14) :: 'tilting_radial', 'tilting_only', 'fixed']
    character(len=*), parameter :: frictions(3) = [character(len=12) :: 'none', 'bengisu_akay', 'lugre']
+   type(pads_layout_type) :: of
 
-   do i = 1, size(rotors)
-      do k = 1, size(choices)
-         do l = 1, size(choices)
-            associate (layout => new_state_layout(rotors(i), pads, .true., choices(k), choices(l)))
-               if (runs('indices')) call indices(layout)
-               if (runs('states_of_pads')) call states_of_pads(layout)
-            end associate
-            if (runs('fixed_pads')) call fixed_pads(new_state_layout(rotors(i), pads, .false., choices(k), choices(l)))
-         end do
+   do k = 1, size(choices)
+      do l = 1, size(choices)
+         of = pads_layout(pads, .true., choices(k), choices(l))
+         ! a rigid journal, and other rotors; bearings of two kinds and numbers of pads
+         call check_layout(new_state_layout(4, [of]))
+         call check_layout(new_state_layout(10, [of]))
+         call check_layout(new_state_layout(8, [of, pads_layout(5, .true., .not. choices(k), choices(l))]))
+         call check_layout(new_state_layout(12, [pads_layout(2, .false., choices(k), choices(l)), of, of]))
+         if (runs('fixed_pads')) call fixed_pads(new_state_layout(4, &
+            & [pads_layout(pads, .false., choices(k), choices(l))]))
       end do
    end do
    do i = 1, size(motions)
@@ -39,31 +40,57 @@ program test_state_layout
 
 contains
 
+   subroutine check_layout(layout)
+      type(state_layout_type), intent(in) :: layout
+      if (runs('indices')) call indices(layout)
+      if (runs('states_of_pads')) call states_of_pads(layout)
+      if (runs('columns_of_pads')) call columns_of_pads(layout)
+   end subroutine check_layout
+
    pure function what(layout)
       type(state_layout_type), intent(in) :: layout
       character(len=:), allocatable :: what
+      integer :: b
       what = ', rotor of '//to_text(layout%rotor)
-      if (layout%radial) what = what//', pivot deflections'
-      if (layout%bristles) what = what//', bristles'
+      do b = 1, size(layout%bearings)
+         what = what//', bearing of '//to_text(layout%bearings(b)%pads)
+         if (layout%bearings(b)%radial) what = what//' with pivot deflections'
+         if (layout%bearings(b)%bristles) what = what//' with bristles'
+      end do
    end function what
 
    !> Rotor, then the pads one after another: every state has one index, and every position a rate.
    subroutine indices(layout)
       type(state_layout_type), intent(in) :: layout
-      integer :: all_pads(pads), own, i
-      integer, allocatable :: found(:)
-      own = merge(4, 2, layout%radial) + merge(1, 0, layout%bristles)
-      call expect(layout%per_pad == own .and. layout%n == layout%rotor + pads*own, 'number of states'//what(layout))
-      all_pads = [(i, i=1, pads)]
-      call expect(all(layout%before(all_pads) == layout%rotor + own*(all_pads - 1)), 'states before'//what(layout))
-      found = [[(i, i=1, layout%rotor)], layout%before(all_pads) + at_tilt, layout%before(all_pads) + at_tilt_rate]
-      if (layout%radial) found = [found, layout%before(all_pads) + at_deflection, &
-         & layout%before(all_pads) + at_deflection_rate]
-      if (layout%bristles) found = [found, layout%bristle(all_pads)]
-      call expect_each_once(layout, found, 'all states')
-      found = [layout%positions(), layout%rates()]
-      if (layout%bristles) found = [found, layout%bristle(all_pads)]
-      call expect_each_once(layout, found, 'positions, rates and bristles')
+      integer, allocatable :: found(:), bristles(:), all_pads(:), own(:)
+      integer :: b, i, last
+      found = [(i, i=1, layout%rotor)]
+      allocate (bristles(0), own(0))
+      last = layout%rotor
+      do b = 1, size(layout%bearings)
+         associate (of => layout%bearings(b))
+            call expect(of%states_before == last, 'bearing behind bearing'//what(layout))
+            last = last + of%pads*of%per_pad
+            call expect(all(of%all_pads() == sum(layout%bearings(:b - 1)%pads) + [(i, i=1, of%pads)]), &
+               & 'pads of all bearings are counted'//what(layout))
+            if (.not. of%tilting) cycle
+            all_pads = [(i, i=1, of%pads)]
+            call expect(of%per_pad == merge(4, 2, of%radial) + merge(1, 0, of%bristles), &
+               & 'states of a pad'//what(layout))
+            call expect(all(of%before(all_pads) == of%states_before + of%per_pad*(all_pads - 1)), &
+               & 'states before'//what(layout))
+            found = [found, of%before(all_pads) + at_tilt, of%before(all_pads) + at_tilt_rate]
+            if (of%radial) found = [found, of%before(all_pads) + at_deflection, &
+               & of%before(all_pads) + at_deflection_rate]
+            if (of%bristles) bristles = [bristles, of%bristle(all_pads)]
+            own = [own, (of%own_positions(i), i=1, of%pads)]
+         end associate
+      end do
+      call expect(layout%n == last, 'number of states'//what(layout))
+      call expect_each_once(layout, [found, bristles], 'all states')
+      call expect_each_once(layout, [layout%positions(), layout%rates(), bristles], 'positions, rates and bristles')
+      call expect(all([[(i, i=1, layout%rotor/2)], own] == [(i, i=1, layout%n_positions())]), &
+         & 'every displacement is the rotor''s or a pad''s'//what(layout))
       associate (positions => layout%positions(), rates => layout%rates())
          call expect(size(positions) == size(rates), 'each position has a rate'//what(layout))
          call expect(all(positions(:layout%rotor/2) == [(i, i=1, layout%rotor/2)]) &
@@ -73,6 +100,24 @@ contains
             & 'rates of the pads stand behind what they are rates of'//what(layout))
       end associate
    end subroutine indices
+
+   !> A change of a state over the columns of a pad: its journal's y and z, their rates, then its own motion.
+   subroutine columns_of_pads(layout)
+      type(state_layout_type), intent(in) :: layout
+      real(wp) :: y(layout%n)
+      integer :: b, i
+      y = [(real(i, wp), i=1, layout%n)]
+      do b = 1, size(layout%bearings)
+         associate (of => layout%bearings(b), change => layout%bearings(b)%over_columns(y))
+            do i = 1, of%pads
+               call expect(all(nint(change(:2, i)) == [2*b - 1, 2*b]) &
+                  & .and. all(nint(change(3:4, i)) == layout%rotor/2 + [2*b - 1, 2*b]), 'journal'//what(layout))
+               if (of%tilting) call expect(nint(change(tilt_column, i)) == of%before(i) + at_tilt, 'tilt'//what(layout))
+               if (.not. of%tilting) call expect(all(abs(change(tilt_column:, i)) <= 0), 'fixed pads'//what(layout))
+            end do
+         end associate
+      end do
+   end subroutine columns_of_pads
 
    !> Fixed pads have no states: those of the rotor are all, what is put is lost, and only the journal changes.
    subroutine fixed_pads(layout)
@@ -84,12 +129,12 @@ contains
       call expect(all([layout%positions(), layout%rates()] == [(i, i=1, layout%n)]), 'positions and rates of the rotor')
       states = pad_state(1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp)
       y = -1
-      call layout%put_pads(states, y)
+      call layout%bearings(1)%put_pads(states, y)
       call expect(all(y < 0), 'nothing is put')
-      states = layout%pad_states(y)
+      states = layout%bearings(1)%pad_states(y)
       call expect(all(abs([states%tilt, states%tilt_rate, states%pivot_deflection, states%pivot_deflection_rate, &
          & states%deflection]) <= 0), 'all is 0')
-      change = layout%over_columns([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], y)
+      change = layout%bearings(1)%over_columns([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp])
       call expect(all(abs(sum(change, dim=1) - 10) <= 0) .and. all(abs(change(tilt_column:, :)) <= 0), 'the journal''s')
    end subroutine fixed_pads
 
@@ -108,40 +153,53 @@ contains
    !> What a layout has comes back, the rest as 0; other states stay as they are.
    subroutine states_of_pads(layout)
       type(state_layout_type), intent(in) :: layout
-      type(pad_state) :: states(pads), back(pads)
+      type(pad_state) :: states(layout%pads)
       real(wp) :: y(layout%n)
-      integer :: i
-      states = [(pad_state(10.0_wp + i, 20.0_wp + i, 30.0_wp + i, 40.0_wp + i, 50.0_wp + i), i=1, pads)]
+      integer :: b, i
+      states = [(pad_state(10.0_wp + i, 20.0_wp + i, 30.0_wp + i, 40.0_wp + i, 50.0_wp + i), i=1, layout%pads)]
       y = -1
-      call layout%put_pads(states, y)
+      call layout%put_all_pads(states, y)
       call expect(all(y(:layout%rotor) < 0) .and. all(y(layout%rotor + 1:) > 0), 'pads alone are put'//what(layout))
-      back = layout%pad_states(y)
+      do b = 1, size(layout%bearings)
+         associate (of => layout%bearings(b))
+            if (of%tilting) call come_back(of, states(of%all_pads()), of%pad_states(y), y, what(layout))
+         end associate
+      end do
+   end subroutine states_of_pads
+
+   subroutine come_back(of, put, back, y, what)
+      type(pads_layout_type), intent(in) :: of
+      type(pad_state), intent(in) :: put(:), back(:)
+      real(wp), intent(in) :: y(:)
+      character(len=*), intent(in) :: what
+      type(pad_state) :: states(size(put))
+      integer :: i
+      states = put
       call expect_close(maxval(abs(back%tilt - states%tilt) + abs(back%tilt_rate - states%tilt_rate)), 0.0_wp, 0.0_wp, &
-         & 'tilts come back'//what(layout))
-      if (.not. layout%radial) then
+         & 'tilts come back'//what)
+      if (.not. of%radial) then
          states%pivot_deflection = 0
          states%pivot_deflection_rate = 0
       end if
-      if (.not. layout%bristles) states%deflection = 0
+      if (.not. of%bristles) states%deflection = 0
       call expect_close(maxval(abs(back%pivot_deflection - states%pivot_deflection) &
          & + abs(back%pivot_deflection_rate - states%pivot_deflection_rate) + abs(back%deflection &
-            & - states%deflection)), 0.0_wp, 0.0_wp, 'what a pad has comes back, the rest is 0'//what(layout))
-      do i = 1, pads
-         call expect_close(y(layout%before(i) + at_tilt_rate), 20.0_wp + i, 0.0_wp, 'tilt rate by its index' &
-            & //what(layout))
-         if (layout%radial) call expect_close(y(layout%before(i) + at_deflection), 30.0_wp + i, 0.0_wp, &
-            & 'pivot deflection by its index'//what(layout))
-         if (layout%bristles) call expect_close(y(layout%bristle(i)), 50.0_wp + i, 0.0_wp, &
-            & 'bristles by their index'//what(layout))
+            & - states%deflection)), 0.0_wp, 0.0_wp, 'what a pad has comes back, the rest is 0'//what)
+      do i = 1, of%pads
+         call expect_close(y(of%before(i) + at_tilt_rate), put(i)%tilt_rate, 0.0_wp, 'tilt rate by its index'//what)
+         if (of%radial) call expect_close(y(of%before(i) + at_deflection), put(i)%pivot_deflection, 0.0_wp, &
+            & 'pivot deflection by its index'//what)
+         if (of%bristles) call expect_close(y(of%bristle(i)), put(i)%deflection, 0.0_wp, &
+            & 'bristles by their index'//what)
       end do
-   end subroutine states_of_pads
+   end subroutine come_back
 
    !> Sums of some ten numbers, and a pad's masses, whose inverse loses a digit or two: 1e-12 of each row's largest
    !> entry.
    subroutine against_motion(motion, friction)
       character(len=*), intent(in) :: motion, friction
       type(case_type) :: inputs
-      type(bearing_model) :: model
+      type(machine_model) :: model
       real(wp), allocatable :: y(:), rates(:), jacobian(:, :), expected(:), matrix(:, :), over_positions(:, :)
       real(wp), allocatable :: over_rates(:, :)
       real(wp), parameter :: t = 0.0123_wp
@@ -154,14 +212,14 @@ contains
       inputs%friction%model = trim(friction)
       inputs%pads%centre_tangential = [3e-3_wp, -6e-3_wp]
       inputs%pads%mass = [0.8_wp, 0.6_wp]
-      model = new_bearing_model(inputs)
+      model = new_machine_model(inputs)
       y = model%state(journal_motion([-4e-5_wp, 2e-6_wp], [1e-3_wp, -2e-3_wp]), &
          & [(pad_state(4e-4_wp*(i - 1), between(0.3_wp, 0.6_wp), 7e-6_wp, 1e-3_wp, 1e-7_wp), i=1, 2)])
       n = model%layout%n_positions()
       allocate (rates(model%n), jacobian(model%n, model%n), over_positions(n, n), over_rates(n, n))
       call model%rhs(t, y, rates, ok)
       call expect(ok, 'a state with films, '//what)
-      expected = forces(model, t)
+      expected = forces(model, t, y)
       associate (x => model%layout%positions(), v => model%layout%rates())
          call expect(size(expected) == size(x), 'a force for each position, '//what)
          call compare(spread(matmul(masses(model), rates(v)), 2, 1), spread(expected, 2, 1), 'forces, '//what)

@@ -5,7 +5,7 @@ program test_tilting_pad_bearing
    use text, only: to_text
    use case_inputs, only: case_type
    use film_solver, only: film_oil
-   use rigid_journal, only: journal_motion
+   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, columns, journal_columns, tilt_column, tilt_rate_column, deflection_column, &
       & position_columns, rate_columns
    use tilting_pad, only: pad_derivatives

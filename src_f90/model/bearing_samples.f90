@@ -1,0 +1,46 @@
+!> What is sampled of a bearing in a motion.
+module bearing_samples
+   use kinds, only: wp
+   use abstract_rotor, only: journal_motion
+   use kinematics, only: pad_state
+   use tilting_pad_bearing, only: pad_sample, pad_outputs
+   use equations_of_motion, only: machine_model
+   implicit none (type, external)
+   private
+   public :: bearing_sample, take_sample
+
+   !> What is sampled of a bearing at a time, s: shaft angle, rad; speed, rad/s; journal; states and loads of the pads.
+   type :: bearing_sample
+      real(wp) :: time = 0, shaft_angle = 0, speed = 0
+      !> Whether the pads tilt, have pivot deflections and bristle deflections, and whether their asperities may touch.
+      logical :: tilting = .true., radial = .false., bristles = .false., asperities = .false.
+      type(journal_motion) :: journal
+      type(pad_state), allocatable :: states(:)
+      type(pad_sample), allocatable :: loads(:)
+   end type bearing_sample
+
+contains
+
+   !> What is sampled of bearing b at (t, y), where these outputs are known; no film is evaluated. The record may be
+   !> used again.
+   pure subroutine take_sample(model, t, y, output, b, sample)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: t, y(:), output(:)
+      integer, intent(in) :: b
+      type(bearing_sample), intent(inout) :: sample
+      associate (of => model%layout%bearings(b), bearing => model%bearings(b))
+         sample%tilting = of%tilting
+         sample%radial = of%radial
+         sample%bristles = of%bristles
+         sample%asperities = bearing%asperities%act()
+         sample%time = t
+         sample%shaft_angle = model%point%shaft_angle(t)
+         sample%speed = model%point%speed(t)
+         sample%journal = model%rotor%journal(y(:model%rotor%states), b)
+         if (.not. allocated(sample%states)) allocate (sample%states(of%pads), sample%loads(of%pads))
+         sample%states(:) = of%pad_states(y)
+         call bearing%take_samples(sample%journal, sample%states, sample%speed, &
+            & output(pad_outputs*of%other_pads + 1:pad_outputs*(of%other_pads + of%pads)), sample%loads)
+      end associate
+   end subroutine take_sample
+end module bearing_samples
