@@ -117,14 +117,17 @@ contains
       string = digits(:last)
    end function without_zeros
 
-   !> Six significant digits or as many more, up to seventeen, as reading them back takes to give the same bits.
+   !> The fewest significant digits, from six to seventeen, that give the same bits when they are read back.
    pure function exact_text(x) result(string)
       real(wp), intent(in) :: x
       character(len=:), allocatable :: string
       real(wp) :: back
-      integer :: digits
+      integer :: digits, first
+      ! normal numbers of up to fifteen digits are these, with zeros
+      first = merge(precision(x), 6, abs(x) >= tiny(x))
       ! rounded to fewer digits the largest numbers would be infinite
-      do digits = merge(17, 6, abs(x) > 0.1_wp*huge(x)), 17
+      if (abs(x) > 0.1_wp*huge(x)) first = 17
+      do digits = first, 17
          string = of_digits(x, digits)
          read (string, *) back
          if (transfer(back, 1_i8) == transfer(x, 1_i8)) return

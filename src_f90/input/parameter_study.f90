@@ -1,6 +1,6 @@
 !> Parameter studies: in a case with the group &sweep variables have several values; the case describes many runs.
 module parameter_study
-   use kinds, only: i8
+   use kinds, only: wp, i8
    use text, only: to_text, checksum
    use errors, only: error_type
    use case_inputs, only: case_type
@@ -13,8 +13,6 @@ module parameter_study
    implicit none (type, external)
    private
    public :: study_type, run_tag, read_study, study_from_text
-
-   character(len=*), parameter :: newline = achar(10)
 
    !> Which run of a study a run is.
    type :: run_tag
@@ -46,6 +44,7 @@ module parameter_study
       !> The varied variables, and the value of the i-th in the k-th run.
       procedure :: variables
       procedure :: value
+      procedure :: number
       procedure, private :: namelist_of_run
    end type study_type
 
@@ -105,12 +104,7 @@ contains
    subroutine mark(self, base)
       class(study_type), intent(inout) :: self
       character(len=*), intent(in) :: base
-      integer :: k
-      allocate (self%marks(0:self%runs))
-      self%marks(0) = checksum(base, 0_i8)
-      do k = 1, self%runs
-         self%marks(k) = checksum(self%varied%values_text(k)//newline, self%marks(k - 1))
-      end do
+      call self%varied%find_checksums(self%runs, checksum(base, 0_i8), self%marks)
    end subroutine mark
 
    !> True where two tags of one number are of studies that have the same runs up to it, or where that is not known.
@@ -151,9 +145,17 @@ contains
       class(study_type), intent(in) :: self
       integer, intent(in) :: i, k
       type(token_type), intent(out) :: token
-      integer :: row
-      call self%varied%value(i, k, token, row)
+      call self%varied%value(i, k, token)
    end subroutine value
+
+   !> The same as a number; `ok` is false where it is none.
+   subroutine number(self, i, k, x, ok)
+      class(study_type), intent(in) :: self
+      integer, intent(in) :: i, k
+      real(wp), intent(out) :: x
+      logical, intent(out) :: ok
+      call self%varied%number_of_run(i, k, x, ok)
+   end subroutine number
 
    !> The k-th run's case with every default, marked, and what follows from it.
    subroutine checked(self, k, text, error)

@@ -1,11 +1,11 @@
 !> The group &sweep: which variables are varied, and their values in each run of a study, from lists, ranges and a
 !> table.
 module study_variables
-   use kinds, only: i8
-   use text, only: to_text, lower_case
+   use kinds, only: wp, i8
+   use text, only: to_text, lower_case, checksum
    use errors, only: error_type, raise, require, refuse, input_error
    use assignments, only: namelist_type, assignment_type, token_type, undoes, assignment_text, target_text, &
-      & value_text, study_group
+      & value_text, read_number, study_group
    use varied_values, only: varied_values_type, read_varied_values
    use study_table, only: study_table_type, read_table
    use case_fields, only: title_variable
@@ -29,6 +29,10 @@ module study_variables
       integer :: factor = 0
    end type variable_type
 
+   type :: line_type
+      character(len=:), allocatable :: text
+   end type line_type
+
    type :: study_variables_type
       private
       !> True where all factors change together.
@@ -44,11 +48,15 @@ module study_variables
       procedure, public :: number
       procedure, public :: targets
       procedure, public :: assignment_of_run
+      procedure, public :: value
+      procedure, public :: number_of_run
       procedure, public :: values_text
+      procedure, public :: find_checksums
       procedure, public :: text => group_text
       procedure :: add
       procedure :: read_file
-      procedure :: value
+      procedure :: row_of
+      procedure :: line
    end type study_variables_type
 
 contains
@@ -206,23 +214,27 @@ contains
       found = int(runs)
    end subroutine count_runs
 
-   !> The value of the i-th variable in the k-th run. The first factor changes slowest.
-   subroutine value(self, i, k, token, row)
+   !> Which value of its factor the i-th variable has in the k-th run. The first factor changes slowest.
+   pure integer function row_of(self, i, k) result(row)
+      class(study_variables_type), intent(in) :: self
+      integer, intent(in) :: i, k
+      integer :: j
+      row = k - 1
+      if (.not. self%zip) then
+         do j = size(self%counts), self%variables(i)%factor + 1, -1
+            row = row/self%counts(j)
+         end do
+         row = mod(row, self%counts(self%variables(i)%factor))
+      end if
+      row = row + 1
+   end function row_of
+
+   !> The value of the i-th variable in the k-th run.
+   subroutine value(self, i, k, token)
       class(study_variables_type), intent(in) :: self
       integer, intent(in) :: i, k
       type(token_type), intent(out) :: token
-      !> Which value of its factor that is.
-      integer, intent(out) :: row
-      integer :: j
-      associate (v => self%variables(i))
-         row = k - 1
-         if (.not. self%zip) then
-            do j = size(self%counts), v%factor + 1, -1
-               row = row/self%counts(j)
-            end do
-            row = mod(row, self%counts(v%factor))
-         end if
-         row = row + 1
+      associate (v => self%variables(i), row => self%row_of(i, k))
          if (v%column > 0) then
             call self%table%value(row, v%column, token)
          else
@@ -231,16 +243,30 @@ contains
       end associate
    end subroutine value
 
+   !> The same as a number, to the last bit; `ok` is false where it is none.
+   subroutine number_of_run(self, i, k, x, ok)
+      class(study_variables_type), intent(in) :: self
+      integer, intent(in) :: i, k
+      real(wp), intent(out) :: x
+      logical, intent(out) :: ok
+      type(token_type) :: token
+      if (self%variables(i)%column > 0) then
+         call self%value(i, k, token)
+         call read_number(lower_case(token%text), x, ok)
+      else
+         call self%variables(i)%values%number(self%row_of(i, k), x, ok)
+      end if
+   end subroutine number_of_run
+
    !> The k-th run's assignment to the i-th variable.
    subroutine assignment_of_run(self, i, k, found)
       class(study_variables_type), intent(in) :: self
       integer, intent(in) :: i, k
       type(assignment_type), intent(out) :: found
-      integer :: row
       found = self%variables(i)%target
       allocate (found%values(1))
-      call self%value(i, k, found%values(1), row)
-      if (self%variables(i)%column > 0) found%origin = self%table%origin(row)
+      call self%value(i, k, found%values(1))
+      if (self%variables(i)%column > 0) found%origin = self%table%origin(self%row_of(i, k))
    end subroutine assignment_of_run
 
    !> The values of the k-th run, a line for each variable.
@@ -248,15 +274,46 @@ contains
       class(study_variables_type), intent(in) :: self
       integer, intent(in) :: k
       character(len=:), allocatable :: text
-      type(token_type) :: token
-      integer :: i, row
+      integer :: i
       text = ''
       do i = 1, size(self%variables)
          if (i > 1) text = text//newline
-         call self%value(i, k, token, row)
-         text = text//target_text(self%variables(i)%target)//' = '//value_text(token)
+         text = text//self%line(i, k)
       end do
    end function values_text
+
+   function line(self, i, k)
+      class(study_variables_type), intent(in) :: self
+      integer, intent(in) :: i, k
+      character(len=:), allocatable :: line
+      type(token_type) :: token
+      call self%value(i, k, token)
+      line = target_text(self%variables(i)%target)//' = '//value_text(token)
+   end function line
+
+   !> Checksums of the values of the runs up to each, behind one of something else.
+   subroutine find_checksums(self, runs, before, marks)
+      class(study_variables_type), intent(in) :: self
+      integer, intent(in) :: runs
+      integer(i8), intent(in) :: before
+      integer(i8), allocatable, intent(out) :: marks(:)
+      !> The lines of the last run, and which values they have: most stay from one run to the next.
+      type(line_type) :: lines(size(self%variables))
+      integer :: rows(size(self%variables)), i, k
+      allocate (marks(0:runs))
+      rows = 0
+      marks(0) = before
+      do k = 1, runs
+         marks(k) = marks(k - 1)
+         do i = 1, size(lines)
+            associate (row => self%row_of(i, k))
+               if (row /= rows(i)) lines(i)%text = self%line(i, k)//newline
+               rows(i) = row
+            end associate
+            marks(k) = checksum(lines(i)%text, marks(k))
+         end do
+      end do
+   end subroutine find_checksums
 
    !> The group as namelist text; of a table the name of its file, which holds in any folder.
    function group_text(self) result(text)

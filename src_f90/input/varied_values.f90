@@ -31,6 +31,7 @@ module varied_values
    contains
       procedure :: count => value_count
       procedure :: value
+      procedure :: number => number_of_value
       procedure :: text => values_text
    end type varied_values_type
 
@@ -133,30 +134,59 @@ contains
       class(varied_values_type), intent(in) :: self
       integer, intent(in) :: n
       type(token_type), intent(out) :: token
-      ! a product rounded by itself, not as part of a fused addition: the same bits on every machine
-      real(wp), volatile :: product
       real(wp) :: x
       integer :: i, before
+      call find_piece(self, n, i, before)
+      token = self%pieces(i)%token
+      if (.not. self%pieces(i)%is_range) return
+      x = number_in_range(self%pieces(i), n - before - 1)
+      token%text = exact_text(x)
+      ! whole numbers without an exponent, as variables that take only these want them
+      if (.not. abs(x - anint(x)) > 0 .and. abs(x) < 1e15_wp) token%text = to_text(nint(x, i8))
+   end subroutine value
+
+   !> The same as a number, to the last bit; `ok` is false where it is none. A range needs no text for this.
+   subroutine number_of_value(self, n, x, ok)
+      class(varied_values_type), intent(in) :: self
+      integer, intent(in) :: n
+      real(wp), intent(out) :: x
+      logical, intent(out) :: ok
+      integer :: i, before
+      call find_piece(self, n, i, before)
+      if (self%pieces(i)%is_range) then
+         x = number_in_range(self%pieces(i), n - before - 1)
+         ok = .true.
+      else
+         call read_number(lower_case(self%pieces(i)%token%text), x, ok)
+      end if
+   end subroutine number_of_value
+
+   !> Which piece has the n-th value, and how many values come before that piece.
+   pure subroutine find_piece(self, n, i, before)
+      class(varied_values_type), intent(in) :: self
+      integer, intent(in) :: n
+      integer, intent(out) :: i, before
       before = 0
       do i = 1, size(self%pieces)
          if (n <= before + self%pieces(i)%count) exit
          before = before + self%pieces(i)%count
       end do
-      associate (p => self%pieces(i), steps => n - before - 1)
-         token = p%token
-         if (.not. p%is_range) return
-         if (p%geometric) then
-            ! a real exponent, as repeated products would round at every step
-            x = p%first*p%step**real(steps, wp)
-         else
-            product = steps*p%step
-            x = p%first + product
-         end if
-         token%text = exact_text(x)
-         ! whole numbers without an exponent, as variables that take only these want them
-         if (.not. abs(x - anint(x)) > 0 .and. abs(x) < 1e15_wp) token%text = to_text(nint(x, i8))
-      end associate
-   end subroutine value
+   end subroutine find_piece
+
+   !> The number this many steps from the first of a range.
+   real(wp) function number_in_range(piece, steps) result(x)
+      type(piece_type), intent(in) :: piece
+      integer, intent(in) :: steps
+      ! a product rounded by itself, not as part of a fused addition: the same bits on every machine
+      real(wp), volatile :: product
+      if (piece%geometric) then
+         ! a real exponent, as repeated products would round at every step
+         x = piece%first*piece%step**real(steps, wp)
+      else
+         product = steps*piece%step
+         x = piece%first + product
+      end if
+   end function number_in_range
 
    !> All values as the case has them.
    pure function values_text(self) result(text)

@@ -2,8 +2,8 @@
 module study_parameters
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
-   use text, only: to_text, lower_case, replaced
-   use assignments, only: assignment_type, token_type, target_text, read_number
+   use text, only: to_text, replaced
+   use assignments, only: assignment_type, token_type, target_text
    use case_inputs, only: case_type
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables
@@ -170,7 +170,6 @@ contains
       logical, intent(in) :: again
       type(hdf5_rows_type) :: column
       real(wp) :: values(1, most_rows), nan
-      type(token_type) :: token
       integer :: from, n, k
       logical :: ok
       nan = ieee_value(nan, ieee_quiet_nan)
@@ -184,8 +183,7 @@ contains
       do from = first, last, most_rows
          n = min(most_rows, last - from + 1)
          do k = 1, n
-            call study%value(i, from + k - 1, token)
-            call read_number(lower_case(token%text), values(1, k), ok)
+            call study%number(i, from + k - 1, values(1, k), ok)
             if (.not. ok) values(1, k) = nan
          end do
          call column%write(file, from, values(:, :n))

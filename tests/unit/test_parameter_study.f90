@@ -1,8 +1,8 @@
 !> Parameter studies: the values of a variable, single ones as they stand and ranges to the last bit; how many runs,
 !> which values in which order; what is refused.
 program test_parameter_study
-   use kinds, only: wp
-   use text, only: to_text, exact_text
+   use kinds, only: wp, i8
+   use text, only: to_text, exact_text, checksum
    use errors, only: error_type, input_error
    use assignments, only: token_type
    use varied_values, only: varied_values_type, read_varied_values
@@ -26,6 +26,8 @@ program test_parameter_study
    if (runs('no_study')) call no_study()
    if (runs('product_order')) call product_order()
    if (runs('zip_order')) call zip_order()
+   if (runs('marks')) call marks()
+   if (runs('numbers')) call numbers()
    if (runs('in_place_of_the_case')) call in_place_of_the_case()
    if (runs('overrides')) call overrides()
    if (runs('resolved_again')) call resolved_again()
@@ -277,6 +279,52 @@ contains
       study = study_of('&sweep order = ''product'', rotor%mass = 1:3:1, rotor%unbalance = 0.1, 0.2 /')
       call expect(study%runs == 6, 'the product in words')
    end subroutine zip_order
+
+   !> The checksum up to each run is that of the base and of the lines of all runs so far, whichever value changes when.
+   subroutine marks()
+      character(len=*), parameter :: of(*) = [character(len=120) :: &
+         & '&sweep rotor%mass = 1:3:1 operation%speed_rpm = 1e3, 2e3:4e3:*1.1 friction%model = ''none'', lugre /', &
+         & '&sweep order=''zip'' rotor%mass = 1:3:0.7 friction%model = lugre, lugre, none rotor%gravity = 5, 6, 7 /', &
+         & '&sweep rotor%mass = 1 /']
+      type(study_type) :: study
+      type(run_tag) :: tag
+      character(len=:), allocatable :: found
+      integer(i8) :: expected
+      integer :: i, k
+      do i = 1, size(of)
+         study = study_of(trim(of(i)))
+         call study%mark('base')
+         expected = checksum('base', 0_i8)
+         do k = 1, study%runs
+            call study%tag(k, tag)
+            found = tag%marks(:index(tag%marks, ' ', back=.true.) - 1)
+            call expect(found == to_text(expected)//' '//to_text(checksum(tag%study//newline, expected)), &
+               & 'run '//to_text(k)//' of '//trim(of(i)))
+            expected = checksum(tag%study//newline, expected)
+         end do
+      end do
+   end subroutine marks
+
+   !> The number of a value is that of its text; a word has none.
+   subroutine numbers()
+      type(study_type) :: study
+      type(token_type) :: token
+      real(wp) :: x, y
+      logical :: ok
+      integer :: i, k
+      study = study_of('&sweep rotor%mass = 0.1:3:0.7, 1d2 operation%speed_rpm = 1e3, 2e3:4e3:*1.1 ' &
+         & //'friction%model = ''none'', lugre /')
+      do k = 1, study%runs
+         do i = 1, 2
+            call study%number(i, k, x, ok)
+            call study%value(i, k, token)
+            read (token%text, *) y
+            call expect(ok .and. abs(x - y) <= 0, token%text)
+         end do
+         call study%number(3, k, x, ok)
+         call expect(.not. ok, 'a word')
+      end do
+   end subroutine numbers
 
    !> A varied value stands in place of the case's, be that good or bad, and elements in place of elements.
    subroutine in_place_of_the_case()

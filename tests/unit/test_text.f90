@@ -12,6 +12,7 @@ program test_text
    if (runs('short_reals')) call short_reals()
    if (runs('short_reals_are_close')) call short_reals_are_close()
    if (runs('exact_round_trip')) call exact_round_trip()
+   if (runs('exact_is_short')) call exact_is_short()
    if (runs('exact_special_values')) call exact_special_values()
    if (runs('words')) call words()
    if (runs('characters')) call characters()
@@ -113,6 +114,33 @@ contains
       call expect(wrong == 0, 'exact_text loses bits of '//to_text(wrong)//' numbers')
       call expect(too_long == 0, 'exact_text has more than seventeen digits, sign and exponent')
    end subroutine exact_round_trip
+
+   !> A number of up to fifteen digits, with any exponent, has these and no others.
+   subroutine exact_is_short()
+      character(len=:), allocatable :: text
+      real(wp) :: u(3)
+      integer :: i
+      integer(i8) :: digits
+      do i = 1, 2000
+         call random_number(u)
+         digits = max(1_i8, int(u(1)*10.0_wp**(1 + int(15*u(2))), i8))
+         text = to_text(digits)//'e'//to_text(int(580*u(3)) - 290)
+         ! in either way of writing it, zeros and the point aside
+         call expect(digits_of(exact_text(value_of(text))) == digits_of(text), text)
+      end do
+   end subroutine exact_is_short
+
+   !> The significant digits, without zeros at both ends.
+   function digits_of(text) result(digits)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: digits
+      integer :: i
+      digits = ''
+      do i = 1, index(text//'e', 'e') - 1
+         if (text(i:i) /= '.') digits = digits//text(i:i)
+      end do
+      digits = digits(verify(digits, '0'):verify(digits, '0', back=.true.))
+   end function digits_of
 
    subroutine exact_special_values()
       real(wp), parameter :: values(*) = [0.0_wp, -0.0_wp, 1.0_wp, 0.1_wp, 1.0_wp/3, 15e-6_wp, &
