@@ -46,6 +46,8 @@ contains
       matrix = new_bordered_matrix(m, blocks)
       call random_number(matrix%corner)
       do g = 1, size(m)
+         call random_number(matrix%groups(g)%across)
+         call random_number(matrix%groups(g)%down)
          call random_number(matrix%groups(g)%block)
       end do
       if (size(m) > 1) then
@@ -76,7 +78,7 @@ contains
       real(wp) :: b(4*groups)
       logical :: ok
       matrix = new_bordered_matrix(spread(2, 1, groups), spread(1, 1, groups))
-      matrix%groups(groups)%block(3, 3, 1) = 2
+      matrix%groups(groups)%block(1, 1, 1) = 2
       b = 1
       call matrix%solve(0.5_wp, b, ok)
       call expect(.not. ok, 'a singular block is refused')
@@ -102,9 +104,9 @@ contains
          associate (group => self%groups(g))
             m = group%m
             do i = 1, size(group%block, 3)
-               matrix(at, o + 1:o + m) = group%block(:2, 3:2 + m, i)
-               matrix(o + 1:o + m, at) = group%block(3:2 + m, :2, i)
-               matrix(o + 1:o + m, o + 1:o + m) = group%block(3:2 + m, 3:2 + m, i)
+               matrix(at, o + 1:o + m) = group%across(:, :, i)
+               matrix(o + 1:o + m, at) = group%down(:, :, i)
+               matrix(o + 1:o + m, o + 1:o + m) = group%block(:, :, i)
                o = o + m
             end do
          end associate
