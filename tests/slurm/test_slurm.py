@@ -289,7 +289,8 @@ def test_every_command_of_the_page_does_what_it_says(cluster, root, folder):
     assert jobs
     said = {path.name: path.read_text()[-300:] for path in folder.glob("slurm-*.out")}
     assert [line.split()[0] for line in jobs if "JobState=COMPLETED" not in line] == [], said
-    for name in ("steady_lugre.h5", "sweep.h5", "sweep-study.png", "work.png", "0005-orbit.png"):
+    files = ("steady_lugre.h5", "sweep.h5", "short.h5", "sweep-study.png", "work.png", "0005-orbit.png")
+    for name in files:
         assert (folder / name).exists(), name
 
 
