@@ -2,7 +2,8 @@
 !> input into types.
 module factories
    use kinds, only: wp, degree
-   use case_inputs, only: case_type, is_set
+   use case_groups, only: is_set
+   use case_inputs, only: case_type
    use pad_gap, only: pad_gap_type
    use film_solver, only: film_solver_type, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use fourier_film, only: new_fourier_film

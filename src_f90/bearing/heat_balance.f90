@@ -9,7 +9,8 @@ module heat_balance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, degree
    use linear_algebra, only: dgesv
-   use case_inputs, only: case_type, oil_type, is_set
+   use case_groups, only: oil_type, is_set
+   use case_inputs, only: case_type
    use oil_properties, only: viscosity, viscosity_slope
    use bearing_losses, only: pad_loss
    implicit none (type, external)

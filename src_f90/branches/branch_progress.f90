@@ -3,7 +3,7 @@ module branch_progress
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, add_context, numerics_error, stopped
-   use case_inputs, only: branch_type
+   use case_groups, only: branch_type
    use case_parameter, only: case_parameter_type, find_parameter
    use equations_of_motion, only: machine_model
    use static_model, only: make_fine, make_static

@@ -3,7 +3,8 @@ module case_checks
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, require, refuse
-   use case_inputs, only: case_type, clearance_range, is_set
+   use case_groups, only: clearance_range, is_set
+   use case_inputs, only: case_type
    implicit none (type, external)
    private
    public :: check_case

@@ -4,8 +4,9 @@ module case_completion
    use kinds, only: wp, degree
    use text, only: to_text, list_text
    use errors, only: error_type, raise, require, refuse, input_error
-   use case_inputs, only: case_type, bearing_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
+   use case_groups, only: bearing_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
       & clearance_range, temperature_range, viscosity_range
+   use case_inputs, only: case_type
    use oil_properties, only: reference_viscosity, density, grades
    implicit none (type, external)
    private

@@ -5,7 +5,8 @@
 !> constant:     bearing%viscosity, whatever the temperature.
 module oil_properties
    use kinds, only: wp
-   use case_inputs, only: case_type, oil_type, temperature_range, is_set
+   use case_groups, only: oil_type, temperature_range, is_set
+   use case_inputs, only: case_type
    implicit none (type, external)
    private
    public :: viscosity, viscosity_slope, density, reference_viscosity, kinematic_points, grades

@@ -6,7 +6,7 @@ module assigned_values
    use text, only: to_text, lower_case, shortened, replaced, whole_number, is_utf8
    use errors, only: error_type, raise, input_error
    use assignments, only: assignment_type, token_type, assignment_text, study_group, is_special, read_number
-   use case_inputs, only: unset
+   use case_groups, only: unset
    use variable_table, only: variable_type
    use variable_names, only: meant_word
    implicit none (type, external)

@@ -2,8 +2,9 @@
 module case_fields
    use kinds, only: wp
    use variable_table, only: variable_table_type
-   use case_inputs, only: case_type, max_pads, most_ratios, mass_range, inertia_range, centre_range, &
-      & temperature_range, viscosity_range
+   use case_groups, only: max_pads, most_ratios, mass_range, inertia_range, centre_range, temperature_range, &
+      & viscosity_range
+   use case_inputs, only: case_type
    implicit none (type, external)
    private
    public :: list_variables, put_variables, title_variable, checkpoint_variable, pads_variable

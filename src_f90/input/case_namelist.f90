@@ -3,7 +3,8 @@ module case_namelist
    use kinds, only: wp
    use text, only: to_text, shortened
    use errors, only: error_type, raise, require, add_context, input_error
-   use case_inputs, only: case_type, max_pads
+   use case_groups, only: max_pads
+   use case_inputs, only: case_type
    use case_checks, only: check_case
    use case_completion, only: leave_out, complete_case
    use variable_table, only: variable_type, variable_table_type

@@ -4,7 +4,8 @@ module case_parameter
    use kinds, only: wp
    use text, only: to_text, lower_case
    use errors, only: error_type, raise, require, input_error
-   use case_inputs, only: case_type, is_set
+   use case_groups, only: is_set
+   use case_inputs, only: case_type
    use case_checks, only: check_case
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables, put_variables

@@ -3,7 +3,8 @@ module checked_case
    use kinds, only: wp
    use text, only: to_text, fixed_text
    use errors, only: error_type
-   use case_inputs, only: case_type, is_set
+   use case_groups, only: is_set
+   use case_inputs, only: case_type
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
    use result_size, only: result_bytes, sample_count
    use oil_properties, only: viscosity, kinematic_points

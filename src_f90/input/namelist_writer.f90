@@ -1,7 +1,8 @@
 !> The variables of a case as text: namelist text that reads back to the same bits, and the input reference.
 module namelist_writer
    use text, only: to_text, exact_text
-   use case_inputs, only: case_type, is_set, unset
+   use case_groups, only: is_set, unset
+   use case_inputs, only: case_type
    use assignments, only: token_type, value_text
    use variable_table, only: variable_type, variable_table_type, logical_words
    use case_fields, only: list_variables

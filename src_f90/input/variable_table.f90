@@ -3,7 +3,7 @@
 module variable_table
    use kinds, only: wp
    use text, only: to_text
-   use case_inputs, only: is_set
+   use case_groups, only: is_set
    implicit none (type, external)
    private
    public :: variable_type, variable_table_type, logical_words

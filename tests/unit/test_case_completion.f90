@@ -2,7 +2,8 @@
 !> result.
 program test_case_completion
    use kinds, only: wp, degree
-   use case_inputs, only: case_type, is_set
+   use case_groups, only: is_set
+   use case_inputs, only: case_type
    use input_cases, only: case_of, expect_refused
    use case_completion, only: annular_sector_type, new_annular_sector
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number

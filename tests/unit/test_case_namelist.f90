@@ -3,7 +3,8 @@ program test_case_namelist
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_overflow
    use kinds, only: wp, i8
    use errors, only: error_type, input_error
-   use case_inputs, only: case_type, is_set
+   use case_groups, only: is_set
+   use case_inputs, only: case_type
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables, put_variables
    use assignments, only: namelist_type

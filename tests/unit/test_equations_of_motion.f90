@@ -2,7 +2,8 @@
 program test_equations_of_motion
    use kinds, only: wp
    use text, only: to_text
-   use case_inputs, only: case_type, unset
+   use case_groups, only: unset
+   use case_inputs, only: case_type
    use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
    use operating_point, only: operating_point_type

@@ -1,7 +1,8 @@
 !> Viscosity of oils over the temperature, and over a march.
 program test_oil_properties
    use kinds, only: wp
-   use case_inputs, only: case_type, oil_type, temperature_range, is_set
+   use case_groups, only: oil_type, temperature_range, is_set
+   use case_inputs, only: case_type
    use input_cases, only: case_of, expect_refused
    use namelist_writer, only: namelist_of
    use oil_properties, only: viscosity, viscosity_slope, density, reference_viscosity, kinematic_points, grades

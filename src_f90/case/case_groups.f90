@@ -1,0 +1,197 @@
+!> One derived type for each namelist group of a case. The defaults are Tables 1 and 2 of Dyk et al. 2023, so a default
+!> case is the paper's bearing. SI units unless a name says otherwise. What each variable means, and which words a text
+!> may be, stands in the list of variables, case_fields.
+module case_groups
+   use kinds, only: wp
+   implicit none (type, external)
+   private
+   public :: max_pads, most_ratios, unset, is_set
+   public :: mass_range, inertia_range, centre_range, temperature_range, viscosity_range, clearance_range
+   public :: about_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, pads_type, pivot_type, &
+      & friction_type, asperity_type, start_type, film_type, integration_type, output_type, coefficients_type, &
+      & periodic_type, branch_type
+
+   !> Most pads of a bearing.
+   integer, parameter :: max_pads = 24
+   !> Most whirl frequencies of an analysis.
+   integer, parameter :: most_ratios = 1000
+   !> A number that is not set: what it stands for follows from others, or there is none of it.
+   real(wp), parameter :: unset = -huge(1.0_wp)
+   !> What the input allows of the pads, kg, kg m^2 and m: their masses may follow from other variables.
+   real(wp), parameter :: mass_range(2) = [1e-9_wp, 1e9_wp], inertia_range(2) = [1e-15_wp, 1e12_wp]
+   real(wp), parameter :: centre_range(2) = [-100.0_wp, 100.0_wp]
+   !> What it allows of the pad clearance, over the journal's radius.
+   real(wp), parameter :: clearance_range(2) = [1e-5_wp, 0.05_wp]
+   !> What it allows of temperatures, C, and of the oil's viscosity, Pa s.
+   real(wp), parameter :: temperature_range(2) = [-100.0_wp, 500.0_wp], viscosity_range(2) = [1e-6_wp, 10.0_wp]
+
+   type :: about_type
+      character(len=:), allocatable :: title
+      character(len=:), allocatable :: task
+   end type about_type
+
+   type :: rotor_type
+      !> Mass carried by the bearing, kg; unbalance, kg m.
+      real(wp) :: mass = 2000, unbalance = 0.010_wp
+      !> ISO 21940-11 grade, mm/s, that replaces the unbalance; its speed (unset: the highest of the run).
+      real(wp) :: balance_grade = unset, balance_speed_rpm = unset
+      real(wp) :: gravity = 9.81_wp
+      !> Extra force on the journal along y and z, N.
+      real(wp) :: static_load(2) = 0
+   end type rotor_type
+
+   type :: operation_type
+      !> Speed at the start and at the end (linear in between; set in a complete case), and how long, s.
+      real(wp) :: speed_rpm = 6500, final_speed_rpm = unset, duration = 2
+   end type operation_type
+
+   type :: bearing_type
+      real(wp) :: journal_radius = 49.9e-3_wp, machined_clearance = 100e-6_wp
+      real(wp) :: assembled_clearance = 80e-6_wp, axial_length = 100e-3_wp
+      !> 1 - assembled over pad clearance where it is given instead of the latter; unset in a complete case.
+      real(wp) :: preload = unset
+      !> Of the oil, where its law is 'constant'; else unset in a complete case.
+      real(wp) :: viscosity = 19e-3_wp
+      real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
+   end type bearing_type
+
+   !> The oil; temperatures in C.
+   type :: oil_type
+      character(len=:), allocatable :: law
+      !> Walther: an ISO viscosity grade, or the kinematic viscosities at two temperatures, m^2/s; density at
+      !> 15 C, kg/m^3 (unset: `density`), and its slope, kg/(m^3 K), which make them dynamic ones.
+      real(wp) :: grade = unset
+      real(wp) :: kinematic_viscosity(2) = unset, at_temperature(2) = [40.0_wp, 100.0_wp]
+      real(wp) :: density_at_15 = unset, density_slope = 0
+      !> Exponential: Pa s at a temperature; 1/K.
+      real(wp) :: reference_viscosity = unset, reference_temperature = 40, temperature_exponent = unset
+      !> Of the heat balance: kg/m^3, J/(kg K), W/(m K).
+      real(wp) :: density = 860, specific_heat = 1950, conductivity = 0.13_wp
+      real(wp) :: supply_temperature = 40
+      !> Part of a pad's outflow that enters the next pad, where the gap between them is not wider than this.
+      real(wp) :: carry_over = 0.8_wp, widest_gap_deg = 60
+      !> Nusselt number of the exchange with the shaft; its temperature (unset: it takes no net heat).
+      real(wp) :: shaft_nusselt = 3, shaft_temperature = unset
+      !> Oil between two pads, m^3.
+      real(wp) :: groove_volume = 0
+   end type oil_type
+
+   !> The heat balance.
+   type :: thermal_type
+      character(len=:), allocatable :: model
+      character(len=:), allocatable :: march
+   end type thermal_type
+
+   !> One value a pad.
+   type :: pads_type
+      real(wp), allocatable :: pivot_angle_deg(:), arc_deg(:), pivot_ratio(:), pivot_distance(:)
+      real(wp), allocatable :: mass(:), inertia(:), centre_tangential(:), centre_radial(:)
+      !> What the four above follow from where they are left out; unset in a complete case. Fixed pads may leave out
+      !> all six: then they stay unset.
+      real(wp), allocatable :: density(:), thickness(:)
+      character(len=:), allocatable :: motion
+   end type pads_type
+
+   type :: pivot_type
+      character(len=:), allocatable :: law
+      real(wp) :: socket_radius = 13e-3_wp, radius_difference = 15e-6_wp
+      !> Of ball and socket.
+      real(wp) :: young_modulus(2) = 2.1e11_wp, poisson_ratio(2) = 0.3_wp
+      real(wp) :: deflection_factor = 4
+   end type pivot_type
+
+   type :: friction_type
+      character(len=:), allocatable :: model
+      real(wp) :: static_coefficient = 0.1_wp, dynamic_coefficient = 0.05_wp
+      real(wp) :: critical_velocity = 1e-5_wp, decay = 1000
+      real(wp) :: stribeck_velocity = 1e-3_wp, stribeck_exponent = 1
+      !> Bristle damping unset: eq (28).
+      real(wp) :: bristle_stiffness = 1e6_wp, bristle_damping = unset, viscous_coefficient = 0
+      real(wp) :: characteristic_load = 1e4_wp
+   end type friction_type
+
+   type :: asperity_type
+      character(len=:), allocatable :: model
+      !> Combined rms roughness sigma of pad and journal, m; composite modulus E' of steel on white metal, Pa; K'.
+      real(wp) :: roughness = 0.5e-6_wp, elastic_modulus = 4.7e10_wp, factor = 3e-3_wp
+      real(wp) :: friction_coefficient = 0.1_wp
+   end type asperity_type
+
+   type :: start_type
+      character(len=:), allocatable :: from
+      !> The result that a start from a file continues.
+      character(len=:), allocatable :: file
+      !> What is added: journal, m, m/s; per pad tilt, rad, pivot deflection, m, and their rates.
+      real(wp) :: journal(2) = 0, journal_velocity(2) = 0
+      real(wp), allocatable :: pad_tilt(:), pad_tilt_rate(:), pivot_deflection(:), pivot_deflection_rate(:)
+   end type start_type
+
+   type :: film_type
+      character(len=:), allocatable :: solver
+      !> Cells along the arc and, on finite volumes, along half the width; modes. 0: the solver's own number.
+      integer :: circumferential_cells = 0, axial_cells = 0, axial_modes = 0
+      !> Of an iterative solution: relaxation factor, 0: the grid's optimum; residual at which it ends; most SOR sweeps.
+      real(wp) :: relaxation = 0, tolerance = 1e-6_wp
+      integer :: max_sweeps = 5000
+      !> Of forces from tables over that of a film that is just whole; 0: by the march's tolerance.
+      real(wp) :: table_tolerance = 0
+      character(len=:), allocatable :: cavitation
+   end type film_type
+
+   type :: integration_type
+      real(wp) :: relative_tolerance = 1e-5_wp, tolerance_scale = 1
+      !> 0: no limit.
+      real(wp) :: max_step = 0
+      integer :: max_steps = 100000000
+      !> > 0: the march ends once journal and tilts repeat within this part of the clearance.
+      real(wp) :: stop_when_periodic = 0
+   end type integration_type
+
+   type :: output_type
+      integer :: samples_per_revolution = 360
+      real(wp) :: start_time = 0
+      !> Revolutions at the end of the run that the spectra are taken over.
+      integer :: spectrum_revolutions = 50
+      !> Wall time between checkpoints, s; 0: only when a signal asks for the end.
+      real(wp) :: checkpoint_seconds = 300
+      !> Which samples stay in the results.
+      character(len=:), allocatable :: keep
+   end type output_type
+
+   type :: coefficients_type
+      !> Whirl frequencies over the speed of the shaft.
+      real(wp), allocatable :: frequency_ratio(:)
+      !> > 0: up to where the threshold speed of stability is sought.
+      real(wp) :: threshold_up_to_rpm = 0
+      !> Q at the journal, N/m: what whirls forward is driven by Q times its displacement, across it.
+      real(wp) :: cross_stiffness = 0
+   end type coefficients_type
+
+   type :: periodic_type
+      !> Turns of the shaft in a period.
+      integer :: revolutions = 1
+      !> How far from the orbit Newton's method may end, over the characteristic scale of each state; most rounds.
+      real(wp) :: tolerance = 1e-8_wp
+      integer :: max_iterations = 30
+   end type periodic_type
+
+   type :: branch_type
+      character(len=:), allocatable :: of
+      character(len=:), allocatable :: parameter
+      !> Its value at the end; its first change; its largest change in a step, 0: ten times the first. Unset where they
+      !> are left out.
+      real(wp) :: last = unset, step = unset, max_step = 0
+      !> Most points of a branch.
+      integer :: max_points = 500
+      !> Whether the branch of double period is followed where one begins.
+      logical :: switch = .true.
+   end type branch_type
+
+contains
+
+   !> False for a number that is left out.
+   elemental logical function is_set(x)
+      real(wp), intent(in) :: x
+      is_set = x > unset
+   end function is_set
+end module case_groups
