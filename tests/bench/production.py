@@ -64,14 +64,14 @@ def runs(runner: Runner) -> Iterator[Row]:
     folder = runner.folder / "runs"
     folder.mkdir()
     for duration in (SHORT, LONG):
-        times = [timed(runner, folder, CASE.format(duration=duration)) for _ in range(REPEATS)]
+        times = [timed(runner, folder / "case.nml", CASE.format(duration=duration)) for _ in range(REPEATS)]
         yield Row(runner.part, "one", STUDY, f"{duration:g}", wall_seconds=min(times), rotor_seconds=duration)
     text = CASE.format(duration=SHORT) + VARIED.format(last=1e-5 * RUNS)
     for setting in ("all", "again"):
-        yield Row(runner.part, "sweep", STUDY, setting, wall_seconds=timed(runner, folder, text))
+        yield Row(runner.part, "sweep", STUDY, setting, wall_seconds=timed(runner, folder / "study.nml", text))
     collect = Path(sys.executable).with_name("tiltpad-collect")
     started = time.perf_counter()
-    done = subprocess.run([collect, "case", "-o", "study.h5"], cwd=folder, text=True, capture_output=True)
+    done = subprocess.run([collect, "study", "-o", "collected.h5"], cwd=folder, text=True, capture_output=True)
     seconds = time.perf_counter() - started
     if done.returncode:
         raise RuntimeError(done.stderr)
@@ -79,12 +79,12 @@ def runs(runner: Runner) -> Iterator[Row]:
     shutil.rmtree(folder)
 
 
-def timed(runner: Runner, folder: Path, text: str) -> float:
+def timed(runner: Runner, case: Path, text: str) -> float:
     """Wall seconds of a case, on all cores; a study goes on from what it has, a run starts anew."""
     if "&sweep" not in text:
-        (folder / "case.h5").unlink(missing_ok=True)
-    (folder / "case.nml").write_text(text)
+        case.with_suffix(".h5").unlink(missing_ok=True)
+    case.write_text(text)
     os.sync()
     started = time.perf_counter()
-    subprocess.run([runner.program, "--quiet", "case.nml"], cwd=folder, check=True)
+    subprocess.run([runner.program, "--quiet", case.name], cwd=case.parent, check=True)
     return time.perf_counter() - started

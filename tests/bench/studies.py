@@ -69,7 +69,7 @@ def samples(runner: Runner, folder: Path) -> Iterator[Row]:
         case = folder / f"{runs}.nml"
         case.write_text("&case task='equilibrium' /\n")
         table_of_runs = tiltpad.sample(case, SAMPLED, runs, file=folder / f"{runs}.csv")
-        case.write_text(f"&case task='equilibrium' /\n&sweep file='{table_of_runs}' /\n")
+        case.write_text(f"&case task='equilibrium' /\n&sweep file='{Path(table_of_runs).name}' /\n")
         done = launch([runner.program, case, "--quiet", "--output", folder / f"{runs}"], None)
         yield row_of(runner, SAMPLES, f"{runs}", done, runs)
 
