@@ -85,7 +85,7 @@ WORDS = {
     ),
     "case": (r"\b\w*scenes?(?:\b|_\w+)", ""),
     "run (of a study)": (r"\bmembers?(?:\b|_\w+)", r"h5gn_members|--member|CFI_cdesc_t|members\.csv"),
-    "axial Fourier expansion": (r"\bmodal(?:\b|_\w+)", r"modal assurance"),
+    "axial Fourier expansion": (r"\bmodal(?:\b|_\w+)", r"modal[ _](?:assurance|mass|stiffness|damping)"),
     "bearing clearance c_b": (r"\bassembled clearance\b", r"bearing clearance"),
     "pad clearance c_p": (r"\bmachined clearance\b", r"pad clearance"),
     "pivot offset": (r"\bpivot ratio\b", ""),

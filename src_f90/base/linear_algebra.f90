@@ -3,7 +3,8 @@ module linear_algebra
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv, zgesv, dstev, find_eigenvalues, largest_first, solve_2x2, simd_width, padded, apply
+   public :: dgesv, zgesv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, solve_2x2, simd_width, &
+      & padded, apply
 
    !> Rows are filled up to a multiple of this, so that loops over them have no remainder.
    integer, parameter :: simd_width = 8
@@ -45,6 +46,37 @@ module linear_algebra
          real(wp), intent(out) :: z(ldz, *), work(*)
          integer, intent(out) :: info
       end subroutine dstev
+
+      !> Cholesky's factor, upper (uplo 'U') or lower ('L'), of a symmetric matrix; `info` /= 0: it is not positive
+      !> definite.
+      subroutine dpotrf(uplo, n, a, lda, info)
+         import :: wp
+         character(len=1), intent(in) :: uplo
+         integer, intent(in) :: n, lda
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: info
+      end subroutine dpotrf
+
+      !> Solves a x = b with this factor of a.
+      subroutine dpotrs(uplo, n, nrhs, a, lda, b, ldb, info)
+         import :: wp
+         character(len=1), intent(in) :: uplo
+         integer, intent(in) :: n, nrhs, lda, ldb
+         real(wp), intent(in) :: a(lda, *)
+         real(wp), intent(inout) :: b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dpotrs
+
+      !> Eigenvalues w, the smallest first, and eigenvectors (in a, x^T b x = 1) of a x = w b x (itype 1), a symmetric,
+      !> b positive definite; `info` /= 0: b is not, or it does not converge.
+      subroutine dsygv(itype, jobz, uplo, n, a, lda, b, ldb, w, work, lwork, info)
+         import :: wp
+         integer, intent(in) :: itype, n, lda, ldb, lwork
+         character(len=1), intent(in) :: jobz, uplo
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         real(wp), intent(out) :: w(*), work(*)
+         integer, intent(out) :: info
+      end subroutine dsygv
    end interface
 
 contains

@@ -1,0 +1,124 @@
+!> How many fixed-interface modes a rotor keeps, and what the others and the damping of the high ones cost.
+module mode_selection
+   use kinds, only: wp, pi
+   use case_groups, only: is_set
+   use machine_groups, only: machine_type
+   use rotor_component, only: rotor_component_type
+   use fixed_interface, only: fixed_interface_type
+   use reduction_error, only: response_problem_type, amplitudes, amplitude_error
+   implicit none (type, external)
+   private
+   public :: mode_selection_type, select_modes, mode_damping
+
+   !> Modes kept in a plane, and relative errors of amplitudes at the highest speed: of leaving out the others, and of
+   !> damping those above `reduction%damp_above`.
+   type :: mode_selection_type
+      integer :: modes = 0
+      real(wp) :: truncation_error = 0, damping_error = 0
+   end type mode_selection_type
+
+   !> The modes are chosen for this error of amplitudes, and include all below this multiple of the highest speed.
+   real(wp), parameter :: target_error = 5e-4_wp, lowest_frequency = 3
+   !> Amplitudes are compared in a vibration that grows so fast, relative to its frequency: as with this damping ratio.
+   real(wp), parameter :: growth = 0.05_wp
+
+contains
+
+   !> Chooses the modes for a highest speed, rad/s: by `reduction%frequency`, or else by the error of amplitudes.
+   subroutine select_modes(machine, component, fixed, border, highest_speed, selection)
+      type(machine_type), intent(in) :: machine
+      type(rotor_component_type), intent(in) :: component
+      type(fixed_interface_type), intent(in) :: fixed
+      !> Displacements of the journals.
+      integer, intent(in) :: border(:)
+      real(wp), intent(in) :: highest_speed
+      type(mode_selection_type), intent(out) :: selection
+      type(response_problem_type) :: whole, reduced
+      complex(wp), allocatable :: exact(:, :), found(:, :)
+      complex(wp) :: rate
+      integer :: n
+      rate = highest_speed*cmplx(growth, 1.0_wp, wp)
+      whole = response_problem(machine, component, fixed, border, highest_speed, rate)
+      exact = amplitudes(whole, size(whole%stiffness, 1))
+      reduced = whole%reduced(fixed%basis(size(fixed%frequency)))
+      if (is_set(machine%reduction%frequency)) then
+         selection%modes = count(fixed%frequency <= 2*pi*machine%reduction%frequency)
+      else
+         selection%modes = count(fixed%frequency <= lowest_frequency*highest_speed)
+      end if
+      do
+         n = size(border) + fixed%planes*selection%modes
+         found = amplitudes(reduced, n)
+         selection%truncation_error = amplitude_error(found, exact)
+         if (is_set(machine%reduction%frequency) .or. selection%modes == size(fixed%frequency) &
+            & .or. selection%truncation_error <= target_error) exit
+         selection%modes = selection%modes + 1
+      end do
+      call add_damping(machine, fixed, selection%modes, rate, reduced)
+      selection%damping_error = amplitude_error(amplitudes(reduced, n), found)
+   end subroutine select_modes
+
+   !> Vibration q exp(rate*t) of a rotor at a speed, rad/s: the loads are its mass along y, as of an even eccentricity,
+   !> and forces at the unbalances. Its bearings are springs and dampers that resist the journals as much as
+   !> the rotor itself, where both matter most.
+   function response_problem(machine, component, fixed, border, speed, rate) result(problem)
+      type(machine_type), intent(in) :: machine
+      type(rotor_component_type), intent(in) :: component
+      type(fixed_interface_type), intent(in) :: fixed
+      integer, intent(in) :: border(:)
+      real(wp), intent(in) :: speed
+      complex(wp), intent(in) :: rate
+      type(response_problem_type) :: problem
+      real(wp), allocatable :: static(:, :)
+      integer, allocatable :: rows(:)
+      integer :: i
+      associate (c => component)
+         problem%stiffness = rate**2*c%mass + rate*(c%damping + speed*c%gyroscopic) + c%stiffness
+         problem%observed = c%station
+         rows = [2*machine%unbalances%station - 1, 2*machine%unbalances%station]
+         allocate (problem%loads(size(c%mass, 1), 1 + size(rows)))
+         problem%loads(:, 1) = c%weighed
+         problem%loads(:, 2:) = transpose(c%station(rows, :))
+         static = fixed%basis(0)
+         problem%journals = border
+         problem%bearings = [(cmplx(1.0_wp, 1.0_wp, wp)*(quadratic(c%stiffness, static(:, i)) &
+            & + abs(rate)**2*quadratic(c%mass, static(:, i))), i=1, size(border))]
+      end associate
+   end function response_problem
+
+   pure real(wp) function quadratic(matrix, x)
+      real(wp), intent(in) :: matrix(:, :), x(:)
+      quadratic = dot_product(x, matmul(matrix, x))
+   end function quadratic
+
+   !> Adds the damping of the high modes to a reduced problem.
+   pure subroutine add_damping(machine, fixed, modes, rate, reduced)
+      type(machine_type), intent(in) :: machine
+      type(fixed_interface_type), intent(in) :: fixed
+      integer, intent(in) :: modes
+      complex(wp), intent(in) :: rate
+      type(response_problem_type), intent(inout) :: reduced
+      real(wp) :: damping(modes)
+      integer :: i, at, p
+      damping = mode_damping(machine, fixed, modes)
+      at = size(reduced%journals)
+      do i = 1, modes
+         do p = 1, fixed%planes
+            at = at + 1
+            reduced%stiffness(at, at) = reduced%stiffness(at, at) + rate*damping(i)
+         end do
+      end do
+   end subroutine add_damping
+
+   !> Damping of the first modes, of modal mass 1, 1/s: those above `reduction%damp_above` have a damping ratio. Without
+   !> damping they hold up an integrator of high order.
+   pure function mode_damping(machine, fixed, modes) result(damping)
+      type(machine_type), intent(in) :: machine
+      type(fixed_interface_type), intent(in) :: fixed
+      integer, intent(in) :: modes
+      real(wp) :: damping(modes)
+      associate (frequency => fixed%frequency(:modes), r => machine%reduction)
+         damping = merge(2*r%damping_ratio*frequency, 0.0_wp, frequency > 2*pi*r%damp_above)
+      end associate
+   end function mode_damping
+end module mode_selection

@@ -1,0 +1,69 @@
+!> The rotor of a machine on its journals: shaft, discs and supports, reduced to few displacements.
+module shaft_in_bearings
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use text, only: list_text
+   use errors, only: error_type, input_error, raise
+   use machine_groups, only: machine_type
+   use rotor_component, only: rotor_component_type, shaft_component
+   use fixed_interface, only: fixed_interface_type, find_fixed_interface
+   use mode_selection, only: mode_selection_type, select_modes
+   use rotor_matrices, only: rotor_matrices_type, reduced_rotor
+   implicit none (type, external)
+   private
+   public :: find_rotor
+
+contains
+
+   !> The equations of a machine's rotor, under gravity, m/s^2, for runs up to a speed, rad/s.
+   subroutine find_rotor(machine, gravity, highest_speed, matrices, error, modes)
+      type(machine_type), intent(in) :: machine
+      real(wp), intent(in) :: gravity, highest_speed
+      type(rotor_matrices_type), intent(out) :: matrices
+      type(error_type), allocatable, intent(out) :: error
+      !> Modes with the journals held that are kept, in a plane of a shaft; left out, they are chosen.
+      integer, intent(in), optional :: modes
+      type(rotor_component_type) :: component
+      type(fixed_interface_type) :: fixed
+      type(mode_selection_type) :: selection
+      integer, allocatable :: border(:)
+      logical :: held
+      component = shaft_component(machine)
+      call check_numbers(component, error)
+      if (allocated(error)) return
+      border = journal_displacements(machine, component)
+      call find_fixed_interface(component, border, fixed, held)
+      if (.not. held) call raise(error, input_error, 'machine: its bearings (at the stations ' &
+         & //list_text(real(machine%bearings%station, wp))//') do not hold the shaft: it needs two at different ' &
+         & //'stations, and sections with stiffness between them')
+      if (allocated(error)) return
+      if (present(modes)) then
+         selection%modes = min(modes, size(fixed%frequency))
+      else
+         call select_modes(machine, component, fixed, border, highest_speed, selection)
+      end if
+      matrices = reduced_rotor(machine, component, fixed, selection%modes, gravity)
+      matrices%truncation_error = selection%truncation_error
+      matrices%damping_error = selection%damping_error
+   end subroutine find_rotor
+
+   !> Displacements y and z of each journal among those of the rotor.
+   pure function journal_displacements(machine, component) result(border)
+      type(machine_type), intent(in) :: machine
+      type(rotor_component_type), intent(in) :: component
+      integer :: border(2*size(machine%bearings)), b, p
+      do b = 1, size(machine%bearings)
+         do p = 1, 2
+            border(2*(b - 1) + p) = maxloc(component%station(2*(machine%bearings(b)%station - 1) + p, :), dim=1)
+         end do
+      end do
+   end function journal_displacements
+
+   subroutine check_numbers(component, error)
+      type(rotor_component_type), intent(in) :: component
+      type(error_type), allocatable, intent(inout) :: error
+      if (.not. (all(ieee_is_finite(component%mass)) .and. all(ieee_is_finite(component%stiffness)) &
+         & .and. all(ieee_is_finite(component%gyroscopic)))) call raise(error, input_error, 'shaft: its mass or ' &
+         & //'stiffness is too large for a number: lengths and diameters are in m, moduli in Pa')
+   end subroutine check_numbers
+end module shaft_in_bearings

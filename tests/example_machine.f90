@@ -1,0 +1,177 @@
+!> Machines of tests, and the linear vibration of their rotors in bearings that are springs and dampers.
+module example_machine
+   use kinds, only: wp, pi
+   use linear_algebra, only: dgesv, zgesv, find_eigenvalues
+   use errors, only: error_type
+   use machine_groups, only: machine_type
+   use rotor_matrices, only: rotor_matrices_type
+   use shaft_in_bearings, only: find_rotor
+   use check, only: expect_no_error
+   implicit none (type, external)
+   private
+   public :: turbine, plain_shaft, put_bearings, put_disc, put_unbalance, rotor_of, unbalance_response, &
+      & static_stations, whirl_frequencies
+
+   real(wp), parameter :: gravity = 9.81_wp
+
+contains
+
+   !> A turbine's rotor of 4 t in two bearings: a disc in the middle of a shaft of 1.8 m.
+   function turbine() result(machine)
+      type(machine_type) :: machine
+      integer :: i
+      machine = plain_shaft([0.05_wp, 0.05_wp, (0.2_wp, i=1, 8), 0.05_wp, 0.05_wp], 0.34_wp)
+      machine%shaft%diameter([1, 2, 11, 12]) = 0.0998_wp
+      call put_disc(machine, 7, 2847.3706547456786_wp, 512.526717854222_wp, 280.5609218476075_wp)
+      call put_bearings(machine, [2, 12])
+      call put_unbalance(machine, 7, 0.02_wp, 0.0_wp)
+   end function turbine
+
+   !> A shaft of steel without discs and bearings.
+   function plain_shaft(lengths, diameter) result(machine)
+      real(wp), intent(in) :: lengths(:), diameter
+      type(machine_type) :: machine
+      machine%shaft%length = lengths
+      machine%shaft%diameter = 0*lengths + diameter
+      machine%shaft%bore = 0*lengths
+      machine%rotor_file = ''
+      allocate (machine%discs(0), machine%unbalances(0), machine%loads(0), machine%bearings(0))
+   end function plain_shaft
+
+   subroutine put_disc(machine, station, mass, polar_inertia, diametral_inertia)
+      type(machine_type), intent(inout) :: machine
+      integer, intent(in) :: station
+      real(wp), intent(in) :: mass, polar_inertia, diametral_inertia
+      type(machine_type) :: longer
+      integer :: n
+      n = size(machine%discs)
+      allocate (longer%discs(n + 1))
+      longer%discs(:n) = machine%discs
+      longer%discs(n + 1)%station = station
+      longer%discs(n + 1)%mass = mass
+      longer%discs(n + 1)%polar_inertia = polar_inertia
+      longer%discs(n + 1)%diametral_inertia = diametral_inertia
+      call move_alloc(longer%discs, machine%discs)
+   end subroutine put_disc
+
+   !> Adds an unbalance, kg m, at an angle, deg.
+   subroutine put_unbalance(machine, station, moment, angle_deg)
+      type(machine_type), intent(inout) :: machine
+      integer, intent(in) :: station
+      real(wp), intent(in) :: moment, angle_deg
+      type(machine_type) :: longer
+      integer :: n
+      n = size(machine%unbalances)
+      allocate (longer%unbalances(n + 1))
+      longer%unbalances(:n) = machine%unbalances
+      longer%unbalances(n + 1)%station = station
+      longer%unbalances(n + 1)%moment = moment
+      longer%unbalances(n + 1)%angle_deg = angle_deg
+      call move_alloc(longer%unbalances, machine%unbalances)
+   end subroutine put_unbalance
+
+   !> Bearings at these stations in place of those that are there.
+   subroutine put_bearings(machine, stations)
+      type(machine_type), intent(inout) :: machine
+      integer, intent(in) :: stations(:)
+      integer :: b
+      deallocate (machine%bearings)
+      allocate (machine%bearings(size(stations)))
+      do b = 1, size(stations)
+         machine%bearings(b)%name = achar(iachar('a') + b - 1)
+         machine%bearings(b)%station = stations(b)
+      end do
+   end subroutine put_bearings
+
+   !> The rotor of a valid machine for a highest speed, rad/s.
+   function rotor_of(machine, speed, modes) result(rotor)
+      type(machine_type), intent(in) :: machine
+      real(wp), intent(in) :: speed
+      integer, intent(in), optional :: modes
+      type(rotor_matrices_type) :: rotor
+      type(error_type), allocatable :: error
+      call find_rotor(machine, gravity, speed, rotor, error, modes)
+      call expect_no_error(error, 'a rotor is found')
+   end function rotor_of
+
+   !> Stiffness with springs, N/m, at the journals: y and z of each.
+   function on_springs(rotor, springs) result(stiffness)
+      type(rotor_matrices_type), intent(in) :: rotor
+      real(wp), intent(in) :: springs(:)
+      real(wp), allocatable :: stiffness(:, :)
+      integer :: i
+      stiffness = rotor%stiffness
+      do i = 1, size(springs)
+         stiffness(i, i) = stiffness(i, i) + springs(i)
+      end do
+   end function on_springs
+
+   !> Complex amplitudes y and z of all stations, m, at a speed, rad/s, in bearings that are springs, N/m, and dampers,
+   !> N s/m: y and z of each.
+   function unbalance_response(rotor, speed, springs, dampers) result(response)
+      type(rotor_matrices_type), intent(in) :: rotor
+      real(wp), intent(in) :: speed, springs(:), dampers(:)
+      complex(wp), allocatable :: response(:), matrix(:, :), x(:, :)
+      integer, allocatable :: pivots(:)
+      integer :: n, i, info
+      n = size(rotor%load)
+      matrix = on_springs(rotor, springs) - speed**2*rotor%mass &
+         & + cmplx(0.0_wp, speed, wp)*(rotor%damping + speed*rotor%gyroscopic)
+      do i = 1, size(dampers)
+         matrix(i, i) = matrix(i, i) + cmplx(0.0_wp, speed*dampers(i), wp)
+      end do
+      x = reshape(speed**2*cmplx(rotor%unbalance(:, 1), -rotor%unbalance(:, 2), wp), [n, 1])
+      allocate (pivots(n))
+      call zgesv(n, 1, matrix, n, pivots, x, n, info)
+      response = matmul(rotor%station, x(:, 1))
+   end function unbalance_response
+
+   !> Where the stations are, y and z of each, m, in bearings that are springs; `displacements` of the rotor.
+   function static_stations(rotor, springs, displacements) result(stations)
+      type(rotor_matrices_type), intent(in) :: rotor
+      real(wp), intent(in) :: springs(:)
+      real(wp), allocatable, intent(out), optional :: displacements(:)
+      real(wp), allocatable :: stations(:), matrix(:, :), x(:, :)
+      integer, allocatable :: pivots(:)
+      integer :: n, info
+      n = size(rotor%load)
+      matrix = on_springs(rotor, springs)
+      x = reshape(rotor%load, [n, 1])
+      allocate (pivots(n))
+      call dgesv(n, 1, matrix, n, pivots, x, n, info)
+      stations = matmul(rotor%station, x(:, 1)) + rotor%station_offset
+      if (present(displacements)) displacements = x(:, 1)
+   end function static_stations
+
+   !> Frequencies, Hz, of the free vibration M x'' + C x' + K x = 0 that are not 0, the lowest first.
+   function whirl_frequencies(mass, damping, stiffness) result(frequencies)
+      real(wp), dimension(:, :), intent(in) :: mass, damping, stiffness
+      real(wp), allocatable :: frequencies(:), factor(:, :), right(:, :), system(:, :)
+      complex(wp), allocatable :: values(:)
+      integer, allocatable :: pivots(:)
+      real(wp) :: swapped
+      integer :: n, i, j, info
+      logical :: ok
+      n = size(mass, 1)
+      allocate (right(n, 2*n), system(2*n, 2*n), source=0.0_wp)
+      allocate (pivots(n), values(2*n))
+      factor = mass
+      right(:, :n) = -stiffness
+      right(:, n + 1:) = -damping
+      call dgesv(n, 2*n, factor, n, pivots, right, n, info)
+      system(n + 1:, :) = right
+      do i = 1, n
+         system(i, n + i) = 1
+      end do
+      call find_eigenvalues(system, values, ok)
+      frequencies = pack(values%im, values%im > 0)/(2*pi)
+      do i = 2, size(frequencies)
+         do j = i, 2, -1
+            if (frequencies(j) >= frequencies(j - 1)) exit
+            swapped = frequencies(j)
+            frequencies(j) = frequencies(j - 1)
+            frequencies(j - 1) = swapped
+         end do
+      end do
+   end function whirl_frequencies
+end module example_machine
