@@ -4,10 +4,9 @@ module linear_analysis
    use errors, only: error_type
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model, new_machine_model
-   use equilibrium, only: equilibrium_type, find_equilibrium
-   use static_model, only: make_fine
+   use equilibrium, only: find_equilibrium, settle_equilibrium
+   use static_model, only: equilibrium_type, make_fine
    use linear_bearing, only: bearing_coefficients_type, find_coefficients
-   use thermal_equilibrium, only: settle
    use stability_threshold, only: find_thresholds
    use check, only: expect_no_error
    implicit none (type, external)
@@ -33,7 +32,7 @@ contains
       if (.not. allocated(error)) then
          model%oil%viscosity = own%viscosity
          call make_fine(model, converged)
-         call settle(converged, own, state, error)
+         call settle_equilibrium(converged, own, state, error)
       end if
       if (.not. allocated(error)) call find_coefficients(converged, state, found, error)
       if (.not. allocated(error) .and. inputs%coefficients%threshold_up_to_rpm > 0) then

@@ -5,8 +5,8 @@ module branch_task
    use text, only: to_text
    use errors, only: error_type, raise, add_context, system_error, stopped
    use clock, only: wall_clock
-   use equilibrium, only: equilibrium_type
-   use thermal_equilibrium, only: settle
+   use static_model, only: equilibrium_type
+   use equilibrium, only: settle_equilibrium
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of
    use newton_method, only: branch_point_type
@@ -128,7 +128,7 @@ contains
       real(wp), allocatable :: y(:)
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
-      call settle(b%static, static, y, error, stop_requested)
+      call settle_equilibrium(b%static, static, y, error, stop_requested)
       call add_context(error, 'with converged films')
       if (allocated(error)) return
       call note_equilibrium(run, static)

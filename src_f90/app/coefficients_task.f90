@@ -5,11 +5,10 @@ module coefficients_task
    use text, only: to_text, fixed_text, list_text
    use errors, only: error_type, add_context, stopped
    use case_inputs, only: case_type
-   use equilibrium, only: equilibrium_type
    use equations_of_motion, only: machine_model
-   use static_model, only: make_fine
+   use static_model, only: equilibrium_type, make_fine
    use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type
-   use thermal_equilibrium, only: settle
+   use equilibrium, only: settle_equilibrium
    use stability_threshold, only: find_thresholds
    use coefficient_results, only: put_coefficients
    use stop_signals, only: stop_requested, stop_reason
@@ -34,7 +33,7 @@ contains
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
       call make_fine(run%model, fine)
-      call settle(fine, static, y, error, stop_requested)
+      call settle_equilibrium(fine, static, y, error, stop_requested)
       if (.not. allocated(error)) then
          call note_equilibrium(run, static)
          call find_coefficients(fine, y, found, error)
@@ -66,8 +65,8 @@ contains
             print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//':'
             do k = 1, min(most, size(ratios))
                print '(a)', '  whirl at '//to_text(ratios(k))//' of the speed: K ' &
-                  & //of_journal(found%stiffness(:, :, k, i))//' MN/m, C ' &
-                  & //of_journal(found%damping(:, :, k, i))//' MN s/m (yy, yz, zy, zz)'
+                  & //of_journal(found%stiffness(:, :, k, i, 1))//' MN/m, C ' &
+                  & //of_journal(found%damping(:, :, k, i, 1))//' MN s/m (yy, yz, zy, zz)'
             end do
             if (size(ratios) > most) print '(a)', '  and '//to_text(size(ratios) - most) &
                & //' whirl frequencies more, in the file'

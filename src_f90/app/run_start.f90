@@ -6,8 +6,10 @@ module run_start
    use files, only: real_path
    use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
-   use equilibrium, only: equilibrium_type, find_equilibrium, find_partial_equilibrium
+   use static_model, only: equilibrium_type
+   use bearing_equilibrium, only: find_partial_equilibrium
    use namelist_writer, only: namelist_of
+   use equilibrium, only: find_equilibrium
    use heat_balance_equations, only: has_warm_oil, static_figures_type, find_static_figures
    use equilibrium_results, only: put_equilibrium, put_figures, put_temperatures
    use last_state, only: read_last_state
@@ -40,7 +42,7 @@ contains
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
       call note_equilibrium(run, static)
-      if (present(y)) y = run%model%static_state(static%journal, static%tilt, static%pivot_deflection)
+      if (present(y)) y = run%model%static_state(static%rotor, static%tilt, static%pivot_deflection)
    end subroutine start_at_equilibrium
 
    !> Creates the file and finds the equilibrium.
@@ -148,7 +150,7 @@ contains
       end if
       if (.not. allocated(error)) then
          run%model%oil%viscosity = static%viscosity
-         y = run%model%static_state(static%journal, static%tilt, static%pivot_deflection)
+         y = run%model%static_state(static%rotor, static%tilt, static%pivot_deflection)
          call let_grooves_warm(run, y, error)
          if (present(equilibrium_state)) equilibrium_state = y
       else if (error%status == stopped) then
@@ -214,7 +216,7 @@ contains
       call find_partial_equilibrium(run%model, static, held, error, stop_requested)
       call say_nothing_computed(error)
       if (allocated(error)) return
-      journal%position = static%journal
+      journal%position = static%rotor
       pads%tilt = static%tilt
       pads%pivot_deflection = static%pivot_deflection
       run%model%oil%viscosity = static%viscosity

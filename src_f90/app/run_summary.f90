@@ -8,7 +8,7 @@ module run_summary
    use checked_case, only: notes
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
-   use equilibrium, only: equilibrium_type
+   use static_model, only: equilibrium_type
    use heat_balance_equations, only: static_figures_type
    use record, only: record_type
    use summary_group, only: figure, pad_figures, has_figure
@@ -43,7 +43,7 @@ contains
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: pivot
       integer :: i
-      print '(a)', 'equilibrium: journal y '//micro(static%journal(1))//', z '//micro(static%journal(2))//' um, ' &
+      print '(a)', 'equilibrium: journal y '//micro(static%rotor(1))//', z '//micro(static%rotor(2))//' um, ' &
          & //static%stability%name//' (eigenvalue '//fixed_text(static%stability%eigenvalue%re, 1)//' 1/s at ' &
          & //fixed_text(static%stability%eigenvalue%im/(2*pi), 1)//' Hz)'
       do i = 1, size(static%tilt)

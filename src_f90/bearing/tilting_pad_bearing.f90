@@ -48,7 +48,7 @@ module tilting_pad_bearing
       !> Bearing clearance, m.
       real(wp) :: clearance = 0
       !> What its films are for (factories).
-      integer, private :: accuracy = march_films
+      integer :: accuracy = march_films
       !> Of the state evaluated last: speed, rad/s, and oil of the pads; frames and motions.
       real(wp), private :: speed = 0
       type(film_oil), allocatable, private :: oil(:)

@@ -134,12 +134,15 @@ contains
       if (self%is_machine()) bearing_count = size(self%machine%bearings)
    end function bearing_count
 
-   !> The case of one bearing of a machine, with its own groups and without shaft; of a rigid journal the case itself.
-   pure type(case_type) function of_bearing(self, b) result(inputs)
+   !> The case of one bearing of a machine, with its own groups and a rigid journal in the place of the shaft, under a
+   !> load along y and z, N; of a rigid journal the case itself.
+   pure type(case_type) function of_bearing(self, b, load) result(inputs)
       class(case_type), intent(in) :: self
       integer, intent(in) :: b
+      real(wp), intent(in), optional :: load(2)
       inputs = self
       if (.not. self%is_machine()) return
+      if (present(load)) inputs%rotor%static_load = load + [inputs%rotor%mass*inputs%rotor%gravity, 0.0_wp]
       associate (own => self%machine%bearings(b))
          inputs%bearing = own%bearing
          inputs%oil = own%oil

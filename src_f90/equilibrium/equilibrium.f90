@@ -1,37 +1,19 @@
-!> Static equilibrium of journal and pads at constant speed: no unbalance, no friction.
-!>
-!> The first search is pseudo-transient continuation (pseudo_transient) from the best of some positions along the load;
-!> where it fails, from the equilibrium with full films. Where these fail, or find an equilibrium that no motion dwells
-!> in, a wider one follows from all these positions: by small problems of the pads, and by pseudo-transient
-!> continuation. docs/stability.md counts what each finds.
+!> Static equilibrium of a rotor and the pads of its bearings at constant speed: no unbalance, no friction.
 module equilibrium
    use kinds, only: wp
-   use text, only: to_text
-   use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
+   use errors, only: error_type, asked_to_stop
    use equations_of_motion, only: machine_model
-   use pseudo_transient, only: follow_motion, unbalanced, newtons, residual_limit
-   use force_balance, only: stability_at
-   use pad_elimination, only: eliminate_pads, search_pads
-   use static_model, only: equilibrium_type, describe, make_static, make_quick, solve_equilibrium, start, starts
-   use heat_balance_equations, only: has_warm_oil
-   use thermal_equilibrium, only: guess_oil, guesses, solve_thermal_equilibrium
-   use equilibrium_refusal, only: search_traces, note_divergence, refusal
+   use static_model, only: equilibrium_type, make_static
+   use thermal_equilibrium, only: settle
+   use bearing_equilibrium, only: find_bearing_equilibrium
+   use load_shares, only: share_loads
    implicit none (type, external)
    private
-   public :: equilibrium_type, find_equilibrium, find_partial_equilibrium
-
-   !> The methods of the wider search, in their order.
-   character(len=*), parameter :: methods(*) = [character(len=6) :: 'pads', 'newton']
-   !> Iterations from an equilibrium of quick films to that of the model's own: the 535 of docs/stability.md that
-   !> succeed take 35 at most. Iterations of the first search from a start along the load, after which full films lead
-   !> to the equilibrium of most unloaded pads: of 813 searches that succeed 90 % end within 42.
-   integer, parameter :: last_iterations = 40, first_iterations = 60
-   !> Residual of quick films from which on this is tried.
-   real(wp), parameter :: quick_residual = 0.1_wp
+   public :: find_equilibrium, settle_equilibrium
 
 contains
 
-   !> The equilibrium of a model under its load at its initial speed, stable or of oscillatory instability, with the
+   !> The equilibrium of a model under its loads at its initial speed, stable or of oscillatory instability, with the
    !> temperatures of warm oil; an error where none is found, or, of status `stopped`, where `give_up`, asked between
    !> evaluations of the films, says so.
    subroutine find_equilibrium(model, found, error, give_up)
@@ -39,264 +21,28 @@ contains
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(machine_model) :: warm, static
-      type(search_traces) :: traces
-      real(wp), allocatable :: y(:)
-      integer :: guess
-      if (.not. has_warm_oil(model)) then
-         call find_isothermal(model, found, error, give_up)
-         return
+      type(machine_model) :: static
+      if (model%inputs%is_machine()) then
+         call make_static(model, model%point%cavitation, static)
+         call share_loads(static, found, error, give_up)
+      else
+         call find_bearing_equilibrium(model, found, error, give_up)
       end if
-      warm = model
-      do guess = 1, guesses
-         call guess_oil(warm, guess)
-         call find_isothermal(warm, found, error, give_up)
-         if (.not. allocated(error)) then
-            call make_static(warm, warm%point%cavitation, static)
-            y = static%static_state(found%journal, found%tilt, found%pivot_deflection)
-            call solve_thermal_equilibrium(static, y, found%residual, error, give_up)
-         end if
-         if (allocated(error)) then
-            if (error%status == stopped) return
-            if (guess < guesses) deallocate (error)
-         else if (is_usable(static, y, found, traces)) then
-            return
-         end if
-      end do
-      if (allocated(error)) return
-      call note_partial(model, traces, give_up)
-      call raise(error, numerics_error, refusal(model, traces))
    end subroutine find_equilibrium
 
-   !> The equilibrium with the viscosities that the model has.
-   subroutine find_isothermal(model, found, error, give_up)
-      type(machine_model), intent(in) :: model
-      type(equilibrium_type), intent(out) :: found
-      type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      type(machine_model) :: static
-      type(search_traces) :: traces
-      real(wp), allocatable :: y(:)
-      logical :: by_full_films
-      call make_static(model, model%point%cavitation, static)
-      call search_first(model, static, y, found%residual, by_full_films, traces%films_fail, error, give_up)
-      if (.not. allocated(error)) then
-         found%search = trim(merge('full films', 'first     ', by_full_films))
-         if (is_usable(static, y, found, traces)) return
-      else if (error%status == stopped) then
-         return
-      else
-         traces%last_words = error%message
-         if (traces%films_fail) then
-            call raise(error, numerics_error, refusal(model, traces))
-            return
-         end if
-      end if
-      call search_wider(static, found, traces, give_up)
-      if (allocated(error)) deallocate (error)
-      if (asked(give_up)) then
-         call raise(error, stopped, 'stopped while the equilibrium was sought')
-      else if (.not. allocated(found%tilt)) then
-         call note_partial(model, traces, give_up)
-         call raise(error, numerics_error, refusal(model, traces))
-      end if
-   end subroutine find_isothermal
-
-   !> Notes whether a march can start from a partial equilibrium, and which pads are held there.
-   subroutine note_partial(model, traces, give_up)
-      type(machine_model), intent(in) :: model
-      type(search_traces), intent(inout) :: traces
-      procedure(asked_to_stop), optional :: give_up
-      type(equilibrium_type) :: partial
-      type(error_type), allocatable :: error
-      logical, allocatable :: held(:)
-      if (.not. model%layout%bearings(1)%tilting) return
-      call find_partial_equilibrium(model, partial, held, error, give_up)
-      if (.not. allocated(error)) traces%held = held
-   end subroutine note_partial
-
-   !> From the best start along the load; with films that cavitate also from the equilibrium with full films: on the way
-   !> a pad may lose its film and with it all stiffness.
-   subroutine search_first(model, static, y, residual, by_full_films, films_fail, error, give_up)
-      type(machine_model), intent(in) :: model
-      type(machine_model), intent(inout) :: static
+   !> Brings an equilibrium that another model has found to that of this static one, whose films differ a little; y is
+   !> its state.
+   subroutine settle_equilibrium(model, found, y, error, give_up)
+      type(machine_model), intent(inout) :: model
+      type(equilibrium_type), intent(inout) :: found
       real(wp), allocatable, intent(out) :: y(:)
-      real(wp), intent(out) :: residual
-      !> Whether full films led there; whether the search from the best start ended at a film that did not converge.
-      logical, intent(out) :: by_full_films, films_fail
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(machine_model) :: whole
-      type(error_type), allocatable :: second_error
-      real(wp), allocatable :: y_whole(:)
-      y = best_start(static, give_up)
-      call follow_motion(static, y, residual, error, give_up, &
-         & most=merge(first_iterations, huge(first_iterations), static%bearings(1)%film%cavitates()))
-      films_fail = .not. static%bearings(1)%films_converge()
-      by_full_films = .false.
-      if (.not. allocated(error) .or. .not. static%bearings(1)%film%cavitates()) return
-      if (error%status == stopped) return
-      call make_static(model, .false., whole)
-      y_whole = best_start(whole, give_up)
-      call follow_motion(whole, y_whole, residual, second_error, give_up)
-      if (.not. allocated(second_error)) then
-         call make_static(model, model%point%cavitation, static)
-         call follow_motion(static, y_whole, residual, second_error, give_up)
-      end if
-      if (.not. allocated(second_error)) then
-         y = y_whole
-         deallocate (error)
-         films_fail = .false.
-         by_full_films = .true.
-      else if (second_error%status == stopped) then
-         call move_alloc(second_error, error)
-      end if
-   end subroutine search_first
-
-   !> The start, among positions along the load, with the smallest unbalanced force.
-   function best_start(model, give_up) result(y)
-      type(machine_model), intent(inout) :: model
-      procedure(asked_to_stop), optional :: give_up
-      real(wp) :: y(model%n), trial(model%n), smallest, force
-      integer :: k
-      logical :: ok
-      smallest = huge(smallest)
-      y = start(model, 3)
-      do k = 1, starts
-         if (asked(give_up)) exit
-         trial = start(model, k)
-         call model%evaluate(0.0_wp, trial, .false., ok)
-         if (.not. ok) cycle
-         force = unbalanced(model, trial)
-         if (force < smallest) then
-            smallest = force
-            y = trial
-         end if
-      end do
-   end function best_start
-
-   !> From every start by every method, up to the first stable equilibrium; where there is none, `found` is the one that
-   !> grows least, or has no pads. All is sought with quick films; their equilibrium leads to the model's own.
-   subroutine search_wider(static, found, traces, give_up)
-      type(machine_model), intent(inout) :: static
-      type(equilibrium_type), intent(inout) :: found
-      type(search_traces), intent(inout) :: traces
-      procedure(asked_to_stop), optional :: give_up
-      type(machine_model) :: quick
-      type(equilibrium_type) :: candidate
-      type(error_type), allocatable :: error
-      real(wp) :: y(static%n)
-      integer :: method, k
-      logical :: ok
-      if (allocated(found%tilt)) deallocate (found%tilt)
-      call make_quick(static%inputs, static%oil%viscosity, static%point%cavitation, quick)
-      do method = 1, size(methods)
-         do k = 1, starts
-            if (asked(give_up)) return
-            y = start(quick, k)
-            call approach(quick, methods(method), y, traces, ok, give_up)
-            if (.not. ok) cycle
-            ! quick films leap by their error: where they do, nothing comes to equilibrium
-            call follow_motion(quick, y, candidate%residual, error, give_up, first_step=newtons)
-            if (candidate%residual > quick_residual) cycle
-            call solve_equilibrium(static, y, candidate%residual, error, give_up, most=last_iterations)
-            if (allocated(error)) cycle
-            if (.not. is_usable(static, y, candidate, traces)) cycle
-            if (.not. is_better(candidate, found)) cycle
-            found = candidate
-            found%search = trim(methods(method))
-            if (found%stability%name == 'stable' .and. found%residual <= residual_limit) return
-         end do
-      end do
-   end subroutine search_wider
-
-   !> Whether an equilibrium is to be kept instead of another one, which may have no pads: first the one that no leap of
-   !> the films disturbs, then the one that grows less.
-   pure logical function is_better(candidate, found)
-      type(equilibrium_type), intent(in) :: candidate, found
-      is_better = .not. allocated(found%tilt)
-      if (is_better) return
-      if (candidate%residual <= residual_limit .neqv. found%residual <= residual_limit) then
-         is_better = candidate%residual <= residual_limit
+      if (model%inputs%is_machine()) then
+         call share_loads(model, found, error, give_up, known=.true.)
+         if (.not. allocated(error)) y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
       else
-         is_better = candidate%stability%eigenvalue%re < found%stability%eigenvalue%re
+         call settle(model, found, y, error, give_up)
       end if
-   end function is_better
-
-   !> Brings y near an equilibrium by one of the methods. Pads that find no equilibrium of their own are sought from
-   !> many tilts, once.
-   subroutine approach(model, method, y, traces, ok, give_up)
-      type(machine_model), intent(inout) :: model
-      character(len=*), intent(in) :: method
-      real(wp), intent(inout) :: y(:)
-      type(search_traces), intent(inout) :: traces
-      logical, intent(out) :: ok
-      procedure(asked_to_stop), optional :: give_up
-      type(error_type), allocatable :: error
-      logical :: in_equilibrium(model%layout%pads)
-      real(wp) :: residual, y_of_pads(size(y))
-      if (method == 'newton') then
-         call follow_motion(model, y, residual, error, give_up)
-         ok = residual <= quick_residual
-         return
-      end if
-      call eliminate_pads(model, y, in_equilibrium, ok, give_up)
-      if (.not. ok .or. all(in_equilibrium)) return
-      call search_pads(model, y, in_equilibrium)
-      if (.not. all(in_equilibrium)) traces%without_equilibrium = .not. in_equilibrium
-      ! where a pad finds no equilibrium Newton's method on the whole may still find one, with the journal elsewhere
-      y_of_pads = y
-      call eliminate_pads(model, y_of_pads, in_equilibrium, ok, give_up)
-      if (ok .and. all(in_equilibrium)) y = y_of_pads
-      ok = .true.
-   end subroutine approach
-
-   !> Describes the equilibrium y, where the model was evaluated last, and says whether a motion can start there.
-   logical function is_usable(model, y, found, traces)
-      type(machine_model), intent(inout) :: model
-      real(wp), intent(in) :: y(:)
-      type(equilibrium_type), intent(inout) :: found
-      type(search_traces), intent(inout) :: traces
-      call describe(model, y, found)
-      call stability_at(model, y, found%stability, is_usable)
-      if (.not. is_usable) return
-      is_usable = found%stability%name /= 'static instability'
-      if (.not. is_usable) call note_divergence(model, traces)
-   end function is_usable
-
-   !> The partial equilibrium of a model under its load at its initial speed, and which pads are held; none where all
-   !> find their equilibrium. An error where the journal finds none, or, of status `stopped`, where `give_up`, asked
-   !> between evaluations of the films, says so. The record has no stability.
-   subroutine find_partial_equilibrium(model, found, held, error, give_up)
-      type(machine_model), intent(in) :: model
-      type(equilibrium_type), intent(out) :: found
-      logical, allocatable, intent(out) :: held(:)
-      type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      type(machine_model) :: static, quick
-      real(wp) :: y(model%n)
-      logical :: in_equilibrium(model%layout%pads), ok
-      integer :: k
-      call make_static(model, model%point%cavitation, static)
-      if (has_warm_oil(model)) call guess_oil(static, 1)
-      call make_quick(model%inputs, static%oil%viscosity, model%point%cavitation, quick)
-      do k = 1, starts
-         y = start(quick, k)
-         call eliminate_pads(quick, y, in_equilibrium, ok, give_up)
-         if (asked(give_up)) then
-            call raise(error, stopped, 'stopped while the equilibrium was sought')
-            return
-         end if
-         if (.not. ok) cycle
-         held = .not. in_equilibrium
-         call solve_thermal_equilibrium(static, y, found%residual, error, give_up, held)
-         if (.not. allocated(error)) then
-            call describe(static, y, found)
-            return
-         end if
-         if (error%status == stopped) return
-      end do
-      call raise(error, numerics_error, 'no partial equilibrium found at '//to_text(model%point%speed_rpm) &
-         & //' rpm: the journal finds no equilibrium on pads that do')
-   end subroutine find_partial_equilibrium
+   end subroutine settle_equilibrium
 end module equilibrium

@@ -252,9 +252,9 @@ contains
       type(static_figures_type), intent(out) :: figures
       type(state_balance_type) :: balance
       logical :: balanced
-      figures%eccentricity_ratio = eccentricity_ratio(model%inputs, static%journal)
-      figures%attitude_angle = attitude_angle(model%inputs, static%journal)
-      call find_losses(model, model%static_state(static%journal, static%tilt, static%pivot_deflection), balance)
+      figures%eccentricity_ratio = eccentricity_ratio(model%inputs, static%rotor)
+      figures%attitude_angle = attitude_angle(model%inputs, static%rotor)
+      call find_losses(model, model%static_state(static%rotor, static%tilt, static%pivot_deflection), balance)
       figures%pads = balance%losses
       associate (pads => figures%pads, heat => model%inputs%oil%density*model%inputs%oil%specific_heat)
          ! oil that leaves at the sides is warmed half of the way

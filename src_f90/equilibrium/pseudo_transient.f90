@@ -117,10 +117,16 @@ contains
       real(wp), intent(in) :: force
       character(len=:), allocatable :: shown
       shown = to_text(force)//' N'
-      associate (load => norm2(model%point%load))
+      associate (load => largest_load(model))
          if (load > 0) shown = shown//', '//to_text(force/load)//' of the load'
       end associate
    end function shown
+
+   !> Largest load of a bearing, N.
+   pure real(wp) function largest_load(model)
+      type(machine_model), intent(in) :: model
+      largest_load = maxval(norm2(model%rotor%loads(model%point), dim=1))
+   end function largest_load
 
    !> The time step after one that took the unbalanced force from `last` to `now`: longer as it falls.
    elemental real(wp) function next_time_step(time_step, last, now)
@@ -235,7 +241,8 @@ contains
       ok = info == 0
    end subroutine newton_step
 
-   !> Largest unbalanced force in the state y, which was evaluated last, N, at positions that are free.
+   !> Largest unbalanced force in the state y, which was evaluated last, N, at positions that are free; those of a rotor
+   !> that are no displacements by what these do at a displacement of a clearance.
    pure real(wp) function unbalanced(model, y, free)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
@@ -247,6 +254,7 @@ contains
       force(tilts) = force(tilts)/model%tilt_lengths()
       if (present(free)) force = merge(force, 0.0_wp, free)
       associate (rotor => model%rotor%positions)
+         force(:rotor) = force(:rotor)*(model%scale(:rotor)/minval(model%bearings%clearance))
          unbalanced = max(norm2(force(:rotor)), maxval(abs(force(rotor + 1:))))
       end associate
    end function unbalanced
@@ -256,7 +264,7 @@ contains
    pure real(wp) function reference_force(model)
       type(machine_model), intent(in) :: model
       integer :: b
-      reference_force = norm2(model%point%load)
+      reference_force = largest_load(model)
       do b = 1, size(model%bearings)
          associate (gap => model%bearings(b)%pads%gap, loads => model%bearings(b)%loads, &
             & first => model%layout%bearings(b)%other_pads + 1, &

@@ -17,9 +17,9 @@ module static_model
    public :: equilibrium_type, describe, make_static, make_quick, make_fine, solve_equilibrium, start, starts
 
    type :: equilibrium_type
-      !> Journal, m; per pad tilt, rad, pivot deflection, m (0 tilting-only), pivot load, N.
-      real(wp) :: journal(2) = 0
-      real(wp), allocatable :: tilt(:), pivot_deflection(:), pivot_load(:)
+      !> Displacements of the rotor, those of its journals, m, first; per pad of all bearings tilt, rad, pivot
+      !> deflection, m (0 tilting-only), pivot load, N.
+      real(wp), allocatable :: rotor(:), tilt(:), pivot_deflection(:), pivot_load(:)
       !> Per pad minimum film thickness, m, and maximum pressure, Pa.
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
       !> Of the oil on every pad, Pa s.
@@ -45,9 +45,12 @@ contains
       type(machine_model), intent(in) :: model
       logical, intent(in) :: cavitation
       type(machine_model), intent(out) :: static
+      integer :: b
       static = model
       call stand_still(static, cavitation)
-      call static%bearings(1)%use_in_statics(static%inputs)
+      do b = 1, size(static%bearings)
+         call static%bearings(b)%use_in_statics(static%inputs%of_bearing(b))
+      end do
    end subroutine make_static
 
    subroutine stand_still(model, cavitation)
@@ -141,13 +144,16 @@ contains
       type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
       type(equilibrium_type), intent(inout) :: found
-      type(journal_motion) :: journal
       type(pad_state) :: pads(model%layout%pads)
       type(pad_sample) :: samples(model%layout%pads)
-      journal = model%rotor%journal(y(:model%rotor%states), 1)
-      pads = model%layout%bearings(1)%pad_states(y)
-      samples = model%bearings(1)%sampled()
-      found%journal = journal%position
+      integer :: b
+      do b = 1, size(model%bearings)
+         associate (of => model%layout%bearings(b))
+            pads(of%all_pads()) = of%pad_states(y)
+            samples(of%all_pads()) = model%bearings(b)%sampled()
+         end associate
+      end do
+      found%rotor = y(:model%rotor%positions)
       found%tilt = pads%tilt
       found%pivot_deflection = pads%pivot_deflection
       found%pivot_load = samples%pivot_load

@@ -101,7 +101,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       logical :: ok
-      y = model%static_state(found%journal, found%tilt, found%pivot_deflection)
+      y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
       model%oil%viscosity = found%viscosity
       call solve_thermal_equilibrium(model, y, found%residual, error, give_up)
       if (allocated(error)) return

@@ -1,17 +1,18 @@
-!> A bearing linearised where it is in equilibrium: masses, stiffness and damping of all positions, for each way that
-!> its pivots may behave; what a journal meets of it that whirls at one frequency; and the vibrations of rotor and pads
-!> on it, in an order, and what is said of each. What a case asks for of all these.
+!> Bearings linearised where they are in equilibrium: masses, stiffness and damping of all positions, for each way that
+!> their pivots may behave; what a journal meets of its bearing that whirls at one frequency; and the vibrations of rotor
+!> and pads, in an order, and what is said of each. What a case asks for of all these.
 module linear_bearing
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
    use linear_algebra, only: zgesv
    use errors, only: error_type, raise, numerics_error
+   use state_layout, only: pads_layout_type
    use equations_of_motion, only: machine_model
    use force_balance, only: force_derivatives, bearing_derivatives, add_sticking, masses, find_vibrations
    implicit none (type, external)
    private
-   public :: linear_bearing_of, pivot_name
-   public :: vibration_modes_type, rotor_eigenvalues, bearing_coefficients_type, find_coefficients
+   public :: linear_bearing_type, linear_bearing_of, pivot_name
+   public :: vibration_modes_type, find_modes, rotor_eigenvalues, bearing_coefficients_type, find_coefficients
 
    !> Length of the names of pivots.
    integer, parameter :: pivot_name = 6
@@ -43,9 +44,10 @@ module linear_bearing
 
    !> One element, or the last dimension, for each way that the pivots may behave.
    type :: bearing_coefficients_type
-      type(linear_bearing_type), allocatable :: bearings(:)
-      !> Of the journal, N/m and N s/m, (row, column, frequency, pivot).
-      real(wp), allocatable :: stiffness(:, :, :, :), damping(:, :, :, :)
+      !> The bearings alone; with the rotor.
+      type(linear_bearing_type), allocatable :: bearings(:), with_rotor(:)
+      !> Of each journal, N/m and N s/m, (row, column, frequency, pivot, bearing).
+      real(wp), allocatable :: stiffness(:, :, :, :, :), damping(:, :, :, :, :)
       type(vibration_modes_type), allocatable :: modes(:)
       !> Threshold speeds of stability, rpm, where they are asked for, and up to where they were sought.
       real(wp), allocatable :: thresholds(:)
@@ -65,24 +67,26 @@ contains
       real(wp), intent(in) :: y(:)
       type(bearing_coefficients_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
-      type(linear_bearing_type), allocatable :: with_rotor(:)
       logical :: ok
-      integer :: i, k
+      integer :: i, k, b
       associate (given => model%inputs%coefficients, speed => model%point%speed(0.0_wp))
-         call linearize(model, y, found%bearings, with_rotor, ok)
+         call linearize(model, y, found%bearings, found%with_rotor, ok)
          if (.not. ok) then
             call raise(error, numerics_error, 'at the equilibrium '//model%refusal)
             return
          end if
-         associate (pivots => size(found%bearings), ratios => size(given%frequency_ratio))
-            allocate (found%stiffness(2, 2, ratios, pivots), found%damping(2, 2, ratios, pivots), found%modes(pivots))
+         associate (pivots => size(found%bearings), ratios => size(given%frequency_ratio), n => size(model%bearings))
+            allocate (found%stiffness(2, 2, ratios, pivots, n), found%damping(2, 2, ratios, pivots, n), &
+               & found%modes(pivots))
             do i = 1, pivots
-               do k = 1, ratios
-                  call found%bearings(i)%condense(given%frequency_ratio(k), speed, found%stiffness(:, :, k, i), &
-                     & found%damping(:, :, k, i), ok)
-                  if (.not. ok) exit
-               end do
-               if (ok) call find_modes(with_rotor(i), given%cross_stiffness, lengths(model), found%modes(i), ok)
+               each_bearing: do b = 1, n
+                  do k = 1, ratios
+                     call found%bearings(i)%condense(places_of(model%layout%bearings(b)), given%frequency_ratio(k), &
+                        & speed, found%stiffness(:, :, k, i, b), found%damping(:, :, k, i, b), ok)
+                     if (.not. ok) exit each_bearing
+                  end do
+               end do each_bearing
+               if (ok) call find_modes(found%with_rotor(i), given%cross_stiffness, lengths(model), found%modes(i), ok)
                if (.not. ok) then
                   call raise(error, numerics_error, 'the linear equations of the pads with '//found%bearings(i)%pivot &
                      & //' pivots are singular')
@@ -93,11 +97,26 @@ contains
       end associate
    end subroutine find_coefficients
 
-   !> What stands for 1 rad of a tilt: the distance from the pivot to the centre of the pad's arc, m; 1 for others.
+   !> The places of a bearing's journal and pads among all positions.
+   pure function places_of(layout) result(places)
+      type(pads_layout_type), intent(in) :: layout
+      integer, allocatable :: places(:)
+      integer :: i
+      places = layout%journal
+      do i = 1, layout%pads
+         places = [places, layout%own_positions(i)]
+      end do
+   end function places_of
+
+   !> What stands for 1 rad of a tilt: the distance from the pivot to the centre of the pad's arc, m; of a rotor's
+   !> coordinate that is no displacement, how far it moves a station; 1 for others.
    pure function lengths(model)
       type(machine_model), intent(in) :: model
       real(wp), allocatable :: lengths(:)
       allocate (lengths(model%layout%n_positions()), source=1.0_wp)
+      associate (n => 2*size(model%bearings), m => model%rotor%positions)
+         lengths(n + 1:m) = minval(model%bearings%clearance)/model%scale(n + 1:m)
+      end associate
       lengths(model%layout%tilts()) = model%tilt_lengths()
    end function lengths
 
@@ -146,9 +165,11 @@ contains
    pure function pivots_of(model) result(pivots)
       type(machine_model), intent(in) :: model
       character(len=pivot_name), allocatable :: pivots(:)
-      if (.not. model%inputs%tilting()) then
+      integer :: b
+      if (.not. any(model%layout%bearings%tilting)) then
          pivots = [character(len=pivot_name) :: 'locked']
-      else if (model%inputs%friction%model == 'none') then
+      else if (.not. any([(model%layout%bearings(b)%tilting .and. model%bearings(b)%friction%static_coefficient > 0, &
+         & b=1, size(model%bearings))])) then
          pivots = [character(len=pivot_name) :: 'free', 'locked']
       else
          pivots = [character(len=pivot_name) :: 'free', 'stuck', 'locked']
@@ -156,10 +177,11 @@ contains
    end function pivots_of
 
    !> Stiffness, N/m, and damping, N s/m, that a journal meets which whirls at a frequency over the speed of the shaft,
-   !> rad/s: Z_jj - Z_jp Z_pp^-1 Z_pj with Z = K + i nu C - nu^2 M of journal and pads. `ok` is false where a vibration
-   !> of the pads without damping has this frequency.
-   subroutine condense(self, ratio, speed, stiffness, damping, ok)
+   !> rad/s: Z_jj - Z_jp Z_pp^-1 Z_pj with Z = K + i nu C - nu^2 M of journal and pads, which stand at these places. `ok`
+   !> is false where a vibration of the pads without damping has this frequency.
+   subroutine condense(self, places, ratio, speed, stiffness, damping, ok)
       class(linear_bearing_type), intent(in) :: self
+      integer, intent(in) :: places(:)
       real(wp), intent(in) :: ratio, speed
       real(wp), intent(out) :: stiffness(journal, journal), damping(journal, journal)
       logical, intent(out) :: ok
@@ -167,8 +189,8 @@ contains
       complex(wp) :: left(journal, journal)
       real(wp) :: frequency
       integer, allocatable :: kept(:), pivots(:)
-      integer :: info, i, n
-      kept = pack([(i, i=1, size(self%moves))], self%moves)
+      integer :: info, n
+      kept = pack(places, self%moves(places))
       frequency = max(slowest, ratio)*speed
       z = cmplx(self%stiffness(kept, kept) - frequency**2*self%mass(kept, kept), &
          & frequency*self%damping(kept, kept), wp)

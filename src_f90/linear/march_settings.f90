@@ -1,4 +1,4 @@
-!> How a bearing is marched: the tolerances of its input, and what its pivots and its friction ask for.
+!> How a rotor is marched: the tolerances of its input, and what pivots and friction of its bearings ask for.
 module march_settings
    use kinds, only: wp, i8, pi
    use marching, only: march_options
@@ -26,6 +26,8 @@ contains
    type(march_options) function march_settings_of(model, steps) result(options)
       type(machine_model), intent(in) :: model
       integer(i8), intent(in) :: steps
+      logical :: smooth
+      integer :: b
       associate (integration => model%inputs%integration)
          options%relative_tolerance = integration%relative_tolerance
          options%absolute_tolerance = integration%relative_tolerance*integration%tolerance_scale*model%scale
@@ -34,10 +36,11 @@ contains
          options%short_step = 2*pi/(model%inputs%highest_speed()*many_steps)
       end associate
       associate (tolerance => options%absolute_tolerance)
-         if (model%bearings(1)%smooth()) options%derivatives_age = smooth_derivatives_age
-         if (.not. model%layout%bearings(1)%radial) then
+         smooth = all([(model%bearings(b)%smooth(), b=1, size(model%bearings))])
+         if (smooth) options%derivatives_age = smooth_derivatives_age
+         if (.not. all(model%layout%bearings%radial)) then
             tolerance = rigid_tolerance*tolerance
-         else if (.not. model%bearings(1)%smooth()) then
+         else if (.not. smooth) then
             tolerance = friction_tolerance*tolerance
          end if
       end associate

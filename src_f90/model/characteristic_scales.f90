@@ -27,26 +27,30 @@ contains
       type(state_layout_type), intent(in) :: layout
       real(wp) :: scale(layout%n)
       real(wp) :: speed
+      type(case_type) :: own
+      real(wp) :: loads(2, size(bearings))
       integer :: b
       speed = inputs%highest_speed()
+      loads = rotor%loads(point)
       associate (n => rotor%positions)
-         scale(:n) = rotor%scales([(inputs%bearing%assembled_clearance, b=1, size(bearings))])
+         scale(:n) = rotor%scales(bearings%clearance)
          scale(n + 1:2*n) = scale(:n)*speed
       end associate
       do b = 1, size(bearings)
-         call layout%bearings(b)%put_pads(pad_scales(inputs, point, bearings(b), layout%bearings(b), speed), scale)
+         own = inputs%of_bearing(b)
+         call layout%bearings(b)%put_pads(pad_scales(own, norm2(loads(:, b)) + point%unbalance*speed**2, bearings(b), &
+            & layout%bearings(b), speed), scale)
       end do
    end function state_scales
 
-   !> Those of the pads of a bearing with this case, at the highest speed, rad/s.
-   pure function pad_scales(inputs, point, bearing, layout, speed) result(pads)
+   !> Those of the pads of a bearing with this case under a force, N, at the highest speed, rad/s.
+   pure function pad_scales(inputs, force, bearing, layout, speed) result(pads)
       type(case_type), intent(in) :: inputs
-      type(operating_point_type), intent(in) :: point
+      real(wp), intent(in) :: force
       type(tilting_pad_bearing_type), intent(in) :: bearing
       type(pads_layout_type), intent(in) :: layout
       real(wp), intent(in) :: speed
       type(pad_state) :: pads(layout%pads)
-      real(wp) :: force
       integer :: i
       associate (b => inputs%bearing, friction => bearing%friction)
          do i = 1, size(pads)
@@ -55,7 +59,6 @@ contains
             pads(i)%tilt_rate = min(pads(i)%tilt*speed, sticking_scale*friction%sticking_velocity &
                & /bearing%pads(i)%ball_radius)
             if (layout%radial) then
-               force = norm2(point%load) + point%unbalance*speed**2
                pads(i)%pivot_deflection = 1e-3_wp*b%assembled_clearance
                if (force > 0) pads(i)%pivot_deflection = max(pads(i)%pivot_deflection, &
                   & bearing%contact%law%pivot_deflection(force))

@@ -54,20 +54,26 @@ module equations_of_motion
 contains
 
    !> The model of a valid case, at its operating point, with films for a march or, as factories has it, for something
-   !> else.
+   !> else. Where its shaft has no equations, `refusal` says why.
    function new_machine_model(inputs, accuracy) result(model)
       type(case_type), intent(in) :: inputs
       integer, intent(in), optional :: accuracy
       type(machine_model) :: model
-      type(pads_layout_type) :: pads(1)
+      type(pads_layout_type) :: pads(inputs%bearing_count())
+      type(case_type) :: own
+      integer :: b
       model%inputs = inputs
-      call make_rotor(inputs, model%rotor)
-      allocate (model%bearings(size(pads)))
-      model%bearings(1) = new_tilting_pad_bearing(inputs, accuracy)
-      pads(1) = pads_layout(inputs%pad_count(), inputs%tilting(), inputs%tilting_radial(), &
-         & model%bearings(1)%friction%has_bristle)
+      call make_rotor(inputs, model%rotor, model%refusal)
+      if (allocated(model%refusal)) return
+      allocate (model%bearings(size(pads)), model%oil(0))
+      do b = 1, size(pads)
+         own = inputs%of_bearing(b)
+         model%bearings(b) = new_tilting_pad_bearing(own, accuracy)
+         pads(b) = pads_layout(own%pad_count(), own%tilting(), own%tilting_radial(), &
+            & model%bearings(b)%friction%has_bristle)
+         model%oil = [model%oil, spread(film_oil(reference_viscosity(own)), 1, own%pad_count())]
+      end do
       model%layout = new_state_layout(model%rotor%states, pads)
-      model%oil = spread(film_oil(reference_viscosity(inputs)), 1, model%layout%pads)
       model%n = model%layout%n
       model%outputs = pad_outputs*model%layout%pads
       call model%set_point(operating_point_type(inputs))
@@ -95,14 +101,23 @@ contains
       type(case_type), intent(in) :: inputs
       logical, intent(in) :: anew
       type(operating_point_type) :: point
-      associate (a => self%inputs%pivot, b => inputs%pivot)
-         call self%bearings(1)%adopt(inputs, any(abs([a%socket_radius - b%socket_radius, &
-            & a%radius_difference - b%radius_difference, a%deflection_factor - b%deflection_factor, &
-            & a%young_modulus - b%young_modulus, a%poisson_ratio - b%poisson_ratio]) > 0), anew)
-      end associate
+      type(case_type) :: own, before
+      class(rotor_type), allocatable :: rotor
+      character(len=:), allocatable :: refusal
+      integer :: b
+      do b = 1, size(self%bearings)
+         own = inputs%of_bearing(b)
+         before = self%inputs%of_bearing(b)
+         associate (p => before%pivot, q => own%pivot, of => self%layout%bearings(b))
+            call self%bearings(b)%adopt(own, any(abs([p%socket_radius - q%socket_radius, &
+               & p%radius_difference - q%radius_difference, p%deflection_factor - q%deflection_factor, &
+               & p%young_modulus - q%young_modulus, p%poisson_ratio - q%poisson_ratio]) > 0), anew)
+            self%oil(of%all_pads()) = film_oil(reference_viscosity(own))
+         end associate
+      end do
       self%inputs = inputs
-      self%oil = film_oil(reference_viscosity(inputs))
-      call make_rotor(inputs, self%rotor)
+      call make_rotor(inputs, rotor, refusal, self%rotor)
+      if (allocated(rotor)) call move_alloc(rotor, self%rotor)
       point = operating_point_type(inputs)
       if (.not. self%point%friction) point = point%static()
       point%cavitation = self%point%cavitation

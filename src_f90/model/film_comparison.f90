@@ -4,6 +4,7 @@
 !> volumes.
 module film_comparison
    use kinds, only: wp, degree
+   use case_groups, only: film_type
    use case_inputs, only: case_type
    use factories, only: converged_films, usual_arc
    use tilting_pad_bearing, only: pad_sample
@@ -49,10 +50,18 @@ contains
    function new_film_comparison(inputs) result(comparison)
       type(case_type), intent(in) :: inputs
       type(film_comparison_type) :: comparison
+      real(wp), allocatable :: loads(:, :)
+      integer :: b
       comparison%close = new_machine_model(closely(inputs, closest, film_adapted), converged_films)
       comparison%less_close = new_machine_model(closely(inputs, less_close, even), converged_films)
-      associate (weight => comparison%close%bearings(1)%pads%weight)
-         comparison%least = least_share*merge(weight, norm2(comparison%close%point%load), weight > 0)
+      associate (close => comparison%close)
+         loads = close%rotor%loads(close%point)
+         allocate (comparison%least(0))
+         do b = 1, size(close%bearings)
+            associate (weight => close%bearings(b)%pads%weight)
+               comparison%least = [comparison%least, least_share*merge(weight, norm2(loads(:, b)), weight > 0)]
+            end associate
+         end do
       end associate
    end function new_film_comparison
 
@@ -62,12 +71,27 @@ contains
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: volumes(2)
       type(case_type) :: changed
+      integer :: b
       changed = inputs
-      changed%film%solver = 'auto'
-      changed%film%table_tolerance = tolerance
-      changed%film%circumferential_cells = volumes(1)*max(1, nint(maxval(inputs%pads%arc_deg)*degree/usual_arc))
-      changed%film%axial_cells = volumes(2)
-      changed%film%axial_modes = 0
+      call solve_closely(changed%film, inputs%pads%arc_deg)
+      if (.not. inputs%is_machine()) return
+      associate (bearings => changed%machine%bearings)
+         do b = 1, size(bearings)
+            call solve_closely(bearings(b)%film, bearings(b)%pads%arc_deg)
+         end do
+      end associate
+
+   contains
+
+      pure subroutine solve_closely(film, arc_deg)
+         type(film_type), intent(inout) :: film
+         real(wp), intent(in) :: arc_deg(:)
+         film%solver = 'auto'
+         film%table_tolerance = tolerance
+         film%circumferential_cells = volumes(1)*max(1, nint(maxval(arc_deg)*degree/usual_arc))
+         film%axial_cells = volumes(2)
+         film%axial_modes = 0
+      end subroutine solve_closely
    end function closely
 
    !> Compares the films of a model, of each pad, in the state y at time t, s.
@@ -114,7 +138,7 @@ contains
       type(pad_sample), intent(out) :: films(:)
       type(film_difference), intent(inout) :: found(:)
       logical :: chosen(size(found)), ok
-      integer :: i
+      integer :: i, b
       do i = 1, size(found)
          if (found(i)%refusal /= '') cycle
          chosen = .false.
@@ -122,6 +146,6 @@ contains
          call model%evaluate(t, y, .false., ok, chosen)
          if (.not. ok) found(i)%refusal = model%refusal
       end do
-      films = model%bearings(1)%sampled()
+      films = [(model%bearings(b)%sampled(), b=1, size(model%bearings))]
    end subroutine take_films
 end module film_comparison

@@ -30,10 +30,10 @@ contains
       call file%put_labels('position_row', positions, 'position whose force or moment it is')
       call file%put_labels('position_column', positions, 'position that is displaced')
       call file%put_list('mode', [(real(i, wp), i=1, 2*size(positions))], '1', 'mode number', 'mode')
-      associate (counts => shape(found%stiffness))
-         call file%put_array('coefficients/stiffness', [across(found%stiffness)], counts, 'N/m', &
+      associate (counts => shape(found%stiffness(:, :, :, :, 1)))
+         call file%put_array('coefficients/stiffness', [across(found%stiffness(:, :, :, :, 1))], counts, 'N/m', &
             & 'stiffness of the bearing at the journal, the pads condensed', of_journal)
-         call file%put_array('coefficients/damping', [across(found%damping)], counts, 'N s/m', &
+         call file%put_array('coefficients/damping', [across(found%damping(:, :, :, :, 1))], counts, 'N s/m', &
             & 'damping of the bearing at the journal, the pads condensed', of_journal)
       end associate
       call put_full(file, found)

@@ -5,7 +5,7 @@ module equilibrium_results
    use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
-   use equilibrium, only: equilibrium_type
+   use static_model, only: equilibrium_type
    use heat_balance_equations, only: static_figures_type
    use summary_group, only: put_figure
    implicit none (type, external)
@@ -19,8 +19,8 @@ contains
       class(record_type), intent(inout) :: file
       type(equilibrium_type), intent(in) :: found
       logical, intent(in) :: tilting, radial
-      call file%put_real('equilibrium/journal_y', found%journal(1), 'm', 'journal displacement, vertical')
-      call file%put_real('equilibrium/journal_z', found%journal(2), 'm', 'journal displacement, horizontal')
+      call file%put_real('equilibrium/journal_y', found%rotor(1), 'm', 'journal displacement, vertical')
+      call file%put_real('equilibrium/journal_z', found%rotor(2), 'm', 'journal displacement, horizontal')
       if (tilting) call file%put_list('equilibrium/pad_tilt', found%tilt, 'rad', 'pad tilt', 'pad')
       if (radial) call file%put_list('equilibrium/pivot_deflection', found%pivot_deflection, 'm', &
          & 'pivot deflection', 'pad')

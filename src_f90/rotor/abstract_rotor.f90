@@ -13,12 +13,14 @@ module abstract_rotor
    end type journal_motion
 
    type, abstract :: rotor_type
-      !> Displacements; states, twice as many; journals, each in a bearing.
-      integer :: positions = 0, states = 0, journals = 0
+      !> Displacements; states, twice as many; journals, each in a bearing; stations whose displacements it tells.
+      integer :: positions = 0, states = 0, journals = 0, stations = 0
    contains
       procedure, non_overridable :: journal
       procedure, non_overridable :: with_journals
       procedure(scales), deferred :: scales
+      procedure(loads), deferred :: loads
+      procedure(station_displacements), deferred :: station_displacements
       procedure(force), deferred :: force
       procedure(turn), deferred :: turn
       procedure(accelerations), deferred :: accelerations
@@ -38,6 +40,23 @@ module abstract_rotor
          real(wp), intent(in) :: clearances(:)
          real(wp) :: scales(self%positions)
       end function scales
+
+      !> Steady forces on the journals, (2, bearing), N, where these stand in the middle of their bearings: what the
+      !> bearings then bear.
+      pure function loads(self, point)
+         import :: rotor_type, operating_point_type, wp
+         class(rotor_type), intent(in) :: self
+         type(operating_point_type), intent(in) :: point
+         real(wp) :: loads(2, self%journals)
+      end function loads
+
+      !> Displacements y and z of the stations, (2, station), m, in a state.
+      pure function station_displacements(self, states) result(displacements)
+         import :: rotor_type, wp
+         class(rotor_type), intent(in) :: self
+         real(wp), intent(in) :: states(:)
+         real(wp) :: displacements(2, self%stations)
+      end function station_displacements
 
       !> Forces on the displacements in a state at time t, N: all but those of the bearings. In a run-up with the
       !> tangential force of the unbalance.

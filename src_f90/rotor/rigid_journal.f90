@@ -12,6 +12,8 @@ module rigid_journal
       real(wp) :: mass = 0
    contains
       procedure :: scales
+      procedure :: loads
+      procedure :: station_displacements
       procedure :: force
       procedure :: turn
       procedure :: accelerations
@@ -40,6 +42,21 @@ contains
       real(wp) :: scales(self%positions)
       scales = clearances(1)
    end function scales
+
+   pure function loads(self, point)
+      class(rigid_journal_type), intent(in) :: self
+      type(operating_point_type), intent(in) :: point
+      real(wp) :: loads(2, self%journals)
+      loads(:, 1) = point%load
+   end function loads
+
+   !> It has no stations.
+   pure function station_displacements(self, states) result(displacements)
+      class(rigid_journal_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      real(wp) :: displacements(2, self%stations)
+      displacements = 0
+   end function station_displacements
 
    !> Load and unbalance.
    pure function force(self, states, point, t)

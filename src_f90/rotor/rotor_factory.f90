@@ -1,17 +1,51 @@
 !> Builds the rotor of a case.
 module rotor_factory
+   use errors, only: error_type
    use case_inputs, only: case_type
+   use rotor_matrices, only: rotor_matrices_type
+   use shaft_in_bearings, only: find_rotor
    use abstract_rotor, only: rotor_type
    use rigid_journal, only: new_rigid_journal
+   use elastic_rotor, only: elastic_rotor_type, new_elastic_rotor
    implicit none (type, external)
    private
    public :: make_rotor
 
 contains
 
-   subroutine make_rotor(inputs, rotor)
+   !> The rotor of a case: of a machine its shaft, else a rigid journal. A shaft that has no equations is refused.
+   subroutine make_rotor(inputs, rotor, refusal, before)
       type(case_type), intent(in) :: inputs
       class(rotor_type), allocatable, intent(out) :: rotor
-      allocate (rotor, source=new_rigid_journal(inputs%rotor%mass))
+      !> Not allocated where there is a rotor.
+      character(len=:), allocatable, intent(out) :: refusal
+      !> A rotor of as many displacements; where it is left out the shaft has as many as the highest speed asks for.
+      class(rotor_type), intent(in), optional :: before
+      type(rotor_matrices_type) :: matrices
+      type(elastic_rotor_type) :: elastic
+      type(error_type), allocatable :: error
+      integer, allocatable :: modes
+      logical :: ok
+      if (.not. inputs%is_machine()) then
+         allocate (rotor, source=new_rigid_journal(inputs%rotor%mass))
+         return
+      end if
+      if (present(before)) then
+         select type (before)
+         type is (elastic_rotor_type)
+            modes = size(before%matrices%mode_frequency)
+         end select
+      end if
+      call find_rotor(inputs%machine, inputs%rotor%gravity, inputs%highest_speed(), matrices, error, modes)
+      if (allocated(error)) then
+         refusal = error%message
+         return
+      end if
+      call new_elastic_rotor(matrices, inputs%unbalance(), elastic, ok)
+      if (.not. ok) then
+         refusal = 'the equations of the shaft are singular'
+      else
+         allocate (rotor, source=elastic)
+      end if
    end subroutine make_rotor
 end module rotor_factory

@@ -9,7 +9,7 @@ program test_coefficients
    use force_balance, only: forces
    use input_cases, only: case_of
    use linear_analysis, only: analyse
-   use equilibrium, only: equilibrium_type
+   use static_model, only: equilibrium_type
    use linear_bearing, only: bearing_coefficients_type
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -46,24 +46,24 @@ contains
       inputs%coefficients%frequency_ratio = [1.0_wp, 0.5_wp]
       call analyse(inputs, 'tilting and radial', found)
       call expect(all(found%bearings%pivot == ['free  ', 'stuck ', 'locked']), 'three ways of the pivots')
-      call compare(found%stiffness(:, :, 1, 1), [521.449_wp, -0.768_wp, -0.200_wp, 522.734_wp], 'free, K')
-      call compare(found%damping(:, :, 1, 1), [0.647359_wp, 0.0_wp, 0.0_wp, 0.648953_wp], 'free, C', 1e-3_wp)
-      call compare(found%stiffness(1:1, 1:1, 2, 1), [545.403_wp], 'free, half the speed, K')
-      call compare(found%damping(1:1, 1:1, 2, 1), [0.524387_wp], 'free, half the speed, C')
-      call compare(found%stiffness(:, :, 1, 2), [840.962_wp, 352.514_wp, -354.373_wp, 842.451_wp], 'stuck, K')
-      call compare(found%damping(:, :, 1, 2), [0.964977_wp, -0.227835_wp, 0.227328_wp, 0.967452_wp], 'stuck, C')
-      call compare(found%stiffness(1:1, 1:1, 1, 3), [873.050_wp], 'locked, K')
-      call compare(found%damping(1:1, 1:1, 1, 3), [1.03309_wp], 'locked, C')
+      call compare(found%stiffness(:, :, 1, 1, 1), [521.449_wp, -0.768_wp, -0.200_wp, 522.734_wp], 'free, K')
+      call compare(found%damping(:, :, 1, 1, 1), [0.647359_wp, 0.0_wp, 0.0_wp, 0.648953_wp], 'free, C', 1e-3_wp)
+      call compare(found%stiffness(1:1, 1:1, 2, 1, 1), [545.403_wp], 'free, half the speed, K')
+      call compare(found%damping(1:1, 1:1, 2, 1, 1), [0.524387_wp], 'free, half the speed, C')
+      call compare(found%stiffness(:, :, 1, 2, 1), [840.962_wp, 352.514_wp, -354.373_wp, 842.451_wp], 'stuck, K')
+      call compare(found%damping(:, :, 1, 2, 1), [0.964977_wp, -0.227835_wp, 0.227328_wp, 0.967452_wp], 'stuck, C')
+      call compare(found%stiffness(1:1, 1:1, 1, 3, 1), [873.050_wp], 'locked, K')
+      call compare(found%damping(1:1, 1:1, 1, 3, 1), [1.03309_wp], 'locked, C')
       inputs%pads%motion = 'tilting_only'
       call analyse(inputs, 'tilting only', found)
-      call compare(diagonal(found%stiffness(:, :, 1, 1)), [511.106_wp, 512.137_wp], 'tilting only, K')
-      call compare(diagonal(found%damping(:, :, 1, 1)), [0.977657_wp, 0.979630_wp], 'tilting only, C')
+      call compare(diagonal(found%stiffness(:, :, 1, 1, 1)), [511.106_wp, 512.137_wp], 'tilting only, K')
+      call compare(diagonal(found%damping(:, :, 1, 1, 1)), [0.977657_wp, 0.979630_wp], 'tilting only, C')
       inputs = whole(3000.0_wp)
       inputs%pads%motion = 'tilting_only'
       call analyse(inputs, 'tilting only at 3000 rpm', found)
       call expect(all(found%bearings%pivot == ['free  ', 'locked']), 'nothing sticks without friction')
-      call compare(diagonal(found%stiffness(:, :, 1, 1)), [709.094_wp, 711.112_wp], '3000 rpm, K')
-      call compare(diagonal(found%damping(:, :, 1, 1)), [2.06450_wp, 2.07038_wp], '3000 rpm, C')
+      call compare(diagonal(found%stiffness(:, :, 1, 1, 1)), [709.094_wp, 711.112_wp], '3000 rpm, K')
+      call compare(diagonal(found%damping(:, :, 1, 1, 1)), [2.06450_wp, 2.07038_wp], '3000 rpm, C')
    end subroutine published
 
    !> The rotor's two modes, to the digits given.
@@ -108,7 +108,7 @@ contains
          call expect_close(abs(forward - cmplx(0.0_wp, -1.0_wp, wp)), 0.0_wp, 0.02_wp, 'z lags y by a quarter')
          call expect(first%damping_ratio(1) < 0.2_wp .and. first%damping_ratio(2) > 0.3_wp, 'one less, one more')
       end associate
-      call compare(found%stiffness(:, :, 1, 1), [521.449_wp, -0.768_wp, -0.200_wp, 522.734_wp], 'K is without it')
+      call compare(found%stiffness(:, :, 1, 1, 1), [521.449_wp, -0.768_wp, -0.200_wp, 522.734_wp], 'K is without it')
    end subroutine cross_stiffness
 
    !> The full matrices against central differences of the forces, to a part of each row's largest element in its
@@ -223,7 +223,7 @@ contains
          inputs%rotor%static_load = 0
          call analyse(inputs, 'stiffness at rest', found)
          associate (moved => 0.5_wp*(rest(1)%journal - rest(-1)%journal))
-            call expect_close(norm2(matmul(found%stiffness(:, :, 1, 1), moved) - force), 0.0_wp, &
+            call expect_close(norm2(matmul(found%stiffness(:, :, 1, 1, 1), moved) - force), 0.0_wp, &
                & 1e-6_wp*norm2(force), 'force along axis '//to_text(axis))
          end associate
       end do

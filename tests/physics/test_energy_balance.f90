@@ -225,7 +225,8 @@ program test_energy_balance
    use case_inputs, only: case_type
    use state_layout, only: at_tilt_rate
    use equations_of_motion, only: machine_model, new_machine_model
-   use equilibrium, only: equilibrium_type, find_equilibrium
+   use static_model, only: equilibrium_type
+   use equilibrium, only: find_equilibrium
    use sampled_march, only: march_samples
    use energy_ledger, only: ledger, energy_of
    use input_cases, only: case_of
@@ -277,7 +278,7 @@ contains
       bearing = new_machine_model(inputs)
       call find_equilibrium(bearing, static, error)
       call expect_no_error(error, 'the equilibrium is found')
-      call closes(inputs, bearing%static_state(static%journal + [10e-6_wp, 5e-6_wp], static%tilt + [1e-4_wp, &
+      call closes(inputs, bearing%static_state(static%rotor + [10e-6_wp, 5e-6_wp], static%tilt + [1e-4_wp, &
          & -5e-5_wp], static%pivot_deflection*[1.02_wp, 0.97_wp]), what, rubbed, touched)
       call expect(.not. touched, 'nothing touches, '//what)
       if (friction == 'none') then

@@ -9,7 +9,8 @@ program test_equilibrium_table
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film
    use equations_of_motion, only: new_machine_model
-   use equilibrium, only: equilibrium_type, find_equilibrium
+   use static_model, only: equilibrium_type
+   use equilibrium, only: find_equilibrium
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
@@ -64,8 +65,8 @@ contains
       type(equilibrium_type), intent(in) :: found
       real(wp), intent(in) :: journal(2), tilt(2), film
       character(len=*), intent(in) :: what
-      call expect_close(found%journal(1), journal(1)*1e-6_wp, small, 'journal y, '//what)
-      call expect_close(found%journal(2), journal(2)*1e-6_wp, small, 'journal z, '//what)
+      call expect_close(found%rotor(1), journal(1)*1e-6_wp, small, 'journal y, '//what)
+      call expect_close(found%rotor(2), journal(2)*1e-6_wp, small, 'journal z, '//what)
       call expect_close(maxval(abs(found%tilt - tilt*1e-3_wp)), 0.0_wp, 2.6e-6_wp, 'tilts, '//what)
       call expect_close(minval(found%min_film_thickness), film*1e-6_wp, small, 'minimum film thickness, '//what)
       call expect(found%residual <= 1e-8_wp, 'residual, '//what)
@@ -110,7 +111,7 @@ contains
          inputs%film%circumferential_cells = 30*2**k
          inputs%film%axial_cells = 8*2**k
          found = found_in(inputs)
-         off(k) = found%journal(1) + 45.561e-6_wp
+         off(k) = found%rotor(1) + 45.561e-6_wp
       end do
       call expect(abs(off(1)) < 0.35_wp*abs(off(0)), 'closer on 60 x 16 cells: '//to_text(off(0))//' '//to_text(off(1)))
       call expect(abs(off(2)) < 0.35_wp*abs(off(1)), 'closer on 120 x 32 cells: '//to_text(off(1))//' ' &
@@ -118,7 +119,7 @@ contains
       call expect_close((4*off(2) - off(1))/3, 0.0_wp, 1e-9_wp, 'extrapolated journal')
       inputs = paper_case('tilting_only', 6500.0_wp)
       found = found_in(inputs)
-      call expect_close(found%journal(1), -45.561e-6_wp, 1e-9_wp, 'axial modes are there already')
+      call expect_close(found%rotor(1), -45.561e-6_wp, 1e-9_wp, 'axial modes are there already')
    end subroutine grid_convergence
 
    !> Forces at the place found, from films set up and measured anew: gaps from the plane geometry of the pad
@@ -154,7 +155,7 @@ contains
             pivot = (b%journal_radius + b%assembled_clearance + p%pivot_distance(pad) + found%pivot_deflection(pad)) &
                & *[sin(theta), cos(theta)]
             centre = pivot - (b%journal_radius + b%machined_clearance + p%pivot_distance(pad))*outward
-            e = found%journal - centre
+            e = found%rotor - centre
             call solver%evaluate_pad(pad, film_motion([dot_product(e, along), dot_product(e, outward)]), &
                & film_oil(b%viscosity), inputs%highest_speed(), .false., r)
             total = total + r%force(1)*along + r%force(2)*outward
@@ -187,7 +188,7 @@ contains
             inputs = paper_case(motion, speeds(i))
             inputs%rotor%static_load = [-(loads(k) - 1)*2000*9.81_wp, 0.0_wp]
             found = found_in(inputs)
-            height(i, k) = found%journal(1)
+            height(i, k) = found%rotor(1)
             if (allocated(found%min_film_thickness)) call expect(minval(found%min_film_thickness) > 0, 'films are open')
          end do
       end do

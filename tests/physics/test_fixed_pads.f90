@@ -14,7 +14,8 @@ program test_fixed_pads
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
    use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, frame_of, motion_of
-   use equilibrium, only: equilibrium_type, find_equilibrium
+   use static_model, only: equilibrium_type
+   use equilibrium, only: find_equilibrium
    use pad_behaviour, only: whirl_of
    use sampled_march, only: march_samples
    use input_cases, only: case_of, listed
@@ -156,9 +157,9 @@ contains
       call expect_no_error(error, 'an equilibrium at S = '//to_text(sommerfeld))
       if (allocated(error)) return
       rest%sommerfeld = sommerfeld
-      rest%eccentricity = norm2(found%journal)/inputs%bearing%assembled_clearance
-      rest%attitude = atan2(-found%journal(2), -found%journal(1))/degree
-      call model%evaluate(0.0_wp, model%static_state(found%journal, found%tilt, found%pivot_deflection), .true., ok)
+      rest%eccentricity = norm2(found%rotor)/inputs%bearing%assembled_clearance
+      rest%attitude = atan2(-found%rotor(2), -found%rotor(1))/degree
+      call model%evaluate(0.0_wp, model%static_state(found%rotor, found%tilt, found%pivot_deflection), .true., ok)
       call expect(ok, 'derivatives at S = '//to_text(sommerfeld))
       call force_derivatives(model, k, c)
       ! along the load is -y, across it, in the sense of the rotation, -z: both turn the signs of no coefficient
@@ -395,7 +396,7 @@ contains
       integer :: i
       do i = 1, size(sizes)
          associate (turn => places(:, (i - 1)*samples + 1:i*samples))
-            sizes(i) = sqrt(maxval((turn(1, :) - found%journal(1))**2 + (turn(2, :) - found%journal(2))**2)) &
+            sizes(i) = sqrt(maxval((turn(1, :) - found%rotor(1))**2 + (turn(2, :) - found%rotor(2))**2)) &
                & /model%inputs%bearing%assembled_clearance
          end associate
       end do
@@ -410,7 +411,7 @@ contains
       integer, intent(in) :: revolutions
       real(wp), allocatable, intent(out) :: places(:, :)
       real(wp), allocatable :: y(:)
-      y = model%static_state(found%journal + [beside*model%inputs%bearing%assembled_clearance, 0.0_wp], found%tilt, &
+      y = model%static_state(found%rotor + [beside*model%inputs%bearing%assembled_clearance, 0.0_wp], found%tilt, &
          & found%pivot_deflection)
       allocate (places(2, samples*revolutions))
       call march_samples(model, model%scale, [1e-7_wp, 1e-7_wp], y, 0.0_wp, &

@@ -75,7 +75,7 @@ contains
       do k = 1, 3
          frequency = inputs%coefficients%frequency_ratio(k)*model%point%speed(0.0_wp)
          z = measured(model, y, frequency)
-         expected = cmplx(found%stiffness(:, :, k, 1), frequency*found%damping(:, :, k, 1), wp)
+         expected = cmplx(found%stiffness(:, :, k, 1, 1), frequency*found%damping(:, :, k, 1, 1), wp)
          do i = 1, 2
             expected(i, i) = expected(i, i) - frequency**2*model%inputs%rotor%mass
          end do

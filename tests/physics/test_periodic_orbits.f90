@@ -9,7 +9,8 @@ program test_periodic_orbits
    use cvode_integrator, only: integrator_type
    use factories, only: converged_films
    use equations_of_motion, only: machine_model, new_machine_model
-   use equilibrium, only: equilibrium_type, find_equilibrium
+   use static_model, only: equilibrium_type
+   use equilibrium, only: find_equilibrium
    use force_balance, only: force_derivatives, masses, find_vibrations
    use orbit_polynomials, only: orbit_type
    use constant_orbit, only: newton_round
@@ -61,7 +62,7 @@ contains
       if (.not. allocated(error)) then
          options%relative_tolerance = tolerance
          options%absolute_tolerance = tolerance*model%scale
-         call find_periodic_orbit(model, options, model%static_state(static%journal, static%tilt, &
+         call find_periodic_orbit(model, options, model%static_state(static%rotor, static%tilt, &
             & static%pivot_deflection), found, error)
       end if
       call expect_no_error(error, 'the orbit is found')

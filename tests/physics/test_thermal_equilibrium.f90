@@ -6,7 +6,8 @@ program test_thermal_equilibrium
    use input_cases, only: case_of
    use linear_analysis, only: analyse
    use equations_of_motion, only: machine_model, new_machine_model
-   use equilibrium, only: equilibrium_type, find_equilibrium
+   use static_model, only: equilibrium_type
+   use equilibrium, only: find_equilibrium
    use heat_balance_equations, only: static_figures_type, find_static_figures
    use linear_bearing, only: bearing_coefficients_type
    use viscosity_history, only: viscosity_history_type
@@ -66,9 +67,9 @@ contains
       call expect_close(figures%oil%shaft, 57.276_wp, 0.003_wp, 'shaft')
       call expect_close(maxval(figures%oil%maximum), 69.6_wp, 0.06_wp, 'maximum')
       call analyse(model%inputs, 'coefficients', found, static)
-      call expect_close(static%journal(1), -55.7045e-6_wp, 0.003e-6_wp, 'y, of converged films')
-      call expect_close(found%stiffness(1, 1, 1, 1), 351.43e6_wp, 0.05e6_wp, 'K_yy')
-      call expect_close(found%damping(1, 1, 1, 1), 0.6163e6_wp, 0.0004e6_wp, 'C_yy')
+      call expect_close(static%rotor(1), -55.7045e-6_wp, 0.003e-6_wp, 'y, of converged films')
+      call expect_close(found%stiffness(1, 1, 1, 1, 1), 351.43e6_wp, 0.05e6_wp, 'K_yy')
+      call expect_close(found%damping(1, 1, 1, 1, 1), 0.6163e6_wp, 0.0004e6_wp, 'C_yy')
    end subroutine published
 
    !> The paper's bearing at 6500 rpm: one pad runs in oil that the other has warmed: cross-coupled stiffness appears.
@@ -80,10 +81,10 @@ contains
       call solve(case_of('&pads motion = ''tilting_only''/ &film cavitation = ''none''/'//vg46), static, figures, &
          & model)
       call expect(all(abs(static%viscosity - [23e-3_wp, 13.4e-3_wp]) < [0.5e-3_wp, 0.05e-3_wp]), 'viscosities')
-      call expect_close(static%journal(2), -7e-6_wp, 0.5e-6_wp, 'z')
+      call expect_close(static%rotor(2), -7e-6_wp, 0.5e-6_wp, 'z')
       call analyse(model%inputs, 'coefficients', found, static)
-      call expect_close(found%stiffness(1, 2, 1, 1), 61e6_wp, 1e6_wp, 'K_yz')
-      call expect_close(found%stiffness(2, 1, 1, 1), 61e6_wp, 1e6_wp, 'K_zy')
+      call expect_close(found%stiffness(1, 2, 1, 1, 1), 61e6_wp, 1e6_wp, 'K_yz')
+      call expect_close(found%stiffness(2, 1, 1, 1, 1), 61e6_wp, 1e6_wp, 'K_zy')
    end subroutine cross_stiffness
 
    !> Oil whose viscosity does not fall: bit for bit the equilibrium without temperatures.
@@ -112,7 +113,7 @@ contains
       inputs%oil%density = inputs%oil%density/4
       inputs%oil%specific_heat = inputs%oil%specific_heat*4
       call solve(inputs, other, figures)
-      call expect(all(abs(other%journal - static%journal) < 1e-12_wp), 'journal')
+      call expect(all(abs(other%journal - static%rotor) < 1e-12_wp), 'journal')
       inputs%oil%specific_heat = 1e12_wp
       call solve(inputs, other, figures)
       call expect(all(abs(figures%oil%maximum - inputs%oil%supply_temperature) < 1e-4_wp), 'cold')
@@ -157,7 +158,7 @@ contains
       inputs%oil%groove_volume = volume
       inputs%operation%duration = duration
       call solve(inputs, static, model=model)
-      call find_groove_transient(model, model%static_state(static%journal, static%tilt, static%pivot_deflection), &
+      call find_groove_transient(model, model%static_state(static%rotor, static%tilt, static%pivot_deflection), &
          & duration, history, error)
       call expect_no_error(error, 'course')
       if (.not. allocated(error)) call history%at(duration, viscosities)

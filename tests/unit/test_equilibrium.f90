@@ -6,7 +6,9 @@ program test_equilibrium
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces
-   use equilibrium, only: equilibrium_type, find_equilibrium, find_partial_equilibrium
+   use static_model, only: equilibrium_type
+   use bearing_equilibrium, only: find_partial_equilibrium
+   use equilibrium, only: find_equilibrium
    use equilibrium_refusal, only: search_traces, refusal
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
@@ -40,7 +42,7 @@ contains
       if (.not. allocated(held)) return
       call expect(.not. any(held), 'no pad is held')
       call find_equilibrium(new_machine_model(case_type()), whole, error)
-      call expect_close(norm2(part%journal - whole%journal), 0.0_wp, 1e-11_wp, 'the same place')
+      call expect_close(norm2(part%rotor - whole%rotor), 0.0_wp, 1e-11_wp, 'the same place')
       call expect_close(maxval(abs(part%tilt - whole%tilt)), 0.0_wp, 1e-9_wp, 'the same tilts')
    end subroutine nothing_held
 
@@ -65,8 +67,8 @@ contains
       call expect_close(found%tilt(3), 0.0_wp, 0.0_wp, 'at zero tilt')
       call expect_close(found%pivot_deflection(3), 0.0_wp, 0.0_wp, 'on its pivot')
       call model%set_point(model%point%static())
-      call model%evaluate(0.0_wp, model%static_state(found%journal, found%tilt, found%pivot_deflection), .false., ok)
-      force = forces(model, 0.0_wp, model%static_state(found%journal, found%tilt, found%pivot_deflection))
+      call model%evaluate(0.0_wp, model%static_state(found%rotor, found%tilt, found%pivot_deflection), .false., ok)
+      force = forces(model, 0.0_wp, model%static_state(found%rotor, found%tilt, found%pivot_deflection))
       call expect_close(maxval(abs(force(:2))), 0.0_wp, 1e-3_wp, 'the journal is in balance')
       call expect_close(maxval(abs(force([4, 6]))), 0.0_wp, 1e-3_wp, 'so are the loaded pads along their radius')
       call expect(abs(force(7)) > 1e-3_wp, 'and the held pad is not')

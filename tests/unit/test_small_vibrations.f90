@@ -6,8 +6,8 @@ program test_small_vibrations
    use sampled_march, only: march_samples
    use state_layout, only: at_tilt
    use equations_of_motion, only: machine_model, new_machine_model
-   use equilibrium, only: equilibrium_type, find_equilibrium
-   use static_model, only: make_static
+   use equilibrium, only: find_equilibrium
+   use static_model, only: equilibrium_type, make_static
    use force_balance, only: stability_type, stability_of, find_vibrations
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
@@ -80,7 +80,7 @@ contains
       if (allocated(error)) return
       call expect(found%stability%name == expected, expected//', not '//found%stability%name)
       call make_static(model, .true., static)
-      rest = static%static_state(found%journal, found%tilt, found%pivot_deflection)
+      rest = static%static_state(found%rotor, found%tilt, found%pivot_deflection)
       y = rest
       y(1:2) = y(1:2) + 1e-5_wp*static%scale(1:2)
       tilts = static%layout%bearings(1)%before([(k, k=1, static%layout%pads)]) + at_tilt

@@ -1,0 +1,58 @@
+!> The bearings of a machine, each alone with a rigid journal that bears what the rotor lays on it: what is known of one
+!> bearing then holds for each.
+module bearings_alone
+   use kinds, only: wp
+   use factories, only: march_films, static_films
+   use equations_of_motion, only: machine_model, new_machine_model
+   use static_model, only: equilibrium_type
+   implicit none (type, external)
+   private
+   public :: bearing_alone, part_of, bearing_loads
+
+contains
+
+   !> A static model of bearing b alone under a load along y and z, N, at the speed of the machine.
+   function bearing_alone(model, b, load) result(alone)
+      type(machine_model), intent(in) :: model
+      integer, intent(in) :: b
+      real(wp), intent(in) :: load(2)
+      type(machine_model) :: alone
+      integer :: accuracy
+      accuracy = model%bearings(b)%accuracy
+      if (accuracy == march_films) accuracy = static_films
+      alone = new_machine_model(model%inputs%of_bearing(b, load), accuracy)
+      alone%point%speed_rpm = model%point%speed_rpm
+      alone%point%cavitation = model%point%cavitation
+      call alone%set_point(alone%point%static())
+      alone%oil = model%oil(model%layout%bearings(b)%all_pads())
+   end function bearing_alone
+
+   !> What an equilibrium is in bearing b.
+   function part_of(model, found, b) result(part)
+      type(machine_model), intent(in) :: model
+      type(equilibrium_type), intent(in) :: found
+      integer, intent(in) :: b
+      type(equilibrium_type) :: part
+      part = found
+      part%rotor = found%rotor(2*b - 1:2*b)
+      associate (pads => model%layout%bearings(b)%all_pads())
+         part%tilt = found%tilt(pads)
+         part%pivot_deflection = found%pivot_deflection(pads)
+         part%pivot_load = found%pivot_load(pads)
+         part%min_film_thickness = found%min_film_thickness(pads)
+         part%max_pressure = found%max_pressure(pads)
+         part%viscosity = found%viscosity(pads)
+      end associate
+   end function part_of
+
+   !> What the rotor, at rest with these displacements, lays on its bearings, (2, bearing), N, along y and z.
+   pure function bearing_loads(model, displacements) result(loads)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: displacements(:)
+      real(wp) :: loads(2, size(model%bearings)), force(size(displacements)), states(2*size(displacements))
+      states(:size(displacements)) = displacements
+      states(size(displacements) + 1:) = 0
+      force = model%rotor%force(states, model%point%static(), 0.0_wp)
+      loads = reshape(force(:size(loads)), shape(loads))
+   end function bearing_loads
+end module bearings_alone

@@ -1,0 +1,295 @@
+!> The equilibrium of a rotor in several bearings. What each bearing bears follows from the rotor's stiffness, from
+!> offsets and from how far each bearing yields: each is brought to equilibrium alone under its share of the load, with
+!> warm oil as one bearing is, and Newton's method on the displacements of the journals finds the shares. The rotor's
+!> other displacements follow from these.
+module load_shares
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop
+   use linear_algebra, only: dgesv
+   use equations_of_motion, only: machine_model
+   use force_balance, only: bearing_derivatives, stability_at
+   use static_model, only: equilibrium_type, describe, solve_equilibrium
+   use thermal_equilibrium, only: settle
+   use bearing_equilibrium, only: find_bearing_equilibrium
+   use bearings_alone, only: bearing_alone, part_of, bearing_loads
+   implicit none (type, external)
+   private
+   public :: share_loads
+
+   !> Step of the loads, over themselves, at the end: Newton's method on the whole machine follows.
+   real(wp), parameter :: agreement = 1e-6_wp
+   !> Most rounds, each with a bearing analysis of every bearing; shortest part of a step that is tried.
+   integer, parameter :: most_rounds = 40
+   real(wp), parameter :: shortest = 1e-3_wp
+   !> How far the bearings yield in the first guess, over the clearance: journals run at about half of it.
+   real(wp), parameter :: first_yield = 0.5_wp
+
+   !> A rotor at rest, onto its journals: what these bear is `borne` - `stiffness` times their displacements.
+   type :: rotor_at_rest
+      real(wp), allocatable :: stiffness(:, :), borne(:)
+      !> Its other displacements: `bent` - `follow` times those of the journals.
+      real(wp), allocatable :: bent(:), follow(:, :)
+   end type rotor_at_rest
+
+   !> A bearing alone under its share.
+   type :: share_type
+      type(machine_model) :: alone
+      type(equilibrium_type) :: found
+      !> How the load grows with the displacement of the journal, N/m, pads following.
+      real(wp) :: stiffness(2, 2) = 0
+   end type share_type
+
+contains
+
+   !> The equilibrium of a static model of a machine, which then has the viscosities of its oil. `known`: found is an
+   !> equilibrium of films that differ a little, from which it starts.
+   subroutine share_loads(model, found, error, give_up, known)
+      type(machine_model), intent(inout) :: model
+      type(equilibrium_type), intent(inout) :: found
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      logical, intent(in), optional :: known
+      type(rotor_at_rest) :: rotor
+      type(share_type) :: shares(size(model%bearings))
+      real(wp) :: loads(2*size(shares))
+      logical :: ok
+      integer :: b
+      call condense(model, rotor, ok)
+      if (.not. ok) then
+         call raise(error, numerics_error, 'the stiffness of the rotor is singular')
+         return
+      end if
+      if (present(known)) then
+         loads = [bearing_loads(model, found%rotor)]
+      else
+         call guess_loads(model, rotor, loads)
+      end if
+      do b = 1, size(shares)
+         shares(b)%alone = bearing_alone(model, b, loads(2*b - 1:2*b))
+         if (present(known)) shares(b)%found = part_of(model, found, b)
+      end do
+      call bear(model, shares, loads, error, give_up)
+      if (.not. allocated(error)) call find_loads(model, rotor, shares, loads, error, give_up)
+      if (.not. allocated(error)) call join(model, rotor, shares, found, error, give_up)
+   end subroutine share_loads
+
+   !> Newton's method on the displacements of the journals, from bearings that are in equilibrium under these loads. A
+   !> step is shortened until the next one is shorter (natural monotonicity test, Deuflhard 2004, section 2.1): forces
+   !> alone would tell of a stiff shaft what rounding leaves.
+   subroutine find_loads(model, rotor, shares, loads, error, give_up)
+      type(machine_model), intent(in) :: model
+      type(rotor_at_rest), intent(in) :: rotor
+      type(share_type), intent(inout) :: shares(:)
+      real(wp), intent(inout) :: loads(:)
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(share_type) :: trial(size(shares))
+      real(wp) :: step(size(loads)), next(size(loads)), part
+      integer :: round
+      call find_step(rotor, shares, loads, step)
+      part = 1
+      do round = 1, most_rounds
+         if (norm2(step) <= agreement*norm2(loads)) return
+         trial = shares
+         call bear(model, trial, loads + part*step, error, give_up)
+         if (.not. allocated(error)) then
+            call find_step(rotor, trial, loads + part*step, next)
+            if (norm2(next) < norm2(step)) then
+               shares = trial
+               loads = loads + part*step
+               step = next
+               part = min(1.0_wp, 2*part)
+               cycle
+            end if
+         else if (error%status == stopped) then
+            return
+         end if
+         part = 0.5_wp*part
+         if (part < shortest) exit
+      end do
+      if (.not. allocated(error)) call raise(error, numerics_error, 'the bearings'' shares of the load do not settle: ' &
+         & //to_text(norm2(step))//' N are left unbalanced')
+   end subroutine find_loads
+
+   !> The rotor's static forces and stiffness onto its journals.
+   subroutine condense(model, rotor, ok)
+      type(machine_model), intent(in) :: model
+      type(rotor_at_rest), intent(out) :: rotor
+      logical, intent(out) :: ok
+      real(wp), dimension(model%rotor%positions, model%rotor%positions) :: over_positions, over_rates
+      real(wp) :: force(model%rotor%positions), states(model%rotor%states)
+      real(wp), allocatable :: inner(:, :), right(:, :)
+      integer, allocatable :: pivots(:)
+      integer :: info
+      states = 0
+      force = model%rotor%force(states, model%point, 0.0_wp)
+      call model%rotor%force_derivatives(model%point%speed(0.0_wp), over_positions, over_rates)
+      associate (n => 2*size(model%bearings), m => model%rotor%positions, k => over_positions)
+         inner = -k(n + 1:, n + 1:)
+         allocate (right(m - n, n + 1), pivots(m - n))
+         right(:, :n) = -k(n + 1:, :n)
+         right(:, n + 1) = force(n + 1:)
+         info = 0
+         if (m > n) call dgesv(m - n, n + 1, inner, m - n, pivots, right, m - n, info)
+         ok = info == 0
+         if (.not. ok) return
+         rotor%follow = right(:, :n)
+         rotor%bent = right(:, n + 1)
+         rotor%stiffness = -k(:n, :n) + matmul(k(:n, n + 1:), rotor%follow)
+         rotor%borne = force(:n) + matmul(k(:n, n + 1:), rotor%bent)
+      end associate
+   end subroutine condense
+
+   !> Loads on bearings that yield as springs, by part of their clearance under a mean share.
+   subroutine guess_loads(model, rotor, loads)
+      type(machine_model), intent(in) :: model
+      type(rotor_at_rest), intent(in) :: rotor
+      real(wp), intent(out) :: loads(:)
+      real(wp) :: matrix(size(loads), size(loads)), springs(size(loads)), share
+      integer :: pivots(size(loads)), info, i
+      share = norm2([sum(rotor%borne(1::2)), sum(rotor%borne(2::2))])/size(model%bearings)
+      matrix = rotor%stiffness
+      do i = 1, size(loads)
+         springs(i) = share/(first_yield*model%bearings((i + 1)/2)%clearance)
+         matrix(i, i) = matrix(i, i) + springs(i)
+      end do
+      loads = rotor%borne
+      call dgesv(size(loads), 1, matrix, size(loads), pivots, loads, size(loads), info)
+      if (info == 0) then
+         loads = springs*loads
+      else
+         loads = rotor%borne
+      end if
+   end subroutine guess_loads
+
+   !> Each bearing to equilibrium under its load, from where it is under another if it is in equilibrium.
+   subroutine bear(model, shares, loads, error, give_up)
+      type(machine_model), intent(in) :: model
+      type(share_type), intent(inout) :: shares(:)
+      real(wp), intent(in) :: loads(:)
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      integer :: b
+      do b = 1, size(shares)
+         shares(b)%alone%point%load = loads(2*b - 1:2*b)
+         call bear_one(shares(b), error, give_up)
+         if (.not. allocated(error)) cycle
+         if (error%status /= stopped) call add_context(error, 'bearing '''//model%inputs%machine%bearings(b)%name &
+            & //''' under '//to_text(loads(2*b - 1))//' N along y and '//to_text(loads(2*b))//' N along z')
+         return
+      end do
+   end subroutine bear
+
+   !> One of them.
+   subroutine bear_one(share, error, give_up)
+      type(share_type), intent(inout) :: share
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(equilibrium_type) :: found
+      real(wp), allocatable :: y(:)
+      if (allocated(share%found%tilt)) then
+         found = share%found
+         call settle(share%alone, found, y, error, give_up)
+         if (allocated(error)) then
+            if (error%status == stopped) return
+            deallocate (y)
+         end if
+      end if
+      if (.not. allocated(y)) call find_bearing_equilibrium(share%alone, found, error, give_up)
+      if (allocated(error)) return
+      share%found = found
+      share%alone%oil%viscosity = found%viscosity
+      call take_stiffness(share, error)
+   end subroutine bear_one
+
+   !> The stiffness of a bearing in equilibrium, pads following.
+   subroutine take_stiffness(share, error)
+      type(share_type), intent(inout) :: share
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), dimension(share%alone%layout%n_positions(), share%alone%layout%n_positions()) :: k, c
+      real(wp), allocatable :: inner(:, :), right(:, :)
+      integer :: pivots(size(k, 1)), info, n
+      logical :: ok
+      associate (of => share%found)
+         call share%alone%evaluate(0.0_wp, share%alone%static_state(of%rotor, of%tilt, of%pivot_deflection), .true., ok)
+      end associate
+      if (ok) then
+         call bearing_derivatives(share%alone, k, c)
+         n = size(k, 1) - 2
+         inner = k(3:, 3:)
+         right = k(3:, :2)
+         info = 0
+         if (n > 0) call dgesv(n, 2, inner, n, pivots, right, n, info)
+         ok = info == 0
+      end if
+      if (ok) then
+         share%stiffness = -k(:2, :2) + matmul(k(:2, 3:), right)
+      else
+         call raise(error, numerics_error, 'the stiffness of the bearing is not found')
+      end if
+   end subroutine take_stiffness
+
+   !> Displacements of the journals where the bearings alone have them.
+   pure function journals_of(shares) result(displacements)
+      type(share_type), intent(in) :: shares(:)
+      real(wp) :: displacements(2*size(shares))
+      integer :: b
+      do b = 1, size(shares)
+         displacements(2*b - 1:2*b) = shares(b)%found%rotor
+      end do
+   end function journals_of
+
+   !> Newton's step of the loads; none where the equations are singular.
+   subroutine find_step(rotor, shares, loads, step)
+      type(rotor_at_rest), intent(in) :: rotor
+      type(share_type), intent(in) :: shares(:)
+      real(wp), intent(in) :: loads(:)
+      real(wp), intent(out) :: step(:)
+      real(wp) :: matrix(size(loads), size(loads))
+      integer :: pivots(size(loads)), info, b
+      matrix = rotor%stiffness
+      do b = 1, size(shares)
+         associate (at => [2*b - 1, 2*b])
+            matrix(at, at) = matrix(at, at) + shares(b)%stiffness
+         end associate
+      end do
+      step = rotor%borne - matmul(rotor%stiffness, journals_of(shares)) - loads
+      call dgesv(size(step), 1, matrix, size(step), pivots, step, size(step), info)
+      do b = 1, size(shares)
+         step(2*b - 1:2*b) = matmul(shares(b)%stiffness, step(2*b - 1:2*b))
+      end do
+      if (info /= 0) step = 0
+   end subroutine find_step
+
+   !> The equilibrium of the machine from those of its bearings.
+   subroutine join(model, rotor, shares, found, error, give_up)
+      type(machine_model), intent(inout) :: model
+      type(rotor_at_rest), intent(in) :: rotor
+      type(share_type), intent(in) :: shares(:)
+      type(equilibrium_type), intent(inout) :: found
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      real(wp), allocatable :: y(:), tilt(:), deflection(:)
+      real(wp) :: journals(2*size(shares))
+      logical :: ok
+      integer :: b
+      allocate (tilt(0), deflection(0))
+      found%search = ''
+      do b = 1, size(shares)
+         associate (of => shares(b)%found)
+            tilt = [tilt, of%tilt]
+            deflection = [deflection, of%pivot_deflection]
+            model%oil(model%layout%bearings(b)%all_pads())%viscosity = of%viscosity
+            if (found%search == '' .or. of%search /= 'first') found%search = of%search
+         end associate
+      end do
+      journals = journals_of(shares)
+      y = model%static_state([journals, rotor%bent - matmul(rotor%follow, journals)], tilt, deflection)
+      call solve_equilibrium(model, y, found%residual, error, give_up)
+      if (allocated(error)) return
+      call describe(model, y, found)
+      call stability_at(model, y, found%stability, ok)
+      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
+   end subroutine join
+end module load_shares

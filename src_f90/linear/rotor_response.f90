@@ -1,0 +1,135 @@
+!> What the equations of a machine, linearised at its equilibrium, say beside its modes: the steady whirl of its stations
+!> under the unbalance; the stations in each mode; and the modes with each bearing's synchronous stiffness and damping
+!> in the place of its pads, as rotor dynamics without pads has them.
+module rotor_response
+   use kinds, only: wp
+   use linear_algebra, only: zgesv
+   use errors, only: error_type, raise, numerics_error
+   use operating_point, only: operating_point_type
+   use equations_of_motion, only: machine_model
+   use linear_bearing, only: linear_bearing_type, vibration_modes_type, bearing_coefficients_type, find_modes
+   implicit none (type, external)
+   private
+   public :: rotor_response_type, find_rotor_response
+
+   !> One element, or the last dimension, for each way that the pivots may behave.
+   type :: rotor_response_type
+      !> Stations under the unbalance, m, (2, station, pivot): y and z are the real parts of these times
+      !> exp(i shaft angle).
+      complex(wp), allocatable :: unbalance(:, :, :)
+      !> Stations in the modes, m, (2, station, mode, pivot); 0 of modes that there are not.
+      complex(wp), allocatable :: shapes(:, :, :, :)
+      !> Modes of the rotor on synchronously reduced coefficients.
+      type(vibration_modes_type), allocatable :: synchronous(:)
+   end type rotor_response_type
+
+contains
+
+   !> Of a model whose coefficients were found, with those at the synchronous frequency, N/m and N s/m,
+   !> (row, column, pivot, bearing). The unbalance is that of the model's case.
+   subroutine find_rotor_response(model, coefficients, stiffness, damping, found, error)
+      type(machine_model), intent(in) :: model
+      type(bearing_coefficients_type), intent(in) :: coefficients
+      real(wp), intent(in) :: stiffness(:, :, :, :), damping(:, :, :, :)
+      type(rotor_response_type), intent(out) :: found
+      type(error_type), allocatable, intent(out) :: error
+      logical :: ok
+      integer :: i, k, modes
+      associate (pivots => size(coefficients%modes), stations => model%rotor%stations)
+         modes = maxval([(size(coefficients%modes(i)%eigenvalue), i=1, pivots)])
+         allocate (found%unbalance(2, stations, pivots), found%shapes(2, stations, modes, pivots), &
+            & found%synchronous(pivots))
+         found%shapes = 0
+         do i = 1, pivots
+            call whirl(model, coefficients%with_rotor(i), found%unbalance(:, :, i), ok)
+            if (ok) call reduce(model, coefficients%with_rotor(i)%pivot, stiffness(:, :, i, :), damping(:, :, i, :), &
+               & found%synchronous(i), ok)
+            if (.not. ok) then
+               call raise(error, numerics_error, 'the linear equations of the rotor with ' &
+                  & //trim(coefficients%with_rotor(i)%pivot)//' pivots are singular')
+               return
+            end if
+            do k = 1, size(coefficients%modes(i)%eigenvalue)
+               found%shapes(:, :, k, i) = at_stations(model, coefficients%modes(i)%shape(:, k))
+            end do
+         end do
+      end associate
+   end subroutine find_rotor_response
+
+   !> Stations of the rotor's displacements, which turn, m.
+   pure function at_stations(model, positions) result(stations)
+      type(machine_model), intent(in) :: model
+      complex(wp), intent(in) :: positions(:)
+      complex(wp) :: stations(2, model%rotor%stations)
+      real(wp) :: states(model%rotor%states), still(2, model%rotor%stations)
+      real(wp), dimension(2, model%rotor%stations) :: re, im
+      associate (n => model%rotor%positions)
+         states = 0
+         still = model%rotor%station_displacements(states)
+         states(:n) = positions(:n)%re
+         re = model%rotor%station_displacements(states) - still
+         states(:n) = positions(:n)%im
+         im = model%rotor%station_displacements(states) - still
+      end associate
+      stations = cmplx(re, im, wp)
+   end function at_stations
+
+   !> The steady whirl under the unbalance: (K + i Omega C - Omega^2 M) x = f.
+   subroutine whirl(model, linear, stations, ok)
+      type(machine_model), intent(in) :: model
+      type(linear_bearing_type), intent(in) :: linear
+      complex(wp), intent(out) :: stations(:, :)
+      logical, intent(out) :: ok
+      complex(wp), allocatable :: z(:, :), x(:), positions(:)
+      type(operating_point_type) :: point
+      real(wp) :: turning(model%rotor%positions), speed
+      integer, allocatable :: kept(:), pivots(:)
+      integer :: i, info
+      speed = model%point%speed(0.0_wp)
+      kept = pack([(i, i=1, size(linear%moves))], linear%moves)
+      z = cmplx(linear%stiffness(kept, kept) - speed**2*linear%mass(kept, kept), speed*linear%damping(kept, kept), wp)
+      allocate (positions(size(linear%moves)), pivots(size(kept)))
+      positions = 0
+      point = operating_point_type(model%inputs)
+      point%speed_rpm = model%point%speed_rpm
+      point%acceleration = 0
+      associate (n => model%rotor%positions)
+         ! f = Re(F exp(i phi)): F from f at phi = 0 and from df/dt = Re(i Omega F) there
+         turning = model%rotor%turn(point, 0.0_wp)/speed
+         positions(:n) = cmplx(model%rotor%force(spread(0.0_wp, 1, 2*n), point, 0.0_wp) &
+            & - model%rotor%force(spread(0.0_wp, 1, 2*n), point%static(), 0.0_wp), -turning, wp)
+      end associate
+      x = positions(kept)
+      call zgesv(size(kept), 1, z, size(kept), pivots, x, size(kept), info)
+      ok = info == 0
+      positions = 0
+      positions(kept) = x
+      stations = at_stations(model, positions)
+   end subroutine whirl
+
+   !> The modes of the rotor on bearings of this stiffness, N/m, and damping, N s/m, (row, column, bearing).
+   subroutine reduce(model, pivot, stiffness, damping, modes, ok)
+      type(machine_model), intent(in) :: model
+      character(len=*), intent(in) :: pivot
+      real(wp), intent(in) :: stiffness(:, :, :), damping(:, :, :)
+      type(vibration_modes_type), intent(out) :: modes
+      logical, intent(out) :: ok
+      type(linear_bearing_type) :: linear
+      integer :: b, n
+      n = model%rotor%positions
+      linear%pivot = pivot
+      linear%mass = model%rotor%masses()
+      allocate (linear%stiffness(n, n), linear%damping(n, n))
+      allocate (linear%moves(n), source=.true.)
+      call model%rotor%force_derivatives(model%point%speed(0.0_wp), linear%stiffness, linear%damping)
+      linear%stiffness = -linear%stiffness
+      linear%damping = -linear%damping
+      do b = 1, size(stiffness, 3)
+         associate (at => model%layout%bearings(b)%journal)
+            linear%stiffness(at, at) = linear%stiffness(at, at) + stiffness(:, :, b)
+            linear%damping(at, at) = linear%damping(at, at) + damping(:, :, b)
+         end associate
+      end do
+      call find_modes(linear, 0.0_wp, spread(1.0_wp, 1, n), modes, ok)
+   end subroutine reduce
+end module rotor_response

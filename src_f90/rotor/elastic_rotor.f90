@@ -1,0 +1,201 @@
+!> A shaft that bends in several bearings, by the matrices of its equations on its journals.
+module elastic_rotor
+   use kinds, only: wp
+   use linear_algebra, only: dgesv
+   use operating_point, only: operating_point_type
+   use rotor_matrices, only: rotor_matrices_type
+   use abstract_rotor, only: rotor_type
+   implicit none (type, external)
+   private
+   public :: elastic_rotor_type, new_elastic_rotor
+
+   type, extends(rotor_type) :: elastic_rotor_type
+      type(rotor_matrices_type) :: matrices
+      !> Sum of the moments of its unbalances, kg m, by which that of an operating point is distributed.
+      real(wp) :: unbalance = 0
+      !> Inverse of the matrix of masses.
+      real(wp), allocatable :: per_mass(:, :)
+      !> What the bearings bear where the journals stand in the middle of them, N, (2, bearing).
+      real(wp), allocatable :: borne(:, :)
+   contains
+      procedure :: scales
+      procedure :: loads
+      procedure :: station_displacements
+      procedure :: force
+      procedure :: turn
+      procedure :: accelerations
+      procedure :: masses
+      procedure :: force_derivatives
+      procedure :: newton_rows
+      procedure :: newton_matrix
+      procedure :: newton_right
+      procedure :: row_accelerations
+      procedure, private :: share
+   end type elastic_rotor_type
+
+contains
+
+   !> The rotor of these matrices, whose unbalances have this sum of moments, kg m. `ok` is false where masses or
+   !> stiffness are singular.
+   subroutine new_elastic_rotor(matrices, unbalance, rotor, ok)
+      type(rotor_matrices_type), intent(in) :: matrices
+      real(wp), intent(in) :: unbalance
+      type(elastic_rotor_type), intent(out) :: rotor
+      logical, intent(out) :: ok
+      real(wp), allocatable :: bent(:, :)
+      rotor%matrices = matrices
+      rotor%unbalance = unbalance
+      rotor%journals = matrices%journals
+      rotor%positions = size(matrices%load)
+      rotor%states = 2*rotor%positions
+      rotor%stations = size(matrices%station, 1)/2
+      call solve(matrices%mass, identity(rotor%positions), rotor%per_mass, ok)
+      if (.not. ok) return
+      associate (n => 2*rotor%journals, f => matrices%load, k => matrices%stiffness)
+         call solve(k(n + 1:, n + 1:), reshape(f(n + 1:), [size(f) - n, 1]), bent, ok)
+         if (ok) rotor%borne = reshape(f(:n) - matmul(k(:n, n + 1:), bent(:, 1)), [2, rotor%journals])
+      end associate
+   end subroutine new_elastic_rotor
+
+   !> Journals: the clearance; others: what moves a station by the least clearance.
+   pure function scales(self, clearances)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: clearances(:)
+      real(wp) :: scales(self%positions)
+      integer :: i
+      do i = 1, self%journals
+         scales(2*i - 1:2*i) = clearances(i)
+      end do
+      do i = 2*self%journals + 1, self%positions
+         scales(i) = minval(clearances)/maxval(abs(self%matrices%station(:, i)))
+      end do
+   end function scales
+
+   pure function loads(self, point)
+      class(elastic_rotor_type), intent(in) :: self
+      type(operating_point_type), intent(in) :: point
+      real(wp) :: loads(2, self%journals)
+      loads = self%borne
+   end function loads
+
+   pure function station_displacements(self, states) result(displacements)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      real(wp) :: displacements(2, self%stations)
+      displacements = reshape(matmul(self%matrices%station, states(:self%positions)) &
+         & + self%matrices%station_offset, [2, self%stations])
+   end function station_displacements
+
+   !> Part of its unbalances that acts at an operating point.
+   pure real(wp) function share(self, point)
+      class(elastic_rotor_type), intent(in) :: self
+      type(operating_point_type), intent(in) :: point
+      share = 0
+      if (self%unbalance > 0) share = point%unbalance/self%unbalance
+   end function share
+
+   !> Weight and loads, unbalance, and what the shaft's bending, damping and gyroscopic moments answer.
+   pure function force(self, states, point, t)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      type(operating_point_type), intent(in) :: point
+      real(wp), intent(in) :: t
+      real(wp) :: force(self%positions), phase, speed
+      phase = point%shaft_angle(t)
+      speed = point%speed(t)
+      associate (m => self%matrices, n => self%positions)
+         force = m%load - matmul(m%stiffness, states(:n)) - matmul(m%damping + speed*m%gyroscopic, states(n + 1:)) &
+            & + self%share(point)*(speed**2*(m%unbalance(:, 1)*cos(phase) + m%unbalance(:, 2)*sin(phase)) &
+            & + point%acceleration*(m%unbalance(:, 1)*sin(phase) - m%unbalance(:, 2)*cos(phase)))
+      end associate
+   end function force
+
+   !> The unbalance turns.
+   pure function turn(self, point, t)
+      class(elastic_rotor_type), intent(in) :: self
+      type(operating_point_type), intent(in) :: point
+      real(wp), intent(in) :: t
+      real(wp) :: turn(self%positions), phase
+      phase = point%shaft_angle(t)
+      associate (u => self%matrices%unbalance)
+         turn = self%share(point)*point%speed(t)**3*(u(:, 2)*cos(phase) - u(:, 1)*sin(phase))
+      end associate
+   end function turn
+
+   pure function accelerations(self, force)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: force(:)
+      real(wp) :: accelerations(self%positions)
+      accelerations = matmul(self%per_mass, force)
+   end function accelerations
+
+   pure function masses(self)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp) :: masses(self%positions, self%positions)
+      masses = self%matrices%mass
+   end function masses
+
+   pure subroutine force_derivatives(self, speed, over_positions, over_rates)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: speed
+      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      over_positions = -self%matrices%stiffness
+      over_rates = -(self%matrices%damping + speed*self%matrices%gyroscopic)
+   end subroutine force_derivatives
+
+   !> P = 1: forces.
+   pure function newton_rows(self, forces) result(rows)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: forces(:, :)
+      real(wp) :: rows(2, size(forces, 2))
+      rows = forces
+   end function newton_rows
+
+   pure function newton_matrix(self, gamma, speed) result(matrix)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: gamma, speed
+      real(wp) :: matrix(self%positions, self%positions)
+      associate (m => self%matrices)
+         matrix = m%mass + gamma*(m%damping + speed*m%gyroscopic) + gamma**2*m%stiffness
+      end associate
+   end function newton_matrix
+
+   pure subroutine newton_right(self, gamma, x, u)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: gamma, x(:)
+      real(wp), intent(inout) :: u(:)
+      u = matmul(self%matrices%mass, u) - gamma*matmul(self%matrices%stiffness, x)
+   end subroutine newton_right
+
+   pure function row_accelerations(self, rows, journal) result(accelerations)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: rows(:, :)
+      integer, intent(in) :: journal
+      real(wp) :: accelerations(self%positions, size(rows, 2))
+      accelerations = matmul(self%per_mass(:, 2*journal - 1:2*journal), rows)
+   end function row_accelerations
+
+   pure function identity(n)
+      integer, intent(in) :: n
+      real(wp) :: identity(n, n)
+      integer :: i
+      identity = 0
+      do i = 1, n
+         identity(i, i) = 1
+      end do
+   end function identity
+
+   !> x of a x = b; `ok` is false where a is singular, and x is 0 then.
+   subroutine solve(a, b, x, ok)
+      real(wp), intent(in) :: a(:, :), b(:, :)
+      real(wp), allocatable, intent(out) :: x(:, :)
+      logical, intent(out) :: ok
+      real(wp) :: factors(size(a, 1), size(a, 1))
+      integer :: pivots(size(a, 1)), info
+      factors = a
+      x = b
+      call dgesv(size(a, 1), size(b, 2), factors, size(a, 1), pivots, x, size(a, 1), info)
+      ok = info == 0
+      if (.not. ok) x = 0
+   end subroutine solve
+end module elastic_rotor

@@ -1,0 +1,336 @@
+!> Machines: an elastic rotor on several bearings against the values of an independent program
+!> (docs/theory/machines.md), against a rigid journal, and against itself described in another way.
+program test_machines
+   use kinds, only: wp, pi
+   use text, only: to_text
+   use errors, only: error_type
+   use case_inputs, only: case_type
+   use factories, only: converged_films
+   use equations_of_motion, only: machine_model, new_machine_model
+   use static_model, only: equilibrium_type, make_static
+   use equilibrium, only: find_equilibrium
+   use bearings_alone, only: bearing_loads
+   use force_balance, only: forces
+   use linear_bearing, only: bearing_coefficients_type
+   use rotor_response, only: rotor_response_type, find_rotor_response
+   use linear_analysis, only: analyse
+   use marching, only: march_options
+   use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
+   use machine_cases, only: symmetric_rotor, add_bearing, disc_station
+   use check, only: runs, expect, expect_close, expect_no_error, report
+   implicit none (type, external)
+
+   !> Parts of the independent program's values that its printed digits, and its films, leave (rotor.md: statics,
+   !> eigenvalues, stiffness and damping 1e-5; else 1e-4; orbits 5e-4).
+   real(wp), parameter :: linear_error = 1e-5_wp, response_error = 1e-4_wp, orbit_error = 5e-4_wp
+
+   if (runs('statics')) call statics()
+   if (runs('vibrations')) call vibrations()
+   if (runs('synchronous')) call synchronous()
+   if (runs('jacobian')) call jacobian()
+   if (runs('frictionless_orbit')) call frictionless_orbit()
+   if (runs('whirl')) call whirl()
+   if (runs('three_bearings')) call three_bearings()
+   if (runs('descriptions')) call descriptions()
+   if (runs('stiff_shaft')) call stiff_shaft()
+   call report()
+
+contains
+
+   !> Equilibrium of a case, with its model.
+   subroutine stand(inputs, model, found)
+      type(case_type), intent(in) :: inputs
+      type(machine_model), intent(out) :: model
+      type(equilibrium_type), intent(out) :: found
+      type(error_type), allocatable :: error
+      model = new_machine_model(inputs, converged_films)
+      call expect(.not. allocated(model%refusal), 'the rotor has equations')
+      call find_equilibrium(model, found, error)
+      call expect_no_error(error, 'the machine comes to equilibrium')
+   end subroutine stand
+
+   !> Displacements of the stations, um, (2, station).
+   function stations(model, rotor) result(displacements)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: rotor(:)
+      real(wp) :: displacements(2, model%rotor%stations)
+      displacements = 1e6_wp*model%rotor%station_displacements([rotor, spread(0.0_wp, 1, size(rotor))])
+   end function stations
+
+   subroutine statics()
+      type(machine_model) :: model
+      type(equilibrium_type) :: found
+      real(wp) :: at(2, 13), loads(2, 2)
+      call stand(symmetric_rotor('none', 4100.0_wp, 0.0_wp), model, found)
+      at = stations(model, found%rotor)
+      loads = bearing_loads(model, found%rotor)
+      call expect_close(maxval(abs(loads(1, :) + 19620)), 0.0_wp, 19620*linear_error, 'half the weight each')
+      call expect_close(at(1, 2), -67.1872_wp, 1e-3_wp, 'y of the journal')
+      call expect_close(at(2, 2), 0.023_wp, 1e-3_wp, 'z of the journal')
+      call expect_close(at(1, disc_station), -98.0403_wp, 1e-3_wp, 'y of the disc')
+      call expect(found%stability%name == 'stable', 'stable')
+   end subroutine statics
+
+   subroutine vibrations()
+      type(bearing_coefficients_type) :: found
+      integer :: b
+      complex(wp), parameter :: published(4) = [(-69.529_wp, 407.877_wp), (-70.074_wp, 408.457_wp), &
+         & (-323.722_wp, 388.358_wp), (-379.598_wp, 379.975_wp)]
+      integer :: i
+      call analyse(symmetric_rotor('lugre', 4100.0_wp, 0.0_wp), 'the machine is analysed', found)
+      do b = 1, 2
+         call expect_close(found%stiffness(1, 1, 1, 1, b), 582.5918e6_wp, 582.6e6_wp*linear_error, 'K')
+         call expect_close(found%damping(1, 1, 1, 1, b), 0.941046e6_wp, 0.94e6_wp*linear_error, 'C')
+      end do
+      do i = 1, size(published)
+         call expect_close(minval(abs(found%modes(1)%eigenvalue - published(i))), 0.0_wp, &
+            & linear_error*abs(published(i)), 'free pads: eigenvalue '//to_text(i))
+      end do
+      call expect_close(minval(abs(found%modes(2)%eigenvalue - (-42.474_wp, 428.004_wp))), 0.0_wp, &
+         & linear_error*430, 'stuck pads')
+   end subroutine vibrations
+
+   !> Modes on synchronously reduced coefficients, and the whirl under an unbalance.
+   subroutine synchronous()
+      type(bearing_coefficients_type) :: found
+      type(rotor_response_type) :: response
+      type(machine_model) :: fine
+      type(error_type), allocatable :: error
+      real(wp), parameter :: speeds(3) = [3300.0_wp, 4100.0_wp, 5200.0_wp]
+      real(wp), parameter :: published(3) = [8.66265_wp, 18.76877_wp, 11.89040_wp]
+      integer :: i
+      do i = 1, 3
+         call analyse(symmetric_rotor('none', speeds(i), 0.02_wp), 'the machine is analysed', found, fine=fine)
+         call find_rotor_response(fine, found, found%stiffness(:, :, 1, :, :), found%damping(:, :, 1, :, :), response, &
+            & error)
+         call expect_no_error(error, 'the response is found')
+         call expect_close(1e6_wp*abs(response%unbalance(1, disc_station, 1)), published(i), response_error*published(i), &
+            & '1x of y at '//to_text(speeds(i))//' rpm')
+         if (i /= 2) cycle
+         call expect_close(minval(abs(response%synchronous(1)%eigenvalue - (-67.842_wp, 413.382_wp))), 0.0_wp, &
+            & linear_error*413, 'eigenvalue with synchronously reduced coefficients')
+      end do
+   end subroutine synchronous
+
+   !> The Jacobian against central differences, with bearings that differ in pads, pivots and friction.
+   subroutine jacobian()
+      type(case_type) :: inputs
+      type(machine_model), target :: model
+      type(equilibrium_type) :: found
+      real(wp), allocatable :: y(:), rates(:), matrix(:, :), up(:), down(:), moved(:)
+      real(wp) :: change
+      integer :: i
+      logical :: ok
+      inputs = symmetric_rotor('bengisu_akay', 4100.0_wp, 0.02_wp)
+      inputs%machine%bearings(2)%friction%model = 'lugre'
+      inputs%machine%bearings(2)%bearing%assembled_clearance = 85e-6_wp
+      call add_bearing(inputs, 'middle', 5)
+      inputs%machine%bearings(3)%friction%model = 'none'
+      inputs%machine%bearings(3)%pads%motion = 'tilting_only'
+      inputs%machine%bearings(3)%bearing%assembled_clearance = 200e-6_wp
+      inputs%machine%bearings(3)%bearing%machined_clearance = 250e-6_wp
+      call stand(inputs, model, found)
+      y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
+      allocate (rates(model%n), matrix(model%n, model%n), up(model%n), down(model%n))
+      ! journals and pads move, each in another way
+      y = y + model%scale*1e-4_wp*[(sin(real(i, wp)), i=1, model%n)]
+      call model%rhs_and_jacobian(1e-3_wp, y, rates, matrix, ok)
+      call expect(ok, 'the model is linearised')
+      do i = 1, model%n
+         change = 1e-6_wp*model%scale(i)
+         moved = y
+         moved(i) = y(i) + change
+         call model%rhs(1e-3_wp, moved, up, ok)
+         moved(i) = y(i) - change
+         call model%rhs(1e-3_wp, moved, down, ok)
+         associate (differences => (up - down)/(2*change)*model%scale(i)/model%scale, own => &
+            & matrix(:, i)*model%scale(i)/model%scale)
+            call expect(maxval(abs(differences - own)) <= 1e-4_wp*max(1.0_wp, maxval(abs(own))), 'column '//to_text(i))
+         end associate
+      end do
+   end subroutine jacobian
+
+   !> The closed orbit of the machine, at tolerance.
+   subroutine close_orbit(inputs, tolerance, model, found)
+      type(case_type), intent(in) :: inputs
+      real(wp), intent(in) :: tolerance
+      type(machine_model), intent(out), target :: model
+      type(periodic_orbit_type), intent(out) :: found
+      type(equilibrium_type) :: static
+      type(march_options) :: options
+      type(error_type), allocatable :: error
+      call stand(inputs, model, static)
+      options%relative_tolerance = tolerance
+      options%absolute_tolerance = tolerance*model%scale
+      call find_periodic_orbit(model, options, model%static_state(static%rotor, static%tilt, &
+         & static%pivot_deflection), found, error)
+      call expect_no_error(error, 'the orbit is found')
+   end subroutine close_orbit
+
+   !> y and z of a station over an orbit, um, at n even phases from 0.
+   function over_orbit(model, found, station, n) result(path)
+      type(machine_model), intent(in) :: model
+      type(periodic_orbit_type), intent(in) :: found
+      integer, intent(in) :: station, n
+      real(wp) :: path(2, 0:n - 1), all(2, model%rotor%stations), y(model%n)
+      integer :: k
+      do k = 0, n - 1
+         call found%orbit%state_at(found%period*k/n, y)
+         all = stations(model, y(:model%rotor%positions))
+         path(:, k) = all(:, station)
+      end do
+   end function over_orbit
+
+   subroutine frictionless_orbit()
+      type(machine_model) :: model
+      type(periodic_orbit_type) :: found
+      integer, parameter :: n = 3600
+      real(wp) :: path(2, 0:n - 1)
+      call close_orbit(symmetric_rotor('none', 4100.0_wp, 0.02_wp), 1e-5_wp, model, found)
+      path = over_orbit(model, found, disc_station, n)
+      associate (limit => orbit_error*36.7_wp)
+         call expect_close(minval(path(1, :)), -114.8298_wp, limit, 'lowest y of the disc')
+         call expect_close(maxval(path(1, :)), -78.1092_wp, limit, 'highest y')
+         call expect_close(minval(path(2, :)), -18.7561_wp, limit, 'lowest z')
+         call expect_close(maxval(path(2, :)), 18.1382_wp, limit, 'highest z')
+         call expect_close(norm2(path(:, 0) - [-100.3990_wp, -18.4656_wp]), 0.0_wp, limit, 'at phase 0')
+      end associate
+      path = over_orbit(model, found, 2, n)
+      call expect_close(minval(path(1, :)), -74.7824_wp, orbit_error*18.3_wp, 'lowest y of the journal')
+      call expect_close(maxval(path(1, :)), -56.4710_wp, orbit_error*18.3_wp, 'highest y of the journal')
+   end subroutine frictionless_orbit
+
+   !> Part of y at the frequency of the shaft, with and without friction.
+   subroutine whirl()
+      real(wp), parameter :: speeds(3) = [3300.0_wp, 4100.0_wp, 5200.0_wp]
+      real(wp), parameter :: free(3) = [8.72335_wp, 18.35041_wp, 11.75074_wp]
+      real(wp), parameter :: stuck(3) = [8.64448_wp, 21.13042_wp, 13.46417_wp]
+      integer :: i
+      do i = 1, 3
+         call expect_close(whirl_of('none', speeds(i)), free(i), orbit_error*free(i), &
+            & 'frictionless at '//to_text(speeds(i)))
+         call expect_close(whirl_of('lugre', speeds(i)), stuck(i), orbit_error*stuck(i), 'LuGre at '//to_text(speeds(i)))
+      end do
+   end subroutine whirl
+
+   real(wp) function whirl_of(friction, speed)
+      character(len=*), intent(in) :: friction
+      real(wp), intent(in) :: speed
+      type(machine_model) :: model
+      type(periodic_orbit_type) :: found
+      integer, parameter :: n = 720
+      real(wp) :: path(2, 0:n - 1)
+      integer :: k
+      call close_orbit(symmetric_rotor(friction, speed, 0.02_wp), 1e-5_wp, model, found)
+      path = over_orbit(model, found, disc_station, n)
+      whirl_of = 2*abs(sum([(path(1, k)*exp(cmplx(0, -2*pi*k/n, wp)), k=0, n - 1)]))/n
+   end function whirl_of
+
+   !> A third bearing in the middle, and one that is raised: all forces are in balance, and the raised bearing bears
+   !> more.
+   subroutine three_bearings()
+      type(case_type) :: inputs
+      type(machine_model) :: model, static
+      type(equilibrium_type) :: found
+      real(wp) :: level(2, 3), raised(2, 3)
+      logical :: ok
+      inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
+      call add_bearing(inputs, 'middle', 6)
+      call stand(inputs, model, found)
+      level = bearing_loads(model, found%rotor)
+      inputs%machine%bearings(3)%offset = [20e-6_wp, 0.0_wp]
+      call stand(inputs, model, found)
+      raised = bearing_loads(model, found%rotor)
+      call make_static(model, model%point%cavitation, static)
+      associate (y => static%static_state(found%rotor, found%tilt, found%pivot_deflection))
+         call static%evaluate(0.0_wp, y, .false., ok)
+         call expect(ok, 'the films are solved')
+         associate (force => forces(static, 0.0_wp, y))
+            call expect(maxval(abs(force(:6))) < 1e-4_wp*4000, 'the journals are in balance')
+         end associate
+      end associate
+      call expect_close(norm2(sum(level, 2) - [-4000*9.81_wp, 0.0_wp]), 0.0_wp, 1e-6_wp*4e4_wp, 'all loads are the weight')
+      call expect_close(norm2(sum(raised, 2) - [-4000*9.81_wp, 0.0_wp]), 0.0_wp, 1e-6_wp*4e4_wp, 'and with the raised one')
+      call expect(raised(1, 3) < level(1, 3) - 100, 'the raised bearing bears more')
+   end subroutine three_bearings
+
+   !> The same rotor described in other ways has the same statics and modes.
+   subroutine descriptions()
+      type(case_type) :: inputs
+      type(bearing_coefficients_type) :: found, other
+      type(equilibrium_type) :: static
+      inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
+      inputs%machine%discs(1)%station = 6
+      call add_bearing(inputs, 'third', 4)
+      inputs%machine%bearings(3)%bearing%assembled_clearance = 200e-6_wp
+      inputs%machine%bearings(3)%bearing%machined_clearance = 250e-6_wp
+      call analyse(inputs, 'as it is', found, static)
+      call analyse(reordered(inputs), 'bearings in another order, with other names', other)
+      call expect_same(found, other, 'order')
+      call analyse(turned(inputs), 'from the other end', other)
+      call expect_same(found, other, 'other end')
+
+   end subroutine descriptions
+
+   subroutine expect_same(found, other, what)
+      type(bearing_coefficients_type), intent(in) :: found, other
+      character(len=*), intent(in) :: what
+      integer :: i
+      do i = 1, 6
+         call expect_close(minval(abs(other%modes(1)%eigenvalue - found%modes(1)%eigenvalue(i))), 0.0_wp, &
+            & 1e-6_wp*abs(found%modes(1)%eigenvalue(i)), what//': mode '//to_text(i))
+      end do
+   end subroutine expect_same
+
+   function reordered(inputs) result(other)
+      type(case_type), intent(in) :: inputs
+      type(case_type) :: other
+      integer :: b
+      other = inputs
+      do b = 1, 3
+         other%machine%bearings(b) = inputs%machine%bearings(4 - b)
+         other%machine%bearings(b)%name = 'number '//to_text(b)
+      end do
+   end function reordered
+
+   function turned(inputs) result(other)
+      type(case_type), intent(in) :: inputs
+      type(case_type) :: other
+      integer :: b, n
+      other = inputs
+      n = size(inputs%machine%shaft%length)
+      associate (m => other%machine)
+         m%shaft%length = m%shaft%length(n:1:-1)
+         m%shaft%diameter = m%shaft%diameter(n:1:-1)
+         m%discs(1)%station = n + 2 - m%discs(1)%station
+         m%unbalances(1)%station = n + 2 - m%unbalances(1)%station
+         do b = 1, size(m%bearings)
+            m%bearings(b)%station = n + 2 - m%bearings(b)%station
+         end do
+      end associate
+   end function turned
+
+   !> A shaft that is a thousand, and ten thousand, times as stiff: the whirl tends to that of a rigid journal of half the
+   !> mass and half the unbalance in one bearing, as one over the stiffness.
+   subroutine stiff_shaft()
+      type(case_type) :: inputs
+      type(bearing_coefficients_type) :: rigid, found
+      real(wp) :: left(2)
+      integer :: k
+      inputs = case_type()
+      inputs%operation%speed_rpm = 4100
+      inputs%operation%final_speed_rpm = 4100
+      inputs%film%cavitation = 'none'
+      call analyse(inputs, 'a rigid journal', rigid)
+      do k = 1, 2
+         inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
+         inputs%machine%shaft%young_modulus = 2.1e11_wp*1e2_wp*1e1_wp**k
+         call analyse(inputs, 'a stiff shaft', found)
+         associate (limit => rigid%modes(1)%eigenvalue(1))
+            left(k) = minval(abs(found%modes(1)%eigenvalue - limit))/abs(limit)
+         end associate
+      end do
+      call expect(left(2) < 1e-3_wp, 'a shaft ten thousand times as stiff: '//to_text(left(2)))
+      call expect_close(left(1)/left(2), 10.0_wp, 0.2_wp, 'the difference falls with the stiffness')
+   end subroutine stiff_shaft
+end program test_machines
