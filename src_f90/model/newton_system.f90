@@ -135,7 +135,7 @@ contains
             end do
          end associate
       end do
-      if (self%rotor == self%journals) then
+      if (rotor%is_identity) then
          call self%matrix%solve(gamma, u, ok)
       else
          call solve_condensed(self, rotor, gamma, u, ok)
@@ -193,7 +193,9 @@ contains
          do i = 1, size(inner, 1)
             of%inverse(i, i) = 1
          end do
-         call dgesv(size(inner, 1), size(inner, 1), inner, size(inner, 1), pivots, of%inverse, size(inner, 1), info)
+         info = 0
+         if (size(inner, 1) > 0) call dgesv(size(inner, 1), size(inner, 1), inner, size(inner, 1), pivots, &
+            & of%inverse, size(inner, 1), info)
          ok = info == 0
          if (.not. ok) return
          of%follow = matmul(of%inverse, a(n + 1:, :n))

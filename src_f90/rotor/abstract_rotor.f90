@@ -15,6 +15,8 @@ module abstract_rotor
    type, abstract :: rotor_type
       !> Displacements; states, twice as many; journals, each in a bearing; stations whose displacements it tells.
       integer :: positions = 0, states = 0, journals = 0, stations = 0
+      !> Whether newton_matrix is the identity matrix, whatever gamma and speed are.
+      logical :: is_identity = .false.
    contains
       procedure, non_overridable :: journal
       procedure, non_overridable :: with_journals

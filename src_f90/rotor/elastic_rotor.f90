@@ -194,7 +194,8 @@ contains
       integer :: pivots(size(a, 1)), info
       factors = a
       x = b
-      call dgesv(size(a, 1), size(b, 2), factors, size(a, 1), pivots, x, size(a, 1), info)
+      info = 0
+      if (size(a) > 0) call dgesv(size(a, 1), size(b, 2), factors, size(a, 1), pivots, x, size(a, 1), info)
       ok = info == 0
       if (.not. ok) x = 0
    end subroutine solve

@@ -33,6 +33,7 @@ contains
       journal%positions = 2
       journal%states = 4
       journal%journals = 1
+      journal%is_identity = .true.
       journal%mass = mass
    end function new_rigid_journal
 

@@ -74,10 +74,14 @@ contains
    subroutine vibrations()
       type(bearing_coefficients_type) :: found
       integer :: b
+      type(case_type) :: inputs
       complex(wp), parameter :: published(4) = [(-69.529_wp, 407.877_wp), (-70.074_wp, 408.457_wp), &
          & (-323.722_wp, 388.358_wp), (-379.598_wp, 379.975_wp)]
       integer :: i
-      call analyse(symmetric_rotor('lugre', 4100.0_wp, 0.0_wp), 'the machine is analysed', found)
+      inputs = symmetric_rotor('lugre', 4100.0_wp, 0.0_wp)
+      ! six modes a plane
+      inputs%machine%reduction%frequency = 6000
+      call analyse(inputs, 'the machine is analysed', found)
       do b = 1, 2
          call expect_close(found%stiffness(1, 1, 1, 1, b), 582.5918e6_wp, 582.6e6_wp*linear_error, 'K')
          call expect_close(found%damping(1, 1, 1, 1, b), 0.941046e6_wp, 0.94e6_wp*linear_error, 'C')
@@ -325,6 +329,7 @@ contains
       do k = 1, 2
          inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
          inputs%machine%shaft%young_modulus = 2.1e11_wp*1e2_wp*1e1_wp**k
+         inputs%machine%reduction%frequency = 1e6_wp
          call analyse(inputs, 'a stiff shaft', found)
          associate (limit => rigid%modes(1)%eigenvalue(1))
             left(k) = minval(abs(found%modes(1)%eigenvalue - limit))/abs(limit)
