@@ -20,7 +20,8 @@ module branch_task
    use branch_checkpoint, only: put_branches, get_branches
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use run_start, only: seek_equilibrium, note_equilibrium, make_start, take_oil
+   use run_start, only: seek_equilibrium, make_start, take_oil
+   use equilibrium_notes, only: note_equilibrium
    use branch_summary, only: print_bifurcation, print_branch, branch_end
    implicit none (type, external)
    private

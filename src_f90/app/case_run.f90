@@ -5,8 +5,10 @@ module case_run
    use parameter_study, only: run_tag
    use errors, only: error_type, stopped
    use ode_model, only: integrator_counts_type
+   use film_solver, only: film_counters
    use equations_of_motion, only: machine_model
    use run_file, only: run_file_type
+   use bearing_file, only: bearing_file_type, new_bearing_file
    use provenance, only: running
    use summary_group, only: run_extremes_type
    use march_figures, only: put_march_figures
@@ -31,8 +33,8 @@ module case_run
       logical :: computed = .false.
       type(run_file_type) :: file
       type(machine_model) :: model
-      !> Of all samples.
-      type(run_extremes_type) :: extremes
+      !> Of all samples of each bearing.
+      type(run_extremes_type), allocatable :: extremes(:)
       !> Simulated time reached, s.
       real(wp) :: reached = 0
       !> What the integration cost; wall time of sampling without its writing, and of the checkpoints, s.
@@ -42,6 +44,7 @@ module case_run
       real(wp) :: started = 0, last_checkpoint = 0
       type(run_statistics_type) :: earlier
    contains
+      procedure :: bearing
       procedure :: statistics
       procedure :: note_figures
       procedure :: wants_checkpoint
@@ -65,15 +68,30 @@ contains
       run%verified_states = verified_states
       run%quiet = quiet
       run%file%filed = path /= ''
+      allocate (run%extremes(inputs%bearing_count()))
       run%started = wall_clock()
       run%last_checkpoint = run%started
    end subroutine begin_run
 
+   !> The results of bearing b.
+   type(bearing_file_type) function bearing(self, b)
+      class(case_run_type), intent(in), target :: self
+      integer, intent(in) :: b
+      bearing = new_bearing_file(self%file, self%inputs, b)
+   end function bearing
+
    !> Writes the figures of the samples so far.
    subroutine note_figures(self)
       class(case_run_type), intent(inout) :: self
+      type(bearing_file_type) :: file
+      integer :: b
       if (self%inputs%about%task == 'branch') return
-      call put_march_figures(self%file, self%inputs, self%extremes, norm2(self%model%point%load))
+      associate (loads => self%model%rotor%loads(self%model%point))
+         do b = 1, self%inputs%bearing_count()
+            file = self%bearing(b)
+            call put_march_figures(file, self%inputs%of_bearing(b), self%extremes(b), norm2(loads(:, b)))
+         end do
+      end associate
    end subroutine note_figures
 
    !> True where it is time for a checkpoint; `now` is the clock, s.
@@ -114,6 +132,7 @@ contains
    !> What the run has cost so far, over all its stretches: the list of all figures.
    type(run_statistics_type) function statistics(self)
       class(case_run_type), intent(in) :: self
+      integer :: b
       associate (counts => self%counts)
          call statistics%put('steps', counts%steps, 'time steps')
          call statistics%put('rhs_evaluations', counts%rhs_evaluations, 'right-hand sides')
@@ -121,23 +140,28 @@ contains
          call statistics%put('error_test_failures', counts%error_test_failures, 'steps refused by the error test')
          call statistics%put('convergence_failures', counts%convergence_failures, 'Newton iterations that failed')
       end associate
-      associate (films => self%model%bearings(1)%film%counters)
-         call statistics%put('film_fourier', films%fourier, 'pads solved by axial modes in the march')
-         call statistics%put('film_volumes', films%volumes, 'pads solved on finite volumes in the march')
-         call statistics%put('film_passes', films%passes, &
-            & 'passes over the cells of these, sweeps of over-relaxation or eliminations, in the march')
-         call statistics%put('film_table', films%looked_up, 'pads looked up in tables in the march')
-         call statistics%put('film_cells', films%cells, 'cells of these tables that were built')
-         call statistics%put('film_nodes', films%nodes, 'cavitated films that were solved for them')
-         call statistics%put('film_profiles', films%profiles, &
-            & 'profiles of the pressure that were built for highest pressures')
-         call statistics%put('film_building_seconds', films%building, 'wall time of building these tables')
-         call statistics%put('film_seconds', films%seconds + films%building, 'wall time of the film in the march')
-      end associate
+      call put_film_costs(statistics, [(self%model%bearings(b)%film%counters, b=1, size(self%model%bearings))])
       call statistics%put('resumes', merge(1_i8, 0_i8, self%resumed), 'times that the run was resumed')
       call statistics%put('output_seconds', self%sampling + self%file%writing_seconds(), 'wall time of sampling')
       call statistics%put('checkpoint_seconds', self%checkpoints, 'wall time of the checkpoints before the last')
       call statistics%put('wall_seconds', wall_clock() - self%started, 'wall time of the run')
       call statistics%add(self%earlier)
    end function statistics
+
+   !> What the films of the bearings cost.
+   subroutine put_film_costs(statistics, films)
+      type(run_statistics_type), intent(inout) :: statistics
+      type(film_counters), intent(in) :: films(:)
+      call statistics%put('film_fourier', sum(films%fourier), 'pads solved by axial modes in the march')
+      call statistics%put('film_volumes', sum(films%volumes), 'pads solved on finite volumes in the march')
+      call statistics%put('film_passes', sum(films%passes), &
+         & 'passes over the cells of these, sweeps of over-relaxation or eliminations, in the march')
+      call statistics%put('film_table', sum(films%looked_up), 'pads looked up in tables in the march')
+      call statistics%put('film_cells', sum(films%cells), 'cells of these tables that were built')
+      call statistics%put('film_nodes', sum(films%nodes), 'cavitated films that were solved for them')
+      call statistics%put('film_profiles', sum(films%profiles), &
+         & 'profiles of the pressure that were built for highest pressures')
+      call statistics%put('film_building_seconds', sum(films%building), 'wall time of building these tables')
+      call statistics%put('film_seconds', sum(films%seconds + films%building), 'wall time of the film in the march')
+   end subroutine put_film_costs
 end module case_run

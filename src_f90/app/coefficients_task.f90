@@ -13,7 +13,8 @@ module coefficients_task
    use coefficient_results, only: put_coefficients
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use run_start, only: seek_equilibrium, note_equilibrium
+   use run_start, only: seek_equilibrium
+   use equilibrium_notes, only: note_equilibrium
    implicit none (type, external)
    private
    public :: run_coefficients

@@ -5,10 +5,10 @@ module march_task
    use marching, only: march, sample_plan
    use ode_model, only: integrator_counts_type
    use result_size, only: sample_interval, sample_count
+   use bearing_file, only: bearing_file_type
    use case_run, only: case_run_type
    use march_settings, only: march_settings_of
    use run_start, only: make_start, continue_from_checkpoint
-   use march_results, only: put_spectra
    use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
    private
@@ -20,10 +20,12 @@ contains
       type(case_run_type), intent(inout), target :: run
       type(error_type), allocatable, intent(out) :: error
       type(recorder_type) :: observer
+      type(bearing_file_type) :: file
       type(sample_plan) :: plan
       type(integrator_counts_type) :: counts
       real(wp), allocatable :: y(:)
       real(wp) :: t
+      integer :: b
       if (run%resumed) then
          call continue_from_checkpoint(run, t, y, error)
       else
@@ -35,7 +37,10 @@ contains
       plan = sample_plan(run%inputs%output%start_time, sample_interval(run%inputs), sample_count(run%inputs), &
          & run%file%samples)
       if (run%resumed) then
-         call run%extremes%read(run%file, plan%interval)
+         do b = 1, size(run%extremes)
+            file = run%bearing(b)
+            call run%extremes(b)%read(file, plan%interval)
+         end do
          call check_samples(run, plan, t, error)
       end if
       if (allocated(error)) return
@@ -44,7 +49,7 @@ contains
          & run%inputs%operation%duration, plan, y, observer, counts, error)
       run%counts = counts
       call observer%progress%clear()
-      if (.not. allocated(error)) call put_spectra(run%file, run%inputs, plan%interval)
+      if (.not. allocated(error)) call observer%put_spectra(plan%interval)
    end subroutine run_march
 
    !> Refuses a file whose samples end elsewhere than its checkpoint at time t, s, says.

@@ -6,7 +6,7 @@ module periodic_task
    use marching, only: sample_plan
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit, are_stable, loss_of_stability
    use orbit_refinement, only: allowed_error
-   use march_results, only: put_periodic, put_spectra
+   use march_results, only: put_periodic
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use march_settings, only: march_settings_of
@@ -71,7 +71,7 @@ contains
          call observer%sample(t, y, run%model%output(none), error)
          if (allocated(error)) return
       end do
-      call put_spectra(run%file, run%inputs, plan%interval)
+      call observer%put_spectra(plan%interval)
    end subroutine record_orbit
 
    !> Period, stability and effort.

@@ -7,7 +7,8 @@ module recorder
    use ode_model, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
    use bearing_samples, only: bearing_sample, take_sample
-   use march_results, only: add_sample
+   use march_results, only: add_sample, put_spectra
+   use bearing_file, only: bearing_file_type
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use clock, only: wall_clock
@@ -21,16 +22,19 @@ module recorder
       type(progress_type) :: progress
       logical, private :: checkpoint_due = .false.
       type(periodicity), private :: orbit
-      !> The last sample, and how many there were; its memory is used again.
-      type(bearing_sample), private :: taken
+      !> The last sample of each bearing, and how many there were; their memory is used again.
+      type(bearing_sample), allocatable, private :: taken(:)
+      type(bearing_file_type), allocatable, private :: bearings(:)
       integer(i8), private :: samples = 0
    contains
       procedure :: sample
       procedure :: report
       procedure :: wants_state
       procedure :: take_state
+      procedure :: put_spectra => put_all_spectra
       procedure, private :: record
       procedure, private :: follow_orbit
+      procedure, private :: watched
    end type recorder_type
 
    !> One of this number of samples is timed.
@@ -43,7 +47,12 @@ contains
       type(recorder_type), intent(out) :: self
       type(case_run_type), intent(inout), target :: run
       real(wp), intent(in) :: t
+      integer :: b
       self%run => run
+      allocate (self%taken(run%inputs%bearing_count()), self%bearings(run%inputs%bearing_count()))
+      do b = 1, size(self%bearings)
+         self%bearings(b) = run%bearing(b)
+      end do
       self%progress = new_progress(t, run%inputs%operation%duration, run%quiet)
       if (run%inputs%integration%stop_when_periodic > 0) call self%follow_orbit()
    end subroutine begin_recording
@@ -51,29 +60,40 @@ contains
    !> Readies the watch for a periodic orbit, with what was sampled before the run was resumed.
    subroutine follow_orbit(self)
       class(recorder_type), intent(inout) :: self
-      real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), none(:)
-      integer :: passed, n, i, watched
-      associate (samples => self%run%inputs%output%samples_per_revolution, pads => self%run%inputs%pad_count())
+      real(wp), allocatable :: rotor(:, :), tilt(:, :), values(:, :), none(:)
+      integer :: passed, n, b, i
+      associate (samples => self%run%inputs%output%samples_per_revolution, model => self%run%model)
          ! the last whole revolution and what came after it; comparing begins with the revolution after
          passed = max(0, int(self%run%file%samples/samples) - 1)
          n = int(self%run%file%samples - int(passed, i8)*samples)
-         watched = 2 + merge(pads, 0, self%run%inputs%tilting())
-         self%orbit = new_periodicity(samples, watched, passed)
+         self%orbit = new_periodicity(samples, 2*model%rotor%journals + size(model%layout%tilts()), passed)
          if (n == 0) return
-         call self%run%file%last_samples('journal_y', n, y)
-         call self%run%file%last_samples('journal_z', n, z)
-         if (self%run%inputs%tilting()) then
-            call self%run%file%last_samples('pad_tilt', n, tilt)
-         else
-            allocate (tilt(pads, n), source=0.0_wp)
-         end if
-         allocate (none(pads), source=0.0_wp)
+         allocate (rotor(model%rotor%positions, n), tilt(model%layout%pads, n), none(model%layout%pads), source=0.0_wp)
+         do b = 1, size(self%bearings)
+            call self%bearings(b)%last_samples('journal_y', n, values)
+            rotor(2*b - 1, :) = values(1, :)
+            call self%bearings(b)%last_samples('journal_z', n, values)
+            rotor(2*b, :) = values(1, :)
+            if (.not. model%layout%bearings(b)%tilting) cycle
+            call self%bearings(b)%last_samples('pad_tilt', n, values)
+            tilt(model%layout%bearings(b)%all_pads(), :) = values
+         end do
          do i = 1, n
-            call self%orbit%add(self%run%model%positions(self%run%model%static_state([y(1, i), z(1, i)], tilt(:, i), &
-               & none)))
+            call self%orbit%add(self%watched(model%static_state(rotor(:, i), tilt(:, i), none)))
          end do
       end associate
    end subroutine follow_orbit
+
+   !> What tells whether the orbit repeats: the journals in their bearings, and the tilts.
+   pure function watched(self, y)
+      class(recorder_type), intent(in) :: self
+      real(wp), intent(in) :: y(:)
+      real(wp), allocatable :: watched(:)
+      watched = self%run%model%positions(y)
+      associate (rotor => self%run%model%rotor)
+         watched = [watched(:2*rotor%journals), watched(rotor%positions + 1:)]
+      end associate
+   end function watched
 
    !> Some samples are timed, for all; writing times itself.
    subroutine sample(self, t, y, output, error)
@@ -95,17 +115,33 @@ contains
       class(recorder_type), intent(inout) :: self
       real(wp), intent(in) :: t, y(:), output(:)
       type(error_type), allocatable, intent(out) :: error
-      call take_sample(self%run%model, t, y, output, 1, self%taken)
-      call add_sample(self%run%file, self%taken, error)
-      call self%run%extremes%add(self%taken)
+      integer :: b
+      do b = 1, size(self%taken)
+         call take_sample(self%run%model, t, y, output, b, self%taken(b))
+         call self%run%extremes(b)%add(self%taken(b))
+      end do
+      associate (rotor => self%run%model%rotor)
+         call add_sample(self%run%file, self%bearings, self%taken, &
+            & rotor%station_displacements(y(:rotor%states)), error)
+      end associate
       self%run%reached = t
       associate (limit => self%run%inputs%integration%stop_when_periodic)
          if (limit > 0) then
-            call self%orbit%add(self%run%model%positions(y))
+            call self%orbit%add(self%watched(y))
             self%satisfied = self%orbit%change <= limit
          end if
       end associate
    end subroutine record
+
+   !> Writes the spectra of all bearings, from samples at this interval, s.
+   subroutine put_all_spectra(self, interval)
+      class(recorder_type), intent(inout) :: self
+      real(wp), intent(in) :: interval
+      integer :: b
+      do b = 1, size(self%bearings)
+         call put_spectra(self%bearings(b), self%run%inputs%of_bearing(b), interval)
+      end do
+   end subroutine put_all_spectra
 
    subroutine report(self, t, steps)
       class(recorder_type), intent(inout) :: self

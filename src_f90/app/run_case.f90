@@ -13,6 +13,7 @@ module run_case
    use files, only: is_regular
    use processes, only: can_have
    use working_file, only: clear_leftovers
+   use bearing_file, only: bearing_file_type
    use case_run, only: case_run_type, begin_run
    use run_start, only: start_at_equilibrium
    use coefficients_task, only: run_coefficients
@@ -20,7 +21,7 @@ module run_case
    use branch_task, only: run_branch
    use march_task, only: run_march
    use verification, only: check_verification, verify_films
-   use run_summary, only: print_notes, print_march, print_cost
+   use run_summary, only: print_notes, print_march, print_cost, bearing_title
    implicit none (type, external)
    private
    public :: run_task, way_out, computed_in
@@ -181,6 +182,21 @@ contains
       if (run%verified_states == 0 .and. .not. run%quiet) print '(a)', run%path//': complete already, nothing to do'
    end subroutine look_at_file
 
+   !> Prints the figures of the march, or of the orbit, of all bearings.
+   subroutine print_bearings(run)
+      type(case_run_type), intent(inout) :: run
+      type(bearing_file_type) :: file
+      integer :: b
+      do b = 1, run%inputs%bearing_count()
+         file = run%bearing(b)
+         if (run%inputs%is_machine()) then
+            call print_march('last revolution, '//bearing_title(run%inputs, b), file, run%inputs%of_bearing(b))
+         else
+            call print_march('last revolution: ', file, run%inputs)
+         end if
+      end do
+   end subroutine print_bearings
+
    !> Closes the file of a run that is done, or that failed with this error.
    subroutine close_file(run, error)
       type(case_run_type), intent(inout) :: run
@@ -192,7 +208,7 @@ contains
       if (ended) call run%note_figures()
       if (.not. allocated(error)) then
          if (.not. run%quiet .and. run%file%samples > 0) then
-            if (run%inputs%about%task /= 'branch') call print_march(run%file, run%inputs)
+            if (run%inputs%about%task /= 'branch') call print_bearings(run)
             call print_cost(run%statistics())
          end if
          call run%file%finish(run%reached, run%statistics(), 0, '', file_error)

@@ -10,18 +10,20 @@ module run_start
    use bearing_equilibrium, only: find_partial_equilibrium
    use namelist_writer, only: namelist_of
    use equilibrium, only: find_equilibrium
-   use heat_balance_equations, only: has_warm_oil, static_figures_type, find_static_figures
-   use equilibrium_results, only: put_equilibrium, put_figures, put_temperatures
+   use heat_balance_equations, only: has_warm_oil
+   use equilibrium_notes, only: note_equilibrium
    use last_state, only: read_last_state
+   use bearing_file, only: bearing_file_type
+   use machine_results, only: put_machine
    use march_results, only: put_viscosity, put_viscosity_history
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use viscosity_history, only: viscosity_history_type
    use groove_transient, only: find_groove_transient
-   use run_summary, only: print_start, print_equilibrium, print_figures, print_temperatures
+   use run_summary, only: print_start
    implicit none (type, external)
    private
-   public :: start_at_equilibrium, seek_equilibrium, note_equilibrium, make_start, take_oil, continue_from_checkpoint
+   public :: start_at_equilibrium, seek_equilibrium, make_start, take_oil, continue_from_checkpoint
 
 contains
 
@@ -30,7 +32,9 @@ contains
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(out) :: error
       call run%file%start(run%inputs, namelist_of(run%inputs), error)
-      if (.not. allocated(error) .and. run%tag%number > 0) call run%file%put_tag(run%tag)
+      if (allocated(error)) return
+      call put_machine(run%file, run%inputs, run%model%rotor)
+      if (run%tag%number > 0) call run%file%put_tag(run%tag)
    end subroutine create_file
 
    !> Creates the file, finds the equilibrium and writes it; y is its state. All of the task 'equilibrium'.
@@ -55,23 +59,6 @@ contains
       call find_equilibrium(run%model, static, error, stop_requested)
       call say_nothing_computed(error)
    end subroutine seek_equilibrium
-
-   !> Writes an equilibrium with its losses and flows, and gives the films of the run its viscosities.
-   subroutine note_equilibrium(run, static)
-      type(case_run_type), intent(inout) :: run
-      type(equilibrium_type), intent(in) :: static
-      type(static_figures_type) :: figures
-      run%model%oil%viscosity = static%viscosity
-      call put_equilibrium(run%file, static, run%inputs%tilting(), run%inputs%tilting_radial())
-      call find_static_figures(run%model, static, figures)
-      call put_figures(run%file, run%inputs, figures)
-      if (allocated(figures%oil)) call put_temperatures(run%file, figures%oil, static%viscosity)
-      run%computed = .true.
-      if (run%quiet) return
-      call print_equilibrium(static, run%inputs)
-      call print_figures(run%inputs, figures)
-      if (allocated(figures%oil)) call print_temperatures(figures%oil, static%viscosity)
-   end subroutine note_equilibrium
 
    !> What an error says of a signal that stops a run before its march.
    subroutine say_nothing_computed(error)
@@ -125,9 +112,16 @@ contains
    !> them for each of its points.
    subroutine note_oil(run)
       type(case_run_type), intent(inout) :: run
+      type(bearing_file_type) :: file
+      integer :: b
       if (run%inputs%about%task == 'branch') return
-      if (has_warm_oil(run%model)) call put_viscosity(run%file, run%model%oil%viscosity)
-      if (run%model%oil_history%runs()) call put_viscosity_history(run%file, run%model%oil_history)
+      do b = 1, size(run%model%bearings)
+         file = run%bearing(b)
+         associate (pads => run%model%layout%bearings(b)%all_pads())
+            if (has_warm_oil(run%model)) call put_viscosity(file, run%model%oil(pads)%viscosity)
+            if (run%model%oil_history%runs()) call put_viscosity_history(file, run%model%oil_history, pads)
+         end associate
+      end do
    end subroutine note_oil
 
    !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from

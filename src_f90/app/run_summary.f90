@@ -15,10 +15,23 @@ module run_summary
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
-   public :: print_notes, print_start, print_equilibrium, print_figures, print_temperatures
+   public :: print_notes, print_start, print_equilibrium, stability_text, bearing_title, print_figures, print_temperatures
    public :: print_march, print_cost
 
 contains
+
+   !> "bearing 'drive_end' at station 2: load y -19620.0, z 0.0 N, "
+   function bearing_title(inputs, b, load) result(title)
+      type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
+      !> Along y and z, N.
+      real(wp), intent(in), optional :: load(2)
+      character(len=:), allocatable :: title
+      associate (bearing => inputs%machine%bearings(b))
+         title = 'bearing '''//bearing%name//''' at station '//to_text(bearing%station)//': '
+      end associate
+      if (present(load)) title = title//'load y '//fixed_text(load(1), 1)//', z '//fixed_text(load(2), 1)//' N, '
+   end function bearing_title
 
    !> What is unusual about a case.
    subroutine print_notes(inputs)
@@ -38,14 +51,17 @@ contains
          & //micro(journal(2))//' um'//tilts
    end subroutine print_start
 
-   subroutine print_equilibrium(static, inputs)
+   !> An equilibrium of a bearing, behind this title, and the stability of one that is alone.
+   subroutine print_equilibrium(title, static, inputs, alone)
+      character(len=*), intent(in) :: title
       type(equilibrium_type), intent(in) :: static
       type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: pivot
+      logical, intent(in) :: alone
+      character(len=:), allocatable :: pivot, stability
       integer :: i
-      print '(a)', 'equilibrium: journal y '//micro(static%rotor(1))//', z '//micro(static%rotor(2))//' um, ' &
-         & //static%stability%name//' (eigenvalue '//fixed_text(static%stability%eigenvalue%re, 1)//' 1/s at ' &
-         & //fixed_text(static%stability%eigenvalue%im/(2*pi), 1)//' Hz)'
+      stability = ''
+      if (alone) stability = ', '//stability_text(static)
+      print '(a)', title//'journal y '//micro(static%rotor(1))//', z '//micro(static%rotor(2))//' um'//stability
       do i = 1, size(static%tilt)
          pivot = ''
          if (inputs%tilting()) pivot = 'tilt '//milli(static%tilt(i))//' mrad, pivot deflection ' &
@@ -54,6 +70,14 @@ contains
             & //micro(static%min_film_thickness(i))//' um, maximum pressure '//mega(static%max_pressure(i))//' MPa'
       end do
    end subroutine print_equilibrium
+
+   !> "stable (eigenvalue -69.5 1/s at 64.9 Hz)".
+   function stability_text(static) result(text)
+      type(equilibrium_type), intent(in) :: static
+      character(len=:), allocatable :: text
+      text = static%stability%name//' (eigenvalue '//fixed_text(static%stability%eigenvalue%re, 1)//' 1/s at ' &
+         & //fixed_text(static%stability%eigenvalue%im/(2*pi), 1)//' Hz)'
+   end function stability_text
 
    !> Where the journal lies at the equilibrium, loads, losses and flows.
    subroutine print_figures(inputs, figures)
@@ -105,13 +129,14 @@ contains
          & //' C'
    end subroutine print_temperatures
 
-   !> Figures of the last revolution (or of what there is), and what is unusual.
-   subroutine print_march(file, inputs)
+   !> Figures of a bearing in the last revolution (or in what there is), behind this title, and what is unusual.
+   subroutine print_march(title, file, inputs)
+      character(len=*), intent(in) :: title
       class(record_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: before, after, diagnosis
       integer :: i
-      print '(a)', 'last revolution: journal y '//micro(figure(file, 'journal_y_min'))//' to ' &
+      print '(a)', title//'journal y '//micro(figure(file, 'journal_y_min'))//' to ' &
          & //micro(figure(file, 'journal_y_max'))//', z '//micro(figure(file, 'journal_z_min'))//' to ' &
          & //micro(figure(file, 'journal_z_max'))//' um'
       before = ''

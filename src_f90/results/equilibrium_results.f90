@@ -10,11 +10,11 @@ module equilibrium_results
    use summary_group, only: put_figure
    implicit none (type, external)
    private
-   public :: put_equilibrium, put_figures, put_temperatures
+   public :: put_equilibrium, put_stability, put_figures, put_temperatures
 
 contains
 
-   !> Writes an equilibrium; `tilting` where the pads have tilts, `radial` where they have pivot deflections.
+   !> Writes the equilibrium of a bearing; `tilting` where the pads have tilts, `radial` where they have pivot deflections.
    subroutine put_equilibrium(file, found, tilting, radial)
       class(record_type), intent(inout) :: file
       type(equilibrium_type), intent(in) :: found
@@ -29,6 +29,16 @@ contains
       call file%put_list('equilibrium/min_film_thickness', found%min_film_thickness, 'm', &
          & 'minimum film thickness', 'pad')
       call file%put_list('equilibrium/max_pressure', found%max_pressure, 'Pa', 'maximum film pressure', 'pad')
+      call put_figure(file, 'equilibrium_min_film_thickness', minval(found%min_film_thickness), 'm', &
+         & 'minimum film thickness at the equilibrium')
+      call put_figure(file, 'equilibrium_max_pressure', maxval(found%max_pressure), 'Pa', &
+         & 'maximum pressure at the equilibrium')
+   end subroutine put_equilibrium
+
+   !> Writes how well forces balance at an equilibrium, and whether it is stable.
+   subroutine put_stability(file, found)
+      class(record_type), intent(inout) :: file
+      type(equilibrium_type), intent(in) :: found
       call file%put_real('equilibrium/residual', found%residual, '1', 'unbalanced force over load')
       call file%put_real('equilibrium/eigenvalue_real', found%stability%eigenvalue%re, '1/s', &
          & 'growth of the small motion that grows most')
@@ -38,11 +48,7 @@ contains
       call file%put_text('equilibrium_search', found%search)
       call put_figure(file, 'equilibrium_stable', merge(1.0_wp, 0.0_wp, found%stability%name == 'stable'), '1', &
          & '1 where the equilibrium is stable')
-      call put_figure(file, 'equilibrium_min_film_thickness', minval(found%min_film_thickness), 'm', &
-         & 'minimum film thickness at the equilibrium')
-      call put_figure(file, 'equilibrium_max_pressure', maxval(found%max_pressure), 'Pa', &
-         & 'maximum pressure at the equilibrium')
-   end subroutine put_equilibrium
+   end subroutine put_stability
 
    !> Writes where the journal lies, what the pads carry, losses, flows and temperature rises.
    subroutine put_figures(file, inputs, figures)

@@ -8,7 +8,7 @@ module march_figures
    use loops, only: path_integral, harmonic, slow_share
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
    use revolution_figures, only: put_revolutions
-   use run_file, only: run_file_type
+   use bearing_file, only: bearing_file_type
    use summary_group, only: put_figure, run_extremes_type
    implicit none (type, external)
    private
@@ -22,16 +22,16 @@ module march_figures
 
 contains
 
-   !> Writes all figures of the samples so far, with this load on the journal, N.
+   !> Writes all figures of the samples of a bearing so far, with this load on its journal, N; `inputs` is its own case.
    subroutine put_march_figures(file, inputs, extremes, load)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       type(run_extremes_type), intent(in) :: extremes
       real(wp), intent(in) :: load
       real(wp), allocatable :: time(:, :), angle(:, :), speed(:, :)
       real(wp) :: revolutions
       integer :: n
-      if (file%samples == 0) return
+      if (file%samples() == 0) return
       call file%part_of_samples('shaft_angle', 0_i8, 1, angle)
       revolutions = angle(1, 1)
       n = last_revolutions(file, 1)
@@ -57,12 +57,12 @@ contains
 
    !> Samples of the last `count` revolutions, both ends included; all where there are fewer.
    integer function last_revolutions(file, count) result(n)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       integer, intent(in) :: count
       real(wp), allocatable :: angle(:, :)
       real(wp) :: start
       integer(i8) :: low, high, middle
-      high = file%samples - 1
+      high = file%samples() - 1
       low = file%first_sample()
       if (high > low) then
          call file%last_samples('shaft_angle', 2, angle)
@@ -78,12 +78,12 @@ contains
             end if
          end do
       end if
-      n = int(file%samples - low)
+      n = int(file%samples() - low)
    end function last_revolutions
 
    !> The orbit of the journal in the last n samples.
    subroutine put_journal(file, n)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       integer, intent(in) :: n
       real(wp), allocatable :: y(:, :), z(:, :)
       call file%last_samples('journal_y', n, y)
@@ -111,7 +111,7 @@ contains
 
    !> Film and pressure in the last n samples.
    subroutine put_film(file, n)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       integer, intent(in) :: n
       real(wp), allocatable :: film(:, :), pressure(:, :)
       call file%last_samples('min_film_thickness', n, film)
@@ -124,7 +124,7 @@ contains
 
    !> Tilts and contact in the last n samples.
    subroutine put_tilt(file, n)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       integer, intent(in) :: n
       real(wp), allocatable :: tilt(:, :), contact(:, :)
       integer :: i
@@ -142,7 +142,7 @@ contains
    !> Vibrations with the shaft, and at half its speed, over the last revolution and the last two; of a periodic orbit
    !> over all of it.
    subroutine put_harmonics(file, inputs, revolutions)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: revolutions
       complex(wp), allocatable :: y(:), z(:), tilt(:)
@@ -194,7 +194,7 @@ contains
 
    !> What friction in the pivots does in the last samples, at these times, s, in this many revolutions.
    subroutine put_friction(file, inputs, time, revolutions)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: time(:), revolutions
       real(wp), allocatable :: tilt(:, :), rate(:, :), moment(:, :)
@@ -231,7 +231,7 @@ contains
    !> Lift-off, flutter and rubbing of the pads and whirl of the journal in the last revolutions, and what is to be said
    !> of them: attribute `diagnosis`, a line each. Fixed pads can only rub.
    subroutine put_last_revolutions(file, inputs, whole)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       !> Whole revolutions sampled.
       integer, intent(in) :: whole
@@ -308,7 +308,7 @@ contains
    end function known
 
    subroutine put_behaviour(file, found)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       type(pad_behaviour_type), intent(in) :: found(:)
       call put_figure(file, 'pad_load', found%load, 'N', 'mean pivot load, last revolutions')
       call put_figure(file, 'pad_unloaded', merge(1.0_wp, 0.0_wp, found%unloaded), '1', &

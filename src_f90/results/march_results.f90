@@ -11,28 +11,73 @@ module march_results
    use viscosity_history, only: viscosity_history_type
    use bearing_samples, only: bearing_sample
    use run_file, only: run_file_type
+   use bearing_file, only: bearing_file_type
    implicit none (type, external)
    private
    public :: add_sample, put_spectra, put_viscosity, put_viscosity_history, put_periodic
 
-   !> Values of a sample: of the journal, and of a pad at most.
-   integer, parameter :: of_journal = 7, of_pad = 12
+   !> Values of a sample: of the shaft, of a journal, and of a pad at most.
+   integer, parameter :: of_shaft = 3, of_journal = 4, of_pad = 12
+
+   !> The series of a run, declared as the first sample is added.
+   type :: sample_values
+      real(wp), allocatable :: values(:)
+      integer :: count = 0
+      logical :: first = .false.
+   end type sample_values
 
 contains
 
-   !> Adds a sample: the one list of what is sampled.
-   subroutine add_sample(file, sample, error)
+   !> Adds a sample of all bearings, in the files of these, and of where the stations of a shaft are, (2, station), m:
+   !> the one list of what is sampled.
+   subroutine add_sample(file, bearings, samples, stations, error)
       type(run_file_type), intent(inout) :: file
-      type(bearing_sample), intent(in) :: sample
+      type(bearing_file_type), intent(in) :: bearings(:)
+      type(bearing_sample), intent(in) :: samples(:)
+      real(wp), intent(in) :: stations(:, :)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: values(of_journal + of_pad*size(sample%states))
-      logical :: first
-      integer :: i, k, n
-      first = .not. file%is_declared()
-      n = 0
-      call one('time', sample%time, 's', 'time')
-      call one('shaft_angle', sample%shaft_angle, 'rad', 'shaft angle')
-      call one('speed', sample%speed, 'rad/s', 'shaft speed')
+      type(sample_values) :: all
+      integer :: b
+      all%first = .not. file%is_declared()
+      allocate (all%values(of_shaft + sum([(of_journal + of_pad*size(samples(b)%states), b=1, size(samples))]) &
+         & + size(stations)))
+      call one('time', samples(1)%time, 's', 'time')
+      call one('shaft_angle', samples(1)%shaft_angle, 'rad', 'shaft angle')
+      call one('speed', samples(1)%speed, 'rad/s', 'shaft speed')
+      do b = 1, size(samples)
+         call take_bearing(all, bearings(b), samples(b))
+      end do
+      if (size(stations) > 0) then
+         call along('station_y', stations(1, :), 'shaft displacement, vertical')
+         call along('station_z', stations(2, :), 'shaft displacement, horizontal')
+      end if
+      call file%add(all%values(:all%count))
+      call file%error_of(error)
+   contains
+      subroutine one(name, value, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), intent(in) :: value
+         if (all%first) call file%declare(name, 1, '', units, long_name)
+         all%count = all%count + 1
+         all%values(all%count) = value
+      end subroutine one
+
+      !> At all stations of the shaft.
+      subroutine along(name, values, long_name)
+         character(len=*), intent(in) :: name, long_name
+         real(wp), intent(in) :: values(:)
+         if (all%first) call file%declare(name, size(values), 'station', 'm', long_name)
+         all%values(all%count + 1:all%count + size(values)) = values
+         all%count = all%count + size(values)
+      end subroutine along
+   end subroutine add_sample
+
+   !> What is sampled of a bearing.
+   subroutine take_bearing(all, file, sample)
+      type(sample_values), intent(inout) :: all
+      type(bearing_file_type), intent(in) :: file
+      type(bearing_sample), intent(in) :: sample
+      integer :: i, k
       associate (position => sample%journal%position, velocity => sample%journal%velocity)
          call one('journal_y', position(1), 'm', 'journal displacement, vertical')
          call one('journal_z', position(2), 'm', 'journal displacement, horizontal')
@@ -63,38 +108,38 @@ contains
                & 'normal force between the asperities of pad and journal')
          end associate
       end do
-      call file%add(values(:n + k*size(sample%states)))
-      call file%error_of(error)
+      all%count = all%count + k*size(sample%states)
    contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (first) call file%declare(name, 1, '', units, long_name)
-         n = n + 1
-         values(n) = value
+         if (all%first) call file%declare(name, 1, '', units, long_name)
+         all%count = all%count + 1
+         all%values(all%count) = value
       end subroutine one
 
       !> Of pad i; the k-th series of the pads.
       subroutine each(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (first .and. i == 1) call file%declare(name, size(sample%states), 'pad', units, long_name)
-         values(n + k*size(sample%states) + i) = value
+         if (all%first .and. i == 1) call file%declare(name, size(sample%states), 'pad', units, long_name)
+         all%values(all%count + k*size(sample%states) + i) = value
          k = k + 1
       end subroutine each
-   end subroutine add_sample
+   end subroutine take_bearing
 
    !> Writes the viscosity of the oil on each pad, Pa s, which warm oil keeps in a march.
    subroutine put_viscosity(file, viscosity)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       real(wp), intent(in) :: viscosity(:)
       call file%put_list('viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad in the march', 'pad')
    end subroutine put_viscosity
 
-   !> Writes the history of these viscosities in a run-up.
-   subroutine put_viscosity_history(file, history)
-      type(run_file_type), intent(inout) :: file
+   !> Writes the history of the viscosities of these pads in a run-up.
+   subroutine put_viscosity_history(file, history, pads)
+      type(bearing_file_type), intent(inout) :: file
       type(viscosity_history_type), intent(in) :: history
+      integer, intent(in) :: pads(:)
       real(wp), allocatable :: time(:), viscosity(:, :)
       integer :: k
       ! counted from 1, in brackets
@@ -104,13 +149,13 @@ contains
          call history%at(time(k), viscosity(:, k))
       end do
       call file%put_list('oil/time', time, 's', 'time', 'oil/time')
-      call file%put_table('oil/viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad', 'oil/time pad')
+      call file%put_table('oil/viscosity', viscosity(pads, :), 'Pa s', 'viscosity of the oil on each pad', 'oil/time pad')
    end subroutine put_viscosity_history
 
-   !> Writes amplitude spectra over the last whole revolutions of a run at constant speed; none where it was not sampled
-   !> over one.
+   !> Writes amplitude spectra of a bearing, of this case, over the last whole revolutions of a run at constant speed;
+   !> none where it was not sampled over one.
    subroutine put_spectra(file, inputs, interval)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       !> Between samples, s.
       real(wp), intent(in) :: interval
@@ -119,7 +164,7 @@ contains
       integer :: revolutions, n, i, k
       if (.not. inputs%is_steady()) return
       associate (samples => inputs%output%samples_per_revolution)
-         revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%samples - 1)/samples))
+         revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%samples() - 1)/samples))
          n = revolutions*samples
       end associate
       if (revolutions == 0 .or. n < 2) return

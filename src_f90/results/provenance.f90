@@ -8,10 +8,12 @@ module provenance
    use processes, only: host_name
    implicit none (type, external)
    private
-   public :: provenance_type, running, format_version, now
+   public :: provenance_type, running, format_version, machine_version, now
 
    !> Version of the names in a file. A new one needs its former names in post/tiltpad/files/former_names.py.
    integer, parameter :: format_version = 3
+   !> That of the file of a machine, whose bearings have groups: what knows only one bearing must not read it.
+   integer, parameter :: machine_version = 4
    !> The exit status in a file whose run has not ended, or was killed.
    integer, parameter :: running = -1
 
@@ -30,13 +32,14 @@ module provenance
 
 contains
 
-   !> Notes the start of a new file.
-   subroutine begin(self, file)
+   !> Notes the start of a new file, of a machine or of one bearing.
+   subroutine begin(self, file, of_machine)
       class(provenance_type), intent(inout) :: self
       class(record_type), intent(inout) :: file
+      logical, intent(in) :: of_machine
       self%started = now()
       self%earlier = ''
-      call file%put_flag('format_version', format_version)
+      call file%put_flag('format_version', merge(machine_version, format_version, of_machine))
       call file%put_text('program', 'tiltpad')
       call file%put_text('created', self%started)
       call self%put_maker(file)

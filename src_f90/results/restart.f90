@@ -12,7 +12,7 @@ module restart
    use verification_results, only: states_figure
    use guarded_open, only: try_reading, new_reader
    use processes, only: end_child, exit_status
-   use provenance, only: format_version
+   use provenance, only: format_version, machine_version
    use parameter_study, only: run_tag
    use files, only: is_regular
    implicit none (type, external)
@@ -191,7 +191,7 @@ contains
          call raise(error, system_error, path//': not a result of tiltpad')
       else
          call file%get_flag('format_version', version)
-         if (version > format_version) then
+         if (version > machine_version) then
             call raise(error, system_error, path//': format_version '//to_text(version) &
                & //', written by a later version of tiltpad; update the program')
          else if (version < format_version .and. .not. allocated(file%failure)) then

@@ -5,7 +5,7 @@ module revolution_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
    use case_inputs, only: case_type
-   use run_file, only: run_file_type
+   use bearing_file, only: bearing_file_type
    implicit none (type, external)
    private
    public :: put_revolutions
@@ -18,7 +18,7 @@ contains
 
    !> Writes those of the last n samples, which are of whole revolutions, this many at most.
    subroutine put_revolutions(file, inputs, n, most)
-      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: n, most
       real(wp), allocatable :: angle(:, :)

@@ -3,7 +3,7 @@
 !> memory.
 module run_file
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp, i8, degree, pi
+   use kinds, only: wp, i8, pi
    use errors, only: error_type, raise, system_error
    use case_inputs, only: case_type
    use parameter_study, only: run_tag
@@ -14,6 +14,7 @@ module run_file
    use recent_samples, only: recent_samples_type
    use result_size, only: figure_samples
    use summary_group, only: put_figure
+   use machine_results, only: put_bearings
    use provenance, only: provenance_type, running
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
@@ -67,7 +68,6 @@ contains
       character(len=*), intent(in) :: input
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      integer :: i
       self%keep = inputs%output%keep
       self%wanted = figure_samples(inputs)
       if (self%filed) then
@@ -77,15 +77,14 @@ contains
             return
          end if
       end if
-      call self%provenance%begin(self%record_type)
+      call self%provenance%begin(self%record_type, inputs%is_machine())
       call self%put_flag('complete', 0)
       call self%put_text('title', inputs%about%title)
       call self%put_text('task', inputs%about%task)
       call self%put_text('input', input)
-      call self%put_list('pad', [(real(i, wp), i=1, inputs%pad_count())], '1', 'pad number', 'pad')
+      call put_bearings(self, inputs)
       if (inputs%about%task /= 'branch') call put_figure(self, 'speed', inputs%operation%speed_rpm*pi/30, 'rad/s', &
          & 'shaft speed at the end')
-      call self%put_list('pivot_angle', inputs%pads%pivot_angle_deg*degree, 'rad', 'pivot angle', 'pad')
       if (.not. self%filed) return
       call write_record(self, self%hdf5, .false.)
       call self%error_of(error)

@@ -159,11 +159,12 @@ contains
       class(hdf5_base_type), intent(in) :: self
       character(len=*), intent(in) :: path
       integer :: status, slash
-      slash = index(path, '/')
       has = .not. allocated(self%failure)
-      ! HDF5 wants to be asked for the group first
+      ! HDF5 wants to be asked for the groups first
       status = 0
-      if (has .and. slash > 0) call h5lexists_f(self%id, path(:slash - 1), has, status)
+      do slash = 2, len(path)
+         if (has .and. path(slash:slash) == '/') call h5lexists_f(self%id, path(:slash - 1), has, status)
+      end do
       if (has .and. status >= 0) call h5lexists_f(self%id, path, has, status)
       has = has .and. status >= 0
    end function has

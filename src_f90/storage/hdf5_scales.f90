@@ -11,7 +11,7 @@ module hdf5_scales
    public :: item_type, list_items, scales_of, read_about, scale_name, scale_count
 
    !> Only a damaged file has longer names, more dimensions, or groups in groups of groups.
-   integer, parameter :: longest_name = 200, most_dimensions = 32, deepest = 3
+   integer, parameter :: longest_name = 200, most_dimensions = 32, deepest = 4
 
    !> A dataset or group of a file.
    type :: item_type

@@ -1,7 +1,9 @@
 !> The last samples of a run, and its first one, in memory: what the figures of a run need that does not keep all.
 module recent_samples
    use kinds, only: wp, i8
+   use text, only: replaced
    use record, only: record_type
+   use record_file, only: lines
    implicit none (type, external)
    private
    public :: recent_samples_type
@@ -38,10 +40,10 @@ module recent_samples
    end type recent_samples_type
 
    character(len=*), parameter :: group = 'checkpoint/samples', first_sample = 'checkpoint/first_sample', &
-      & samples = 'checkpoint/sample_count'
+      & samples = 'checkpoint/sample_count', names = 'checkpoint/series'
 
-   !> Characters before the name of a series that is saved.
-   integer, parameter :: digits = 3
+   !> Characters before the name of a series that is saved; most of a name with that of a scale.
+   integer, parameter :: digits = 3, longest_names = 160
 
 contains
 
@@ -139,6 +141,7 @@ contains
       real(wp), allocatable :: values(:, :)
       integer :: k
       if (self%count == 0) return
+      if (in_groups(self)) call results%put_labels(names, scaled_names(self), 'series, and the scale of its values')
       do k = 1, size(self%series)
          associate (own => self%series(k))
             call self%part(own%name, self%first(), int(self%count - self%first()), values)
@@ -153,6 +156,28 @@ contains
       call results%put_count(samples, self%count, 'samples so far')
    end subroutine save_samples
 
+   !> Whether series belong to groups, or have other scales than pads: paths cannot say this.
+   pure logical function in_groups(self)
+      class(recent_samples_type), intent(in) :: self
+      integer :: k
+      in_groups = .false.
+      do k = 1, size(self%series)
+         associate (own => self%series(k))
+            if (index(own%name, '/') > 0 .or. own%across /= '' .and. own%across /= 'pad') in_groups = .true.
+         end associate
+      end do
+   end function in_groups
+
+   !> Of each series its name and that of its scale, with a blank between them.
+   pure function scaled_names(self) result(texts)
+      class(recent_samples_type), intent(in) :: self
+      character(len=longest_names) :: texts(size(self%series))
+      integer :: k
+      do k = 1, size(texts)
+         texts(k) = self%series(k)%name//' '//self%series(k)%across
+      end do
+   end function scaled_names
+
    !> Where a series is saved: a file has names in alphabetical order, and these keep that of the series.
    function path_of(self, k) result(path)
       class(recent_samples_type), intent(in) :: self
@@ -160,7 +185,7 @@ contains
       character(len=:), allocatable :: path
       character(len=digits) :: number
       write (number, '(i0.2,a)') k, '_'
-      path = group//'/'//number//self%series(k)%name
+      path = group//'/'//number//replaced(self%series(k)%name, '/', '_')
    end function path_of
 
    !> Takes up what was saved; `ok` is false where it does not fit together. Nothing where nothing was.
@@ -188,6 +213,8 @@ contains
             end associate
          end associate
       end do
+      call take_names(self, results, ok)
+      if (.not. ok) return
       self%count = nint(results%get_real(samples), i8)
       ok = kept > 0 .and. kept == self%count - self%first() .and. results%list_size(first_sample) == &
          & sum(self%series%width)
@@ -219,4 +246,25 @@ contains
          end do
       end subroutine restore_series
    end subroutine restore
+
+   !> The names that paths do not say, and the scales.
+   subroutine take_names(self, results, ok)
+      class(recent_samples_type), intent(inout) :: self
+      class(record_type), intent(in) :: results
+      logical, intent(out) :: ok
+      character(len=:), allocatable :: texts(:)
+      integer :: k, blank
+      ok = .true.
+      if (.not. results%has(names)) return
+      do k = 1, results%count
+         if (results%datasets(k)%path == names) texts = lines(results%datasets(k)%texts)
+      end do
+      ok = size(texts) == size(self%series)
+      if (.not. ok) return
+      do k = 1, size(texts)
+         blank = index(texts(k)//' ', ' ')
+         self%series(k)%name = texts(k)(:blank - 1)
+         self%series(k)%across = trim(texts(k)(blank + 1:))
+      end do
+   end subroutine take_names
 end module recent_samples

@@ -5,7 +5,7 @@ module record_file
    use record, only: record_type, dataset_type, of_counts, of_texts
    implicit none (type, external)
    private
-   public :: write_record
+   public :: write_record, lines
 
    character(len=*), parameter :: newline = achar(10)
 
@@ -68,16 +68,12 @@ contains
    end subroutine delete_groups
 
    !> Makes a group with those above it.
-   subroutine make_groups(file, group)
+   recursive subroutine make_groups(file, group)
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
-      integer :: slash
       if (group == '') return
       if (file%has(group)) return
-      slash = index(group, '/', back=.true.)
-      if (slash > 0) then
-         if (.not. file%has(group(:slash - 1))) call file%make_group(group(:slash - 1))
-      end if
+      call make_groups(file, group(:index(group, '/', back=.true.) - 1))
       call file%make_group(group)
    end subroutine make_groups
 

@@ -1,0 +1,63 @@
+!> What a run writes and prints of its equilibrium: of each bearing the same, of a machine besides what is of the whole.
+module equilibrium_notes
+   use kinds, only: wp
+   use static_model, only: equilibrium_type
+   use equations_of_motion, only: machine_model
+   use heat_balance_equations, only: static_figures_type, find_static_figures
+   use bearings_alone, only: bearing_alone, part_of, bearing_loads
+   use bearing_file, only: bearing_file_type
+   use equilibrium_results, only: put_equilibrium, put_stability, put_figures, put_temperatures
+   use machine_results, only: put_machine_equilibrium
+   use case_run, only: case_run_type
+   use run_summary, only: print_equilibrium, stability_text, print_figures, print_temperatures, bearing_title
+   implicit none (type, external)
+   private
+   public :: note_equilibrium
+
+contains
+
+   !> Writes an equilibrium with its losses and flows, and gives the films of the run its viscosities.
+   subroutine note_equilibrium(run, static)
+      type(case_run_type), intent(inout) :: run
+      type(equilibrium_type), intent(in) :: static
+      real(wp), allocatable :: loads(:, :)
+      integer :: b
+      run%model%oil%viscosity = static%viscosity
+      run%computed = .true.
+      if (.not. run%inputs%is_machine()) then
+         call note_bearing(run, run%model, static, 1, 'equilibrium: ')
+         call put_stability(run%file, static)
+         return
+      end if
+      call put_stability(run%file, static)
+      loads = bearing_loads(run%model, static%rotor)
+      call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads)
+      if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static)
+      do b = 1, size(loads, 2)
+         call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, &
+            & bearing_title(run%inputs, b, loads(:, b)))
+      end do
+   end subroutine note_equilibrium
+
+   !> Bearing b, of this model of it alone; `title` begins its first line.
+   subroutine note_bearing(run, model, static, b, title)
+      type(case_run_type), intent(inout) :: run
+      type(machine_model), intent(in) :: model
+      type(equilibrium_type), intent(in) :: static
+      integer, intent(in) :: b
+      character(len=*), intent(in) :: title
+      type(static_figures_type) :: figures
+      type(bearing_file_type) :: file
+      file = run%bearing(b)
+      associate (inputs => model%inputs)
+         call put_equilibrium(file, static, inputs%tilting(), inputs%tilting_radial())
+         call find_static_figures(model, static, figures)
+         call put_figures(file, inputs, figures)
+         if (allocated(figures%oil)) call put_temperatures(file, figures%oil, static%viscosity)
+         if (run%quiet) return
+         call print_equilibrium(title, static, inputs, .not. run%inputs%is_machine())
+         call print_figures(inputs, figures)
+         if (allocated(figures%oil)) call print_temperatures(figures%oil, static%viscosity)
+      end associate
+   end subroutine note_bearing
+end module equilibrium_notes
