@@ -5,12 +5,13 @@ module mode_selection
    use machine_groups, only: machine_type
    use rotor_component, only: rotor_component_type
    use fixed_interface, only: fixed_interface_type
+   use station_forces, only: unbalances
    use reduction_error, only: response_problem_type, amplitudes, amplitude_error
    implicit none (type, external)
    private
    public :: mode_selection_type, select_modes, mode_damping
 
-   !> Modes kept in a plane, and relative errors of amplitudes at the highest speed: of leaving out the others, and of
+   !> Modes kept in a plane, and errors of amplitudes at the highest speed, relative to the largest one: of leaving out the others, and of
    !> damping those above `reduction%damp_above`.
    type :: mode_selection_type
       integer :: modes = 0
@@ -18,7 +19,7 @@ module mode_selection
    end type mode_selection_type
 
    !> The modes are chosen for this error of amplitudes, and include all below this multiple of the highest speed.
-   real(wp), parameter :: target_error = 5e-4_wp, lowest_frequency = 3
+   real(wp), parameter :: target_error = 1e-4_wp, lowest_frequency = 3
    !> Amplitudes are compared in a vibration that grows so fast, relative to its frequency: as with this damping ratio.
    real(wp), parameter :: growth = 0.05_wp
 
@@ -59,8 +60,9 @@ contains
    end subroutine select_modes
 
    !> Vibration q exp(rate*t) of a rotor at a speed, rad/s: the loads are its mass along y, as of an even eccentricity,
-   !> and forces at the unbalances. Its bearings are springs and dampers that resist the journals as much as
-   !> the rotor itself, where both matter most.
+   !> and its unbalances. Amplitudes are those of journals and discs: a force in between also deflects the shaft
+   !> just where it acts, which takes many modes. The bearings are springs and dampers that resist the journals as much as
+   !> the rotor itself does, where both matter most.
    function response_problem(machine, component, fixed, border, speed, rate) result(problem)
       type(machine_type), intent(in) :: machine
       type(rotor_component_type), intent(in) :: component
@@ -69,22 +71,30 @@ contains
       real(wp), intent(in) :: speed
       complex(wp), intent(in) :: rate
       type(response_problem_type) :: problem
-      real(wp), allocatable :: static(:, :)
+      real(wp), allocatable :: static(:, :), moments(:, :)
       integer, allocatable :: rows(:)
       integer :: i
       associate (c => component)
          problem%stiffness = rate**2*c%mass + rate*(c%damping + speed*c%gyroscopic) + c%stiffness
-         problem%observed = c%station
-         rows = [2*machine%unbalances%station - 1, 2*machine%unbalances%station]
-         allocate (problem%loads(size(c%mass, 1), 1 + size(rows)))
+         allocate (problem%loads(size(c%mass, 1), 2))
          problem%loads(:, 1) = c%weighed
-         problem%loads(:, 2:) = transpose(c%station(rows, :))
+         moments = unbalances(machine, size(c%station, 1))
+         problem%loads(:, 2) = matmul(moments(1, :), c%station)
+         rows = station_rows([machine%bearings%station, machine%discs%station])
+         problem%observed = c%station(rows, :)
          static = fixed%basis(0)
          problem%journals = border
          problem%bearings = [(cmplx(1.0_wp, 1.0_wp, wp)*(quadratic(c%stiffness, static(:, i)) &
             & + abs(rate)**2*quadratic(c%mass, static(:, i))), i=1, size(border))]
       end associate
    end function response_problem
+
+   !> y and z of stations.
+   pure function station_rows(stations) result(rows)
+      integer, intent(in) :: stations(:)
+      integer :: rows(2*size(stations))
+      rows = [2*stations - 1, 2*stations]
+   end function station_rows
 
    pure real(wp) function quadratic(matrix, x)
       real(wp), intent(in) :: matrix(:, :), x(:)
