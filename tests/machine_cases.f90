@@ -14,8 +14,8 @@ module machine_cases
 
 contains
 
-   !> A shaft of 4000 kg with a disc in the middle on two of the paper's bearings, whose films do not cavitate, with this
-   !> friction and an unbalance, kg m, at the disc.
+   !> A shaft of 4000 kg with a disc in the middle on two of the paper's bearings, whose films do not cavitate, with
+   !> this friction and an unbalance, kg m, at the disc.
    type(case_type) function symmetric_rotor(friction, speed_rpm, unbalance) result(inputs)
       character(len=*), intent(in) :: friction
       real(wp), intent(in) :: speed_rpm, unbalance

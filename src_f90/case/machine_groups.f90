@@ -31,7 +31,8 @@ module machine_groups
       real(wp) :: force(2) = 0
    end type load_type
 
-   !> What a bearing stands on: the mass that moves with its housing, kg, the pads' included; N/m and N s/m along y and z.
+   !> What a bearing stands on: the mass that moves with its housing, kg, the pads' included; N/m and N s/m along y
+   !> and z.
    type :: support_type
       real(wp) :: mass = 0, stiffness(2) = unset, damping(2) = 0
    end type support_type

@@ -108,8 +108,8 @@ contains
          part = 0.5_wp*part
          if (part < shortest) exit
       end do
-      if (.not. allocated(error)) call raise(error, numerics_error, 'the bearings'' shares of the load do not settle: ' &
-         & //to_text(norm2(step))//' N are left unbalanced')
+      if (.not. allocated(error)) call raise(error, numerics_error, 'the bearings'' shares of the load do not ' &
+         & //'settle: '//to_text(norm2(step))//' N are left unbalanced')
    end subroutine find_loads
 
    !> The rotor's static forces and stiffness onto its journals.

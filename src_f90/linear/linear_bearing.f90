@@ -1,6 +1,6 @@
 !> Bearings linearised where they are in equilibrium: masses, stiffness and damping of all positions, for each way that
-!> their pivots may behave; what a journal meets of its bearing that whirls at one frequency; and the vibrations of rotor
-!> and pads, in an order, and what is said of each. What a case asks for of all these.
+!> their pivots may behave; what a journal meets of its bearing that whirls at one frequency; and the vibrations of
+!> rotor and pads, in an order, and what is said of each. What a case asks for of all these.
 module linear_bearing
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
@@ -177,8 +177,8 @@ contains
    end function pivots_of
 
    !> Stiffness, N/m, and damping, N s/m, that a journal meets which whirls at a frequency over the speed of the shaft,
-   !> rad/s: Z_jj - Z_jp Z_pp^-1 Z_pj with Z = K + i nu C - nu^2 M of journal and pads, which stand at these places. `ok`
-   !> is false where a vibration of the pads without damping has this frequency.
+   !> rad/s: Z_jj - Z_jp Z_pp^-1 Z_pj with Z = K + i nu C - nu^2 M of journal and pads, which stand at these places.
+   !> `ok` is false where a vibration of the pads without damping has this frequency.
    subroutine condense(self, places, ratio, speed, stiffness, damping, ok)
       class(linear_bearing_type), intent(in) :: self
       integer, intent(in) :: places(:)

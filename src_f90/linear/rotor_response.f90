@@ -1,6 +1,6 @@
-!> What the equations of a machine, linearised at its equilibrium, say beside its modes: the steady whirl of its stations
-!> under the unbalance; the stations in each mode; and the modes with each bearing's synchronous stiffness and damping
-!> in the place of its pads, as rotor dynamics without pads has them.
+!> What the equations of a machine, linearised at its equilibrium, say beside its modes: the steady whirl of its
+!> stations under the unbalance; the stations in each mode; and the modes with each bearing's synchronous stiffness and
+!> damping in the place of its pads, as rotor dynamics without pads has them.
 module rotor_response
    use kinds, only: wp
    use linear_algebra, only: zgesv

@@ -108,8 +108,8 @@ contains
          call find_rotor_response(fine, found, found%stiffness(:, :, 1, :, :), found%damping(:, :, 1, :, :), response, &
             & error)
          call expect_no_error(error, 'the response is found')
-         call expect_close(1e6_wp*abs(response%unbalance(1, disc_station, 1)), published(i), response_error*published(i), &
-            & '1x of y at '//to_text(speeds(i))//' rpm')
+         call expect_close(1e6_wp*abs(response%unbalance(1, disc_station, 1)), published(i), &
+            & response_error*published(i), '1x of y at '//to_text(speeds(i))//' rpm')
          if (i /= 2) cycle
          call expect_close(minval(abs(response%synchronous(1)%eigenvalue - (-67.842_wp, 413.382_wp))), 0.0_wp, &
             & linear_error*413, 'eigenvalue with synchronously reduced coefficients')
@@ -213,7 +213,8 @@ contains
       do i = 1, 3
          call expect_close(whirl_of('none', speeds(i)), free(i), orbit_error*free(i), &
             & 'frictionless at '//to_text(speeds(i)))
-         call expect_close(whirl_of('lugre', speeds(i)), stuck(i), orbit_error*stuck(i), 'LuGre at '//to_text(speeds(i)))
+         call expect_close(whirl_of('lugre', speeds(i)), stuck(i), orbit_error*stuck(i), &
+            & 'LuGre at '//to_text(speeds(i)))
       end do
    end subroutine whirl
 
@@ -253,8 +254,10 @@ contains
             call expect(maxval(abs(force(:6))) < 1e-4_wp*4000, 'the journals are in balance')
          end associate
       end associate
-      call expect_close(norm2(sum(level, 2) - [-4000*9.81_wp, 0.0_wp]), 0.0_wp, 1e-6_wp*4e4_wp, 'all loads are the weight')
-      call expect_close(norm2(sum(raised, 2) - [-4000*9.81_wp, 0.0_wp]), 0.0_wp, 1e-6_wp*4e4_wp, 'and with the raised one')
+      associate (weight => [-4000*9.81_wp, 0.0_wp])
+         call expect_close(norm2(sum(level, 2) - weight), 0.0_wp, 1e-6_wp*4e4_wp, 'all loads are the weight')
+         call expect_close(norm2(sum(raised, 2) - weight), 0.0_wp, 1e-6_wp*4e4_wp, 'and with the raised one')
+      end associate
       call expect(raised(1, 3) < level(1, 3) - 100, 'the raised bearing bears more')
    end subroutine three_bearings
 
@@ -314,8 +317,8 @@ contains
       end associate
    end function turned
 
-   !> A shaft that is a thousand, and ten thousand, times as stiff: the whirl tends to that of a rigid journal of half the
-   !> mass and half the unbalance in one bearing, as one over the stiffness.
+   !> A shaft that is a thousand, and ten thousand, times as stiff: the whirl tends to that of a rigid journal of
+   !> half the mass and half the unbalance in one bearing, as one over the stiffness.
    subroutine stiff_shaft()
       type(case_type) :: inputs
       type(bearing_coefficients_type) :: rigid, found
