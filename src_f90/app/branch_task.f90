@@ -240,9 +240,9 @@ contains
       type(branch_point_type), intent(in) :: point
       type(error_type), allocatable, intent(out) :: error
       type(orbit_figures_type) :: figures
-      type(oil_temperatures_type), allocatable :: oil
+      type(oil_temperatures_type), allocatable :: oil(:)
       real(wp), allocatable :: viscosity(:)
-      if (has_warm_oil(run%model)) allocate (oil)
+      if (has_warm_oil(run%model)) allocate (oil(size(run%model%bearings)))
       if (b%of_orbits) then
          call find_orbit_figures(run%model, b%orbits, run%inputs%output%samples_per_revolution, figures)
          if (allocated(oil)) call b%ode%oil%temperatures(oil, viscosity)

@@ -216,10 +216,10 @@ contains
       self%anew = .true.
    end subroutine go_to
 
-   !> Of warm oil.
+   !> Of warm oil, in each bearing.
    subroutine temperatures(self, oil)
       class(equilibrium_problem_type), intent(inout) :: self
-      type(oil_temperatures_type), intent(out) :: oil
+      type(oil_temperatures_type), intent(out) :: oil(:)
       self%bearing%model%oil%viscosity = self%viscosity
       call find_temperatures(self%bearing%model, self%state(), self%balance, oil)
    end subroutine temperatures

@@ -103,10 +103,10 @@ contains
       end function is_known
    end subroutine find
 
-   !> Temperatures and viscosities, Pa s, that were found last.
+   !> Temperatures in each bearing and viscosities, Pa s, that were found last.
    subroutine temperatures(self, oil, viscosity)
       class(frozen_viscosity_type), intent(inout) :: self
-      type(oil_temperatures_type), intent(out) :: oil
+      type(oil_temperatures_type), intent(out) :: oil(:)
       real(wp), allocatable, intent(out) :: viscosity(:)
       type(error_type), allocatable :: ignored
       call self%bearing%set_value(self%known(1)%value, .true., ignored)

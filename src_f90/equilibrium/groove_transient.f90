@@ -33,11 +33,11 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(machine_model) :: static
       type(state_balance_type) :: balance
-      type(oil_temperatures_type) :: oil, next
+      type(oil_temperatures_type), dimension(size(model%bearings)) :: oil, next
       real(wp), dimension(model%layout%pads) :: entering, before, rate, time_constant
       real(wp), allocatable :: time(:), viscosity(:, :)
       real(wp) :: state(size(y)), residual
-      integer :: k
+      integer :: b, k
       call set_nodes(model, duration, time)
       allocate (viscosity(size(entering), 0:ubound(time, 1)))
       call make_static(model, model%point%cavitation, static)
@@ -46,7 +46,11 @@ contains
       do k = 0, ubound(time, 1)
          static%point%speed_rpm = model%point%speed(time(k))/rpm
          if (k > 0) then
-            call renew(oil%inlet, entering, rate, time_constant, time(k) - time(k - 1))
+            do b = 1, size(oil)
+               associate (pads => model%layout%bearings(b)%all_pads())
+                  call renew(oil(b)%inlet, entering(pads), rate(pads), time_constant(pads), time(k) - time(k - 1))
+               end associate
+            end do
             call solve_thermal_equilibrium(static, state, residual, error, give_up, kept=oil)
             call add_context(error, 'oil of the run-up at '//to_text(static%point%speed_rpm)//' rpm')
             if (allocated(error)) return
@@ -59,7 +63,13 @@ contains
             call find_temperatures(static, state, balance, next, kept=oil)
          end if
          before = entering
-         call balance%heat%renewal(balance%losses, next, static%point%speed(0.0_wp), entering, time_constant)
+         do b = 1, size(next)
+            associate (first => model%layout%bearings(b)%other_pads + 1, &
+               & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
+               call balance%bearings(b)%heat%renewal(balance%losses(first:last), next(b), &
+                  & static%point%speed(0.0_wp), entering(first:last), time_constant(first:last))
+            end associate
+         end do
          rate = 0
          if (k > 0) rate = (entering - before)/(time(k) - time(k - 1))
       end do

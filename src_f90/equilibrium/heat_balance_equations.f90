@@ -5,7 +5,8 @@ module heat_balance_equations
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, numerics_error
+   use errors, only: error_type, raise, add_context, numerics_error
+   use case_inputs, only: case_type
    use bearing_numbers, only: eccentricity_ratio, attitude_angle
    use pad_gap, only: pad_gap_type
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
@@ -43,17 +44,21 @@ module heat_balance_equations
    !> known to 1e-5; what they miss changes slowly.
    real(wp), parameter :: difference = 1e-3_wp
 
-   !> A state's heat balance. It may be used for one state after another.
-   type :: state_balance_type
+   !> What finds losses takes time to make; the gaps that it was made for.
+   type :: bearing_heat_type
       type(heat_balance_type) :: heat
+      type(bearing_losses_type), private :: finder
+      type(pad_gap_type), allocatable, private :: gaps(:)
+   end type bearing_heat_type
+
+   !> A state's heat balance, of the pads of all bearings. It may be used for one state after another.
+   type :: state_balance_type
+      type(bearing_heat_type), allocatable :: bearings(:)
       type(pad_loss), allocatable :: losses(:)
       !> The logarithms of the viscosities that the state leads to, over those that it has; 0 where neither flow nor
       !> shaft carries the heat off, which is then not balanced.
       real(wp), allocatable :: lack(:)
       logical :: balanced = .false.
-      !> What finds losses takes time to make; the gaps that it was made for.
-      type(bearing_losses_type), private :: finder
-      type(pad_gap_type), allocatable, private :: gaps(:)
    end type state_balance_type
 
 contains
@@ -69,14 +74,22 @@ contains
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
+      type(case_type) :: own
       logical :: stays
-      stays = allocated(balance%gaps)
-      if (stays) stays = .not. any(balance%gaps%differs(model%bearings(1)%pads%gap))
-      if (.not. stays) then
-         balance%finder = new_bearing_losses(model%inputs)
-         balance%gaps = model%bearings(1)%pads%gap
-      end if
-      balance%heat = new_heat_balance(model%inputs)
+      integer :: b
+      if (.not. allocated(balance%bearings)) allocate (balance%bearings(size(model%bearings)))
+      do b = 1, size(model%bearings)
+         associate (of => balance%bearings(b), gaps => model%bearings(b)%pads%gap)
+            own = model%inputs%of_bearing(b)
+            stays = allocated(of%gaps)
+            if (stays) stays = .not. any(of%gaps%differs(gaps))
+            if (.not. stays) then
+               of%finder = new_bearing_losses(own)
+               of%gaps = gaps
+            end if
+            of%heat = new_heat_balance(own)
+         end associate
+      end do
       if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), balance%lack(model%layout%pads))
       call find_again(model, y, balance, balance%losses)
    end subroutine find_losses
@@ -87,8 +100,15 @@ contains
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
       type(pad_loss), intent(out) :: losses(:)
-      call balance%finder%find(model%bearings(1), model%rotor%journal(y(:model%rotor%states), 1), &
-         & model%layout%bearings(1)%pad_states(y), model%oil, model%point%speed(0.0_wp), losses)
+      integer :: b
+      do b = 1, size(model%bearings)
+         associate (of => model%layout%bearings(b), &
+            & first => model%layout%bearings(b)%other_pads + 1, &
+            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
+            call balance%bearings(b)%finder%find(model%bearings(b), model%rotor%journal(y(:model%rotor%states), b), &
+               & of%pad_states(y), model%oil(first:last), model%point%speed(0.0_wp), losses(first:last))
+         end associate
+      end do
    end subroutine find_again
 
    !> What the viscosities lack in a state y.
@@ -96,25 +116,37 @@ contains
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
-      !> Where grooves and shaft keep their temperatures: these.
-      type(oil_temperatures_type), intent(in), optional :: kept
+      !> Where grooves and shaft keep their temperatures: these, of each bearing.
+      type(oil_temperatures_type), intent(in), optional :: kept(:)
       call find_losses(model, y, balance)
-      call set_lack(balance%heat, balance%losses, model%oil%viscosity, model%point%speed(0.0_wp), balance%lack, &
-         & balance%balanced, kept)
+      call set_lack(model, balance, balance%losses, model%oil%viscosity, balance%lack, balance%balanced, kept)
    end subroutine find_lack
 
-   !> The same with these losses of films of these viscosities at a speed, rad/s.
-   subroutine set_lack(heat, losses, films, speed, lack, ok, kept)
-      type(heat_balance_type), intent(in) :: heat
+   !> The same with these losses of films of these viscosities.
+   subroutine set_lack(model, balance, losses, films, lack, ok, kept)
+      type(machine_model), intent(in) :: model
+      type(state_balance_type), intent(in) :: balance
       type(pad_loss), intent(in) :: losses(:)
-      real(wp), intent(in) :: films(:), speed
+      real(wp), intent(in) :: films(:)
       real(wp), intent(out) :: lack(:)
       logical, intent(out) :: ok
-      type(oil_temperatures_type), intent(in), optional :: kept
+      type(oil_temperatures_type), intent(in), optional :: kept(:)
       real(wp) :: wanted(size(films))
-      call heat%viscosities(losses, films, speed, wanted, ok, kept)
+      integer :: b
       lack = 0
-      if (ok) lack = log(wanted/films)
+      do b = 1, size(model%bearings)
+         associate (first => model%layout%bearings(b)%other_pads + 1, &
+            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads, &
+            & heat => balance%bearings(b)%heat, speed => model%point%speed(0.0_wp))
+            if (present(kept)) then
+               call heat%viscosities(losses(first:last), films(first:last), speed, wanted(first:last), ok, kept(b))
+            else
+               call heat%viscosities(losses(first:last), films(first:last), speed, wanted(first:last), ok)
+            end if
+         end associate
+         if (.not. ok) return
+      end do
+      lack = log(wanted/films)
    end subroutine set_lack
 
    !> The derivatives of what lacks in the state y, whose balance was found, over positions and then over the logarithms
@@ -131,25 +163,32 @@ contains
       real(wp), dimension(model%layout%pads) :: films, thicker
       integer, allocatable :: x(:), own(:)
       real(wp) :: none(model%outputs), change
-      integer :: i, k, journal
+      integer :: i, k, b
       slopes = 0
       none = 0
-      call take_sample(model, 0.0_wp, y, none, 1, sample)
-      change = difference*minval(sample%loads%min_film_thickness)/model%inputs%bearing%assembled_clearance
+      change = huge(change)
+      do b = 1, size(model%bearings)
+         if (allocated(sample%states)) deallocate (sample%states, sample%loads)
+         call take_sample(model, 0.0_wp, y, none, b, sample)
+         change = min(change, difference*minval(sample%loads%min_film_thickness)/model%bearings(b)%clearance)
+      end do
       films = model%oil%viscosity
       thicker = films*exp(difference)
       x = model%layout%positions()
-      journal = model%rotor%positions
-      do k = 1, journal
+      do k = 1, 2*size(model%bearings)
          call find_moved([k])
          call set_slope(k, moved, films, change)
       end do
-      do k = 0, model%layout%bearings(1)%motion/2 - 1
-         own = k + [(model%layout%bearings(1)%first_position(i), i=1, size(moved))]
-         call find_moved(own)
-         do i = 1, size(own)
-            call set_slope(own(i), merge_loss(i), films, change)
-         end do
+      do b = 1, size(model%bearings)
+         associate (of => model%layout%bearings(b))
+            do k = 0, of%motion/2 - 1
+               own = k + [(of%first_position(i), i=1, of%pads)]
+               call find_moved(own)
+               do i = 1, size(own)
+                  call set_slope(own(i), merge_loss(of%other_pads + i), films, change)
+               end do
+            end do
+         end associate
       end do
       model%oil%viscosity = thicker
       call find_again(model, y, balance, moved)
@@ -183,7 +222,7 @@ contains
          real(wp), intent(in) :: viscosities(:), by
          real(wp) :: there(model%layout%pads)
          logical :: ok
-         call set_lack(balance%heat, losses, viscosities, model%point%speed(0.0_wp), there, ok)
+         call set_lack(model, balance, losses, viscosities, there, ok)
          if (ok) slopes(:, column) = (there - balance%lack)/by
       end subroutine set_slope
    end subroutine find_lack_slopes
@@ -208,44 +247,68 @@ contains
       call model%evaluate(0.0_wp, y, .false., ok)
    end subroutine find_force_slopes
 
-   !> The temperatures of the oil in a state y whose heat has a balance.
+   !> The temperatures of the oil in each bearing in a state y whose heat has a balance.
    subroutine find_temperatures(model, y, balance, oil, kept)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
-      type(oil_temperatures_type), intent(out) :: oil
-      type(oil_temperatures_type), intent(in), optional :: kept
+      type(oil_temperatures_type), intent(out) :: oil(:)
+      type(oil_temperatures_type), intent(in), optional :: kept(:)
       call find_losses(model, y, balance)
-      call balance%heat%temperatures(balance%losses, model%oil%viscosity, model%point%speed(0.0_wp), oil, &
-         & balance%balanced, kept)
+      call take_temperatures(model, balance, oil, balance%balanced, kept)
    end subroutine find_temperatures
+
+   !> Those of losses that were found.
+   subroutine take_temperatures(model, balance, oil, ok, kept)
+      type(machine_model), intent(in) :: model
+      type(state_balance_type), intent(in) :: balance
+      type(oil_temperatures_type), intent(out) :: oil(:)
+      logical, intent(out) :: ok
+      type(oil_temperatures_type), intent(in), optional :: kept(:)
+      integer :: b
+      do b = 1, size(model%bearings)
+         associate (pads => model%layout%bearings(b)%all_pads(), heat => balance%bearings(b)%heat, &
+            & speed => model%point%speed(0.0_wp))
+            if (present(kept)) then
+               call heat%temperatures(balance%losses(pads), model%oil(pads)%viscosity, speed, oil(b), ok, kept(b))
+            else
+               call heat%temperatures(balance%losses(pads), model%oil(pads)%viscosity, speed, oil(b), ok)
+            end if
+         end associate
+         if (.not. ok) return
+      end do
+   end subroutine take_temperatures
 
    !> Refuses a state whose heat, found last by find_lack, has no balance, or at which oil boils.
    subroutine check_heat(model, balance, error, kept)
       type(machine_model), intent(in) :: model
       type(state_balance_type), intent(in) :: balance
       type(error_type), allocatable, intent(out) :: error
-      type(oil_temperatures_type), intent(in), optional :: kept
-      type(oil_temperatures_type) :: oil
-      integer :: hottest
+      type(oil_temperatures_type), intent(in), optional :: kept(:)
+      type(oil_temperatures_type) :: oil(size(model%bearings))
+      integer :: b, hottest
       logical :: ok
       ok = balance%balanced
-      if (ok) call balance%heat%temperatures(balance%losses, model%oil%viscosity, &
-         & model%point%speed(0.0_wp), oil, ok, kept)
+      if (ok) call take_temperatures(model, balance, oil, ok, kept)
       if (.not. ok) then
          call raise(error, numerics_error, 'the oil has no heat balance: neither its flow nor the shaft carries the ' &
             & //'heat of the films off; it needs fresh oil (oil%carry_over below 1) or exchange with the shaft ' &
             & //'(oil%shaft_nusselt)')
          return
       end if
-      hottest = maxloc(oil%outlet, dim=1)
-      if (oil%outlet(hottest) > boiling) call raise(error, numerics_error, 'the oil would leave pad ' &
-         & //to_text(hottest)//' at '//to_text(nint(min(oil%outlet(hottest), beyond)))//' C or more, above ' &
-         & //to_text(nint(boiling))//' C, where mineral oil boils: film and asperities make more heat than its flow ' &
-         & //'carries off; try cooler or more oil, less load or more clearance')
+      do b = 1, size(oil)
+         hottest = maxloc(oil(b)%outlet, dim=1)
+         if (oil(b)%outlet(hottest) <= boiling) cycle
+         call raise(error, numerics_error, 'the oil would leave pad '//to_text(hottest)//' at ' &
+            & //to_text(nint(min(oil(b)%outlet(hottest), beyond)))//' C or more, above '//to_text(nint(boiling)) &
+            & //' C, where mineral oil boils: film and asperities make more heat than its flow carries off; try ' &
+            & //'cooler or more oil, less load or more clearance')
+         if (model%inputs%is_machine()) call add_context(error, 'bearing '''//model%inputs%machine%bearings(b)%name//'''')
+         return
+      end do
    end subroutine check_heat
 
-   !> The figures of an equilibrium of the model.
+   !> The figures of an equilibrium of a model of one bearing.
    subroutine find_static_figures(model, static, figures)
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(in) :: static
@@ -264,7 +327,8 @@ contains
       end associate
       if (.not. has_warm_oil(model)) return
       allocate (figures%oil)
-      call balance%heat%temperatures(figures%pads, static%viscosity, model%point%speed(0.0_wp), figures%oil, balanced)
+      call balance%bearings(1)%heat%temperatures(figures%pads, static%viscosity, model%point%speed(0.0_wp), figures%oil, &
+         & balanced)
       if (.not. balanced) deallocate (figures%oil)
    end subroutine find_static_figures
 

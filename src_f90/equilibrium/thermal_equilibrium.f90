@@ -43,7 +43,7 @@ contains
       end associate
       if (guess == 1) then
          call find_losses(model, start(model, middle_start), balance)
-         call balance%heat%viscosities(balance%losses, model%oil%viscosity, model%point%speed(0.0_wp), &
+         call balance%bearings(1)%heat%viscosities(balance%losses, model%oil%viscosity, model%point%speed(0.0_wp), &
             & balanced, ok)
          if (ok) wanted = balanced
       end if
@@ -60,8 +60,8 @@ contains
       procedure(asked_to_stop), optional :: give_up
       !> Pads that are held where they are.
       logical, intent(in), optional :: held(:)
-      !> Where grooves and shaft keep their temperatures: these.
-      type(oil_temperatures_type), intent(in), optional :: kept
+      !> Where grooves and shaft keep their temperatures: these, of each bearing.
+      type(oil_temperatures_type), intent(in), optional :: kept(:)
       type(state_balance_type) :: balance
       real(wp), dimension(model%layout%pads) :: last, step
       real(wp) :: inverse(size(step), size(step))

@@ -45,7 +45,7 @@ contains
       type(orbit_figures_type), intent(in) :: figures
       logical, intent(in) :: tilting
       type(error_type), allocatable, intent(out) :: error
-      type(oil_temperatures_type), intent(in), optional :: oil
+      type(oil_temperatures_type), intent(in), optional :: oil(:)
       !> Of warm oil on every pad, Pa s.
       real(wp), intent(in), optional :: viscosity(:)
       character(len=:), allocatable :: frozen
@@ -82,13 +82,13 @@ contains
       call file%error_of(error)
    contains
       subroutine put_oil()
-         call each('inlet_temperature', oil%inlet, 'degC', 'temperature of the oil at the leading edge', 'pad')
-         call each('mean_temperature', oil%mean, 'degC', 'mean temperature of the film', 'pad')
-         call each('outlet_temperature', oil%outlet, 'degC', 'temperature of the oil at the trailing edge', 'pad')
-         call each('maximum_temperature', oil%maximum, 'degC', 'maximum temperature of the pad', 'pad')
+         call each('inlet_temperature', oil(1)%inlet, 'degC', 'temperature of the oil at the leading edge', 'pad')
+         call each('mean_temperature', oil(1)%mean, 'degC', 'mean temperature of the film', 'pad')
+         call each('outlet_temperature', oil(1)%outlet, 'degC', 'temperature of the oil at the trailing edge', 'pad')
+         call each('maximum_temperature', oil(1)%maximum, 'degC', 'maximum temperature of the pad', 'pad')
          call each('viscosity', viscosity, 'Pa s', 'viscosity of the film', 'pad')
-         call one('shaft_temperature', oil%shaft, 'degC', 'temperature of the shaft')
-         call one('drain_temperature', oil%drain, 'degC', 'temperature of the oil that leaves the bearing')
+         call one('shaft_temperature', oil(1)%shaft, 'degC', 'temperature of the shaft')
+         call one('drain_temperature', oil(1)%drain, 'degC', 'temperature of the oil that leaves the bearing')
       end subroutine put_oil
 
       subroutine put_orbit()

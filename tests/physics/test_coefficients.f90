@@ -222,7 +222,7 @@ contains
          end do
          inputs%rotor%static_load = 0
          call analyse(inputs, 'stiffness at rest', found)
-         associate (moved => 0.5_wp*(rest(1)%journal - rest(-1)%journal))
+         associate (moved => 0.5_wp*(rest(1)%rotor - rest(-1)%rotor))
             call expect_close(norm2(matmul(found%stiffness(:, :, 1, 1, 1), moved) - force), 0.0_wp, &
                & 1e-6_wp*norm2(force), 'force along axis '//to_text(axis))
          end associate
