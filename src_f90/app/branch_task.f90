@@ -247,11 +247,11 @@ contains
          call find_orbit_figures(run%model, b%orbits, run%inputs%output%samples_per_revolution, figures)
          if (allocated(oil)) call b%ode%oil%temperatures(oil, viscosity)
       else
-         call figures%add_state(b%static, 0.0_wp, b%equilibria%state())
+         call figures%add_state(b%static, 0.0_wp, b%equilibria%state(), 0.0_wp)
          viscosity = b%equilibria%viscosity
          if (allocated(oil)) call b%equilibria%temperatures(oil)
       end if
-      call add_point(run%file, b%branch, b%parameter, point, figures, run%inputs%tilting(), error, oil, viscosity)
+      call add_point(run%file, run%model, b%branch, b%parameter, point, figures, error, oil, viscosity)
       call run%file%beat(int(wall_clock() - run%started))
    end subroutine record
 

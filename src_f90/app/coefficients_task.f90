@@ -10,7 +10,10 @@ module coefficients_task
    use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type
    use equilibrium, only: settle_equilibrium
    use stability_threshold, only: find_thresholds
-   use coefficient_results, only: put_coefficients
+   use rotor_response, only: rotor_response_type, find_rotor_response
+   use coefficient_results, only: put_coefficients, put_modes, put_shapes, put_thresholds
+   use rotor_results, only: put_rotor_response
+   use bearing_file, only: bearing_file_type, new_bearing_file
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use run_start, only: seek_equilibrium
@@ -25,7 +28,7 @@ module coefficients_task
 contains
 
    subroutine run_coefficients(run, error)
-      type(case_run_type), intent(inout) :: run
+      type(case_run_type), intent(inout), target :: run
       type(error_type), allocatable, intent(out) :: error
       type(machine_model) :: fine
       type(equilibrium_type) :: static
@@ -51,23 +54,52 @@ contains
          end if
          return
       end if
-      call put_coefficients(run%file, found, run%inputs%coefficients%frequency_ratio, &
-         & run%model%layout%position_names())
-      if (.not. run%quiet) call print_coefficients(found, run%inputs)
+      call write_coefficients(run, fine, found, error)
    end subroutine run_coefficients
+
+   !> Writes and prints coefficients and modes, and of a machine the response of its rotor.
+   subroutine write_coefficients(run, fine, found, error)
+      type(case_run_type), intent(inout), target :: run
+      type(machine_model), intent(in) :: fine
+      type(bearing_coefficients_type), intent(in) :: found
+      type(error_type), allocatable, intent(out) :: error
+      type(bearing_file_type) :: part
+      type(rotor_response_type) :: response
+      integer :: b
+      do b = 1, size(fine%bearings)
+         part = new_bearing_file(run%file, run%inputs, b)
+         associate (layout => fine%layout%bearings(b))
+            call put_coefficients(part, found, layout, b, run%inputs%coefficients%frequency_ratio)
+            call put_shapes(part, found, layout)
+         end associate
+      end do
+      if (run%inputs%is_machine()) then
+         call find_rotor_response(fine, found, response, error)
+         if (allocated(error)) return
+         call put_rotor_response(run%file, found, response)
+      end if
+      call put_modes(run%file, found)
+      call put_thresholds(run%file, found)
+      if (run%quiet) return
+      call print_coefficients(found, run%inputs)
+      if (run%inputs%is_machine()) call print_response(found, response)
+   end subroutine write_coefficients
 
    subroutine print_coefficients(found, inputs)
       type(bearing_coefficients_type), intent(in) :: found
       type(case_type), intent(in) :: inputs
-      integer :: i, k
+      integer :: b, i, k
       if (inputs%thermal%model /= 'none') print '(a)', 'stiffness and damping at the viscosities of this equilibrium:'
       associate (ratios => inputs%coefficients%frequency_ratio)
          do i = 1, size(found%bearings)
             print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//':'
-            do k = 1, min(most, size(ratios))
-               print '(a)', '  whirl at '//to_text(ratios(k))//' of the speed: K ' &
-                  & //of_journal(found%stiffness(:, :, k, i, 1))//' MN/m, C ' &
-                  & //of_journal(found%damping(:, :, k, i, 1))//' MN s/m (yy, yz, zy, zz)'
+            do b = 1, size(found%stiffness, 5)
+               if (inputs%is_machine()) print '(a)', '  bearing '''//inputs%machine%bearings(b)%name//''':'
+               do k = 1, min(most, size(ratios))
+                  print '(a)', '  whirl at '//to_text(ratios(k))//' of the speed: K ' &
+                     & //of_journal(found%stiffness(:, :, k, i, b))//' MN/m, C ' &
+                     & //of_journal(found%damping(:, :, k, i, b))//' MN s/m (yy, yz, zy, zz)'
+               end do
             end do
             if (size(ratios) > most) print '(a)', '  and '//to_text(size(ratios) - most) &
                & //' whirl frequencies more, in the file'
@@ -77,6 +109,29 @@ contains
          end do
       end associate
    end subroutine print_coefficients
+
+   !> Where the least damped mode on synchronously reduced coefficients differs from the one with the pads' own
+   !> equations: in its sign, or by more than a tenth of the logarithmic decrement. The largest whirl of the stations.
+   subroutine print_response(found, response)
+      type(bearing_coefficients_type), intent(in) :: found
+      type(rotor_response_type), intent(in) :: response
+      real(wp), parameter :: differs = 0.1_wp
+      real(wp), allocatable :: amplitude(:)
+      integer :: i
+      do i = 1, size(found%modes)
+         associate (exact => found%modes(i), reduced => response%synchronous(i))
+            associate (k => minloc(abs(reduced%eigenvalue - exact%eigenvalue(1)), dim=1))
+               if (abs(reduced%log_decrement(k) - exact%log_decrement(1)) > differs*abs(exact%log_decrement(1))) &
+                  & print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//': synchronously reduced coefficients ' &
+                  & //'would give mode 1 a logarithmic decrement of '//fixed_text(reduced%log_decrement(k), 4) &
+                  & //', and not '//fixed_text(exact%log_decrement(1), 4)
+            end associate
+         end associate
+         amplitude = maxval(abs(response%unbalance(:, :, i)), 1)
+         print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//': linear response to the unbalance, largest at ' &
+            & //'station '//to_text(maxloc(amplitude, dim=1))//': '//fixed_text(1e6_wp*maxval(amplitude), 3)//' um'
+      end do
+   end subroutine print_response
 
    !> The least damped modes.
    subroutine print_modes(modes)

@@ -1,4 +1,5 @@
-!> What a point of a branch is drawn by: how far journal and pads go in a period, and the vibration with the shaft.
+!> What a point of a branch is drawn by: how far journals, stations and pads go in a period, and the vibration with the
+!> shaft.
 module orbit_figures
    use kinds, only: wp, i8, pi
    use equations_of_motion, only: machine_model
@@ -6,14 +7,26 @@ module orbit_figures
    use orbit_problem, only: orbit_problem_type
    implicit none (type, external)
    private
-   public :: orbit_figures_type, find_orbit_figures
+   public :: orbit_figures_type, whirl_figures_type, bearing_figures_type, find_orbit_figures
 
-   type :: orbit_figures_type
-      !> Of the journal along y and z, m: highest and lowest, amplitude of the vibration with the shaft, and the angle
-      !> of the shaft, rad, by which its maximum comes after the unbalance points along +y.
-      real(wp) :: highest(2) = 0, lowest(2) = 0, amplitude(2) = 0, phase(2) = 0
+   !> Of a journal or a station along y and z, m.
+   type :: whirl_figures_type
+      !> Highest and lowest, amplitude of the vibration with the shaft, and the angle of the shaft, rad, by which its
+      !> maximum comes after the unbalance at angle 0 points along +y.
+      real(wp) :: highest(2) = -huge(1.0_wp), lowest(2) = huge(1.0_wp), amplitude(2) = 0, phase(2) = 0
+      !> The part of the vibration with the shaft, until all samples are in.
+      complex(wp), private :: synchronous(2) = 0
+   end type whirl_figures_type
+
+   type :: bearing_figures_type
+      type(whirl_figures_type) :: journal
       !> Of each pad: highest and lowest tilt, rad; minimum film thickness, m.
       real(wp), allocatable :: highest_tilt(:), lowest_tilt(:), film(:)
+   end type bearing_figures_type
+
+   type :: orbit_figures_type
+      type(bearing_figures_type), allocatable :: bearings(:)
+      type(whirl_figures_type), allocatable :: stations(:)
       !> Of an orbit: revolutions of the shaft in it, intervals of its collocation, and its period, s.
       integer :: revolutions = 0, intervals = 0
       real(wp) :: period = 0
@@ -30,51 +43,70 @@ contains
       integer, intent(in) :: samples
       type(orbit_figures_type), intent(out) :: figures
       real(wp) :: y(model%n), t
-      complex(wp) :: synchronous(2)
       integer(i8) :: k, n
       figures%revolutions = problem%period_multiple
       figures%intervals = problem%orbit%intervals()
       figures%period = problem%period()
       n = int(figures%revolutions, i8)*samples
-      synchronous = 0
       do k = 0, n - 1
          t = problem%orbit%time(figures%intervals)*k/n
          call problem%orbit%state_at(t, y)
-         call figures%add_state(model, t, y)
-         associate (journal => model%rotor%journal(y(:model%rotor%states), 1), angle => 2*pi*k/samples)
-            synchronous = synchronous + journal%position*cmplx(cos(angle), sin(angle), wp)
-         end associate
+         call figures%add_state(model, t, y, 2*pi*k/samples)
       end do
       ! of fewer samples the vibration is not known
-      if (samples < 3) synchronous = 0
-      synchronous = 2*synchronous/n
-      figures%amplitude = abs(synchronous)
-      figures%phase = atan2(synchronous%im, synchronous%re)
+      if (samples < 3) return
+      call finish(figures%bearings%journal)
+      call finish(figures%stations)
+
+   contains
+
+      elemental subroutine finish(whirl)
+         type(whirl_figures_type), intent(inout) :: whirl
+         whirl%synchronous = 2*whirl%synchronous/n
+         whirl%amplitude = abs(whirl%synchronous)
+         whirl%phase = atan2(whirl%synchronous%im, whirl%synchronous%re)
+      end subroutine finish
    end subroutine find_orbit_figures
 
-   !> Takes a state at time t, s, into the figures: of an equilibrium the only one.
-   subroutine add_state(figures, model, t, y)
+   !> Takes a state at time t, s, and shaft angle, rad, into the figures: of an equilibrium the only one.
+   subroutine add_state(figures, model, t, y, angle)
       class(orbit_figures_type), intent(inout) :: figures
       type(machine_model), intent(in) :: model
-      real(wp), intent(in) :: t, y(:)
+      real(wp), intent(in) :: t, y(:), angle
       type(bearing_sample) :: sample
-      real(wp) :: none(model%outputs)
+      real(wp) :: none(model%outputs), displacements(2, model%rotor%stations)
+      integer :: b, i
       none = 0
-      call take_sample(model, t, y, none, 1, sample)
-      associate (position => sample%journal%position, tilt => sample%states%tilt, &
-         & film => sample%loads%min_film_thickness)
-         if (.not. allocated(figures%film)) then
-            figures%highest = position
-            figures%lowest = position
-            figures%highest_tilt = tilt
-            figures%lowest_tilt = tilt
-            figures%film = film
-         end if
-         figures%highest = max(figures%highest, position)
-         figures%lowest = min(figures%lowest, position)
-         figures%highest_tilt = max(figures%highest_tilt, tilt)
-         figures%lowest_tilt = min(figures%lowest_tilt, tilt)
-         figures%film = min(figures%film, film)
-      end associate
+      if (.not. allocated(figures%bearings)) then
+         allocate (figures%bearings(size(model%bearings)), figures%stations(model%rotor%stations))
+      end if
+      do b = 1, size(figures%bearings)
+         if (allocated(sample%states)) deallocate (sample%states, sample%loads)
+         call take_sample(model, t, y, none, b, sample)
+         associate (of => figures%bearings(b), tilt => sample%states%tilt, film => sample%loads%min_film_thickness)
+            call add_place(of%journal, sample%journal%position, angle)
+            if (.not. allocated(of%film)) then
+               of%highest_tilt = tilt
+               of%lowest_tilt = tilt
+               of%film = film
+            end if
+            of%highest_tilt = max(of%highest_tilt, tilt)
+            of%lowest_tilt = min(of%lowest_tilt, tilt)
+            of%film = min(of%film, film)
+         end associate
+      end do
+      displacements = model%rotor%station_displacements(y(:model%rotor%states))
+      do i = 1, size(figures%stations)
+         call add_place(figures%stations(i), displacements(:, i), angle)
+      end do
    end subroutine add_state
+
+   !> Takes a place, m, at a shaft angle, rad, into the figures of a journal or a station.
+   pure subroutine add_place(whirl, place, angle)
+      type(whirl_figures_type), intent(inout) :: whirl
+      real(wp), intent(in) :: place(2), angle
+      whirl%highest = max(whirl%highest, place)
+      whirl%lowest = min(whirl%lowest, place)
+      whirl%synchronous = whirl%synchronous + place*cmplx(cos(angle), sin(angle), wp)
+   end subroutine add_place
 end module orbit_figures

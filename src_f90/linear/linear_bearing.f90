@@ -6,7 +6,6 @@ module linear_bearing
    use kinds, only: wp, pi
    use linear_algebra, only: zgesv
    use errors, only: error_type, raise, numerics_error
-   use state_layout, only: pads_layout_type
    use equations_of_motion, only: machine_model
    use force_balance, only: force_derivatives, bearing_derivatives, add_sticking, masses, find_vibrations
    implicit none (type, external)
@@ -81,7 +80,7 @@ contains
             do i = 1, pivots
                each_bearing: do b = 1, n
                   do k = 1, ratios
-                     call found%bearings(i)%condense(places_of(model%layout%bearings(b)), given%frequency_ratio(k), &
+                     call found%bearings(i)%condense(model%layout%bearings(b)%all_positions(), given%frequency_ratio(k), &
                         & speed, found%stiffness(:, :, k, i, b), found%damping(:, :, k, i, b), ok)
                      if (.not. ok) exit each_bearing
                   end do
@@ -96,17 +95,6 @@ contains
          end associate
       end associate
    end subroutine find_coefficients
-
-   !> The places of a bearing's journal and pads among all positions.
-   pure function places_of(layout) result(places)
-      type(pads_layout_type), intent(in) :: layout
-      integer, allocatable :: places(:)
-      integer :: i
-      places = layout%journal
-      do i = 1, layout%pads
-         places = [places, layout%own_positions(i)]
-      end do
-   end function places_of
 
    !> What stands for 1 rad of a tilt: the distance from the pivot to the centre of the pad's arc, m; of a rotor's
    !> coordinate that is no displacement, how far it moves a station; 1 for others.

@@ -25,12 +25,10 @@ module rotor_response
 
 contains
 
-   !> Of a model whose coefficients were found, with those at the synchronous frequency, N/m and N s/m,
-   !> (row, column, pivot, bearing). The unbalance is that of the model's case.
-   subroutine find_rotor_response(model, coefficients, stiffness, damping, found, error)
+   !> Of a model whose coefficients were found. The unbalance is that of the model's case.
+   subroutine find_rotor_response(model, coefficients, found, error)
       type(machine_model), intent(in) :: model
       type(bearing_coefficients_type), intent(in) :: coefficients
-      real(wp), intent(in) :: stiffness(:, :, :, :), damping(:, :, :, :)
       type(rotor_response_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       logical :: ok
@@ -42,8 +40,7 @@ contains
          found%shapes = 0
          do i = 1, pivots
             call whirl(model, coefficients%with_rotor(i), found%unbalance(:, :, i), ok)
-            if (ok) call reduce(model, coefficients%with_rotor(i)%pivot, stiffness(:, :, i, :), damping(:, :, i, :), &
-               & found%synchronous(i), ok)
+            if (ok) call reduce(model, coefficients%bearings(i), found%synchronous(i), ok)
             if (.not. ok) then
                call raise(error, numerics_error, 'the linear equations of the rotor with ' &
                   & //trim(coefficients%with_rotor(i)%pivot)//' pivots are singular')
@@ -107,27 +104,29 @@ contains
       stations = at_stations(model, positions)
    end subroutine whirl
 
-   !> The modes of the rotor on bearings of this stiffness, N/m, and damping, N s/m, (row, column, bearing).
-   subroutine reduce(model, pivot, stiffness, damping, modes, ok)
+   !> The modes of the rotor on the stiffness and damping of bearings at the synchronous frequency.
+   subroutine reduce(model, bearings, modes, ok)
       type(machine_model), intent(in) :: model
-      character(len=*), intent(in) :: pivot
-      real(wp), intent(in) :: stiffness(:, :, :), damping(:, :, :)
+      type(linear_bearing_type), intent(in) :: bearings
       type(vibration_modes_type), intent(out) :: modes
       logical, intent(out) :: ok
       type(linear_bearing_type) :: linear
+      real(wp) :: stiffness(2, 2), damping(2, 2)
       integer :: b, n
       n = model%rotor%positions
-      linear%pivot = pivot
+      linear%pivot = bearings%pivot
       linear%mass = model%rotor%masses()
       allocate (linear%stiffness(n, n), linear%damping(n, n))
       allocate (linear%moves(n), source=.true.)
       call model%rotor%force_derivatives(model%point%speed(0.0_wp), linear%stiffness, linear%damping)
       linear%stiffness = -linear%stiffness
       linear%damping = -linear%damping
-      do b = 1, size(stiffness, 3)
-         associate (at => model%layout%bearings(b)%journal)
-            linear%stiffness(at, at) = linear%stiffness(at, at) + stiffness(:, :, b)
-            linear%damping(at, at) = linear%damping(at, at) + damping(:, :, b)
+      do b = 1, size(model%bearings)
+         associate (of => model%layout%bearings(b), at => model%layout%bearings(b)%journal)
+            call bearings%condense(of%all_positions(), 1.0_wp, model%point%speed(0.0_wp), stiffness, damping, ok)
+            if (.not. ok) return
+            linear%stiffness(at, at) = linear%stiffness(at, at) + stiffness
+            linear%damping(at, at) = linear%damping(at, at) + damping
          end associate
       end do
       call find_modes(linear, 0.0_wp, spread(1.0_wp, 1, n), modes, ok)

@@ -33,10 +33,12 @@ module state_layout
       procedure :: first_position
       procedure :: own_positions
       procedure :: positions_of
+      procedure :: all_positions
       procedure :: all_pads
       procedure :: pad_states
       procedure :: put_pads
       procedure :: over_columns
+      procedure :: position_names
    end type pads_layout_type
 
    type :: state_layout_type
@@ -48,7 +50,6 @@ module state_layout
       procedure :: rates
       procedure :: n_positions
       procedure :: tilts
-      procedure :: position_names
       procedure :: put_all_pads
    end type state_layout_type
 
@@ -128,6 +129,14 @@ contains
       places(3:) = self%own_positions(pad)
    end function positions_of
 
+   !> Places of the journal's displacements and of those of all pads.
+   pure function all_positions(self) result(places)
+      class(pads_layout_type), intent(in) :: self
+      integer :: places(2 + self%pads*(self%motion/2)), i
+      places(:2) = self%journal
+      places(3:) = [(self%own_positions(i), i=1, self%pads)]
+   end function all_positions
+
    !> The numbers of these pads among those of all bearings.
    pure function all_pads(self) result(numbers)
       class(pads_layout_type), intent(in) :: self
@@ -182,19 +191,17 @@ contains
       end do
    end function tilts
 
-   !> Names of the displacements of a rigid rotor and its pads.
+   !> Names of the displacements of a bearing's journal and pads.
    pure function position_names(self) result(names)
-      class(state_layout_type), intent(in) :: self
-      character(len=longest_name) :: names(self%n_positions())
+      class(pads_layout_type), intent(in) :: self
+      character(len=longest_name) :: names(2 + self%pads*(self%motion/2))
       integer :: i, k
-      associate (of => self%bearings(1))
-         names(:2) = ['y', 'z']
-         do i = 1, of%pads
-            do k = 1, of%motion/2
-               names(of%first_position(i) + k - 1) = trim(of_pad(k))//'_'//to_text(i)
-            end do
+      names(:2) = ['y', 'z']
+      do i = 1, self%pads
+         do k = 1, self%motion/2
+            names(2 + (i - 1)*(self%motion/2) + k) = trim(of_pad(k))//'_'//to_text(i)
          end do
-      end associate
+      end do
    end function position_names
 
    !> The states of the pads; what they lack is 0.

@@ -6,7 +6,9 @@ module branch_results
    use newton_method, only: branch_point_type
    use bifurcations, only: bifurcation_type, kinds_of_points, kind_length
    use heat_balance, only: oil_temperatures_type
-   use orbit_figures, only: orbit_figures_type
+   use equations_of_motion, only: machine_model
+   use orbit_figures, only: orbit_figures_type, whirl_figures_type, bearing_figures_type
+   use machine_results, only: bearing_group
    use record, only: record_type
    use run_file, only: run_file_type
    implicit none (type, external)
@@ -36,24 +38,27 @@ contains
       call file%begin_series('point', usual_points)
    end subroutine begin_branches
 
-   !> Adds a point of a branch; of oil that has no temperatures without `oil`.
-   subroutine add_point(file, branch, parameter, point, figures, tilting, error, oil, viscosity)
+   !> Adds a point of a branch of a model; of oil that has no temperatures without `oil`.
+   subroutine add_point(file, model, branch, parameter, point, figures, error, oil, viscosity)
       type(run_file_type), intent(inout) :: file
+      type(machine_model), intent(in) :: model
       integer, intent(in) :: branch
       type(case_parameter_type), intent(in) :: parameter
       type(branch_point_type), intent(in) :: point
       type(orbit_figures_type), intent(in) :: figures
-      logical, intent(in) :: tilting
       type(error_type), allocatable, intent(out) :: error
+      !> In each bearing.
       type(oil_temperatures_type), intent(in), optional :: oil(:)
       !> Of warm oil on every pad, Pa s.
       real(wp), intent(in), optional :: viscosity(:)
-      character(len=:), allocatable :: frozen
+      character(len=:), allocatable :: frozen, group
       real(wp), allocatable :: values(:)
       logical :: first
+      integer :: b
       first = .not. file%is_declared()
       values = [real(wp) ::]
       frozen = ''
+      group = ''
       if (present(oil)) frozen = ', at frozen viscosity'
       call one('point', real(file%samples + 1, wp), '1', 'point number')
       call one('branch', real(branch, wp), '1', 'branch number: 1 the first, then those of double period')
@@ -62,60 +67,93 @@ contains
       call one('stable', merge(1.0_wp, 0.0_wp, all(point%growth < 0)), '1', &
          & '1 where small disturbances die away'//frozen)
       call one('iterations', real(point%iterations, wp), '1', 'iterations of Newton''s method')
-      call one('journal_y_max', figures%highest(1), 'm', 'highest journal displacement, vertical')
-      call one('journal_y_min', figures%lowest(1), 'm', 'lowest journal displacement, vertical')
-      call one('journal_z_max', figures%highest(2), 'm', 'highest journal displacement, horizontal')
-      call one('journal_z_min', figures%lowest(2), 'm', 'lowest journal displacement, horizontal')
-      if (tilting) then
-         call each('pad_tilt_max', figures%highest_tilt, 'rad', 'highest pad tilt', 'pad')
-         call each('pad_tilt_min', figures%lowest_tilt, 'rad', 'lowest pad tilt', 'pad')
-      end if
-      call each('min_film_thickness', figures%film, 'm', 'minimum film thickness', 'pad')
-      if (present(oil)) call put_oil()
       if (figures%revolutions > 0) then
-         call put_orbit()
-      else
-         call each('eigenvalue_real', real(point%values, wp), '1/s', 'eigenvalue, real part'//frozen, 'mode')
-         call each('eigenvalue_imag', aimag(point%values), '1/s', 'eigenvalue, imaginary part'//frozen, 'mode')
-      end if
-      call file%add(values)
-      call file%error_of(error)
-   contains
-      subroutine put_oil()
-         call each('inlet_temperature', oil(1)%inlet, 'degC', 'temperature of the oil at the leading edge', 'pad')
-         call each('mean_temperature', oil(1)%mean, 'degC', 'mean temperature of the film', 'pad')
-         call each('outlet_temperature', oil(1)%outlet, 'degC', 'temperature of the oil at the trailing edge', 'pad')
-         call each('maximum_temperature', oil(1)%maximum, 'degC', 'maximum temperature of the pad', 'pad')
-         call each('viscosity', viscosity, 'Pa s', 'viscosity of the film', 'pad')
-         call one('shaft_temperature', oil(1)%shaft, 'degC', 'temperature of the shaft')
-         call one('drain_temperature', oil(1)%drain, 'degC', 'temperature of the oil that leaves the bearing')
-      end subroutine put_oil
-
-      subroutine put_orbit()
-         call one('journal_y_amplitude', figures%amplitude(1), 'm', &
-            & 'vertical journal vibration with the shaft, amplitude')
-         call one('journal_y_phase', figures%phase(1), 'rad', 'angle by which it comes after the unbalance')
-         call one('journal_z_amplitude', figures%amplitude(2), 'm', &
-            & 'horizontal journal vibration with the shaft, amplitude')
-         call one('journal_z_phase', figures%phase(2), 'rad', 'angle by which it comes after the unbalance')
          call one('period', figures%period, 's', 'period of the orbit')
          call one('revolutions', real(figures%revolutions, wp), '1', 'revolutions of the shaft in a period')
          call one('intervals', real(figures%intervals, wp), '1', 'intervals of the collocation')
          call each('multiplier_real', real(point%values, wp), '1', 'multiplier, real part'//frozen, 'mode')
          call each('multiplier_imag', aimag(point%values), '1', 'multiplier, imaginary part'//frozen, 'mode')
-      end subroutine put_orbit
+      else
+         call each('eigenvalue_real', real(point%values, wp), '1/s', 'eigenvalue, real part'//frozen, 'mode')
+         call each('eigenvalue_imag', aimag(point%values), '1/s', 'eigenvalue, imaginary part'//frozen, 'mode')
+      end if
+      if (size(figures%stations) > 0) call put_stations()
+      do b = 1, size(figures%bearings)
+         group = bearing_group(model%inputs, b)
+         call put_bearing(figures%bearings(b), model%layout%bearings(b)%tilting)
+         if (present(oil)) call put_oil(oil(b), viscosity(model%layout%bearings(b)%all_pads()))
+      end do
+      call file%add(values)
+      call file%error_of(error)
+   contains
+      subroutine put_bearing(of, tilting)
+         type(bearing_figures_type), intent(in) :: of
+         logical, intent(in) :: tilting
+         call put_axis('journal_y', of%journal, 1, 'journal displacement, vertical', &
+            & 'vertical journal vibration with the shaft, amplitude')
+         call put_axis('journal_z', of%journal, 2, 'journal displacement, horizontal', &
+            & 'horizontal journal vibration with the shaft, amplitude')
+         if (tilting) then
+            call each('pad_tilt_max', of%highest_tilt, 'rad', 'highest pad tilt', 'pad')
+            call each('pad_tilt_min', of%lowest_tilt, 'rad', 'lowest pad tilt', 'pad')
+         end if
+         call each('min_film_thickness', of%film, 'm', 'minimum film thickness', 'pad')
+      end subroutine put_bearing
+
+      subroutine put_axis(name, whirl, axis, displacement, vibration)
+         character(len=*), intent(in) :: name, displacement, vibration
+         type(whirl_figures_type), intent(in) :: whirl
+         integer, intent(in) :: axis
+         call one(name//'_max', whirl%highest(axis), 'm', 'highest '//displacement)
+         call one(name//'_min', whirl%lowest(axis), 'm', 'lowest '//displacement)
+         if (figures%revolutions == 0) return
+         call one(name//'_amplitude', whirl%amplitude(axis), 'm', vibration)
+         call one(name//'_phase', whirl%phase(axis), 'rad', 'angle by which it comes after the unbalance')
+      end subroutine put_axis
+
+      subroutine put_stations()
+         integer :: axis, i
+         character(len=*), parameter :: name(2) = ['station_y', 'station_z']
+         character(len=*), parameter :: direction(2) = [character(len=10) :: 'vertical', 'horizontal']
+         associate (all => figures%stations)
+            do axis = 1, 2
+               call each(name(axis)//'_max', [(all(i)%highest(axis), i=1, size(all))], 'm', &
+                  & 'highest displacement of the station, '//trim(direction(axis)), 'station')
+               call each(name(axis)//'_min', [(all(i)%lowest(axis), i=1, size(all))], 'm', &
+                  & 'lowest displacement of the station, '//trim(direction(axis)), 'station')
+               if (figures%revolutions == 0) cycle
+               call each(name(axis)//'_amplitude', [(all(i)%amplitude(axis), i=1, size(all))], 'm', &
+                  & trim(direction(axis))//' vibration of the station with the shaft, amplitude', 'station')
+               call each(name(axis)//'_phase', [(all(i)%phase(axis), i=1, size(all))], 'rad', &
+                  & 'angle by which it comes after the unbalance', 'station')
+            end do
+         end associate
+      end subroutine put_stations
+
+      subroutine put_oil(oil, viscosity)
+         type(oil_temperatures_type), intent(in) :: oil
+         real(wp), intent(in) :: viscosity(:)
+         call each('inlet_temperature', oil%inlet, 'degC', 'temperature of the oil at the leading edge', 'pad')
+         call each('mean_temperature', oil%mean, 'degC', 'mean temperature of the film', 'pad')
+         call each('outlet_temperature', oil%outlet, 'degC', 'temperature of the oil at the trailing edge', 'pad')
+         call each('maximum_temperature', oil%maximum, 'degC', 'maximum temperature of the pad', 'pad')
+         call each('viscosity', viscosity, 'Pa s', 'viscosity of the film', 'pad')
+         call one('shaft_temperature', oil%shaft, 'degC', 'temperature of the shaft')
+         call one('drain_temperature', oil%drain, 'degC', 'temperature of the oil that leaves the bearing')
+      end subroutine put_oil
 
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (first) call file%declare(name, 1, '', units, long_name)
+         if (first) call file%declare(group//name, 1, '', units, long_name)
          values = [values, value]
       end subroutine one
 
       subroutine each(name, several, units, long_name, across)
          character(len=*), intent(in) :: name, units, long_name, across
          real(wp), intent(in) :: several(:)
-         if (first) call file%declare(name, size(several), across, units, long_name)
+         if (first .and. across == 'pad') call file%declare(group//name, size(several), group//across, units, long_name)
+         if (first .and. across /= 'pad') call file%declare(name, size(several), across, units, long_name)
          values = [values, several]
       end subroutine each
    end subroutine add_point

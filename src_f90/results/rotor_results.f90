@@ -1,0 +1,77 @@
+!> What the file of a machine says of its whole rotor beside modes: whirl under the unbalance and shapes at the stations,
+!> and the modes on synchronously reduced coefficients.
+module rotor_results
+   use kinds, only: wp
+   use record, only: record_type
+   use linear_bearing, only: bearing_coefficients_type
+   use rotor_response, only: rotor_response_type
+   use coefficient_results, only: put_mode_values
+   implicit none (type, external)
+   private
+   public :: put_rotor_response
+
+contains
+
+   !> Writes the response of a rotor whose coefficients and modes were written.
+   subroutine put_rotor_response(file, coefficients, found)
+      class(record_type), intent(inout) :: file
+      type(bearing_coefficients_type), intent(in) :: coefficients
+      type(rotor_response_type), intent(in) :: found
+      integer :: i, n
+      call file%put_labels('pivot', coefficients%bearings%pivot, 'how the pivots behave')
+      call file%put_list('mode', [(real(i, wp), i=1, 2*size(coefficients%bearings(1)%moves))], '1', 'mode number', &
+         & 'mode')
+      call file%put_list('station', [(real(i, wp), i=1, size(found%unbalance, 2))], '1', 'station of the shaft', &
+         & 'station')
+      call put_complex('response/y', found%unbalance(1, :, :), 'whirl of the station under the unbalance, y = Re(this ' &
+         & //'times exp(i shaft angle))')
+      call put_complex('response/z', found%unbalance(2, :, :), 'the same of z')
+      call file%put_table('response/amplitude', amplitude(found%unbalance), 'm', 'major semi-axis of the whirl of ' &
+         & //'the station under the unbalance', 'pivot station')
+      call put_station_shapes(file, found%shapes, 2*size(coefficients%bearings(1)%moves))
+      n = maxval([(size(found%synchronous(i)%eigenvalue), i=1, size(found%synchronous))])
+      call file%put_list('synchronous_mode', [(real(i, wp), i=1, n)], '1', 'mode number', 'synchronous_mode')
+      call put_mode_values(file, 'synchronous', 'pivot synchronous_mode', found%synchronous, n)
+
+   contains
+
+      subroutine put_complex(name, values, meaning)
+         character(len=*), intent(in) :: name, meaning
+         complex(wp), intent(in) :: values(:, :)
+         call file%put_table(name//'_real', values%re, 'm', meaning//', real part', 'pivot station')
+         call file%put_table(name//'_imag', values%im, 'm', meaning//', imaginary part', 'pivot station')
+      end subroutine put_complex
+   end subroutine put_rotor_response
+
+   !> Major semi-axes of ellipses (y, z): the sum of the circles that turn forward and backward.
+   pure function amplitude(whirl)
+      complex(wp), intent(in) :: whirl(:, :, :)
+      real(wp) :: amplitude(size(whirl, 2), size(whirl, 3))
+      amplitude = (abs(whirl(1, :, :) + (0, 1)*whirl(2, :, :)) + abs(whirl(1, :, :) - (0, 1)*whirl(2, :, :)))/2
+   end function amplitude
+
+   !> Stations in the modes, and whether these whirl forward; n modes.
+   subroutine put_station_shapes(file, shapes, n)
+      class(record_type), intent(inout) :: file
+      complex(wp), intent(in) :: shapes(:, :, :, :)
+      integer, intent(in) :: n
+      complex(wp) :: all_shapes(2, size(shapes, 2), n, size(shapes, 4))
+      real(wp), dimension(n, size(shapes, 4)) :: forward, backward
+      character(len=*), parameter :: direction(2) = ['y', 'z']
+      integer :: i
+      all_shapes = 0
+      all_shapes(:, :, :size(shapes, 3), :) = shapes
+      do i = 1, 2
+         call file%put_array('modes/station_'//direction(i)//'_real', [all_shapes(i, :, :, :)%re], &
+            & shape(all_shapes(i, :, :, :)), 'm', 'displacement of the station in the mode along '//direction(i) &
+            & //', real part', 'pivot mode station')
+         call file%put_array('modes/station_'//direction(i)//'_imag', [all_shapes(i, :, :, :)%im], &
+            & shape(all_shapes(i, :, :, :)), 'm', 'displacement of the station in the mode along '//direction(i) &
+            & //', imaginary part', 'pivot mode station')
+      end do
+      forward = sum(abs(all_shapes(1, :, :, :) + (0, 1)*all_shapes(2, :, :, :))**2, 1)
+      backward = sum(abs(all_shapes(1, :, :, :) - (0, 1)*all_shapes(2, :, :, :))**2, 1)
+      call file%put_table('modes/whirl', (forward - backward)/max(forward + backward, tiny(1.0_wp)), '1', &
+         & 'sense of the whirl of the stations: 1 forward, -1 backward', 'pivot mode')
+   end subroutine put_station_shapes
+end module rotor_results
