@@ -33,6 +33,8 @@ program test_machines
    if (runs('three_bearings')) call three_bearings()
    if (runs('descriptions')) call descriptions()
    if (runs('stiff_shaft')) call stiff_shaft()
+   if (runs('warm_oil')) call warm_oil()
+   if (runs('thresholds')) call thresholds()
    call report()
 
 contains
@@ -340,4 +342,49 @@ contains
       call expect(left(2) < 1e-3_wp, 'a shaft ten thousand times as stiff: '//to_text(left(2)))
       call expect_close(left(1)/left(2), 10.0_wp, 0.2_wp, 'the difference falls with the stiffness')
    end subroutine stiff_shaft
+
+   !> Warm oil in the bearings of a machine is that of a rigid journal under the same load, in equilibrium and after a
+   !> search with converged films.
+   subroutine warm_oil()
+      type(case_type) :: inputs, alone
+      type(bearing_coefficients_type) :: found, rigid
+      type(equilibrium_type) :: static, journal
+      integer :: i
+      alone = case_type()
+      alone%operation%speed_rpm = 4100
+      alone%operation%final_speed_rpm = 4100
+      alone%film%cavitation = 'none'
+      alone%oil%law = 'walther'
+      alone%oil%grade = 46
+      alone%thermal%model = 'pad'
+      inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
+      inputs%thermal%model = 'pad'
+      do i = 1, 2
+         inputs%machine%bearings(i)%oil = alone%oil
+      end do
+      call analyse(alone, 'a rigid journal', rigid, journal)
+      call analyse(inputs, 'a machine', found, static)
+      do i = 1, 2
+         call expect(all(abs(static%viscosity(2*i - 1:2*i)/journal%viscosity - 1) < 1e-6_wp), 'viscosities')
+         call expect_close(found%stiffness(1, 1, 1, 1, i), rigid%stiffness(1, 1, 1, 1, 1), &
+            & 1e-5_wp*rigid%stiffness(1, 1, 1, 1, 1), 'stiffness')
+      end do
+   end subroutine warm_oil
+
+   !> The threshold speed of a machine is where an eigenvalue crosses: analyses on both sides say so.
+   subroutine thresholds()
+      type(case_type) :: inputs
+      type(bearing_coefficients_type) :: found, beside
+      integer, parameter :: stuck = 2
+      integer :: side
+      inputs = symmetric_rotor('lugre', 5000.0_wp, 0.0_wp)
+      inputs%coefficients%threshold_up_to_rpm = 12000
+      call analyse(inputs, 'with thresholds', found)
+      call expect(found%thresholds(stuck) > 5000, 'there is one')
+      do side = -1, 1, 2
+         inputs = symmetric_rotor('lugre', found%thresholds(stuck)*(1 + 1e-4_wp*side), 0.0_wp)
+         call analyse(inputs, 'beside it', beside)
+         call expect(maxval(beside%modes(stuck)%eigenvalue%re)*side > 0, 'the sign of the growth')
+      end do
+   end subroutine thresholds
 end program test_machines
