@@ -13,7 +13,7 @@ module coefficients_task
    use rotor_response, only: rotor_response_type, find_rotor_response
    use coefficient_results, only: put_coefficients, put_modes, put_shapes, put_thresholds
    use rotor_results, only: put_rotor_response
-   use bearing_file, only: bearing_file_type, new_bearing_file
+   use bearing_file, only: bearing_file_type
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use run_start, only: seek_equilibrium
@@ -67,7 +67,7 @@ contains
       type(rotor_response_type) :: response
       integer :: b
       do b = 1, size(fine%bearings)
-         part = new_bearing_file(run%file, run%inputs, b)
+         part = run%bearing(b)
          associate (layout => fine%layout%bearings(b))
             call put_coefficients(part, found, layout, b, run%inputs%coefficients%frequency_ratio)
             call put_shapes(part, found, layout)
@@ -121,10 +121,11 @@ contains
       do i = 1, size(found%modes)
          associate (exact => found%modes(i), reduced => response%synchronous(i))
             associate (k => minloc(abs(reduced%eigenvalue - exact%eigenvalue(1)), dim=1))
-               if (abs(reduced%log_decrement(k) - exact%log_decrement(1)) > differs*abs(exact%log_decrement(1))) &
-                  & print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//': synchronously reduced coefficients ' &
-                  & //'would give mode 1 a logarithmic decrement of '//fixed_text(reduced%log_decrement(k), 4) &
-                  & //', and not '//fixed_text(exact%log_decrement(1), 4)
+               if (abs(reduced%log_decrement(k) - exact%log_decrement(1)) > differs*abs(exact%log_decrement(1))) then
+                  print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//': synchronously reduced coefficients ' &
+                     & //'would give mode 1 a logarithmic decrement of '//fixed_text(reduced%log_decrement(k), 4) &
+                     & //', and not '//fixed_text(exact%log_decrement(1), 4)
+               end if
             end associate
          end associate
          amplitude = maxval(abs(response%unbalance(:, :, i)), 1)

@@ -101,6 +101,11 @@ contains
       type(case_run_type), intent(inout), target :: run
       type(error_type), allocatable, intent(out) :: error
       ! every task has a line here, and where it is more than the start of others a module of its own
+      if (allocated(run%model%refusal)) then
+         call raise(error, input_error, run%model%refusal)
+         call close_file(run, error)
+         return
+      end if
       select case (run%inputs%about%task)
       case ('equilibrium')
          call start_at_equilibrium(run, error)

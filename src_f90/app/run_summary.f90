@@ -15,8 +15,8 @@ module run_summary
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
-   public :: print_notes, print_start, print_equilibrium, stability_text, bearing_title, print_figures, print_temperatures
-   public :: print_march, print_cost
+   public :: print_notes, print_start, print_equilibrium, stability_text, bearing_title, print_figures
+   public :: print_temperatures, print_march, print_cost
 
 contains
 

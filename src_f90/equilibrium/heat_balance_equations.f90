@@ -303,7 +303,8 @@ contains
             & //to_text(nint(min(oil(b)%outlet(hottest), beyond)))//' C or more, above '//to_text(nint(boiling)) &
             & //' C, where mineral oil boils: film and asperities make more heat than its flow carries off; try ' &
             & //'cooler or more oil, less load or more clearance')
-         if (model%inputs%is_machine()) call add_context(error, 'bearing '''//model%inputs%machine%bearings(b)%name//'''')
+         if (model%inputs%is_machine()) call add_context(error, &
+            & 'bearing '''//model%inputs%machine%bearings(b)%name//'''')
          return
       end do
    end subroutine check_heat
@@ -327,8 +328,8 @@ contains
       end associate
       if (.not. has_warm_oil(model)) return
       allocate (figures%oil)
-      call balance%bearings(1)%heat%temperatures(figures%pads, static%viscosity, model%point%speed(0.0_wp), figures%oil, &
-         & balanced)
+      call balance%bearings(1)%heat%temperatures(figures%pads, static%viscosity, model%point%speed(0.0_wp), &
+         & figures%oil, balanced)
       if (.not. balanced) deallocate (figures%oil)
    end subroutine find_static_figures
 

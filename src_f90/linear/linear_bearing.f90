@@ -80,8 +80,8 @@ contains
             do i = 1, pivots
                each_bearing: do b = 1, n
                   do k = 1, ratios
-                     call found%bearings(i)%condense(model%layout%bearings(b)%all_positions(), given%frequency_ratio(k), &
-                        & speed, found%stiffness(:, :, k, i, b), found%damping(:, :, k, i, b), ok)
+                     call found%bearings(i)%condense(model%layout%bearings(b)%all_positions(), &
+                        & given%frequency_ratio(k), speed, found%stiffness(:, :, k, i, b), found%damping(:, :, k, i, b), ok)
                      if (.not. ok) exit each_bearing
                   end do
                end do each_bearing

@@ -14,7 +14,8 @@ module equilibrium_results
 
 contains
 
-   !> Writes the equilibrium of a bearing; `tilting` where the pads have tilts, `radial` where they have pivot deflections.
+   !> Writes the equilibrium of a bearing; `tilting` where the pads have tilts, `radial` where they have pivot
+   !> deflections.
    subroutine put_equilibrium(file, found, tilting, radial)
       class(record_type), intent(inout) :: file
       type(equilibrium_type), intent(in) :: found

@@ -149,7 +149,8 @@ contains
          call history%at(time(k), viscosity(:, k))
       end do
       call file%put_list('oil/time', time, 's', 'time', 'oil/time')
-      call file%put_table('oil/viscosity', viscosity(pads, :), 'Pa s', 'viscosity of the oil on each pad', 'oil/time pad')
+      call file%put_table('oil/viscosity', viscosity(pads, :), 'Pa s', 'viscosity of the oil on each pad', &
+         & 'oil/time pad')
    end subroutine put_viscosity_history
 
    !> Writes amplitude spectra of a bearing, of this case, over the last whole revolutions of a run at constant speed;

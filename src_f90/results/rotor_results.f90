@@ -1,5 +1,5 @@
-!> What the file of a machine says of its whole rotor beside modes: whirl under the unbalance and shapes at the stations,
-!> and the modes on synchronously reduced coefficients.
+!> What the file of a machine says of its whole rotor beside modes: whirl under the unbalance and shapes at the
+!> stations, and the modes on synchronously reduced coefficients.
 module rotor_results
    use kinds, only: wp
    use record, only: record_type
@@ -23,8 +23,8 @@ contains
          & 'mode')
       call file%put_list('station', [(real(i, wp), i=1, size(found%unbalance, 2))], '1', 'station of the shaft', &
          & 'station')
-      call put_complex('response/y', found%unbalance(1, :, :), 'whirl of the station under the unbalance, y = Re(this ' &
-         & //'times exp(i shaft angle))')
+      call put_complex('response/y', found%unbalance(1, :, :), 'whirl of the station under the unbalance, y = ' &
+         & //'Re(this times exp(i shaft angle))')
       call put_complex('response/z', found%unbalance(2, :, :), 'the same of z')
       call file%put_table('response/amplitude', amplitude(found%unbalance), 'm', 'major semi-axis of the whirl of ' &
          & //'the station under the unbalance', 'pivot station')
