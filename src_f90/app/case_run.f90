@@ -11,7 +11,8 @@ module case_run
    use bearing_file, only: bearing_file_type, new_bearing_file
    use provenance, only: running
    use summary_group, only: run_extremes_type
-   use march_figures, only: put_march_figures
+   use march_figures, only: put_progress, put_march_figures
+   use station_figures, only: put_station_figures
    use run_statistics, only: run_statistics_type
    use clock, only: wall_clock
    implicit none (type, external)
@@ -85,7 +86,10 @@ contains
       class(case_run_type), intent(inout) :: self
       type(bearing_file_type) :: file
       integer :: b
-      if (self%inputs%about%task == 'branch') return
+      if (self%inputs%about%task == 'branch' .or. self%file%samples == 0) return
+      file = self%bearing(1)
+      call put_progress(self%file, file)
+      if (self%inputs%is_machine()) call put_station_figures(self%file, file)
       associate (loads => self%model%rotor%loads(self%model%point))
          do b = 1, self%inputs%bearing_count()
             file = self%bearing(b)

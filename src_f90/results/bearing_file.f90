@@ -1,7 +1,7 @@
 !> The results of one bearing in the file of a run: of a bearing of a machine in its group, `bearings/NAME`, and at the
 !> root where a rigid journal turns in one bearing. What writes the results of a bearing knows no difference.
 module bearing_file
-   use kinds, only: wp, i8
+   use kinds, only: wp, i8, pi
    use case_inputs, only: case_type
    use record, only: record_type
    use run_file, only: run_file_type
@@ -29,6 +29,8 @@ module bearing_file
       procedure :: declare
       procedure :: last_samples
       procedure :: part_of_samples
+      procedure :: sampled_revolutions
+      procedure :: last_revolutions
       procedure, private :: series
    end type bearing_file_type
 
@@ -149,6 +151,41 @@ contains
       real(wp), allocatable, intent(out) :: values(:, :)
       call self%run%part_of_samples(self%series(name), skip, n, values)
    end subroutine part_of_samples
+
+   !> Revolutions from the first sample to the last.
+   real(wp) function sampled_revolutions(self) result(revolutions)
+      class(bearing_file_type), intent(in) :: self
+      real(wp), allocatable :: first(:, :), last(:, :)
+      call self%part_of_samples('shaft_angle', 0_i8, 1, first)
+      call self%last_samples('shaft_angle', 1, last)
+      revolutions = (last(1, 1) - first(1, 1))/(2*pi)
+   end function sampled_revolutions
+
+   !> Samples of the last `count` revolutions, both ends included; all where there are fewer.
+   integer function last_revolutions(self, count) result(n)
+      class(bearing_file_type), intent(in) :: self
+      integer, intent(in) :: count
+      real(wp), allocatable :: angle(:, :)
+      real(wp) :: start
+      integer(i8) :: low, high, middle
+      high = self%samples() - 1
+      low = self%first_sample()
+      if (high > low) then
+         call self%last_samples('shaft_angle', 2, angle)
+         ! half a sample more, so that rounding loses none
+         start = angle(1, 2) - 2*pi*count - 0.5_wp*(angle(1, 2) - angle(1, 1))
+         do while (low < high)
+            middle = (low + high)/2
+            call self%part_of_samples('shaft_angle', middle, 1, angle)
+            if (angle(1, 1) < start) then
+               low = middle + 1
+            else
+               high = middle
+            end if
+         end do
+      end if
+      n = int(self%samples() - low)
+   end function last_revolutions
 
    !> The name of a series in the file: that of the bearing, or of the whole machine.
    function series(self, name)

@@ -2,17 +2,18 @@
 !> the spectra may have), and of the whole run. Console, report and studies take them from the file.
 module march_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use kinds, only: wp, i8, pi, degree
+   use kinds, only: wp, pi, degree
    use text, only: to_text, fixed_text
    use case_inputs, only: case_type
    use loops, only: path_integral, harmonic, slow_share
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
    use revolution_figures, only: put_revolutions
+   use record, only: record_type
    use bearing_file, only: bearing_file_type
    use summary_group, only: put_figure, run_extremes_type
    implicit none (type, external)
    private
-   public :: put_march_figures, pad_diagnosis
+   public :: put_progress, put_march_figures, pad_diagnosis
 
    !> Part of a revolution that a whole one may lack by rounding.
    real(wp), parameter :: rounding = 1e-9_wp
@@ -22,26 +23,31 @@ module march_figures
 
 contains
 
+   !> Writes how far the samples so far go; `bearing` is any of the bearings.
+   subroutine put_progress(file, bearing)
+      class(record_type), intent(inout) :: file
+      type(bearing_file_type), intent(in) :: bearing
+      real(wp), allocatable :: time(:, :), speed(:, :)
+      call bearing%last_samples('time', 1, time)
+      call bearing%last_samples('speed', 1, speed)
+      call put_figure(file, 'time_reached', time(1, 1), 's', 'time reached')
+      call put_figure(file, 'speed', speed(1, 1), 'rad/s', 'shaft speed at the end')
+      call put_figure(file, 'revolutions', bearing%sampled_revolutions(), '1', 'shaft revolutions sampled')
+   end subroutine put_progress
+
    !> Writes all figures of the samples of a bearing so far, with this load on its journal, N; `inputs` is its own case.
    subroutine put_march_figures(file, inputs, extremes, load)
       type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       type(run_extremes_type), intent(in) :: extremes
       real(wp), intent(in) :: load
-      real(wp), allocatable :: time(:, :), angle(:, :), speed(:, :)
+      real(wp), allocatable :: time(:, :), angle(:, :)
       real(wp) :: revolutions
       integer :: n
-      if (file%samples() == 0) return
-      call file%part_of_samples('shaft_angle', 0_i8, 1, angle)
-      revolutions = angle(1, 1)
-      n = last_revolutions(file, 1)
+      revolutions = file%sampled_revolutions()
+      n = file%last_revolutions(1)
       call file%last_samples('shaft_angle', n, angle)
       call file%last_samples('time', n, time)
-      call file%last_samples('speed', 1, speed)
-      revolutions = (angle(1, n) - revolutions)/(2*pi)
-      call put_figure(file, 'time_reached', time(1, n), 's', 'time reached')
-      call put_figure(file, 'speed', speed(1, 1), 'rad/s', 'shaft speed at the end')
-      call put_figure(file, 'revolutions', revolutions, '1', 'shaft revolutions sampled')
       call extremes%write(file, load, (time(1, n) - time(1, 1))/max(1, n - 1))
       call put_journal(file, n)
       call put_film(file, n)
@@ -51,35 +57,9 @@ contains
       call put_harmonics(file, inputs, int(revolutions + rounding))
       if (inputs%tilting() .and. inputs%friction%model /= 'none') call put_friction(file, inputs, time(1, :), &
          & (angle(1, n) - angle(1, 1))/(2*pi))
-      n = last_revolutions(file, inputs%output%spectrum_revolutions)
+      n = file%last_revolutions(inputs%output%spectrum_revolutions)
       call put_revolutions(file, inputs, n, inputs%output%spectrum_revolutions)
    end subroutine put_march_figures
-
-   !> Samples of the last `count` revolutions, both ends included; all where there are fewer.
-   integer function last_revolutions(file, count) result(n)
-      type(bearing_file_type), intent(inout) :: file
-      integer, intent(in) :: count
-      real(wp), allocatable :: angle(:, :)
-      real(wp) :: start
-      integer(i8) :: low, high, middle
-      high = file%samples() - 1
-      low = file%first_sample()
-      if (high > low) then
-         call file%last_samples('shaft_angle', 2, angle)
-         ! half a sample more, so that rounding loses none
-         start = angle(1, 2) - 2*pi*count - 0.5_wp*(angle(1, 2) - angle(1, 1))
-         do while (low < high)
-            middle = (low + high)/2
-            call file%part_of_samples('shaft_angle', middle, 1, angle)
-            if (angle(1, 1) < start) then
-               low = middle + 1
-            else
-               high = middle
-            end if
-         end do
-      end if
-      n = int(file%samples() - low)
-   end function last_revolutions
 
    !> The orbit of the journal in the last n samples.
    subroutine put_journal(file, n)
@@ -148,7 +128,7 @@ contains
       complex(wp), allocatable :: y(:), z(:), tilt(:)
       integer :: n, whole
       whole = merge(revolutions, 1, inputs%about%task == 'periodic')
-      n = last_revolutions(file, whole)
+      n = file%last_revolutions(whole)
       y = parts('journal_y', 1.0_wp)
       z = parts('journal_z', 1.0_wp)
       call put_figure(file, 'journal_y_amplitude', abs(y(1)), 'm', &
@@ -162,7 +142,7 @@ contains
          call put_figure(file, 'pad_tilt_amplitude', abs(tilt), 'rad', 'tilt with the shaft, amplitude')
       end if
       if (revolutions < 2) return
-      n = last_revolutions(file, max(2, whole - mod(whole, 2)))
+      n = file%last_revolutions(max(2, whole - mod(whole, 2)))
       y = parts('journal_y', 0.5_wp)
       z = parts('journal_z', 0.5_wp)
       call put_figure(file, 'journal_y_half_amplitude', abs(y(1)), 'm', &
@@ -241,7 +221,7 @@ contains
       character(len=:), allocatable :: said
       logical :: whirls, steady
       integer :: n
-      n = last_revolutions(file, max(1, min(inputs%output%spectrum_revolutions, whole)))
+      n = file%last_revolutions(max(1, min(inputs%output%spectrum_revolutions, whole)))
       steady = inputs%is_steady()
       call file%last_samples('shaft_angle', n, angle)
       revolutions = (angle(1, n) - angle(1, 1))/(2*pi)
