@@ -9,7 +9,7 @@ module equilibrium_notes
    use equilibrium_results, only: put_equilibrium, put_stability, put_figures, put_temperatures
    use machine_results, only: put_machine_equilibrium
    use case_run, only: case_run_type
-   use run_summary, only: print_equilibrium, stability_text, print_figures, print_temperatures, bearing_title
+   use run_summary, only: print_shaft, print_equilibrium, stability_text, print_figures, print_temperatures, bearing_title
    implicit none (type, external)
    private
    public :: note_equilibrium
@@ -32,6 +32,7 @@ contains
       call put_stability(run%file, static)
       loads = bearing_loads(run%model, static%rotor)
       call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads)
+      if (.not. run%quiet) call print_shaft(run%file)
       if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static)
       do b = 1, size(loads, 2)
          call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, &

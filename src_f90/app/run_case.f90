@@ -21,7 +21,7 @@ module run_case
    use branch_task, only: run_branch
    use march_task, only: run_march
    use verification, only: check_verification, verify_films
-   use run_summary, only: print_notes, print_march, print_cost, bearing_title
+   use run_summary, only: print_notes, print_march, print_stations, print_cost, bearing_title
    implicit none (type, external)
    private
    public :: run_task, way_out, computed_in
@@ -192,6 +192,7 @@ contains
       type(case_run_type), intent(inout) :: run
       type(bearing_file_type) :: file
       integer :: b
+      if (run%inputs%is_machine()) call print_stations(run%file)
       do b = 1, run%inputs%bearing_count()
          file = run%bearing(b)
          if (run%inputs%is_machine()) then

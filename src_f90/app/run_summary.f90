@@ -15,8 +15,9 @@ module run_summary
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
-   public :: print_notes, print_start, print_equilibrium, stability_text, bearing_title, print_figures
-   public :: print_temperatures, print_march, print_cost
+   public :: print_notes, print_shaft, print_stations, print_start, print_equilibrium, stability_text, bearing_title, &
+      & print_figures, print_temperatures
+   public :: print_march, print_cost
 
 contains
 
@@ -32,6 +33,34 @@ contains
       end associate
       if (present(load)) title = title//'load y '//fixed_text(load(1), 1)//', z '//fixed_text(load(2), 1)//' N, '
    end function bearing_title
+
+   !> The rotor of a machine: its mass, its kept modes and what those that are left out change.
+   subroutine print_shaft(file)
+      class(record_type), intent(in) :: file
+      real(wp), allocatable :: frequencies(:)
+      character(len=:), allocatable :: modes
+      allocate (frequencies(file%list_size('rotor/mode')))
+      call file%get_list('rotor/mode_frequency', frequencies)
+      modes = 'no modes besides'
+      if (size(frequencies) > 0) modes = to_text(size(frequencies))//' modes up to ' &
+         & //fixed_text(maxval(frequencies), 1)//' Hz'
+      print '(a)', 'rotor: '//fixed_text(file%get_real('rotor/total_mass'), 1)//' kg, '//modes &
+         & //'; amplitudes err by '//to_text(file%get_real('rotor/truncation_error'))//' by modes left out and by ' &
+         & //to_text(file%get_real('rotor/damping_error'))//' by their damping'
+   end subroutine print_shaft
+
+   !> The stations that move most in the last revolution.
+   subroutine print_stations(file)
+      class(record_type), intent(in) :: file
+      real(wp), dimension(file%list_size('station')) :: y, z
+      integer :: of_y, of_z
+      call file%get_list('summary/station_y_size', y)
+      call file%get_list('summary/station_z_size', z)
+      of_y = maxloc(y, dim=1)
+      of_z = maxloc(z, dim=1)
+      print '(a)', 'last revolution, shaft: moves most at station '//to_text(of_y)//' along y, ' &
+         & //micro(y(of_y))//' um peak to peak, and at station '//to_text(of_z)//' along z, '//micro(z(of_z))//' um'
+   end subroutine print_stations
 
    !> What is unusual about a case.
    subroutine print_notes(inputs)
