@@ -10,6 +10,7 @@ module run_case
    use record_reader, only: read_record
    use hdf5_file, only: hdf5_type
    use restart, only: restart_type, read_result, open_result, refuse_other_case
+   use rotor_file, only: read_rotor
    use files, only: is_regular
    use processes, only: can_have
    use working_file, only: clear_leftovers
@@ -55,12 +56,14 @@ contains
       if (.not. allocated(error)) call check_memory(inputs, error)
       if (allocated(error)) return
       call begin_run(run, inputs, path, tag, verified_states, quiet)
+      if (inputs%is_machine()) call read_rotor(run%inputs%machine, error)
+      if (allocated(error)) return
       complete = .false.
       if (run%file%filed) call open_file(run, go_on, overwrite, complete, error)
       if (allocated(error)) return
       if (.not. complete .or. run%verified_states > 0) then
          if (.not. quiet) call print_notes(inputs)
-         run%model = new_machine_model(inputs)
+         run%model = new_machine_model(run%inputs)
       end if
       if (.not. complete) then
          call move_record(results, run%file%record_type)

@@ -3,6 +3,7 @@
 module machine_groups
    use kinds, only: wp
    use case_groups, only: bearing_type, oil_type, pads_type, pivot_type, friction_type, asperity_type, film_type, unset
+   use given_rotor, only: given_rotor_type
    implicit none (type, external)
    private
    public :: machine_type
@@ -61,8 +62,9 @@ module machine_groups
 
    type :: machine_type
       type(shaft_type) :: shaft
-      !> The result file of matrices that stands for the shaft; empty: there is a shaft.
+      !> The HDF5 file of matrices that stands for the shaft, and what was read from it; empty: there is a shaft.
       character(len=:), allocatable :: rotor_file
+      type(given_rotor_type), allocatable :: given
       type(disc_type), allocatable :: discs(:)
       type(unbalance_type), allocatable :: unbalances(:)
       type(load_type), allocatable :: loads(:)

@@ -56,7 +56,7 @@ contains
       type is (elastic_rotor_type)
          call put_reduction(file, rotor)
       end select
-      call put_shaft(file, inputs%machine)
+      if (inputs%machine%rotor_file == '') call put_shaft(file, inputs%machine)
       call put_attached(file, inputs%machine)
    end subroutine put_machine
 

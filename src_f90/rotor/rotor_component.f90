@@ -2,10 +2,11 @@
 module rotor_component
    use kinds, only: wp
    use machine_groups, only: machine_type
+   use given_rotor, only: given_rotor_type
    use shaft_matrices, only: shaft_matrices_type, new_shaft_matrices
    implicit none (type, external)
    private
-   public :: rotor_component_type, shaft_component, in_planes
+   public :: rotor_component_type, shaft_component, given_component, in_planes
 
    type :: rotor_component_type
       !> 2: the displacements go in pairs, along y and z, and both planes have the same mass and stiffness; else 1.
@@ -49,6 +50,20 @@ contains
       component%weighed = sum(component%mass(:, 1::4), dim=2)
       component%total_mass = sum(component%weighed(1::4))
    end function shaft_component
+
+   !> A rotor of matrices that are given.
+   pure function given_component(given) result(component)
+      type(given_rotor_type), intent(in) :: given
+      type(rotor_component_type) :: component
+      component%mass = given%mass
+      component%damping = given%damping
+      component%gyroscopic = given%gyroscopic
+      component%stiffness = given%stiffness
+      component%station = given%station
+      component%slope = given%slope
+      component%weighed = given%weighed
+      component%total_mass = given%total_mass
+   end function given_component
 
    !> A matrix that acts alike in this many planes, whose rows and columns take turns.
    pure function in_planes(matrix, planes) result(all)

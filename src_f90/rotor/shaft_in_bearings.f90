@@ -5,7 +5,8 @@ module shaft_in_bearings
    use text, only: list_text
    use errors, only: error_type, input_error, raise
    use machine_groups, only: machine_type
-   use rotor_component, only: rotor_component_type, shaft_component
+   use rotor_component, only: rotor_component_type, shaft_component, given_component
+   use component_checks, only: check_component
    use fixed_interface, only: fixed_interface_type, find_fixed_interface
    use mode_selection, only: mode_selection_type, select_modes
    use rotor_matrices, only: rotor_matrices_type, reduced_rotor
@@ -28,8 +29,15 @@ contains
       type(mode_selection_type) :: selection
       integer, allocatable :: border(:)
       logical :: held
-      component = shaft_component(machine)
-      call check_numbers(component, error)
+      if (machine%rotor_file == '') then
+         component = shaft_component(machine)
+         call check_numbers(component, error)
+      else if (allocated(machine%given)) then
+         component = given_component(machine%given)
+         call check_component(machine, component, error)
+      else
+         call raise(error, input_error, 'rotor%file = '''//machine%rotor_file//''': is not read here')
+      end if
       if (allocated(error)) return
       border = journal_displacements(machine, component)
       call find_fixed_interface(component, border, fixed, held)

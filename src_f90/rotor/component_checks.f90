@@ -1,0 +1,79 @@
+!> What matrices that another program made must be so that they are those of a rotor.
+module component_checks
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, require
+   use linear_algebra, only: dpotrf
+   use machine_groups, only: machine_type
+   use rotor_component, only: rotor_component_type
+   implicit none (type, external)
+   private
+   public :: check_component
+
+   !> How symmetric a matrix must be, relative to its largest element.
+   real(wp), parameter :: symmetry = 1e-8_wp
+
+contains
+
+   !> Raises an error for the first requirement that the matrices of a machine's rotor do not meet. The name of the file
+   !> stands before it.
+   subroutine check_component(machine, component, error)
+      type(machine_type), intent(in) :: machine
+      type(rotor_component_type), intent(in) :: component
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: file
+      file = 'rotor%file = '''//machine%rotor_file//''': '
+      associate (c => component)
+         call require(all(ieee_is_finite(c%mass)) .and. all(ieee_is_finite(c%damping)) .and. &
+            & all(ieee_is_finite(c%gyroscopic)) .and. all(ieee_is_finite(c%stiffness)) .and. &
+            & all(ieee_is_finite(c%station)) .and. all(ieee_is_finite(c%slope)) .and. &
+            & all(ieee_is_finite(c%weighed)), file//'its numbers must be finite', error)
+         if (allocated(error)) return
+         call require(symmetric(c%mass, 1.0_wp), file//'mass: must be symmetric', error)
+         call require(positive(c%mass), file//'mass: must be positive definite', error)
+         call require(symmetric(c%stiffness, 1.0_wp), file//'stiffness: must be symmetric', error)
+         call require(symmetric(c%gyroscopic, -1.0_wp), file//'gyroscopic: must change its sign when it is transposed', &
+            & error)
+         call check_stations(machine, c%station, file, error)
+      end associate
+   end subroutine check_component
+
+   !> Stations of the machine exist; those of bearings are displacements of their own.
+   subroutine check_stations(machine, station, file, error)
+      type(machine_type), intent(in) :: machine
+      real(wp), intent(in) :: station(:, :)
+      character(len=*), intent(in) :: file
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: stations, highest, b, row
+      stations = size(station, 1)/2
+      highest = max(maxval(machine%bearings%station), 0)
+      if (size(machine%unbalances) > 0) highest = max(highest, maxval(machine%unbalances%station))
+      if (size(machine%loads) > 0) highest = max(highest, maxval(machine%loads%station))
+      call require(highest <= stations, file//'has '//to_text(stations)//' stations, but station = '//to_text(highest) &
+         & //' is asked for', error)
+      call require(size(machine%discs) == 0, file//'a group disc has no effect: its matrices contain the discs', error)
+      if (allocated(error)) return
+      do b = 1, size(machine%bearings)
+         do row = 2*machine%bearings(b)%station - 1, 2*machine%bearings(b)%station
+            call require(abs(maxval(station(row, :)) - 1) <= 0 .and. count(abs(station(row, :)) > 0) == 1, file &
+               & //'station: row '//to_text(row)//', of a bearing, must have one element 1 and otherwise 0', error)
+         end do
+      end do
+   end subroutine check_stations
+
+   !> Whether a matrix is `sign` times its transpose.
+   pure logical function symmetric(matrix, sign)
+      real(wp), intent(in) :: matrix(:, :), sign
+      symmetric = maxval(abs(matrix - sign*transpose(matrix))) <= symmetry*maxval(abs(matrix))
+   end function symmetric
+
+   logical function positive(matrix)
+      real(wp), intent(in) :: matrix(:, :)
+      real(wp) :: factor(size(matrix, 1), size(matrix, 1))
+      integer :: info
+      factor = matrix
+      call dpotrf('U', size(matrix, 1), factor, size(matrix, 1), info)
+      positive = info == 0
+   end function positive
+end module component_checks

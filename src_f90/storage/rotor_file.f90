@@ -1,0 +1,93 @@
+!> Reads the matrices of a rotor that another program wrote into an HDF5 file: datasets of 64-bit floats, (row, column) as
+!> HDF5 shows them.
+module rotor_file
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, input_error, raise, add_context
+   use machine_groups, only: machine_type
+   use given_rotor, only: given_rotor_type
+   use guarded_open, only: try_reading
+   use hdf5_file, only: hdf5_type
+   implicit none (type, external)
+   private
+   public :: read_rotor
+
+   !> Most displacements of a rotor: its equations are solved as dense ones.
+   integer, parameter :: most_displacements = 2000
+
+contains
+
+   !> Reads `rotor%file` of a machine, where it names one.
+   subroutine read_rotor(machine, error)
+      type(machine_type), intent(inout) :: machine
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: refusal
+      type(hdf5_type) :: file
+      logical :: exists
+      if (machine%rotor_file == '') return
+      refusal = 'there is no such file'
+      inquire (file=machine%rotor_file, exist=exists)
+      if (exists) call try_reading(machine%rotor_file, refusal)
+      if (refusal /= '') then
+         call raise(error, input_error, 'rotor%file = '''//machine%rotor_file//''': '//refusal)
+         return
+      end if
+      allocate (machine%given)
+      call file%open(machine%rotor_file, writing=.false.)
+      call read_matrices(file, machine%given, error)
+      if (allocated(file%failure)) call raise(error, input_error, file%failure)
+      call file%close()
+      call add_context(error, 'rotor%file = '''//machine%rotor_file//'''')
+   end subroutine read_rotor
+
+   subroutine read_matrices(file, rotor, error)
+      type(hdf5_type), intent(inout) :: file
+      type(given_rotor_type), intent(inout) :: rotor
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: n, rows
+      n = file%list_size('weighed')
+      rows = file%list_size('station')
+      if (allocated(file%failure)) return
+      if (n < 1 .or. n > most_displacements) then
+         call raise(error, input_error, 'weighed: has '//to_text(n)//' numbers: must be one for each displacement, 1 to ' &
+            & //to_text(most_displacements))
+      else if (mod(rows, 2*n) /= 0 .or. rows == 0) then
+         call raise(error, input_error, 'station: has '//to_text(rows)//' numbers: must be rows of '//to_text(n) &
+            & //' displacements, two for each station')
+      end if
+      if (allocated(error)) return
+      allocate (rotor%weighed(n))
+      call file%get_list('weighed', rotor%weighed)
+      rotor%total_mass = file%get_real('total_mass')
+      rows = rows/n
+      call read_matrix(file, 'mass', n, n, rotor%mass, error)
+      call read_matrix(file, 'damping', n, n, rotor%damping, error)
+      call read_matrix(file, 'gyroscopic', n, n, rotor%gyroscopic, error)
+      call read_matrix(file, 'stiffness', n, n, rotor%stiffness, error)
+      call read_matrix(file, 'station', rows, n, rotor%station, error)
+      call read_matrix(file, 'slope', rows, n, rotor%slope, error)
+   end subroutine read_matrices
+
+   !> A matrix of this size; the first that has another one is refused.
+   subroutine read_matrix(file, name, rows, columns, matrix, error)
+      type(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: rows, columns
+      real(wp), allocatable, intent(out) :: matrix(:, :)
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), allocatable :: numbers(:)
+      integer :: found
+      if (allocated(error)) return
+      found = file%list_size(name)
+      if (allocated(file%failure)) return
+      if (found /= rows*columns) then
+         call raise(error, input_error, name//': has '//to_text(found)//' numbers: must have '//to_text(rows)//' x ' &
+            & //to_text(columns))
+         return
+      end if
+      allocate (numbers(found))
+      call file%get_list(name, numbers)
+      ! HDF5 has the last index first
+      matrix = transpose(reshape(numbers, [columns, rows]))
+   end subroutine read_matrix
+end module rotor_file

@@ -1,0 +1,157 @@
+!> Rotors whose matrices are read from a file.
+program test_rotor_file
+   use kinds, only: wp, rpm
+   use errors, only: error_type, input_error
+   use machine_groups, only: machine_type
+   use given_rotor, only: given_rotor_type
+   use rotor_component, only: rotor_component_type, shaft_component
+   use rotor_matrices, only: rotor_matrices_type
+   use shaft_in_bearings, only: find_rotor
+   use rotor_file, only: read_rotor
+   use hdf5_file, only: hdf5_type
+   use scratch, only: scratch_path, write_bytes
+   use example_machine, only: turbine, rotor_of, put_disc, put_bearings, unbalance_response, static_stations
+   use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
+   implicit none (type, external)
+   real(wp), parameter :: springs(4) = [6e8_wp, 3e8_wp, 5e8_wp, 2e8_wp], dampers(4) = 1e6_wp
+   character(len=:), allocatable :: path
+
+   path = scratch_path('rotor.h5')
+   if (runs('the same rotor')) call try_same_rotor()
+   if (runs('files that are refused')) call try_files()
+   if (runs('matrices that are refused')) call try_matrices()
+   open (unit=10, file=path)
+   close (10, status='delete')
+   call report()
+
+contains
+
+   !> A turbine's matrices, its displacements from the last one to the first.
+   function turned_round() result(rotor)
+      type(given_rotor_type) :: rotor
+      type(rotor_component_type) :: shaft
+      integer :: n
+      shaft = shaft_component(turbine())
+      n = size(shaft%mass, 1)
+      rotor%mass = shaft%mass(n:1:-1, n:1:-1)
+      rotor%damping = shaft%damping(n:1:-1, n:1:-1)
+      rotor%gyroscopic = shaft%gyroscopic(n:1:-1, n:1:-1)
+      rotor%stiffness = shaft%stiffness(n:1:-1, n:1:-1)
+      rotor%station = shaft%station(:, n:1:-1)
+      rotor%slope = shaft%slope(:, n:1:-1)
+      rotor%weighed = shaft%weighed(n:1:-1)
+      rotor%total_mass = shaft%total_mass
+   end function turned_round
+
+   !> Writes a file, whose matrices h5py shows as they are here.
+   subroutine write_rotor(rotor)
+      type(given_rotor_type), intent(in) :: rotor
+      type(hdf5_type) :: file
+      call file%create(path)
+      call file%put_table('mass', transpose(rotor%mass), 'kg', '', '')
+      call file%put_table('damping', transpose(rotor%damping), 'N s/m', '', '')
+      call file%put_table('gyroscopic', transpose(rotor%gyroscopic), 'kg', '', '')
+      call file%put_table('stiffness', transpose(rotor%stiffness), 'N/m', '', '')
+      call file%put_table('station', transpose(rotor%station), '1', '', '')
+      call file%put_table('slope', transpose(rotor%slope), '1/m', '', '')
+      call file%put_list('weighed', rotor%weighed, 'kg', '', '')
+      call file%put_real('total_mass', rotor%total_mass, 'kg', '')
+      call file%close()
+   end subroutine write_rotor
+
+   !> A turbine whose rotor is in the file.
+   function from_file() result(machine)
+      type(machine_type) :: machine
+      machine = turbine()
+      deallocate (machine%shaft%length, machine%shaft%diameter, machine%shaft%bore, machine%discs)
+      allocate (machine%discs(0))
+      machine%rotor_file = path
+   end function from_file
+
+   !> The same vibrations and static deflections as the shaft itself.
+   subroutine try_same_rotor()
+      type(machine_type) :: machine
+      type(rotor_matrices_type) :: rotor, expected
+      type(error_type), allocatable :: error
+      complex(wp), allocatable :: response(:)
+      call write_rotor(turned_round())
+      machine = from_file()
+      call read_rotor(machine, error)
+      call expect_no_error(error, 'the file is read')
+      if (allocated(error)) return
+      ! each plane has modes of its own here
+      rotor = rotor_of(machine, 6500*rpm, 8)
+      expected = rotor_of(turbine(), 6500*rpm, 4)
+      response = unbalance_response(expected, 5000*rpm, springs, dampers)
+      call expect(maxval(abs(unbalance_response(rotor, 5000*rpm, springs, dampers) - response)) &
+         & < 1e-8_wp*maxval(abs(response)), 'unbalance response')
+      call expect(maxval(abs(static_stations(rotor, springs) - static_stations(expected, springs))) < 1e-12_wp, &
+         & 'static deflection')
+      call expect_close(rotor%total_mass, expected%total_mass, 1e-9_wp, 'mass')
+      rotor = rotor_of(machine, 6500*rpm)
+      call expect(size(rotor%mode_frequency) >= 6 .and. rotor%truncation_error <= 1e-4_wp, 'modes are chosen')
+   end subroutine try_same_rotor
+
+   subroutine try_files()
+      type(machine_type) :: machine
+      type(given_rotor_type) :: rotor
+      type(error_type), allocatable :: error
+      call write_bytes(path, 'no matrices')
+      machine = from_file()
+      call read_rotor(machine, error)
+      call expect_error(error, input_error, 'HDF5 could not open', 'another file')
+      rotor = turned_round()
+      rotor%mass = rotor%mass(:40, :40)
+      call write_rotor(rotor)
+      machine = from_file()
+      call read_rotor(machine, error)
+      call expect_error(error, input_error, 'mass: has 1600 numbers: must have 52 x 52', 'a matrix of another size')
+      rotor = turned_round()
+      rotor%station = rotor%station(:25, :)
+      call write_rotor(rotor)
+      machine = from_file()
+      call read_rotor(machine, error)
+      call expect_error(error, input_error, 'station: has 1300 numbers', 'half a station')
+      machine%rotor_file = path//'x'
+      deallocate (machine%given)
+      call read_rotor(machine, error)
+      call expect_error(error, input_error, 'rotor.h5x'': there is no such file', 'a file that does not exist')
+   end subroutine try_files
+
+   subroutine try_matrices()
+      type(machine_type) :: machine
+      machine = from_file()
+      machine%given = turned_round()
+      machine%given%mass(3, 4) = machine%given%mass(3, 4) + 1
+      call refused(machine, 'mass: must be symmetric')
+      machine%given = turned_round()
+      machine%given%mass(3, 3) = -1
+      call refused(machine, 'mass: must be positive definite')
+      machine%given = turned_round()
+      machine%given%stiffness(3, 6) = 1e9_wp
+      call refused(machine, 'stiffness: must be symmetric')
+      machine%given = turned_round()
+      machine%given%gyroscopic = abs(machine%given%gyroscopic)
+      call refused(machine, 'gyroscopic: must change its sign')
+      machine%given = turned_round()
+      machine%given%station(3, 3) = 0.5_wp
+      call refused(machine, 'station: row 3, of a bearing')
+      machine%given = turned_round()
+      call put_bearings(machine, [2, 14])
+      call refused(machine, 'has 13 stations, but station = 14')
+      call put_bearings(machine, [2, 12])
+      call put_disc(machine, 3, 1.0_wp, 1.0_wp, 1.0_wp)
+      call refused(machine, 'disc')
+      deallocate (machine%given)
+      call refused(machine, 'is not read here')
+   end subroutine try_matrices
+
+   subroutine refused(machine, words)
+      type(machine_type), intent(in) :: machine
+      character(len=*), intent(in) :: words
+      type(rotor_matrices_type) :: rotor
+      type(error_type), allocatable :: error
+      call find_rotor(machine, 9.81_wp, 600.0_wp, rotor, error)
+      call expect_error(error, input_error, words, words)
+   end subroutine refused
+end program test_rotor_file
