@@ -33,8 +33,8 @@ contains
          call require(symmetric(c%mass, 1.0_wp), file//'mass: must be symmetric', error)
          call require(positive(c%mass), file//'mass: must be positive definite', error)
          call require(symmetric(c%stiffness, 1.0_wp), file//'stiffness: must be symmetric', error)
-         call require(symmetric(c%gyroscopic, -1.0_wp), file//'gyroscopic: must change its sign when it is transposed', &
-            & error)
+         call require(symmetric(c%gyroscopic, -1.0_wp), file//'gyroscopic: must change its sign when it ' &
+            & //'is transposed', error)
          call check_stations(machine, c%station, file, error)
       end associate
    end subroutine check_component

@@ -1,5 +1,5 @@
-!> Reads the matrices of a rotor that another program wrote into an HDF5 file: datasets of 64-bit floats, (row, column) as
-!> HDF5 shows them.
+!> Reads the matrices of a rotor that another program wrote into an HDF5 file: datasets of 64-bit floats,
+!> (row, column) as HDF5 shows them.
 module rotor_file
    use kinds, only: wp
    use text, only: to_text
@@ -49,8 +49,8 @@ contains
       rows = file%list_size('station')
       if (allocated(file%failure)) return
       if (n < 1 .or. n > most_displacements) then
-         call raise(error, input_error, 'weighed: has '//to_text(n)//' numbers: must be one for each displacement, 1 to ' &
-            & //to_text(most_displacements))
+         call raise(error, input_error, 'weighed: has '//to_text(n)//' numbers: must be one for each displacement, ' &
+            & //'1 to '//to_text(most_displacements))
       else if (mod(rows, 2*n) /= 0 .or. rows == 0) then
          call raise(error, input_error, 'station: has '//to_text(rows)//' numbers: must be rows of '//to_text(n) &
             & //' displacements, two for each station')
