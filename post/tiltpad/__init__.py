@@ -45,6 +45,7 @@ from tiltpad.calculate.pivots import (
 )
 from tiltpad.calculate.response import Peak, Response, response
 from tiltpad.calculate.ross import to_ross
+from tiltpad.calculate.ross_rotor import from_ross
 from tiltpad.calculate.sensitivity import Sensitivity, sensitivity
 from tiltpad.calculate.signals import (
     envelope,
@@ -103,6 +104,7 @@ __all__ = [
     "friction_force",
     "friction_power",
     "friction_work",
+    "from_ross",
     "full",
     "full_spectrum",
     "heat_balance",

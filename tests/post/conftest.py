@@ -1,6 +1,8 @@
 """Result files that the tests share: short runs of the program, one a case."""
 
 import itertools
+import json
+import subprocess
 import sys
 import warnings
 from pathlib import Path
@@ -207,3 +209,28 @@ def runs_of(tiltpad):
         return folder
 
     return run
+
+
+@pytest.fixture(scope="session")
+def ross(root):
+    """ross(bearing=..., points=...): what ROSS answers to ross_program.py."""
+    python = root / "build/venv-ross/bin/python"
+    if not (root / "build/venv-ross/ready").exists():
+        pytest.skip("ROSS is not installed")
+
+    process = subprocess.Popen(
+        [python, root / "tests/post/ross_program.py"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+
+    def answer(**asked) -> dict[str, np.ndarray]:
+        print(json.dumps({"points": [], "speeds": []} | asked), file=process.stdin, flush=True)
+        # libraries of ROSS may print lines of their own
+        said = next((line for line in process.stdout if line.startswith("{")), None)
+        assert said, "ROSS ended without an answer"
+        return {name: np.array(values) for name, values in json.loads(said).items()}
+
+    yield answer
+    process.communicate()

@@ -1,40 +1,16 @@
 """Bearings for ROSS, in ROSS itself (make test installs it into an environment of its own)."""
 
 import json
-import subprocess
 
 import numpy as np
 import pytest
 import tiltpad
 
-PROGRAM = "tests/post/ross_program.py"
 SPEEDS = [4000, 4500, 5000, 5500, 6000, 6500]
 #: Speed of the march, rpm; mass, kg; unbalance, kg m: an orbit of 0.08 um, in which the film is linear.
 SPEED, MASS, UNBALANCE = 5000, 1200.0, 1e-4
 #: Of march and ROSS: the march's own error; ten times the unbalance adds 5e-5, as its square demands.
 CLOSE = 2e-5
-
-
-@pytest.fixture(scope="module")
-def ross(root):
-    """ross(bearing=..., points=...): what ROSS answers to ross_program.py."""
-    python = root / "build/venv-ross/bin/python"
-    if not (root / "build/venv-ross/ready").exists():
-        pytest.skip("ROSS is not installed")
-
-    process = subprocess.Popen(
-        [python, root / PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    )
-
-    def answer(**asked) -> dict[str, np.ndarray]:
-        print(json.dumps({"points": [], "speeds": []} | asked), file=process.stdin, flush=True)
-        # libraries of ROSS may print lines of their own
-        said = next((line for line in process.stdout if line.startswith("{")), None)
-        assert said, "ROSS ended without an answer"
-        return {name: np.array(values) for name, values in json.loads(said).items()}
-
-    yield answer
-    process.communicate()
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,73 @@
+"""Rotors of ROSS as files of matrices."""
+
+from types import SimpleNamespace
+
+import h5py
+import numpy as np
+import pytest
+import tiltpad
+
+#: rad/s
+SPEED = 300.0
+UNBALANCE = 1e-3
+
+
+@pytest.fixture(scope="module")
+def turbine(ross):
+    """What ROSS says of a rotor with an overhung disk."""
+    return ross(turbine=SPEED)
+
+
+@pytest.fixture
+def rotor(turbine):
+    """The rotor as from_ross sees it: ROSS has an environment of its own."""
+    places = dict(zip(("x_0", "y_0", "alpha_0", "beta_0"), turbine["places"].tolist(), strict=True))
+    return SimpleNamespace(
+        **{name: turbine[name] for name in ("M0", "C0", "G0", "K0")},
+        number_dof=int(turbine["dof"]),
+        nodes=range(int(turbine["nodes"])),
+        shaft_elements=[SimpleNamespace(dof_mapping=lambda: places)],
+        point_mass_elements=[],
+    )
+
+
+def test_the_matrices_vibrate_as_ross(turbine, rotor, tmp_path):
+    """Unbalance at the phase 0 of ROSS, along its x, which is -z."""
+    tiltpad.from_ross(rotor, tmp_path / "rotor.h5")
+    with h5py.File(tmp_path / "rotor.h5") as file:
+        found = {name: file[name][()] for name in file}
+    station = found["station"]
+    assert found["total_mass"] == pytest.approx(turbine["mass"], rel=1e-12)
+    stiffness = found["stiffness"].copy()
+    for node in (0, 4):
+        for row, spring in ((2 * node, 5e7), (2 * node + 1, 3e7)):
+            stiffness += spring * np.outer(station[row], station[row])
+    dynamic = stiffness - SPEED**2 * found["mass"]
+    dynamic = dynamic + 1j * SPEED * (found["damping"] + SPEED * found["gyroscopic"])
+    # along -z at first, and a quarter turn later along y
+    force = UNBALANCE * SPEED**2 * (-station[13] - 1j * station[12])
+    y, z = station[12:14] @ np.linalg.solve(dynamic, force)
+    x_ross, y_ross = turbine["moved"] @ [1, 1j]
+    assert abs(y_ross) > 1e-7
+    np.testing.assert_allclose([-z, y], [x_ross, y_ross], rtol=1e-9)
+
+
+def test_slopes_and_weight(rotor, tmp_path):
+    """A rotation about z, dy/dx = 1, is a rigid motion; weight acts along y alone."""
+    tiltpad.from_ross(rotor, tmp_path / "rotor.h5")
+    with h5py.File(tmp_path / "rotor.h5") as file:
+        found = {name: file[name][()] for name in file}
+    stiffness, station, slope = (found[name] for name in ("stiffness", "station", "slope"))
+    position = 0.2 * np.arange(7)
+    for plane in (0, 1):
+        turned = position @ station[plane::2] + slope[plane::2].sum(axis=0)
+        assert abs(stiffness @ turned).max() < 1e-9 * abs(stiffness).max()
+    assert found["weighed"] @ station[::2].sum(axis=0) == pytest.approx(found["total_mass"])
+    assert found["weighed"] @ station[1::2].sum(axis=0) == 0
+    np.testing.assert_array_equal(found["gyroscopic"], -found["gyroscopic"].T)
+
+
+def test_point_masses_are_refused(rotor, tmp_path):
+    rotor.point_mass_elements = [None]
+    with pytest.raises(ValueError, match="point masses"):
+        tiltpad.from_ross(rotor, tmp_path / "rotor.h5")
