@@ -81,7 +81,8 @@ contains
                each_bearing: do b = 1, n
                   do k = 1, ratios
                      call found%bearings(i)%condense(model%layout%bearings(b)%all_positions(), &
-                        & given%frequency_ratio(k), speed, found%stiffness(:, :, k, i, b), found%damping(:, :, k, i, b), ok)
+                        & given%frequency_ratio(k), speed, found%stiffness(:, :, k, i, b), &
+                        & found%damping(:, :, k, i, b), ok)
                      if (.not. ok) exit each_bearing
                   end do
                end do each_bearing
