@@ -2,9 +2,10 @@
 module case_checks
    use kinds, only: wp, degree
    use text, only: to_text
-   use errors, only: error_type, require, refuse
+   use errors, only: error_type, require, refuse, add_context
    use case_groups, only: clearance_range, is_set
    use case_inputs, only: case_type
+   use machine_checks, only: check_machine
    implicit none (type, external)
    private
    public :: check_case
@@ -20,17 +21,34 @@ contains
    subroutine check_case(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
+      integer :: b
+      if (inputs%is_machine()) then
+         call check_machine(inputs, error)
+         do b = 1, inputs%bearing_count()
+            if (allocated(error)) return
+            call check_groups(inputs%of_bearing(b), error)
+            call add_context(error, 'bearing '''//inputs%machine%bearings(b)%name//'''')
+         end do
+      else
+         call check_groups(inputs, error)
+      end if
+      call check_output(inputs, error)
+      call check_tasks(inputs, error)
+      call check_branch(inputs, error)
+   end subroutine check_case
+
+   !> The groups of one bearing.
+   subroutine check_groups(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
       call check_film(inputs, error)
       call check_bearing(inputs, error)
       call check_thermal(inputs, error)
       call check_friction(inputs, error)
       call check_pivot(inputs, error)
       call check_start(inputs, error)
-      call check_output(inputs, error)
       call check_pads(inputs, error)
-      call check_tasks(inputs, error)
-      call check_branch(inputs, error)
-   end subroutine check_case
+   end subroutine check_groups
 
    subroutine check_film(inputs, error)
       type(case_type), intent(in) :: inputs

@@ -3,7 +3,7 @@
 module case_completion
    use kinds, only: wp, degree
    use text, only: to_text, list_text
-   use errors, only: error_type, raise, require, refuse, input_error
+   use errors, only: error_type, raise, require, refuse, add_context, input_error
    use case_groups, only: bearing_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
       & clearance_range, temperature_range, viscosity_range
    use case_inputs, only: case_type
@@ -28,37 +28,73 @@ module case_completion
 contains
 
    !> Leaves out what `complete_case` can find.
-   pure subroutine leave_out(inputs)
+   subroutine leave_out(inputs)
       type(case_type), intent(inout) :: inputs
+      type(case_type) :: one
+      integer :: b
       inputs%operation%final_speed_rpm = unset
+      inputs%output%keep = ''
+      if (inputs%is_machine()) then
+         do b = 1, inputs%bearing_count()
+            one = inputs%of_bearing(b)
+            call leave_out_of_bearing(one)
+            call inputs%set_bearing(b, one)
+         end do
+      else
+         call leave_out_of_bearing(inputs)
+      end if
+   end subroutine leave_out
+
+   !> The same of the groups of one bearing.
+   pure subroutine leave_out_of_bearing(inputs)
+      type(case_type), intent(inout) :: inputs
       inputs%bearing%machined_clearance = unset
       inputs%bearing%viscosity = unset
       inputs%oil%law = ''
-      inputs%output%keep = ''
       associate (pads => inputs%pads)
          pads%mass(:) = unset
          pads%inertia(:) = unset
          pads%centre_tangential(:) = unset
          pads%centre_radial(:) = unset
       end associate
-   end subroutine leave_out
+   end subroutine leave_out_of_bearing
 
-   !> Finds what is left out; afterwards only the variables from which it follows are unset.
+   !> Finds what is left out; afterwards only the variables from which it follows are unset. Of a machine the message of
+   !> an error names the bearing.
    subroutine complete_case(inputs, error)
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      integer :: i
+      type(case_type) :: one
+      integer :: b
       call inputs%set_final_speed()
       ! what has no samples is a row of a study alone, unless a file of each run is asked for
       if (inputs%output%keep == '') inputs%output%keep = trim(merge('summary', 'all    ', &
          & any(inputs%about%task == ['equilibrium ', 'coefficients'])))
+      if (.not. inputs%is_machine()) then
+         call complete_bearing(inputs, error)
+         return
+      end if
+      do b = 1, inputs%bearing_count()
+         one = inputs%of_bearing(b)
+         call complete_bearing(one, error)
+         call add_context(error, 'bearing '''//inputs%machine%bearings(b)%name//'''')
+         if (allocated(error)) return
+         call inputs%set_bearing(b, one)
+      end do
+   end subroutine complete_case
+
+   !> The same of the groups of one bearing.
+   subroutine complete_bearing(inputs, error)
+      type(case_type), intent(inout) :: inputs
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
       call set_clearance(inputs, error)
       if (.not. allocated(error)) call complete_oil(inputs, error)
       do i = 1, inputs%pad_count()
          if (allocated(error)) return
          call set_pad(inputs, i, error)
       end do
-   end subroutine complete_case
+   end subroutine complete_bearing
 
    !> The pad clearance: as given, by the preload, or the paper's.
    subroutine set_clearance(inputs, error)

@@ -34,6 +34,7 @@ module case_inputs
       procedure :: is_machine
       procedure :: bearing_count
       procedure :: of_bearing
+      procedure :: set_bearing
       procedure :: pad_count
       procedure :: moves
       procedure :: seeks_orbits
@@ -153,7 +154,30 @@ contains
          inputs%film = own%film
       end associate
       deallocate (inputs%machine)
+      ! a machine starts without a disturbance
+      associate (s => inputs%start, none => 0*inputs%pads%pivot_angle_deg)
+         s%pad_tilt = none
+         s%pad_tilt_rate = none
+         s%pivot_deflection = none
+         s%pivot_deflection_rate = none
+      end associate
    end function of_bearing
+
+   !> Gives a bearing of a machine the groups of a case of one bearing.
+   pure subroutine set_bearing(self, b, inputs)
+      class(case_type), intent(inout) :: self
+      integer, intent(in) :: b
+      type(case_type), intent(in) :: inputs
+      associate (own => self%machine%bearings(b))
+         own%bearing = inputs%bearing
+         own%oil = inputs%oil
+         own%pads = inputs%pads
+         own%pivot = inputs%pivot
+         own%friction = inputs%friction
+         own%asperity = inputs%asperity
+         own%film = inputs%film
+      end associate
+   end subroutine set_bearing
 
    pure integer function pad_count(self)
       class(case_type), intent(in) :: self
@@ -177,10 +201,15 @@ contains
       highest_speed = max(self%operation%speed_rpm, self%operation%final_speed_rpm)*rpm
    end function highest_speed
 
-   !> Unbalance, kg m: as given, or by ISO 21940-11, eq (26): m G / Omega with G in m/s.
+   !> Unbalance, kg m: of a machine the sum of its moments, whatever their angles; else as given, or by ISO 21940-11,
+   !> eq (26): m G / Omega with G in m/s.
    pure real(wp) function unbalance(self)
       class(case_type), intent(in) :: self
       real(wp) :: balance_rpm
+      if (self%is_machine()) then
+         unbalance = sum(self%machine%unbalances%moment)
+         return
+      end if
       unbalance = self%rotor%unbalance
       if (is_set(self%rotor%balance_grade)) then
          balance_rpm = self%rotor%balance_speed_rpm

@@ -1,17 +1,26 @@
 !> One derived type for each namelist group of a machine: a shaft that turns in several bearings. Stations count from 1,
 !> between the sections of the shaft and at its ends. SI units.
 module machine_groups
-   use kinds, only: wp
-   use case_groups, only: bearing_type, oil_type, pads_type, pivot_type, friction_type, asperity_type, film_type, unset
+   use kinds, only: wp, pi
+   use case_groups, only: bearing_type, oil_type, pads_type, pivot_type, friction_type, asperity_type, film_type, &
+      & unset, is_set
    use given_rotor, only: given_rotor_type
    implicit none (type, external)
    private
-   public :: machine_type
+   public :: machine_type, shaft_type, disc_type, unbalance_type, load_type, support_type, reduction_type, &
+      & machine_bearing_type
+   public :: most_bearings, most_sections, most_stations
+
+   !> Most bearings, and sections of a shaft; the highest number of a station, also of a rotor from a file.
+   integer, parameter :: most_bearings = 20, most_sections = 500, most_stations = 10000
 
    !> The sections of the shaft from station to station, m; its steel.
    type :: shaft_type
       real(wp), allocatable :: length(:), diameter(:), bore(:)
       real(wp) :: young_modulus = 2.1e11_wp, poisson_ratio = 0.3_wp, density = 7850
+   contains
+      procedure :: is_given
+      procedure :: mass => shaft_mass
    end type shaft_type
 
    !> A rigid disc: kg, kg m^2.
@@ -70,5 +79,61 @@ module machine_groups
       type(load_type), allocatable :: loads(:)
       type(reduction_type) :: reduction
       type(machine_bearing_type), allocatable :: bearings(:)
+   contains
+      procedure :: begin
+      procedure :: find_bearing
+      procedure :: station_count
+      procedure :: mass => machine_mass
    end type machine_type
+
+contains
+
+   !> A machine of so many parts, of which nothing is given yet.
+   subroutine begin(self, bearings, discs, unbalances, loads)
+      class(machine_type), intent(out) :: self
+      integer, intent(in) :: bearings, discs, unbalances, loads
+      integer :: b
+      allocate (self%bearings(bearings), self%discs(discs), self%unbalances(unbalances), self%loads(loads))
+      do b = 1, bearings
+         self%bearings(b)%name = ''
+      end do
+      self%rotor_file = ''
+      self%shaft%length = [unset]
+      self%shaft%diameter = [unset]
+      self%shaft%bore = [0.0_wp]
+   end subroutine begin
+
+   !> Number of the bearing of this name; 0 if there is none.
+   pure integer function find_bearing(self, name) result(b)
+      class(machine_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      do b = size(self%bearings), 1, -1
+         if (self%bearings(b)%name == name) return
+      end do
+   end function find_bearing
+
+   !> Stations of the shaft; 0 for a rotor from a file, which has its own.
+   pure integer function station_count(self)
+      class(machine_type), intent(in) :: self
+      station_count = 0
+      if (self%shaft%is_given()) station_count = size(self%shaft%length) + 1
+   end function station_count
+
+   !> Mass of the shaft and its discs, kg; there must be a shaft.
+   pure real(wp) function machine_mass(self) result(mass)
+      class(machine_type), intent(in) :: self
+      mass = self%shaft%mass() + sum(self%discs%mass)
+   end function machine_mass
+
+   !> Whether there is a shaft.
+   pure logical function is_given(self)
+      class(shaft_type), intent(in) :: self
+      is_given = any(is_set(self%length))
+   end function is_given
+
+   !> Mass of all sections, kg.
+   pure real(wp) function shaft_mass(self) result(mass)
+      class(shaft_type), intent(in) :: self
+      mass = sum(self%density*pi/4*(self%diameter**2 - self%bore**2)*self%length)
+   end function shaft_mass
 end module machine_groups

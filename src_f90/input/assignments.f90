@@ -3,6 +3,7 @@ module assignments
    use, intrinsic :: ieee_arithmetic, only: ieee_overflow, ieee_get_halting_mode, ieee_set_flag, ieee_set_halting_mode
    use kinds, only: wp
    use text, only: to_text, shortened, replaced, whole_number
+   use machine_names, only: kind_of, bearing_of
    implicit none (type, external)
    private
    public :: namelist_type, assignment_type, token_type
@@ -25,6 +26,8 @@ module assignments
       integer :: subscript = 0
       !> True for an assignment of --set or of a run of a study: it may set an element that the file sets too.
       logical :: overrides = .false.
+      !> True for one that the group of all bearings gives a bearing, which may have a value of its own.
+      logical :: of_all = .false.
       type(token_type), allocatable :: values(:)
    end type assignment_type
 
@@ -64,11 +67,13 @@ contains
       call move_alloc(together, parsed%assignments)
    end subroutine put_assignment
 
-   !> True where the new assignment would undo all of an earlier one.
+   !> True where the new assignment would undo all of an earlier one. One of --set to a group of all bearings undoes
+   !> that of any of them.
    pure logical function undoes(new, earlier)
       type(assignment_type), intent(in) :: new, earlier
-      undoes = new%group == earlier%group .and. new%name == earlier%name &
-         & .and. (new%subscript == 0 .or. new%subscript == earlier%subscript)
+      undoes = new%name == earlier%name .and. (new%subscript == 0 .or. new%subscript == earlier%subscript)
+      if (undoes .and. new%group /= earlier%group) undoes = new%overrides .and. new%group == kind_of(earlier%group) &
+         & .and. bearing_of(earlier%group) /= ''
    end function undoes
 
    !> True where it also sets all that the earlier one set: an element does not replace a list that starts there.
@@ -109,18 +114,20 @@ contains
    end function value_text
 
    !> Name and subscript of "name(subscript)", which is 0 where there is none; `ok` is false where it is none from 1 to
-   !> 9999.
+   !> 9999. In "disc(2)%mass(1)" the name is "disc(2)%mass".
    pure subroutine split_subscript(word, name, subscript, ok)
       character(len=*), intent(in) :: word
       character(len=:), allocatable, intent(out) :: name
       integer, intent(out) :: subscript
       logical, intent(out) :: ok
-      integer :: open
-      open = index(word, '(')
+      integer :: percent, open
+      percent = index(word, '%', back=.true.)
+      open = index(word(percent + 1:), '(')
       name = word
       subscript = 0
       ok = open == 0
       if (ok) return
+      open = percent + open
       name = word(:open - 1)
       subscript = whole_number(word(open + 1:max(open, len(word) - 1)))
       ok = subscript > 0 .and. subscript < 10000 .and. word(len(word):) == ')'

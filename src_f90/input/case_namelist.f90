@@ -4,20 +4,26 @@ module case_namelist
    use text, only: to_text, shortened
    use errors, only: error_type, raise, require, add_context, input_error
    use case_groups, only: max_pads
+   use machine_groups, only: most_sections
    use case_inputs, only: case_type
    use case_checks, only: check_case
    use case_completion, only: leave_out, complete_case
    use variable_table, only: variable_type, variable_table_type
-   use case_fields, only: list_variables, put_variables, pads_variable
+   use case_fields, only: list_variables, list_all_variables, put_variables
    use case_parameter, only: check_branch_parameter
    use assignments, only: namelist_type, assignment_type, study_group
    use assigned_values, only: read_word, read_reals, refuse_values
+   use machine_names, only: kind_of, may_have_bearing
+   use machine_structure, only: make_machine, give_to_bearings
    use variable_names, only: group_names, names_in, meant_variable, meant_group
    use namelist_text, only: parse_namelist
    use namelist_writer, only: lines_of
    implicit none (type, external)
    private
    public :: case_from_text, case_from_namelist, fill_case
+
+   !> Most values of a list that has one for each of something.
+   integer, parameter :: most_each = max(max_pads, most_sections)
 
 contains
 
@@ -52,35 +58,56 @@ contains
    end subroutine case_from_namelist
 
    !> The case before `complete_case`: each value is checked by itself; what follows from other variables is left out.
-   subroutine fill_case(parsed, inputs, error)
+   !> `given` are its assignments, in a machine those to each bearing.
+   subroutine fill_case(parsed, inputs, error, given)
       type(namelist_type), intent(in) :: parsed
       type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(variable_table_type) :: table
-      integer :: at(size(parsed%assignments)), pads, i, k
-      logical :: taken(max_pads)
+      type(namelist_type), intent(out), optional :: given
+      type(namelist_type) :: of_each
       inputs = case_type()
-      call leave_out(inputs)
-      call list_variables(inputs, table)
-      call find_variables(parsed, table, at, error)
+      call make_machine(parsed, inputs, error)
       if (allocated(error)) return
-      pads = inputs%pad_count()
+      call leave_out(inputs)
+      if (inputs%is_machine()) then
+         call give_to_bearings(parsed, inputs%machine, of_each)
+         call fill_variables(of_each, inputs, error)
+         if (present(given)) given = of_each
+      else
+         call fill_variables(parsed, inputs, error)
+         if (present(given)) given = parsed
+      end if
+   end subroutine fill_case
+
+   !> Gives the variables of a case the values of its assignments.
+   subroutine fill_variables(parsed, inputs, error)
+      type(namelist_type), intent(in) :: parsed
+      type(case_type), intent(inout) :: inputs
+      type(error_type), allocatable, intent(out) :: error
+      type(variable_table_type) :: table
+      integer :: at(size(parsed%assignments)), things, i, k
+      !> The elements that are given, without those that groups of all bearings give.
+      logical :: taken(most_each, 2)
+      call list_variables(inputs, table)
+      call find_variables(parsed, table, inputs, at, error)
+      if (allocated(error)) return
       do i = 1, table%count
          associate (v => table%variables(i))
-            if (v%of_pads) then
-               v%values = spread(v%values(1), 1, pads)
-               v%most = pads
+            if (v%each /= '') then
+               v%values = spread(v%values(1), 1, things)
+               v%most = things
             end if
             taken = .false.
             do k = 1, size(at)
-               if (at(k) == i) call assign(parsed%assignments(k), v, taken, error)
+               if (at(k) == i) call assign(parsed%assignments(k), v, &
+                  & taken(:, merge(1, 2, parsed%assignments(k)%of_all)), error)
                if (allocated(error)) return
             end do
-            if (v%group//'%'//v%name == pads_variable) pads = size(v%values)
+            if (v%counts) things = size(v%values)
          end associate
       end do
       call put_variables(table, inputs)
-   end subroutine fill_case
+   end subroutine fill_variables
 
    !> Refuses values in the group of a task that this case's task has no use for.
    subroutine refuse_idle_groups(parsed, inputs, error)
@@ -103,32 +130,60 @@ contains
             if (v%group == 'branch' .and. task /= v%group) tasks = '''branch'''
             if (tasks == '') cycle
             given = lines_of(v, '')
-            call require(given == lines_of(defaults%variables(i), ''), v%group//'%' &
+            call require(given == lines_of(defaults%variables(defaults%find(v%group, v%name)), ''), v%group//'%' &
                & //shortened(given(3:len(given) - 1))//': has no effect but with case%task = '//tasks, error)
          end associate
       end do
    end subroutine refuse_idle_groups
 
    !> Where in the table the variable of each assignment is. Refuses a group or variable that there is not.
-   subroutine find_variables(parsed, table, at, error)
+   subroutine find_variables(parsed, table, inputs, at, error)
       type(namelist_type), intent(in) :: parsed
       type(variable_table_type), intent(in) :: table
+      type(case_type), intent(in) :: inputs
       integer, intent(out) :: at(:)
       type(error_type), allocatable, intent(out) :: error
       integer :: i
       do i = 1, size(parsed%groups)
+         if (inputs%is_machine() .and. may_have_bearing(parsed%groups(i)%group)) cycle
          call refuse_unknown_group(parsed%groups(i), '&', table, error)
       end do
       do i = 1, size(at)
          associate (a => parsed%assignments(i))
             at(i) = table%find(a%group, a%name)
             if (at(i) > 0 .or. allocated(error)) cycle
+            call refuse_other_rotor(a, inputs%is_machine(), error)
             call refuse_unknown_group(a, '', table, error)
             if (.not. allocated(error)) call raise(error, input_error, a%origin//': unknown variable '//a%group//'%' &
-               & //a%name//meant_variable(a%group, a%name)//'; known:'//names_in(a%group))
+               & //a%name//meant_variable(kind_of(a%group), a%name)//'; known:'//names_in(kind_of(a%group)))
          end associate
       end do
    end subroutine find_variables
+
+   !> Refuses a variable that a machine does not have, or that only a machine has, and says what is to be given instead.
+   subroutine refuse_other_rotor(a, of_machine, error)
+      type(assignment_type), intent(in) :: a
+      logical, intent(in) :: of_machine
+      type(error_type), allocatable, intent(inout) :: error
+      type(variable_table_type) :: all
+      character(len=:), allocatable :: instead
+      call list_all_variables(case_type(), all)
+      if (allocated(error) .or. all%find(kind_of(a%group), a%name) == 0) return
+      instead = 'needs a shaft (&shaft) in bearings that have names (&bearing name = ...)'
+      if (of_machine) then
+         select case (a%name)
+         case ('mass')
+            instead = 'has no effect beside a shaft; the rotor''s masses are in &shaft and &disc'
+         case ('static_load')
+            instead = 'has no effect beside a shaft; give a group &load with station and force'
+         case ('unbalance', 'balance_grade', 'balance_speed_rpm')
+            instead = 'has no effect beside a shaft; give a group &unbalance with station and moment'
+         case default
+            instead = 'is for a rigid journal in one bearing; a shaft in several starts from its equilibrium or from a file'
+         end select
+      end if
+      call refuse_values(a, instead, error)
+   end subroutine refuse_other_rotor
 
    !> Refuses an assignment or the start of a group that there is not; the message has `prefix` before the group's name.
    subroutine refuse_unknown_group(found, prefix, table, error)
@@ -171,12 +226,12 @@ contains
          v%values(a%subscript:a%subscript + size(given) - 1) = given
       else if (size(given) == size(v%values)) then
          v%values = given
-      else if (.not. v%of_pads) then
+      else if (v%each == '') then
          call refuse_values(a, 'takes '//to_text(v%most)//' values', error)
       else if (size(given) == 1) then
          v%values = spread(given(1), 1, v%most)
       else
-         call refuse_values(a, 'takes one value for all pads or one each ('//to_text(v%most)//')', error)
+         call refuse_values(a, 'takes one value for all '//v%each//' or one each ('//to_text(v%most)//')', error)
       end if
    end subroutine assign
 

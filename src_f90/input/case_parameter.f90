@@ -11,12 +11,14 @@ module case_parameter
    use case_fields, only: list_variables, put_variables
    use variable_names, only: meant_variable
    use assignments, only: split_subscript
+   use machine_names, only: kind_of
    implicit none (type, external)
    private
    public :: case_parameter_type, find_parameter, check_branch_parameter
 
    !> The groups whose numbers describe the bearing; and the one number of operation that does.
-   character(len=*), parameter :: groups = ' rotor operation bearing oil pads pivot friction asperity '
+   character(len=*), parameter :: groups = ' rotor operation bearing oil pads pivot friction asperity shaft disc ' &
+      & //'unbalance load support '
    character(len=*), parameter :: speed = 'speed_rpm'
 
    type :: case_parameter_type
@@ -53,7 +55,7 @@ contains
       at = table%find(parameter%group, parameter%variable)
       if (at == 0) then
          call raise(error, input_error, 'there is no such variable' &
-            & //meant_variable(parameter%group, parameter%variable))
+            & //meant_variable(kind_of(parameter%group), parameter%variable))
          return
       end if
       associate (v => table%variables(at))
@@ -63,14 +65,14 @@ contains
          parameter%high = v%high
          if (v%is_text .or. v%whole) then
             call raise(error, input_error, 'must be a real number, no text and no whole number')
-         else if (index(groups, ' '//parameter%group//' ') == 0 .or. parameter%group == 'operation' &
+         else if (index(groups, ' '//kind_of(parameter%group)//' ') == 0 .or. parameter%group == 'operation' &
             & .and. parameter%variable /= speed) then
             call raise(error, input_error, 'must be operation%'//speed//' or a number of rotor, bearing, oil, pads, ' &
-               & //'pivot, friction or asperity')
+               & //'pivot, friction, asperity, shaft, disc, unbalance, load or support')
          else if (parameter%element > size(v%values)) then
             call raise(error, input_error, 'has '//to_text(size(v%values))//trim(merge(' element ', ' elements', &
                & size(v%values) == 1)))
-         else if (parameter%element == 0 .and. size(v%values) > 1 .and. .not. v%of_pads) then
+         else if (parameter%element == 0 .and. size(v%values) > 1 .and. v%each == '') then
             call raise(error, input_error, 'needs the number of an element, '//parameter%group//'%' &
                & //parameter%variable//'(1) to ('//to_text(size(v%values))//')')
          else if (.not. is_set(v%values(max(1, parameter%element)))) then
@@ -143,8 +145,8 @@ contains
             return
          end if
          first = parameter%value(inputs)
-         if (b%of == 'equilibrium' .and. (parameter%group == 'friction' .or. parameter%variable == 'unbalance' &
-            & .or. index(parameter%variable, 'balance_') == 1)) then
+         if (b%of == 'equilibrium' .and. (any(kind_of(parameter%group) == [character(len=9) :: 'friction', &
+            & 'unbalance']) .or. parameter%variable == 'unbalance' .or. index(parameter%variable, 'balance_') == 1)) then
             call raise(error, input_error, 'branch%parameter = '''//b%parameter &
                & //''': has no effect on equilibria, which are without friction and unbalance')
          end if

@@ -10,7 +10,8 @@ module checked_case
    use oil_properties, only: viscosity, kinematic_points
    use case_completion, only: complete_case
    use variable_table, only: variable_table_type
-   use case_fields, only: list_variables, pads_variable
+   use case_fields, only: list_variables, counting_variables
+   use machine_names, only: kind_of
    use assignments, only: namelist_type
    use case_namelist, only: fill_case
    use namelist_writer, only: lines_of, group_start
@@ -35,8 +36,11 @@ contains
       type(namelist_type), intent(in) :: parsed
       character(len=:), allocatable :: text, mark
       type(case_type) :: default
+      type(namelist_type) :: given
+      type(error_type), allocatable :: error
       type(variable_table_type) :: table, defaults
       integer :: i, k
+      call fill_case(parsed, default, error, given)
       call find_default_case(parsed, default)
       call list_variables(inputs, table)
       call list_variables(default, defaults)
@@ -45,8 +49,8 @@ contains
          associate (v => table%variables(i))
             mark = '! derived'
             if (lines_of(v, '') == lines_of(defaults%variables(i), '')) mark = '! default'
-            do k = 1, size(parsed%assignments)
-               if (parsed%assignments(k)%group == v%group .and. parsed%assignments(k)%name == v%name) mark = ''
+            do k = 1, size(given%assignments)
+               if (given%assignments(k)%group == v%group .and. given%assignments(k)%name == v%name) mark = ''
             end do
             text = text//group_start(table, i)//lines_of(v, mark)
          end associate
@@ -54,7 +58,7 @@ contains
       text = text//'/'//newline
    end function marked_text
 
-   !> The paper's bearing with the pivots of the case.
+   !> The paper's bearing with the pivots of the case, a machine with as many sections.
    subroutine find_default_case(parsed, inputs)
       type(namelist_type), intent(in) :: parsed
       type(case_type), intent(out) :: inputs
@@ -62,9 +66,9 @@ contains
       type(error_type), allocatable :: error
       integer :: i
       pivots%file = parsed%file
-      allocate (pivots%groups(0))
-      pivots%assignments = pack(parsed%assignments, [(parsed%assignments(i)%group//'%'//parsed%assignments(i)%name &
-         & == pads_variable, i=1, size(parsed%assignments))])
+      pivots%groups = parsed%groups
+      pivots%assignments = pack(parsed%assignments, [(any(kind_of(parsed%assignments(i)%group)//'%' &
+         & //parsed%assignments(i)%name == counting_variables), i=1, size(parsed%assignments))])
       call fill_case(pivots, inputs, error)
       if (.not. allocated(error)) call complete_case(inputs, error)
    end subroutine find_default_case

@@ -3,8 +3,10 @@ module namelist_text
    use text, only: to_text, lower_case, shortened
    use errors, only: error_type, raise, require, input_error
    use assignments, only: namelist_type, assignment_type, token_type, put_assignment, undoes, split_subscript, &
-      & study_group
+      & assignment_text, study_group
    use text_scanner, only: scanner, control_character, newline
+   use machine_names, only: counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable, &
+      & is_name, longest_bearing
    use variable_names, only: meant_variable
    implicit none (type, external)
    private
@@ -25,6 +27,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(scanner) :: scan
       type(assignment_type) :: group
+      type(assignment_type), allocatable :: own(:)
       integer :: i
 
       parsed%file = file
@@ -57,14 +60,16 @@ contains
             & //shortened(group%group), error)
          call require(size(parsed%groups) < most_items, group%origin//': more than '//to_text(most_items) &
             & //' groups', error)
-         do i = 1, size(parsed%groups)
-            call require(parsed%groups(i)%group /= group%group, group%origin//': group &'//group%group &
-               & //' is given twice, first at '//parsed%groups(i)%origin, error)
-         end do
+         if (allocated(error)) return
+         if (allocated(own)) deallocate (own)
+         allocate (own(0))
+         call parse_group(scan, group, own, error)
+         if (.not. allocated(error)) call name_group(group, own, parsed%groups, error)
+         call require(size(parsed%assignments) + size(own) <= most_items, group%origin//': more than ' &
+            & //to_text(most_items)//' values given', error)
          if (allocated(error)) return
          parsed%groups = [parsed%groups, group]
-         call parse_group(scan, group, parsed%assignments, error)
-         if (allocated(error)) return
+         parsed%assignments = [parsed%assignments, own]
       end do
       if (size(parsed%groups) == 0) call raise(error, input_error, &
          & file//': no namelist group in it; expected &name ... /')
@@ -104,6 +109,56 @@ contains
       new(1)%overrides = .true.
       call put_assignment(new(1), parsed)
    end subroutine parse_override
+
+   !> Gives a group and its assignments its number, where it is one of several, or the name of the bearing that one of
+   !> them says, which is taken out. Refuses what is given twice.
+   subroutine name_group(group, own, before, error)
+      type(assignment_type), intent(inout) :: group
+      type(assignment_type), allocatable, intent(inout) :: own(:)
+      type(assignment_type), intent(in) :: before(:)
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: kind, ending
+      integer :: i, at
+      kind = group%group
+      ending = ''
+      if (is_counted(kind)) then
+         ending = counted(1 + count([(kind_of(before(i)%group) == kind, i=1, size(before))]))
+      else if (may_have_bearing(kind)) then
+         at = findloc([(own(i)%name == naming_variable(kind), i=1, size(own))], .true., dim=1)
+         if (at > 0) then
+            call read_bearing(own(at), ending, error)
+            own = pack(own, [(i /= at, i=1, size(own))])
+         end if
+      end if
+      if (allocated(error)) return
+      group%group = kind//ending
+      do i = 1, size(own)
+         own(i)%group = group%group
+      end do
+      do i = 1, size(before)
+         if (before(i)%group /= group%group) cycle
+         if (ending /= '') ending = ' of bearing '''//bearing_of(group%group)//''''
+         call raise(error, input_error, group%origin//': group &'//kind//ending//' is given twice, first at ' &
+            & //before(i)%origin)
+         return
+      end do
+   end subroutine name_group
+
+   !> The bearing that an assignment names.
+   subroutine read_bearing(named, ending, error)
+      type(assignment_type), intent(in) :: named
+      character(len=:), allocatable, intent(inout) :: ending
+      type(error_type), allocatable, intent(inout) :: error
+      associate (value => named%values(1))
+         if (size(named%values) == 1 .and. named%subscript == 0 .and. value%quoted &
+            & .and. is_name(lower_case(value%text))) then
+            ending = of_bearing(lower_case(value%text))
+         else
+            call raise(error, input_error, named%origin//': '//assignment_text(named)//': must be one name in quotes, ' &
+               & //'of at most '//to_text(longest_bearing)//' letters, digits and underscores behind a letter')
+         end if
+      end associate
+   end subroutine read_bearing
 
    !> Reads a group from behind its name to behind its end.
    subroutine parse_group(scan, group, assignments, error)
@@ -157,7 +212,7 @@ contains
       found = lower_case(scan%word())
       call split_subscript(found, new%name, new%subscript, ok)
       allowed = name_characters
-      if (new%group == study_group) allowed = name_characters//'%'
+      if (new%group == study_group) allowed = name_characters//'%:()'
       call scan%skip_blank('')
       call require(ok .and. len(new%name) > 0 .and. verify(new%name, allowed) == 0 .and. scan%peek() == '=', &
          & new%origin//': '''//shortened(found)//''' in group &'//new%group//': expected name = value', error)

@@ -5,7 +5,8 @@ module namelist_writer
    use case_inputs, only: case_type
    use assignments, only: token_type, value_text
    use variable_table, only: variable_type, variable_table_type, logical_words
-   use case_fields, only: list_variables
+   use machine_names, only: group_heading
+   use case_fields, only: list_variables, list_all_variables
    implicit none (type, external)
    private
    public :: namelist_of, lines_of, group_start, reference_text
@@ -38,7 +39,7 @@ contains
          if (table%variables(i - 1)%group == table%variables(i)%group) return
          text = '/'//newline
       end if
-      text = text//'&'//table%variables(i)%group//newline
+      text = text//group_heading(table%variables(i)%group)
    end function group_start
 
    !> "  name = value", or a line for each element that is set where not all are, each with a mark behind it.
@@ -102,7 +103,7 @@ contains
       integer :: i
       inputs = case_type()
       inputs%operation%final_speed_rpm = unset
-      call list_variables(inputs, table)
+      call list_all_variables(inputs, table)
       text = ''
       do i = 1, table%count
          associate (v => table%variables(i))
@@ -128,7 +129,7 @@ contains
          if (allowed == '') allowed = 'any text'
       else
          default = ''
-         do i = 1, merge(1, size(v%values), v%of_pads)
+         do i = 1, merge(1, size(v%values), v%each /= '')
             if (i > 1) default = default//', '
             if (.not. is_set(v%values(i))) then
                default = default//'-'

@@ -6,9 +6,10 @@ module study_table
    use errors, only: error_type, raise, input_error
    use case_inputs, only: case_type
    use variable_table, only: variable_table_type
-   use case_fields, only: list_variables
+   use case_fields, only: list_all_variables
    use variable_names, only: meant_variable, meant_group, group_names
    use assignments, only: assignment_type, token_type, target_text, split_subscript
+   use machine_names, only: kind_of
    use text_scanner, only: control_character
    use csv_line, only: cell_type, next_cell, content
    use input_file, only: read_input
@@ -180,7 +181,7 @@ contains
       type(assignment_type) :: new
       type(cell_type) :: cell
       integer :: at, variable
-      call list_variables(case_type(), known)
+      call list_all_variables(case_type(), known)
       allocate (table%columns(0), table%is_text(0))
       at = 1
       do while (at <= len(line) + 1)
@@ -216,11 +217,11 @@ contains
       else if (.not. ok .or. new%group == '' .or. new%name == '' .or. index(name, ' ') > 0) then
          fault = ''''//shortened(name)//''': expected a variable, group%name or group%name(element)' &
             & //meant_variable('', new%name)
-      else if (all([(known%variables(i)%group /= new%group, i=1, known%count)])) then
-         fault = 'unknown group '//shortened(new%group)//meant_group(new%group)//'; known:'//group_names()
+      else if (all([(known%variables(i)%group /= kind_of(new%group), i=1, known%count)])) then
+         fault = 'unknown group '//shortened(new%group)//meant_group(kind_of(new%group))//'; known:'//group_names()
       else
-         variable = known%find(new%group, new%name)
-         if (variable == 0) fault = 'unknown variable '//shortened(name)//meant_variable(new%group, new%name)
+         variable = known%find(kind_of(new%group), new%name)
+         if (variable == 0) fault = 'unknown variable '//shortened(name)//meant_variable(kind_of(new%group), new%name)
       end if
    end subroutine read_name
 end module study_table

@@ -3,7 +3,7 @@ module variable_names
    use text, only: find_similar, did_you_mean
    use case_inputs, only: case_type
    use variable_table, only: variable_table_type
-   use case_fields, only: list_variables
+   use case_fields, only: list_all_variables
    implicit none (type, external)
    private
    public :: group_names, names_in, meant_variable, meant_group, meant_word
@@ -24,7 +24,7 @@ contains
       character(len=:), allocatable :: names
       type(variable_table_type) :: table
       integer :: i
-      call list_variables(case_type(), table)
+      call list_all_variables(case_type(), table)
       names = ''
       do i = 1, table%count
          associate (v => table%variables(i))
@@ -39,7 +39,7 @@ contains
       character(len=:), allocatable :: names
       type(variable_table_type) :: table
       integer :: i
-      call list_variables(case_type(), table)
+      call list_all_variables(case_type(), table)
       names = ''
       do i = 1, table%count
          associate (v => table%variables(i))

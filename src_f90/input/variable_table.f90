@@ -10,8 +10,8 @@ module variable_table
 
    !> The words of a variable that is true or false.
    character(len=*), parameter :: logical_words = '.true. .false.'
-   !> Room in a table, for variables.
-   integer, parameter :: room = 200
+   !> Room in a table for variables, which is doubled where it is too small.
+   integer, parameter :: first_room = 200
 
    type :: variable_type
       character(len=:), allocatable :: group, name
@@ -27,8 +27,10 @@ module variable_table
       logical :: whole = .false.
       !> Whether it is not set in the case that the table was filled from.
       logical :: may_be_unset = .false.
-      !> Whether there is one value for each pad, and whether the list may have any length, up to the most values.
-      logical :: of_pads = .false., any_length = .false.
+      !> Whether the list may have any length, up to the most values, and whether it tells how many values the lists
+      !> behind it have that have one each; of these what has one, "pads", else empty.
+      logical :: any_length = .false., counts = .false.
+      character(len=:), allocatable :: each
       integer :: most = 1
    contains
       procedure :: range_text
@@ -42,19 +44,23 @@ module variable_table
       !> The variable just seen, and its group.
       integer, private :: at = 0
       character(len=:), allocatable, private :: this_group, group_meaning
+      !> What stands behind the names of groups.
+      character(len=:), allocatable, private :: ending
    contains
       procedure :: begin
       procedure :: find
       !> The next variable or group of the list.
+      procedure :: behind_group
       procedure :: group
       procedure :: word
       procedure :: flag
       procedure :: whole
       procedure :: number
       procedure :: numbers
-      procedure :: per_pad
+      procedure :: each
       procedure :: list
       procedure, private :: next
+      procedure, private :: enlarge
    end type variable_table_type
 
 contains
@@ -65,9 +71,10 @@ contains
       logical, intent(in) :: filled
       self%filled = filled
       self%at = 0
+      self%ending = ''
       if (filled) return
       if (allocated(self%variables)) deallocate (self%variables)
-      allocate (self%variables(room))
+      allocate (self%variables(first_room))
       self%count = 0
    end subroutine begin
 
@@ -80,10 +87,17 @@ contains
       end do
    end function find
 
+   !> The names of the groups to come have this ending, which tells them from others of their kind.
+   subroutine behind_group(self, ending)
+      class(variable_table_type), intent(inout) :: self
+      character(len=*), intent(in) :: ending
+      self%ending = ending
+   end subroutine behind_group
+
    subroutine group(self, name, meaning)
       class(variable_table_type), intent(inout) :: self
       character(len=*), intent(in) :: name, meaning
-      self%this_group = name
+      self%this_group = name//self%ending
       self%group_meaning = meaning
    end subroutine group
 
@@ -94,6 +108,7 @@ contains
       self%at = self%at + 1
       new = .not. self%filled
       if (.not. new) return
+      if (self%at > size(self%variables)) call self%enlarge()
       self%count = self%at
       associate (v => self%variables(self%at))
          v%group = self%this_group
@@ -101,8 +116,21 @@ contains
          v%name = name
          v%meaning = meaning
          v%unit = '1'
+         v%each = ''
       end associate
    end function next
+
+   !> Twice the room.
+   subroutine enlarge(self)
+      class(variable_table_type), intent(inout) :: self
+      type(variable_type), allocatable :: more(:)
+      integer :: i
+      allocate (more(2*size(self%variables)))
+      do i = 1, self%count
+         more(i) = self%variables(i)
+      end do
+      call move_alloc(more, self%variables)
+   end subroutine enlarge
 
    !> A text: one of the words in `choices`, or any text where `choices` is empty.
    subroutine word(self, value, name, choices, meaning)
@@ -180,29 +208,34 @@ contains
       value = nint(x)
    end subroutine whole
 
-   !> A list of reals of any length up to `most`.
-   subroutine list(self, values, most, name, low, high, unit, meaning)
+   !> A list of reals of any length up to `most`. With `counts` the lists behind it that have one value each have as
+   !> many.
+   subroutine list(self, values, most, name, low, high, unit, meaning, counts)
       class(variable_table_type), intent(inout) :: self
       real(wp), allocatable, intent(inout) :: values(:)
       integer, intent(in) :: most
       real(wp), intent(in) :: low, high
       character(len=*), intent(in) :: name, unit, meaning
+      logical, intent(in), optional :: counts
       if (self%filled) values = self%variables(self%at + 1)%values
       call self%numbers(values, name, low, high, unit, meaning)
-      self%variables(self%at)%any_length = .true.
-      self%variables(self%at)%most = most
+      associate (v => self%variables(self%at))
+         v%any_length = .true.
+         v%most = most
+         if (present(counts)) v%counts = counts
+      end associate
    end subroutine list
 
-   !> One real for each pad.
-   subroutine per_pad(self, values, name, low, high, unit, meaning)
+   !> One real for each of what the list before it has counted: for each of the pads.
+   subroutine each(self, values, things, name, low, high, unit, meaning)
       class(variable_table_type), intent(inout) :: self
       real(wp), allocatable, intent(inout) :: values(:)
       real(wp), intent(in) :: low, high
-      character(len=*), intent(in) :: name, unit, meaning
+      character(len=*), intent(in) :: things, name, unit, meaning
       call self%list(values, size(values), name, low, high, unit, meaning)
       self%variables(self%at)%any_length = .false.
-      self%variables(self%at)%of_pads = .true.
-   end subroutine per_pad
+      self%variables(self%at)%each = things
+   end subroutine each
 
    !> The allowed numbers: "0 to 1".
    pure function range_text(self) result(string)

@@ -219,6 +219,11 @@ contains
       integer :: i
       call list_variables(ours, here)
       call list_variables(found%inputs, there)
+      if (.not. same_variables(here, there)) then
+         call raise(error, system_error, path//': is the result of another case; there it has other groups of a ' &
+            & //'machine (tiltpad --check --resume '//path//' prints it)')
+         return
+      end if
       do i = 1, here%count
          associate (v => here%variables(i), w => there%variables(i))
             if (lines_of(v, '') == lines_of(w, '') .or. v%group//'%'//v%name == checkpoint_variable) cycle
@@ -237,6 +242,17 @@ contains
             & //replaced(found%tag%study, newline, ', ')//' there, '//replaced(tag%study, newline, ', ')//' here')
       end if
    end subroutine refuse_other_case
+
+   !> Whether two cases have the same variables, whatever their values.
+   pure logical function same_variables(here, there) result(same)
+      type(variable_table_type), intent(in) :: here, there
+      integer :: i
+      same = here%count == there%count
+      do i = 1, here%count
+         if (same) same = here%variables(i)%group == there%variables(i)%group &
+            & .and. here%variables(i)%name == there%variables(i)%name
+      end do
+   end function same_variables
 
    !> The value of a variable, on one line.
    pure function value_of(v) result(value)

@@ -6,7 +6,8 @@ module study_parameters
    use assignments, only: assignment_type, token_type, target_text
    use case_inputs, only: case_type
    use variable_table, only: variable_table_type
-   use case_fields, only: list_variables
+   use case_fields, only: list_all_variables
+   use machine_names, only: kind_of, identifier_of
    use parameter_study, only: study_type
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type, most_rows
@@ -29,7 +30,7 @@ module study_parameters
 contains
 
    !> The parameters of a study, the slowest first. A name that another group or another dataset has, too, gets its
-   !> group before it.
+   !> group before it, and so does every name in a group of which there are several.
    function parameters_of(study) result(found)
       type(study_type), intent(in) :: study
       type(parameter_type), allocatable :: found(:)
@@ -37,7 +38,7 @@ contains
       type(assignment_type), allocatable :: targets(:)
       character(len=:), allocatable :: names, suffix
       integer :: i
-      call list_variables(case_type(), table)
+      call list_all_variables(case_type(), table)
       targets = study%variables()
       names = taken
       do i = 1, size(targets)
@@ -46,12 +47,13 @@ contains
       allocate (found(size(targets)))
       do i = 1, size(targets)
          associate (own => found(i), target => targets(i), &
-            & variable => table%variables(table%find(targets(i)%group, targets(i)%name)))
+            & variable => table%variables(table%find(kind_of(targets(i)%group), targets(i)%name)))
             own%variable = target_text(target)
             own%name = short_name(target)
             own%long_name = in_words(target%name)
-            if (index(names, ' '//own%name//' ') /= index(names, ' '//own%name//' ', back=.true.)) then
-               own%name = target%group//'_'//own%name
+            if (kind_of(target%group) /= target%group &
+               & .or. index(names, ' '//own%name//' ') /= index(names, ' '//own%name//' ', back=.true.)) then
+               own%name = identifier_of(target%group)//'_'//own%name
                own%long_name = own%long_name//' ('//target%group//')'
             end if
             suffix = ''
@@ -61,7 +63,7 @@ contains
             own%units = in_symbols(variable%unit)
             if (own%is_text) then
                own%units = ''
-               own%long_name = singular(target%group)//' '//own%long_name
+               own%long_name = singular(kind_of(target%group))//' '//own%long_name
             end if
          end associate
       end do

@@ -1,0 +1,128 @@
+!> Checks of a machine: what no single value of its shaft and of what stands on it or under it can tell. A message names
+!> the group, its variables, their values and what is allowed.
+module machine_checks
+   use text, only: to_text
+   use errors, only: error_type, require, refuse
+   use case_groups, only: is_set
+   use case_inputs, only: case_type
+   use machine_groups, only: machine_type, shaft_type, most_stations
+   implicit none (type, external)
+   private
+   public :: check_machine
+
+contains
+
+   !> Raises an error for the first requirement that a machine does not meet.
+   subroutine check_machine(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      associate (machine => inputs%machine, s => inputs%start, q => inputs%coefficients%cross_stiffness)
+         call check_shaft(machine, error)
+         call check_bearings(machine, error)
+         call check_parts(machine, error)
+         call check_supports(machine, error)
+         call require(s%from == 'equilibrium' .or. s%from == 'file', 'start%from = '''//s%from//''': must be ' &
+            & //'''equilibrium'' or ''file'' for a machine', error)
+         if (abs(q) > 0) call refuse('coefficients%cross_stiffness = '//to_text(q)//': must be 0 for a machine', error)
+      end associate
+   end subroutine check_machine
+
+   !> A shaft or a rotor from a file, and every section a tube.
+   subroutine check_shaft(machine, error)
+      type(machine_type), intent(in) :: machine
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i
+      associate (shaft => machine%shaft)
+         if (.not. shaft%is_given()) then
+            call require(machine%rotor_file /= '', 'shaft%length: must be given, the lengths of the shaft''s ' &
+               & //'sections; or rotor%file, the matrices of a rotor', error)
+            return
+         end if
+         call require(machine%rotor_file == '', 'rotor%file = '''//machine%rotor_file//''': shaft%length is given ' &
+            & //'too; give one of them', error)
+         call require(all(is_set(shaft%length)), 'shaft%length: every section needs one', error)
+         call require(all(is_set(shaft%diameter)), 'shaft%diameter: must be given, of each of the '// &
+            & to_text(size(shaft%length))//' sections', error)
+         do i = 1, size(shaft%length)
+            if (.not. shaft%bore(i) < shaft%diameter(i)) call refuse('shaft%bore = '//to_text(shaft%bore(i)) &
+               & //': must be below shaft%diameter = '//to_text(shaft%diameter(i))//' (section '//to_text(i)//')', &
+               & error)
+         end do
+      end associate
+   end subroutine check_shaft
+
+   !> Enough bearings, each at a station of its own.
+   subroutine check_bearings(machine, error)
+      type(machine_type), intent(in) :: machine
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: b, c
+      associate (bearings => machine%bearings)
+         if (size(bearings) < 2) call refuse('a machine has '//to_text(size(bearings))//' groups &bearing with a ' &
+            & //'name; it needs two or more, as one bearing does not hold a shaft against tilting', error)
+         do b = 1, size(bearings)
+            call check_station('bearing:'//bearings(b)%name, bearings(b)%station, machine, error)
+            do c = 1, b - 1
+               if (bearings(b)%station == bearings(c)%station) call refuse('bearing:'//bearings(b)%name//'%station = ' &
+                  & //to_text(bearings(b)%station)//': is that of bearing '''//bearings(c)%name//''' already', error)
+            end do
+         end do
+      end associate
+   end subroutine check_bearings
+
+   !> What is on the shaft is at its stations.
+   subroutine check_parts(machine, error)
+      type(machine_type), intent(in) :: machine
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i
+      do i = 1, size(machine%discs)
+         associate (disc => machine%discs(i))
+            call check_station('disc('//to_text(i)//')', disc%station, machine, error)
+            ! the moments of inertia of any body
+            if (.not. disc%polar_inertia <= 2*disc%diametral_inertia) call refuse('disc('//to_text(i) &
+               & //')%polar_inertia = '//to_text(disc%polar_inertia)//': must be at most twice diametral_inertia = ' &
+               & //to_text(disc%diametral_inertia), error)
+         end associate
+      end do
+      do i = 1, size(machine%unbalances)
+         call check_station('unbalance('//to_text(i)//')', machine%unbalances(i)%station, machine, error)
+      end do
+      do i = 1, size(machine%loads)
+         call check_station('load('//to_text(i)//')', machine%loads(i)%station, machine, error)
+      end do
+   end subroutine check_parts
+
+   !> A support holds the bearing.
+   subroutine check_supports(machine, error)
+      type(machine_type), intent(in) :: machine
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: b
+      do b = 1, size(machine%bearings)
+         if (.not. allocated(machine%bearings(b)%support)) cycle
+         associate (k => machine%bearings(b)%support%stiffness, name => machine%bearings(b)%name)
+            if (.not. all(is_set(k))) then
+               call refuse('support:'//name//'%stiffness: must be given, along y and z', error)
+            else if (.not. all(k > 0)) then
+               call refuse('support:'//name//'%stiffness = '//to_text(minval(k))//': must be above 0 along y and z', &
+                  & error)
+            end if
+         end associate
+      end do
+   end subroutine check_supports
+
+   !> Refuses a station that is left out or that the shaft does not have.
+   subroutine check_station(group, station, machine, error)
+      character(len=*), intent(in) :: group
+      integer, intent(in) :: station
+      type(machine_type), intent(in) :: machine
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: last
+      last = machine%station_count()
+      if (last == 0) last = most_stations
+      if (station == 0) then
+         call refuse(group//'%station: must be given, 1 to '//to_text(last), error)
+      else if (station > last) then
+         call refuse(group//'%station = '//to_text(station)//': must be 1 to '//to_text(last)//', the stations of the ' &
+            & //'shaft, of which there is one more than sections', error)
+      end if
+   end subroutine check_station
+end module machine_checks

@@ -1,0 +1,191 @@
+!> Which groups of a machine a case has: shaft, discs, bearings with their names. And what groups without a bearing's
+!> name say of all bearings.
+module machine_structure
+   use text, only: to_text, did_you_mean
+   use errors, only: error_type, raise, refuse, input_error
+   use case_inputs, only: case_type
+   use machine_groups, only: machine_type, most_bearings
+   use assignments, only: namelist_type, assignment_type, undoes
+   use machine_names, only: counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, &
+      & naming_variable
+   implicit none (type, external)
+   private
+   public :: make_machine, give_to_bearings
+
+   !> Groups that only a machine has, and the variable of another group.
+   character(len=*), parameter :: of_machine = ' shaft disc unbalance load support reduction '
+   character(len=*), parameter :: file_variable = 'rotor%file'
+
+contains
+
+   !> Gives a case its machine, with default values, where its namelist has groups of one.
+   subroutine make_machine(parsed, inputs, error)
+      type(namelist_type), intent(in) :: parsed
+      type(case_type), intent(inout) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i, b
+      if (.not. has_machine(parsed)) return
+      associate (groups => parsed%groups)
+         allocate (inputs%machine)
+         call inputs%machine%begin(count_of('bearing:'), count_of('disc('), count_of('unbalance('), count_of('load('))
+         if (size(inputs%machine%bearings) > most_bearings) call refuse(to_text(size(inputs%machine%bearings)) &
+            & //' groups &bearing with names; a machine has at most '//to_text(most_bearings)//' bearings', error)
+         b = 0
+         do i = 1, size(groups)
+            if (index(groups(i)%group, 'bearing:') /= 1) cycle
+            b = b + 1
+            inputs%machine%bearings(b)%name = bearing_of(groups(i)%group)
+            call inputs%set_bearing(b, inputs)
+         end do
+         do i = 1, size(groups)
+            if (kind_of(groups(i)%group) == 'support') call put_support(bearing_of(groups(i)%group), inputs%machine)
+         end do
+         do i = 1, size(groups)
+            call look_at(groups(i), inputs%machine, error)
+         end do
+      end associate
+      do i = 1, size(parsed%assignments)
+         call look_at(parsed%assignments(i), inputs%machine, error)
+      end do
+   contains
+      pure integer function count_of(beginning)
+         character(len=*), intent(in) :: beginning
+         integer :: k
+         count_of = count([(index(parsed%groups(k)%group, beginning) == 1, k=1, size(parsed%groups))])
+      end function count_of
+   end subroutine make_machine
+
+   !> Whether a namelist has a group or variable that only a machine has.
+   pure logical function has_machine(parsed)
+      type(namelist_type), intent(in) :: parsed
+      integer :: i
+      has_machine = .true.
+      do i = 1, size(parsed%groups)
+         if (is_of_machine(parsed%groups(i)%group)) return
+      end do
+      do i = 1, size(parsed%assignments)
+         associate (a => parsed%assignments(i))
+            if (is_of_machine(a%group) .or. a%group//'%'//a%name == file_variable) return
+         end associate
+      end do
+      has_machine = .false.
+   end function has_machine
+
+   pure logical function is_of_machine(group)
+      character(len=*), intent(in) :: group
+      is_of_machine = index(group, ':') > 0 .or. index(of_machine, ' '//kind_of(group)//' ') > 0
+   end function is_of_machine
+
+   !> Puts the bearing of this name on a support; without a name all of them.
+   subroutine put_support(name, machine)
+      character(len=*), intent(in) :: name
+      type(machine_type), intent(inout) :: machine
+      integer :: b
+      do b = 1, size(machine%bearings)
+         if (allocated(machine%bearings(b)%support)) cycle
+         if (name == '' .or. name == machine%bearings(b)%name) allocate (machine%bearings(b)%support)
+      end do
+   end subroutine put_support
+
+   !> Refuses a group or an assignment of what the machine does not have.
+   subroutine look_at(a, machine, error)
+      type(assignment_type), intent(in) :: a
+      type(machine_type), intent(in) :: machine
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: kind, name, names
+      integer :: b
+      if (allocated(error)) return
+      kind = kind_of(a%group)
+      name = bearing_of(a%group)
+      if (is_counted(kind)) call look_at_number(a, kind, machine, error)
+      if (name == '') return
+      b = machine%find_bearing(name)
+      if (b == 0) then
+         names = ''
+         do b = 1, size(machine%bearings)
+            names = names//' '//machine%bearings(b)%name
+         end do
+         if (names == '') names = ' none'
+         call raise(error, input_error, a%origin//': &'//kind//' '//naming_variable(kind)//' = '''//name &
+            & //''': there is no group &bearing of this name'//did_you_mean(name, names)//'; there are:'//names)
+      else if (kind == 'support' .and. .not. allocated(machine%bearings(b)%support)) then
+         call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': the case has no group &support of ' &
+            & //'this bearing')
+      end if
+   end subroutine look_at
+
+   !> Refuses the number of a group that there are fewer of.
+   subroutine look_at_number(a, kind, machine, error)
+      type(assignment_type), intent(in) :: a
+      character(len=*), intent(in) :: kind
+      type(machine_type), intent(in) :: machine
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: number, i
+      select case (kind)
+      case ('disc')
+         number = size(machine%discs)
+      case ('unbalance')
+         number = size(machine%unbalances)
+      case default
+         number = size(machine%loads)
+      end select
+      do i = 1, number
+         if (a%group == kind//counted(i)) return
+      end do
+      if (number == 0) then
+         call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': the case has no group &'//kind)
+      else
+         call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': must be '//kind//counted(1)//'%' &
+            & //a%name//' to '//kind//counted(number)//'%'//a%name//', the groups &'//kind//' of the case')
+      end if
+   end subroutine look_at_number
+
+   !> The assignments of a machine, where those to a group of all bearings are one to each: those of the case before the
+   !> bearings' own, which take their place, those of --set in the order in which they are given.
+   subroutine give_to_bearings(parsed, machine, given)
+      type(namelist_type), intent(in) :: parsed
+      type(machine_type), intent(in) :: machine
+      type(namelist_type), intent(out) :: given
+      type(assignment_type), allocatable :: longer(:)
+      type(assignment_type) :: own
+      logical :: defaults(size(parsed%assignments)), general(size(parsed%assignments))
+      integer :: pass, k, b, n
+      general = [(may_have_bearing(parsed%assignments(k)%group), k=1, size(general))]
+      defaults = general .and. .not. parsed%assignments%overrides
+      given%file = parsed%file
+      given%groups = parsed%groups
+      allocate (longer(size(general) + count(general)*max(0, size(machine%bearings) - 1)))
+      n = 0
+      do pass = 1, 2
+         do k = 1, size(general)
+            if (defaults(k) .neqv. pass == 1) cycle
+            do b = 1, merge(size(machine%bearings), 1, general(k))
+               own = parsed%assignments(k)
+               if (general(k)) own%group = own%group//of_bearing(machine%bearings(b)%name)
+               own%of_all = defaults(k)
+               if (is_undone(own, k)) cycle
+               n = n + 1
+               longer(n) = own
+            end do
+         end do
+      end do
+      ! one by one, as the compiler forgets to free what a constructor copies
+      allocate (given%assignments(n))
+      do k = 1, n
+         given%assignments(k) = longer(k)
+      end do
+   contains
+      !> Whether what follows gives all of it another value.
+      pure logical function is_undone(own, k)
+         type(assignment_type), intent(in) :: own
+         integer, intent(in) :: k
+         integer :: i
+         is_undone = .false.
+         if (.not. general(k)) return
+         do i = 1, size(parsed%assignments)
+            is_undone = undoes(parsed%assignments(i), own) .and. (i > k .or. defaults(k))
+            if (is_undone) return
+         end do
+      end function is_undone
+   end subroutine give_to_bearings
+end module machine_structure
