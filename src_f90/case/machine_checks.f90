@@ -121,8 +121,8 @@ contains
       if (station == 0) then
          call refuse(group//'%station: must be given, 1 to '//to_text(last), error)
       else if (station > last) then
-         call refuse(group//'%station = '//to_text(station)//': must be 1 to '//to_text(last)//', the stations of the ' &
-            & //'shaft, of which there is one more than sections', error)
+         call refuse(group//'%station = '//to_text(station)//': must be 1 to '//to_text(last)//', the stations of ' &
+            & //'the shaft, of which there is one more than sections', error)
       end if
    end subroutine check_station
 end module machine_checks

@@ -146,7 +146,8 @@ contains
          end if
          first = parameter%value(inputs)
          if (b%of == 'equilibrium' .and. (any(kind_of(parameter%group) == [character(len=9) :: 'friction', &
-            & 'unbalance']) .or. parameter%variable == 'unbalance' .or. index(parameter%variable, 'balance_') == 1)) then
+            & 'unbalance']) .or. parameter%variable == 'unbalance' &
+            & .or. index(parameter%variable, 'balance_') == 1)) then
             call raise(error, input_error, 'branch%parameter = '''//b%parameter &
                & //''': has no effect on equilibria, which are without friction and unbalance')
          end if

@@ -3,7 +3,7 @@ module variable_names
    use text, only: find_similar, did_you_mean
    use case_inputs, only: case_type
    use variable_table, only: variable_table_type
-   use case_fields, only: list_all_variables
+   use case_fields, only: list_variables, list_all_variables
    implicit none (type, external)
    private
    public :: group_names, names_in, meant_variable, meant_group, meant_word
@@ -33,13 +33,19 @@ contains
       end do
    end function group_names
 
-   !> The variables of a group, each with a blank before it; of all groups, as group%name, where it is empty.
-   function names_in(group) result(names)
+   !> The variables of a group, each with a blank before it; of all groups, as group%name, where it is empty. Those of
+   !> machines are left out if `rigid` is there.
+   function names_in(group, rigid) result(names)
       character(len=*), intent(in) :: group
+      logical, intent(in), optional :: rigid
       character(len=:), allocatable :: names
       type(variable_table_type) :: table
       integer :: i
-      call list_all_variables(case_type(), table)
+      if (present(rigid)) then
+         call list_variables(case_type(), table)
+      else
+         call list_all_variables(case_type(), table)
+      end if
       names = ''
       do i = 1, table%count
          associate (v => table%variables(i))
@@ -58,7 +64,9 @@ contains
       text = new_name(group//'%'//name)
       if (text /= '') return
       call find_similar(name, names_in(group), own, own_score)
-      call find_similar(name, names_in(''), other, other_score)
+      ! a machine has many names several times
+      call find_similar(name, names_in('', rigid=.true.), other, other_score)
+      if (other == '') call find_similar(name, names_in(''), other, other_score)
       if (own /= '' .and. own_score <= other_score) other = own
       if (other /= '') text = ' (did you mean '//other//'?)'
    end function meant_variable

@@ -11,8 +11,8 @@ module mode_selection
    private
    public :: mode_selection_type, select_modes, mode_damping
 
-   !> Modes kept in a plane, and errors of amplitudes at the highest speed, relative to the largest one: of leaving out the others, and of
-   !> damping those above `reduction%damp_above`.
+   !> Modes kept in a plane, and errors of amplitudes at the highest speed, relative to the largest one: of leaving out
+   !> the others, and of damping those above `reduction%damp_above`.
    type :: mode_selection_type
       integer :: modes = 0
       real(wp) :: truncation_error = 0, damping_error = 0
@@ -61,8 +61,8 @@ contains
 
    !> Vibration q exp(rate*t) of a rotor at a speed, rad/s: the loads are its mass along y, as of an even eccentricity,
    !> and its unbalances. Amplitudes are those of journals and discs: a force in between also deflects the shaft
-   !> just where it acts, which takes many modes. The bearings are springs and dampers that resist the journals as much as
-   !> the rotor itself does, where both matter most.
+   !> just where it acts, which takes many modes. The bearings are springs and dampers that resist the journals as
+   !> much as the rotor itself does, where both matter most.
    function response_problem(machine, component, fixed, border, speed, rate) result(problem)
       type(machine_type), intent(in) :: machine
       type(rotor_component_type), intent(in) :: component
