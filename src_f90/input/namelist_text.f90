@@ -154,8 +154,8 @@ contains
             & .and. is_name(lower_case(value%text))) then
             ending = of_bearing(lower_case(value%text))
          else
-            call raise(error, input_error, named%origin//': '//assignment_text(named)//': must be one name in quotes, of ' &
-               & //'at most '//to_text(longest_bearing)//' letters, digits and underscores behind a letter')
+            call raise(error, input_error, named%origin//': '//assignment_text(named)//': must be one name in ' &
+               & //'quotes, of at most '//to_text(longest_bearing)//' letters, digits and underscores behind a letter')
          end if
       end associate
    end subroutine read_bearing
