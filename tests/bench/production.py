@@ -73,7 +73,8 @@ def runs(runner: Runner) -> Iterator[Row]:
         yield Row(runner.part, "sweep", STUDY, setting, wall_seconds=seconds)
     collect = Path(sys.executable).with_name("tiltpad-collect")
     started = time.perf_counter()
-    done = subprocess.run([collect, "study", "-o", "collected.h5"], cwd=folder, text=True, capture_output=True)
+    words = [collect, "study", "-o", "collected.h5"]
+    done = subprocess.run(words, cwd=folder, text=True, capture_output=True)
     seconds = time.perf_counter() - started
     if done.returncode:
         raise RuntimeError(done.stderr)
