@@ -5,7 +5,7 @@ module machine_checks
    use errors, only: error_type, require, refuse
    use case_groups, only: is_set
    use case_inputs, only: case_type
-   use machine_groups, only: machine_type, shaft_type, most_stations
+   use machine_groups, only: machine_type, most_stations
    implicit none (type, external)
    private
    public :: check_machine
