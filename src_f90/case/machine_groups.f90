@@ -88,7 +88,7 @@ module machine_groups
 
 contains
 
-   !> A machine of so many parts, of which nothing is given yet.
+   !> A machine of this number of parts, of which nothing is given yet.
    subroutine begin(self, bearings, discs, unbalances, loads)
       class(machine_type), intent(out) :: self
       integer, intent(in) :: bearings, discs, unbalances, loads
