@@ -9,7 +9,8 @@ module equilibrium_notes
    use equilibrium_results, only: put_equilibrium, put_stability, put_figures, put_temperatures
    use machine_results, only: put_machine_equilibrium
    use case_run, only: case_run_type
-   use run_summary, only: print_shaft, print_equilibrium, stability_text, print_figures, print_temperatures, bearing_title
+   use run_summary, only: print_shaft, print_equilibrium, stability_text, print_figures, print_temperatures, &
+      & bearing_title
    implicit none (type, external)
    private
    public :: note_equilibrium
