@@ -6,6 +6,7 @@ program test_revolution_figures
    use errors, only: error_type
    use case_inputs, only: case_type
    use run_file, only: run_file_type
+   use bearing_file, only: bearing_file_type, new_bearing_file
    use revolution_figures, only: put_revolutions
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, expect_no_error, report
@@ -40,7 +41,8 @@ contains
       character(len=*), intent(in) :: text
       real(wp), intent(in) :: angle(:)
       integer, intent(in) :: most
-      type(run_file_type), intent(out) :: file
+      type(run_file_type), intent(out), target :: file
+      type(bearing_file_type) :: bearing
       type(case_type) :: inputs
       type(error_type), allocatable :: error
       real(wp) :: values(2 + pads)
@@ -59,7 +61,8 @@ contains
          values = motion(angle(i))
          call file%add([angle(i), values(:width)])
       end do
-      call put_revolutions(file, inputs, size(angle), most)
+      bearing = new_bearing_file(file, inputs, 1)
+      call put_revolutions(bearing, inputs, size(angle), most)
    end subroutine make
 
    !> A list, as many values for each revolution as it has.
