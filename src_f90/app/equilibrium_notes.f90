@@ -6,11 +6,11 @@ module equilibrium_notes
    use heat_balance_equations, only: static_figures_type, find_static_figures
    use bearings_alone, only: bearing_alone, part_of, bearing_loads
    use bearing_file, only: bearing_file_type
-   use equilibrium_results, only: put_equilibrium, put_stability, put_figures, put_temperatures
+   use equilibrium_results, only: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures
    use machine_results, only: put_machine_equilibrium
    use case_run, only: case_run_type
    use run_summary, only: print_shaft, print_equilibrium, stability_text, print_figures, print_temperatures, &
-      & bearing_title
+      & print_misalignment, bearing_title
    implicit none (type, external)
    private
    public :: note_equilibrium
@@ -38,8 +38,26 @@ contains
       do b = 1, size(loads, 2)
          call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, &
             & bearing_title(run%inputs, b, loads(:, b)))
+         call note_misalignment(run, static, b)
       end do
    end subroutine note_equilibrium
+
+   !> What the slope of the shaft in bearing b of a machine does to its films, which leave it out.
+   subroutine note_misalignment(run, static, b)
+      type(case_run_type), intent(inout) :: run
+      type(equilibrium_type), intent(in) :: static
+      integer, intent(in) :: b
+      type(bearing_file_type) :: file
+      real(wp) :: slopes(2, run%model%rotor%stations), slope, misalignment
+      file = run%bearing(b)
+      slopes = run%model%rotor%station_slopes(static%rotor)
+      associate (of => run%inputs%machine%bearings(b), bearing => run%model%layout%bearings(b))
+         slope = norm2(slopes(:, of%station))
+         misalignment = slope*of%bearing%axial_length/2/minval(static%min_film_thickness(bearing%all_pads()))
+      end associate
+      call put_misalignment(file, misalignment)
+      if (.not. run%quiet) call print_misalignment(slope, misalignment)
+   end subroutine note_misalignment
 
    !> Bearing b, of this model of it alone; `title` begins its first line.
    subroutine note_bearing(run, model, static, b, title)

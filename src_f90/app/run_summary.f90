@@ -16,7 +16,7 @@ module run_summary
    implicit none (type, external)
    private
    public :: print_notes, print_shaft, print_stations, print_start, print_equilibrium, stability_text, bearing_title, &
-      & print_figures, print_temperatures
+      & print_misalignment, print_figures, print_temperatures
    public :: print_march, print_cost
 
 contains
@@ -99,6 +99,13 @@ contains
             & //micro(static%min_film_thickness(i))//' um, maximum pressure '//mega(static%max_pressure(i))//' MPa'
       end do
    end subroutine print_equilibrium
+
+   !> What the slope of the shaft in a bearing, rad, changes of its films, as a part of the minimum thickness.
+   subroutine print_misalignment(slope, misalignment)
+      real(wp), intent(in) :: slope, misalignment
+      print '(a)', '  shaft slope '//milli(slope)//' mrad: from the middle to the end of the bearing the films change by ' &
+         & //fixed_text(100*misalignment, 1)//' % of the minimum thickness, which is left out'
+   end subroutine print_misalignment
 
    !> "stable (eigenvalue -69.5 1/s at 64.9 Hz)".
    function stability_text(static) result(text)

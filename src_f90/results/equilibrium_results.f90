@@ -10,7 +10,7 @@ module equilibrium_results
    use summary_group, only: put_figure
    implicit none (type, external)
    private
-   public :: put_equilibrium, put_stability, put_figures, put_temperatures
+   public :: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures
 
 contains
 
@@ -35,6 +35,14 @@ contains
       call put_figure(file, 'equilibrium_max_pressure', maxval(found%max_pressure), 'Pa', &
          & 'maximum pressure at the equilibrium')
    end subroutine put_equilibrium
+
+   !> Writes how much the slope of an elastic shaft in the bearing, which films leave out, changes their thickness.
+   subroutine put_misalignment(file, misalignment)
+      class(record_type), intent(inout) :: file
+      real(wp), intent(in) :: misalignment
+      call put_figure(file, 'misalignment', misalignment, '1', 'part of the minimum film thickness by which the ' &
+         & //'slope of the shaft changes the film from the middle of the bearing to its end')
+   end subroutine put_misalignment
 
    !> Writes how well forces balance at an equilibrium, and whether it is stable.
    subroutine put_stability(file, found)

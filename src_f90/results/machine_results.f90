@@ -149,12 +149,13 @@ contains
       class(record_type), intent(inout) :: file
       class(rotor_type), intent(in) :: rotor
       real(wp), intent(in) :: displacements(:), loads(:, :)
-      real(wp) :: stations(2, rotor%stations), states(rotor%states)
-      states = 0
-      states(:rotor%positions) = displacements
-      stations = rotor%station_displacements(states)
+      real(wp), dimension(2, rotor%stations) :: stations, slopes
+      stations = rotor%station_displacements(displacements)
+      slopes = rotor%station_slopes(displacements)
       call file%put_list('equilibrium/station_y', stations(1, :), 'm', 'shaft displacement, vertical', 'station')
       call file%put_list('equilibrium/station_z', stations(2, :), 'm', 'shaft displacement, horizontal', 'station')
+      call file%put_list('equilibrium/station_slope_y', slopes(1, :), 'rad', 'shaft slope, vertical', 'station')
+      call file%put_list('equilibrium/station_slope_z', slopes(2, :), 'rad', 'shaft slope, horizontal', 'station')
       call file%put_list('equilibrium/bearing_load_y', loads(1, :), 'N', 'load of the rotor on the bearing, vertical', &
          & 'bearing')
       call file%put_list('equilibrium/bearing_load_z', loads(2, :), 'N', &

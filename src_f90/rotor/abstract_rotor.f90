@@ -23,6 +23,7 @@ module abstract_rotor
       procedure(scales), deferred :: scales
       procedure(loads), deferred :: loads
       procedure(station_displacements), deferred :: station_displacements
+      procedure(station_slopes), deferred :: station_slopes
       procedure(force), deferred :: force
       procedure(turn), deferred :: turn
       procedure(accelerations), deferred :: accelerations
@@ -59,6 +60,14 @@ module abstract_rotor
          real(wp), intent(in) :: states(:)
          real(wp) :: displacements(2, self%stations)
       end function station_displacements
+
+      !> Slopes dy/dx and dz/dx of the shaft at the stations, (2, station), in a state.
+      pure function station_slopes(self, states) result(slopes)
+         import :: rotor_type, wp
+         class(rotor_type), intent(in) :: self
+         real(wp), intent(in) :: states(:)
+         real(wp) :: slopes(2, self%stations)
+      end function station_slopes
 
       !> Forces on the displacements in a state at time t, N: all but those of the bearings. In a run-up with the
       !> tangential force of the unbalance.

@@ -21,6 +21,7 @@ module elastic_rotor
       procedure :: scales
       procedure :: loads
       procedure :: station_displacements
+      procedure :: station_slopes
       procedure :: force
       procedure :: turn
       procedure :: accelerations
@@ -85,6 +86,14 @@ contains
       displacements = reshape(matmul(self%matrices%station, states(:self%positions)) &
          & + self%matrices%station_offset, [2, self%stations])
    end function station_displacements
+
+   pure function station_slopes(self, states) result(slopes)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      real(wp) :: slopes(2, self%stations)
+      slopes = reshape(matmul(self%matrices%slope, states(:self%positions)) + self%matrices%slope_offset, &
+         & [2, self%stations])
+   end function station_slopes
 
    !> Part of its unbalances that acts at an operating point.
    pure real(wp) function share(self, point)

@@ -14,6 +14,7 @@ module rigid_journal
       procedure :: scales
       procedure :: loads
       procedure :: station_displacements
+      procedure :: station_slopes
       procedure :: force
       procedure :: turn
       procedure :: accelerations
@@ -58,6 +59,13 @@ contains
       real(wp) :: displacements(2, self%stations)
       displacements = 0
    end function station_displacements
+
+   pure function station_slopes(self, states) result(slopes)
+      class(rigid_journal_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      real(wp) :: slopes(2, self%stations)
+      slopes = 0
+   end function station_slopes
 
    !> Load and unbalance.
    pure function force(self, states, point, t)
