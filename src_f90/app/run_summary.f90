@@ -103,8 +103,8 @@ contains
    !> What the slope of the shaft in a bearing, rad, changes of its films, as a part of the minimum thickness.
    subroutine print_misalignment(slope, misalignment)
       real(wp), intent(in) :: slope, misalignment
-      print '(a)', '  shaft slope '//milli(slope)//' mrad: from the middle to the end of the bearing the films change by ' &
-         & //fixed_text(100*misalignment, 1)//' % of the minimum thickness, which is left out'
+      print '(a)', '  shaft slope '//milli(slope)//' mrad: from the middle to the end of the bearing the films ' &
+         & //'change by '//fixed_text(100*misalignment, 1)//' % of the minimum thickness, which is left out'
    end subroutine print_misalignment
 
    !> "stable (eigenvalue -69.5 1/s at 64.9 Hz)".

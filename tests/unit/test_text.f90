@@ -236,7 +236,8 @@ contains
 
    !> In the group, in another one, without a group, in a group that does not exist.
    subroutine variables()
-      call expect_text_words(names_in('rotor'), ' mass unbalance balance_grade balance_speed_rpm gravity static_load file')
+      call expect_text_words(names_in('rotor'), &
+         & ' mass unbalance balance_grade balance_speed_rpm gravity static_load file')
       call expect_text_words(names_in('roto'), '')
       call expect(index(group_names()//' ', ' case rotor operation bearing ') == 1, 'groups in their order')
       call expect_text_words(meant_variable('operation', 'sped_rpm'), ' (did you mean speed_rpm?)')
