@@ -5,18 +5,16 @@ program test_machines
    use text, only: to_text
    use errors, only: error_type
    use case_inputs, only: case_type
-   use factories, only: converged_films
-   use equations_of_motion, only: machine_model, new_machine_model
+   use equations_of_motion, only: machine_model
    use static_model, only: equilibrium_type, make_static
-   use equilibrium, only: find_equilibrium
    use bearings_alone, only: bearing_loads
    use force_balance, only: forces
    use linear_bearing, only: bearing_coefficients_type
    use rotor_response, only: rotor_response_type, find_rotor_response
    use linear_analysis, only: analyse
-   use marching, only: march_options
-   use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
+   use periodic_orbit, only: periodic_orbit_type
    use machine_cases, only: symmetric_rotor, add_bearing, disc_station
+   use machine_orbits, only: stand, stations, close_orbit, over_orbit
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
@@ -38,26 +36,6 @@ program test_machines
    call report()
 
 contains
-
-   !> Equilibrium of a case, with its model.
-   subroutine stand(inputs, model, found)
-      type(case_type), intent(in) :: inputs
-      type(machine_model), intent(out) :: model
-      type(equilibrium_type), intent(out) :: found
-      type(error_type), allocatable :: error
-      model = new_machine_model(inputs, converged_films)
-      call expect(.not. allocated(model%refusal), 'the rotor has equations')
-      call find_equilibrium(model, found, error)
-      call expect_no_error(error, 'the machine comes to equilibrium')
-   end subroutine stand
-
-   !> Displacements of the stations, um, (2, station).
-   function stations(model, rotor) result(displacements)
-      type(machine_model), intent(in) :: model
-      real(wp), intent(in) :: rotor(:)
-      real(wp) :: displacements(2, model%rotor%stations)
-      displacements = 1e6_wp*model%rotor%station_displacements([rotor, spread(0.0_wp, 1, size(rotor))])
-   end function stations
 
    subroutine statics()
       type(machine_model) :: model
@@ -154,37 +132,6 @@ contains
          end associate
       end do
    end subroutine jacobian
-
-   !> The closed orbit of the machine, at tolerance.
-   subroutine close_orbit(inputs, tolerance, model, found)
-      type(case_type), intent(in) :: inputs
-      real(wp), intent(in) :: tolerance
-      type(machine_model), intent(out), target :: model
-      type(periodic_orbit_type), intent(out) :: found
-      type(equilibrium_type) :: static
-      type(march_options) :: options
-      type(error_type), allocatable :: error
-      call stand(inputs, model, static)
-      options%relative_tolerance = tolerance
-      options%absolute_tolerance = tolerance*model%scale
-      call find_periodic_orbit(model, options, model%static_state(static%rotor, static%tilt, &
-         & static%pivot_deflection), found, error)
-      call expect_no_error(error, 'the orbit is found')
-   end subroutine close_orbit
-
-   !> y and z of a station over an orbit, um, at n even phases from 0.
-   function over_orbit(model, found, station, n) result(path)
-      type(machine_model), intent(in) :: model
-      type(periodic_orbit_type), intent(in) :: found
-      integer, intent(in) :: station, n
-      real(wp) :: path(2, 0:n - 1), all(2, model%rotor%stations), y(model%n)
-      integer :: k
-      do k = 0, n - 1
-         call found%orbit%state_at(found%period*k/n, y)
-         all = stations(model, y(:model%rotor%positions))
-         path(:, k) = all(:, station)
-      end do
-   end function over_orbit
 
    subroutine frictionless_orbit()
       type(machine_model) :: model
