@@ -57,8 +57,8 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       integer :: b, c
       associate (bearings => machine%bearings)
-         if (size(bearings) < 2) call refuse('a machine has '//to_text(size(bearings))//' groups &bearing with a ' &
-            & //'name; it needs two or more, as one bearing does not hold a shaft against tilting', error)
+         if (size(bearings) < 2) call refuse('a machine needs two or more groups &bearing, each with a name; there ' &
+            & //trim(merge('are none', 'is one  ', size(bearings) == 0)), error)
          do b = 1, size(bearings)
             call check_station('bearing:'//bearings(b)%name, bearings(b)%station, machine, error)
             do c = 1, b - 1

@@ -71,23 +71,40 @@ contains
    !> Values of a sample: the series that docs/results.md lists.
    pure integer function values_of_sample(inputs) result(values)
       type(case_type), intent(in) :: inputs
+      integer :: b
+      values = 3
+      if (inputs%is_machine()) values = values + 2*inputs%machine%station_count()
+      do b = 1, inputs%bearing_count()
+         values = values + values_of_bearing(inputs%of_bearing(b))
+      end do
+   end function values_of_sample
+
+   !> Values of a sample that are those of one bearing.
+   pure integer function values_of_bearing(inputs) result(values)
+      type(case_type), intent(in) :: inputs
       integer :: of_pad
       of_pad = 4
       if (inputs%tilting()) of_pad = of_pad + 4
       if (inputs%tilting_radial()) of_pad = of_pad + 2
       if (inputs%tilting() .and. inputs%friction%model == 'lugre') of_pad = of_pad + 1
       if (inputs%asperity%model /= 'none') of_pad = of_pad + 1
-      values = 7 + of_pad*inputs%pad_count()
-   end function values_of_sample
+      values = 4 + of_pad*inputs%pad_count()
+   end function values_of_bearing
 
    !> Bytes of memory that a run takes at most beyond those of its start; the figures of its last revolutions, where it
    !> has samples, are the only part that a case can make large.
    pure real(wp) function memory_bytes(inputs) result(bytes)
       type(case_type), intent(in) :: inputs
-      integer :: values
+      type(case_type) :: own
+      integer :: values, b
       ! two series of the pads are held at once, and besides them those of the journal and a spectrum, which takes most
       ! where the number of samples is prime
-      values = 2*inputs%pad_count() + 17
+      values = 0
+      do b = 1, inputs%bearing_count()
+         own = inputs%of_bearing(b)
+         values = values + 2*own%pad_count() + 17
+      end do
+      if (inputs%is_machine()) values = values + 2*inputs%machine%station_count()
       if (inputs%output%keep /= 'all') values = values + values_of_sample(inputs)
       bytes = of_run + of_value*values*figure_samples(inputs)
    end function memory_bytes

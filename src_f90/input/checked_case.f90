@@ -77,46 +77,83 @@ contains
    function derived_text(inputs) result(text)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: text
+      integer :: b
       text = '! derived values'//newline
-      call say('preload', preload(inputs), '1 - c_r/c_m')
-      call say('clearance ratio', clearance_ratio(inputs), 'c_r/R_J')
-      call say('length ratio', length_over_diameter(inputs), 'L/D')
-      if (is_set(inputs%rotor%balance_grade)) call say('unbalance', inputs%unbalance(), 'kg m, by rotor%balance_grade')
-      call say('load', load(inputs), 'N, weight and static load')
-      call say('specific load', specific_load(inputs), 'Pa, W/(L D)')
-      if (load(inputs) > 0) call say('Sommerfeld number', sommerfeld_number(inputs), &
-         & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start')
-      if (inputs%oil%law /= 'constant') call say_oil()
-      if (result_bytes(inputs) > 0) call say('result', 0.1_wp*anint(result_bytes(inputs)/1e5_wp), &
+      if (inputs%is_machine()) then
+         if (inputs%machine%shaft%is_given()) text = text//said('mass', inputs%machine%mass(), 'kg, shaft and discs')
+         do b = 1, inputs%bearing_count()
+            text = text//'! bearing '''//inputs%machine%bearings(b)%name//''''//newline &
+               & //derived_of_bearing(inputs%of_bearing(b))
+         end do
+      else
+         text = text//derived_of_bearing(inputs)//derived_of_load(inputs)
+      end if
+      if (result_bytes(inputs) > 0) text = text//said('result', 0.1_wp*anint(result_bytes(inputs)/1e5_wp), &
          & 'MB, '//to_text(sample_count(inputs))//' samples')
       text = text//notes(inputs, '! ')
-   contains
-      !> The oil's viscosity where it comes in and where it is warm.
-      subroutine say_oil()
-         integer :: i
-         associate (oil => inputs%oil, points => kinematic_points(inputs%oil))
-            call say('viscosity', viscosity(oil, oil%supply_temperature), 'Pa s at oil%supply_temperature = ' &
-               & //to_text(oil%supply_temperature)//' C')
-            do i = 1, size(warm)
-               call say('viscosity', viscosity(oil, warm(i)), 'Pa s at '//to_text(warm(i))//' C')
-            end do
-            do i = 1, merge(2, 0, is_set(oil%grade))
-               call say('kinematic', points(i), 'm^2/s at '//to_text(oil%at_temperature(i))//' C')
-            end do
-         end associate
-      end subroutine say_oil
-
-      subroutine say(name, value, meaning)
-         character(len=*), intent(in) :: name, meaning
-         real(wp), intent(in) :: value
-         character(len=18) :: padded
-         padded = name
-         text = text//'!   '//padded//' '//to_text(value)//'  '//meaning//newline
-      end subroutine say
    end function derived_text
 
-   !> What is allowed and seldom meant, a line each behind `mark`.
+   !> What follows for a bearing and its oil, whatever its load.
+   function derived_of_bearing(inputs) result(text)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: text
+      integer :: i
+      text = said('preload', preload(inputs), '1 - c_r/c_m') &
+         & //said('clearance ratio', clearance_ratio(inputs), 'c_r/R_J') &
+         & //said('length ratio', length_over_diameter(inputs), 'L/D')
+      if (inputs%oil%law == 'constant') return
+      associate (oil => inputs%oil, points => kinematic_points(inputs%oil))
+         text = text//said('viscosity', viscosity(oil, oil%supply_temperature), &
+            & 'Pa s at oil%supply_temperature = '//to_text(oil%supply_temperature)//' C')
+         do i = 1, size(warm)
+            text = text//said('viscosity', viscosity(oil, warm(i)), 'Pa s at '//to_text(warm(i))//' C')
+         end do
+         do i = 1, merge(2, 0, is_set(oil%grade))
+            text = text//said('kinematic', points(i), 'm^2/s at '//to_text(oil%at_temperature(i))//' C')
+         end do
+      end associate
+   end function derived_of_bearing
+
+   !> What follows from the rigid journal in the one bearing of a case.
+   function derived_of_load(inputs) result(text)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: text
+      text = ''
+      if (is_set(inputs%rotor%balance_grade)) text = said('unbalance', inputs%unbalance(), &
+         & 'kg m, by rotor%balance_grade')
+      text = text//said('load', load(inputs), 'N, weight and static load') &
+         & //said('specific load', specific_load(inputs), 'Pa, W/(L D)')
+      if (load(inputs) > 0) text = text//said('Sommerfeld number', sommerfeld_number(inputs), &
+         & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start')
+   end function derived_of_load
+
+   function said(name, value, meaning) result(line)
+      character(len=*), intent(in) :: name, meaning
+      real(wp), intent(in) :: value
+      character(len=:), allocatable :: line
+      character(len=18) :: padded
+      padded = name
+      line = '!   '//padded//' '//to_text(value)//'  '//meaning//newline
+   end function said
+
+   !> What is allowed and seldom meant, a line each behind `mark`; of a machine for each of its bearings.
    function notes(inputs, mark) result(text)
+      type(case_type), intent(in) :: inputs
+      character(len=*), intent(in) :: mark
+      character(len=:), allocatable :: text
+      integer :: b
+      text = ''
+      do b = 1, inputs%bearing_count()
+         if (inputs%is_machine()) then
+            text = text//notes_of_bearing(inputs%of_bearing(b), mark//'note: bearing ''' &
+               & //inputs%machine%bearings(b)%name//''': ')
+         else
+            text = text//notes_of_bearing(inputs, mark//'note: ')
+         end if
+      end do
+   end function notes
+
+   function notes_of_bearing(inputs, mark) result(text)
       type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: mark
       character(len=:), allocatable :: text
@@ -134,7 +171,7 @@ contains
    contains
       subroutine note(line)
          character(len=*), intent(in) :: line
-         text = text//mark//'note: '//line//newline
+         text = text//mark//line//newline
       end subroutine note
-   end function notes
+   end function notes_of_bearing
 end module checked_case

@@ -98,7 +98,10 @@ contains
       kind = kind_of(a%group)
       name = bearing_of(a%group)
       if (is_counted(kind)) call look_at_number(a, kind, machine, error)
-      if (name == '') return
+      if (kind == 'support' .and. name == '' .and. .not. any([(allocated(machine%bearings(b)%support), &
+         & b=1, size(machine%bearings))])) call refuse(a%origin//': '//a%group//'%'//a%name//': the case has no group ' &
+         & //'&support', error)
+      if (name == '' .or. allocated(error)) return
       b = machine%find_bearing(name)
       if (b == 0) then
          names = ''
@@ -120,6 +123,7 @@ contains
       character(len=*), intent(in) :: kind
       type(machine_type), intent(in) :: machine
       type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: allowed
       integer :: number, i
       select case (kind)
       case ('disc')
@@ -132,11 +136,13 @@ contains
       do i = 1, number
          if (a%group == kind//counted(i)) return
       end do
+      allowed = kind//counted(1)//'%'//a%name
+      if (number > 1) allowed = allowed//' to '//kind//counted(number)//'%'//a%name
       if (number == 0) then
          call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': the case has no group &'//kind)
       else
-         call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': must be '//kind//counted(1)//'%' &
-            & //a%name//' to '//kind//counted(number)//'%'//a%name//', the groups &'//kind//' of the case')
+         call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': must be '//allowed &
+            & //', as the case has '//to_text(number)//' of these groups')
       end if
    end subroutine look_at_number
 
