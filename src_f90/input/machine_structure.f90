@@ -99,8 +99,8 @@ contains
       name = bearing_of(a%group)
       if (is_counted(kind)) call look_at_number(a, kind, machine, error)
       if (kind == 'support' .and. name == '' .and. .not. any([(allocated(machine%bearings(b)%support), &
-         & b=1, size(machine%bearings))])) call refuse(a%origin//': '//a%group//'%'//a%name//': the case has no group ' &
-         & //'&support', error)
+         & b=1, size(machine%bearings))])) call refuse(a%origin//': '//a%group//'%'//a%name &
+         & //': the case has no group &support', error)
       if (name == '' .or. allocated(error)) return
       b = machine%find_bearing(name)
       if (b == 0) then
