@@ -9,9 +9,11 @@ module example_machine
    use check, only: expect_no_error
    implicit none (type, external)
    private
-   public :: turbine, plain_shaft, put_bearings, put_disc, put_unbalance, rotor_of, unbalance_response, &
-      & static_stations, whirl_frequencies
+   public :: turbine, plain_shaft, put_bearings, put_disc, put_unbalance, rotor_of, all_modes, unbalance_response, &
+      & response_error, damping_error, static_stations, whirl_frequencies
 
+   !> More modes than there are: all.
+   integer, parameter :: all_modes = 1000
    real(wp), parameter :: gravity = 9.81_wp
 
 contains
@@ -107,24 +109,72 @@ contains
    end function on_springs
 
    !> Complex amplitudes y and z of all stations, m, at a speed, rad/s, in bearings that are springs, N/m, and dampers,
-   !> N s/m: y and z of each.
-   function unbalance_response(rotor, speed, springs, dampers) result(response)
+   !> N s/m: y and z of each. The unbalances may grow in a radian by this part of themselves.
+   function unbalance_response(rotor, speed, springs, dampers, growth) result(response)
       type(rotor_matrices_type), intent(in) :: rotor
       real(wp), intent(in) :: speed, springs(:), dampers(:)
+      real(wp), intent(in), optional :: growth
+      complex(wp) :: rate
       complex(wp), allocatable :: response(:), matrix(:, :), x(:, :)
       integer, allocatable :: pivots(:)
       integer :: n, i, info
       n = size(rotor%load)
-      matrix = on_springs(rotor, springs) - speed**2*rotor%mass &
-         & + cmplx(0.0_wp, speed, wp)*(rotor%damping + speed*rotor%gyroscopic)
+      rate = cmplx(0.0_wp, speed, wp)
+      if (present(growth)) rate = rate + growth*speed
+      matrix = on_springs(rotor, springs) + rate**2*rotor%mass + rate*(rotor%damping + speed*rotor%gyroscopic)
       do i = 1, size(dampers)
-         matrix(i, i) = matrix(i, i) + cmplx(0.0_wp, speed*dampers(i), wp)
+         matrix(i, i) = matrix(i, i) + rate*dampers(i)
       end do
       x = reshape(speed**2*cmplx(rotor%unbalance(:, 1), -rotor%unbalance(:, 2), wp), [n, 1])
       allocate (pivots(n))
       call zgesv(n, 1, matrix, n, pivots, x, n, info)
       response = matmul(rotor%station, x(:, 1))
    end function unbalance_response
+
+   !> The largest error of amplitudes of journals and discs at ten speeds up to the highest, rad/s, relative to the
+   !> largest one of a speed: of leaving out modes.
+   real(wp) function response_error(machine, highest, springs, dampers, modes, growth) result(error)
+      type(machine_type), intent(in) :: machine
+      real(wp), intent(in) :: highest, springs(:), dampers(:)
+      integer, intent(in), optional :: modes
+      real(wp), intent(in), optional :: growth
+      type(machine_type) :: undamped
+      undamped = machine
+      undamped%reduction%damping_ratio = 0
+      error = largest_difference(machine, rotor_of(undamped, highest, modes), rotor_of(undamped, highest, all_modes), &
+         & highest, springs, dampers, growth)
+   end function response_error
+
+   !> The same error of the damping of high modes.
+   real(wp) function damping_error(machine, highest, springs, dampers, growth) result(error)
+      type(machine_type), intent(in) :: machine
+      real(wp), intent(in) :: highest, springs(:), dampers(:)
+      real(wp), intent(in), optional :: growth
+      type(machine_type) :: undamped
+      undamped = machine
+      undamped%reduction%damping_ratio = 0
+      error = largest_difference(machine, rotor_of(machine, highest), rotor_of(undamped, highest), highest, springs, &
+         & dampers, growth)
+   end function damping_error
+
+   !> Of amplitudes of journals and discs of a rotor from those of an exact one.
+   real(wp) function largest_difference(machine, rotor, exact, highest, springs, dampers, growth) result(largest)
+      type(machine_type), intent(in) :: machine
+      type(rotor_matrices_type), intent(in) :: rotor, exact
+      real(wp), intent(in) :: highest, springs(:), dampers(:)
+      real(wp), intent(in), optional :: growth
+      complex(wp), allocatable :: expected(:), difference(:)
+      integer, allocatable :: rows(:)
+      integer :: i
+      rows = [machine%bearings%station, machine%discs%station]
+      rows = [2*rows - 1, 2*rows]
+      largest = 0
+      do i = 1, 10
+         expected = unbalance_response(exact, highest*i/10, springs, dampers, growth)
+         difference = unbalance_response(rotor, highest*i/10, springs, dampers, growth) - expected
+         largest = max(largest, maxval(abs(difference(rows)))/maxval(abs(expected)))
+      end do
+   end function largest_difference
 
    !> Where the stations are, y and z of each, m, in bearings that are springs; `displacements` of the rotor.
    function static_stations(rotor, springs, displacements) result(stations)

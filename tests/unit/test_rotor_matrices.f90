@@ -5,12 +5,10 @@ program test_rotor_matrices
    use machine_groups, only: machine_type
    use rotor_matrices, only: rotor_matrices_type
    use shaft_in_bearings, only: find_rotor
-   use example_machine, only: turbine, plain_shaft, put_bearings, put_disc, put_unbalance, rotor_of, &
-      & unbalance_response, static_stations, whirl_frequencies
+   use example_machine, only: turbine, plain_shaft, put_bearings, put_disc, put_unbalance, rotor_of, all_modes, &
+      & unbalance_response, response_error, static_stations, whirl_frequencies
    use check, only: runs, expect, expect_close, expect_error, report
    implicit none (type, external)
-   !> More modes than there are: all.
-   integer, parameter :: all_modes = 1000
    real(wp), parameter :: gravity = 9.81_wp
 
    if (runs('check values')) call try_check_values()
@@ -125,36 +123,11 @@ contains
       call put_unbalance(machine, 13, 0.003_wp, 70.0_wp)
    end function unsymmetric
 
-   !> The largest error of amplitudes of journals and discs over the speeds up to the highest, relative to the largest
-   !> one of a speed.
-   real(wp) function response_error(machine, highest, modes) result(error)
-      type(machine_type), intent(in) :: machine
-      real(wp), intent(in) :: highest
-      integer, intent(in), optional :: modes
-      type(rotor_matrices_type) :: rotor, whole
-      type(machine_type) :: undamped
-      complex(wp), allocatable :: exact(:), difference(:)
-      integer, allocatable :: rows(:)
-      real(wp), parameter :: springs(4) = [6e8_wp, 3e8_wp, 5e8_wp, 2e8_wp], dampers(4) = 1e6_wp
-      integer :: i
-      undamped = machine
-      undamped%reduction%damping_ratio = 0
-      rotor = rotor_of(undamped, highest, modes)
-      whole = rotor_of(undamped, highest, all_modes)
-      error = 0
-      do i = 1, 10
-         exact = unbalance_response(whole, highest*i/10, springs, dampers)
-         difference = unbalance_response(rotor, highest*i/10, springs, dampers) - exact
-         rows = [machine%bearings%station, machine%discs%station]
-         rows = [2*rows - 1, 2*rows]
-         error = max(error, maxval(abs(difference(rows)))/maxval(abs(exact)))
-      end do
-   end function response_error
-
    !> Modes are chosen for errors of amplitudes of 1e-4.
    subroutine try_reduction()
       type(machine_type) :: machine
       type(rotor_matrices_type) :: rotor
+      real(wp), parameter :: springs(4) = [6e8_wp, 3e8_wp, 5e8_wp, 2e8_wp], dampers(4) = 1e6_wp
       real(wp) :: error
       integer :: i
       do i = 1, 2
@@ -162,10 +135,10 @@ contains
          if (i == 2) machine = unsymmetric()
          rotor = rotor_of(machine, 6500*rpm)
          call expect(rotor%truncation_error <= 1e-4_wp .and. rotor%truncation_error > 0, 'the estimated error')
-         error = response_error(machine, 6500*rpm)
+         error = response_error(machine, 6500*rpm, springs, dampers)
          call expect(error > 0 .and. error < 2*rotor%truncation_error, 'the error is near the estimate')
          call expect(size(rotor%mode_frequency) <= 8, 'few modes')
-         call expect(response_error(machine, 6500*rpm, 1) > 1e-3_wp, 'one mode is not enough')
+         call expect(response_error(machine, 6500*rpm, springs, dampers, 1) > 1e-3_wp, 'one mode is not enough')
          call expect(rotor%left_out_frequency > rotor%mode_frequency(size(rotor%mode_frequency)), 'frequency left out')
       end do
       machine%reduction%frequency = 1000
