@@ -2,7 +2,7 @@
 
 Each line of standard input is a question in JSON: bearing (file), points (pairs of whirl frequency and
 speed, rad/s), mass (kg), unbalance (kg m), phase (rad, from x), speeds (rad/s);
-or turbine, a speed for a rotor of its own. A line of its output that
+or turbine, a speed for a rotor of its own; or machine, a rotor in bearings. A line of its output that
 begins with { answers one in JSON: stiffness and damping at the points, and the synchronous motion of the
 journal along x and y, real and imaginary parts. One process answers all, as ROSS takes seconds to start.
 The rotor is a mass in the middle of a stiff shaft without weight, which two such bearings carry; each bears
@@ -32,6 +32,8 @@ def answer(asked: dict) -> dict:
     """The answer to a question."""
     if "turbine" in asked:
         return turbine(asked["turbine"])
+    if "machine" in asked:
+        return machine(**asked["machine"])
     bearing = ross.BearingElement.load(asked["bearing"])
     found = {
         name: [matrix(frequency, speed)[:2, :2].tolist() for frequency, speed in asked["points"]]
@@ -51,17 +53,58 @@ def turbine(speed: float) -> dict:
     ]
     bearings = [ross.BearingElement(n=n, kxx=3e7, kyy=5e7, cxx=0, cyy=0, kzz=1e6) for n in (0, 4)]
     rotor = ross.Rotor(shaft, disks, bearings)
-    names = ("M0", "C0", "G0", "K0")
-    found = {name: getattr(rotor, name).tolist() for name in names}
-    found |= {"dof": rotor.number_dof, "nodes": len(rotor.nodes), "mass": rotor.m}
-    places = rotor.shaft_elements[0].dof_mapping()
-    found |= {"places": [places[f"{each}_0"] for each in ("x", "y", "alpha", "beta")]}
+    found = described(rotor)
     # synchronously to the unbalance at node 6: its motion along x and y
     moved = rotor.run_unbalance_response(
         node=6, unbalance_magnitude=1e-3, unbalance_phase=0, speed_range=np.array([speed])
     ).forced_resp
     rows = [rotor.number_dof * 6 + each for each in (0, 1)]
     return found | {"moved": [[moved[k][0].real, moved[k][0].imag] for k in rows]}
+
+
+def described(rotor: ross.Rotor) -> dict:
+    """Matrices without bearings, and how their rows are counted."""
+    found = {name: getattr(rotor, name).tolist() for name in ("M0", "C0", "G0", "K0")}
+    found |= {"dof": rotor.number_dof, "nodes": len(rotor.nodes), "mass": rotor.m}
+    places = rotor.shaft_elements[0].dof_mapping()
+    return found | {"places": [places[f"{each}_0"] for each in ("x", "y", "alpha", "beta")]}
+
+
+def machine(
+    length: list, diameter: list, discs: list, nodes: list, stiffness: list, damping: list, speed: float,
+    unbalance: list,
+) -> dict:  # fmt: skip
+    """A shaft of steel with discs (node, mass, diametral and polar inertia) in bearings, each with matrices at a
+    speed: ROSS's matrices, its eigenvalues, and its whirl, x and y of each node, under an unbalance (node,
+    moment, phase).
+    """
+    steel = ross.Material("steel", rho=7850, E=2.1e11, Poisson=0.3)
+    shaft = [
+        ross.ShaftElement(L=each, idl=0, odl=thick, material=steel)
+        for each, thick in zip(length, diameter, strict=True)
+    ]
+    disks = [ross.DiskElement(n=n, m=m, Id=diametral, Ip=polar) for n, m, diametral, polar in discs]
+    names = ("xx", "xy", "yx", "yy")
+    bearings = [
+        ross.BearingElement(
+            n=n,
+            **{f"k{name}": value for name, value in zip(names, np.ravel(k), strict=True)},
+            **{f"c{name}": value for name, value in zip(names, np.ravel(c), strict=True)},
+            kzz=1e6,
+        )
+        for n, k, c in zip(nodes, stiffness, damping, strict=True)
+    ]
+    rotor = ross.Rotor(shaft, disks, bearings)
+    values = np.linalg.eigvals(rotor.A(speed))
+    node, moment, phase = unbalance
+    moved = rotor.run_unbalance_response(
+        node=node, unbalance_magnitude=moment, unbalance_phase=phase, speed_range=np.array([speed])
+    ).forced_resp[:, 0]
+    rows = [[rotor.number_dof * n + each for each in (0, 1)] for n in range(len(rotor.nodes))]
+    return described(rotor) | {
+        "eigenvalues": [[z.real, z.imag] for z in values],
+        "moved": [[[moved[k].real, moved[k].imag] for k in row] for row in rows],
+    }
 
 
 def response(bearing: ross.BearingElement, asked: dict) -> dict:

@@ -20,12 +20,16 @@ def turbine(ross):
 
 @pytest.fixture
 def rotor(turbine):
+    return seen_from_outside(turbine)
+
+
+def seen_from_outside(found):
     """The rotor as from_ross sees it: ROSS has an environment of its own."""
-    places = dict(zip(("x_0", "y_0", "alpha_0", "beta_0"), turbine["places"].tolist(), strict=True))
+    places = dict(zip(("x_0", "y_0", "alpha_0", "beta_0"), found["places"].tolist(), strict=True))
     return SimpleNamespace(
-        **{name: turbine[name] for name in ("M0", "C0", "G0", "K0")},
-        number_dof=int(turbine["dof"]),
-        nodes=range(int(turbine["nodes"])),
+        **{name: found[name] for name in ("M0", "C0", "G0", "K0")},
+        number_dof=int(found["dof"]),
+        nodes=range(int(found["nodes"])),
         shaft_elements=[SimpleNamespace(dof_mapping=lambda: places)],
         point_mass_elements=[],
     )
