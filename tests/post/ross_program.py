@@ -74,9 +74,9 @@ def machine(
     length: list, diameter: list, discs: list, nodes: list, stiffness: list, damping: list, speed: float,
     unbalance: list,
 ) -> dict:  # fmt: skip
-    """A shaft of steel with discs (node, mass, diametral and polar inertia) in bearings, each with matrices at a
-    speed: ROSS's matrices, its eigenvalues, and its whirl, x and y of each node, under an unbalance (node,
-    moment, phase).
+    """A shaft of steel with discs (node, mass, diametral and polar inertia) in bearings, each with matrices
+    at a speed: ROSS's matrices, its eigenvalues, and its whirl, x and y of each node, under an unbalance
+    (node, moment, phase).
     """
     steel = ross.Material("steel", rho=7850, E=2.1e11, Poisson=0.3)
     shaft = [

@@ -49,8 +49,13 @@ def linear(tiltpad, folder, rotor, unbalance, speed):
     path.write_text(CASE.format(speed=speed, rotor=rotor, unbalance=unbalance))
     tiltpad("--quiet", "--overwrite", path, "--output", folder / "machine.h5", cwd=folder, status=0)
     with h5py.File(folder / "machine.h5") as file:
-        values = file["synchronous/eigenvalue_real"][LOCKED] + 1j * file["synchronous/eigenvalue_imag"][LOCKED]
-        moved = [file[f"response/{name}_real"][LOCKED] + 1j * file[f"response/{name}_imag"][LOCKED] for name in "yz"]
+        values = (
+            file["synchronous/eigenvalue_real"][LOCKED] + 1j * file["synchronous/eigenvalue_imag"][LOCKED]
+        )
+        moved = [
+            file[f"response/{name}_real"][LOCKED] + 1j * file[f"response/{name}_imag"][LOCKED]
+            for name in "yz"
+        ]
         matrices = {
             name: [file[f"bearings/{b}/coefficients/{name}"][LOCKED, 0] for b in ("left", "right")]
             for name in ("stiffness", "damping")
