@@ -104,6 +104,9 @@ UNITS = {
     **{"centre_tangential": "m", "centre_radial": "m", "density": "kg/m³", "thickness": "m"},
     **{"journal": "m", "journal_velocity": "m/s", "pad_tilt": "rad", "pad_tilt_rate": "rad/s"},
     **{"pivot_deflection": "m", "pivot_deflection_rate": "m/s"},
+    **dict.fromkeys(("offset", "length", "diameter", "bore"), "m"),
+    **{"polar_inertia": "kg m²", "diametral_inertia": "kg m²", "moment": "kg m", "force": "N"},
+    **{"stiffness": "N/m", "damping": "N s/m", "frequency": "Hz", "damp_above": "Hz"},
     **dict.fromkeys(("critical_velocity", "stribeck_velocity"), "m/s"),
     **{"decay": "s/m", "bristle_stiffness": "1/m", "bristle_damping": "s/m", "viscous_coefficient": "s/m"},
 }
