@@ -170,7 +170,7 @@ venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
 .PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress realistic fuzz faults \
-        bench paper unit test-programs lint format docs install uninstall clean
+        bench paper site unit test-programs lint format docs install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
 
@@ -193,6 +193,7 @@ help:
 	@echo 'make wheel    packs build/wheel/tiltpad-*.whl: program, plots, library, for any Linux of this age or later'
 	@echo 'make lint     checks style, the order of the floors, words and that no name is unused; make format corrects some of it'
 	@echo 'make docs     writes the generated pages of docs (inputs, modules, api, gallery, verification) and docs/images'
+	@echo 'make site     builds a site to search from README, docs and input: build/site/pages/index.html'
 	@echo 'make install  puts program, plot commands, manual pages and completion into PREFIX ('"$$PREFIX"'); PLOTS=no: no Python'
 	@echo 'make uninstall  removes what make install has written there'
 	@echo 'make clean    removes build/'
@@ -206,6 +207,8 @@ run: build python
 
 test: build python build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B)/stress/global_search
 	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input
+	@if $(MAKE) --no-print-directory build/site/ready; then $(MAKE) --no-print-directory site; \
+	   else echo 'no mkdocs: the tests of the site are skipped'; fi
 	@TILTPAD="$$PWD/$(B)/bin/tiltpad" tests/run_all $(VENV)/bin/python \
 	   $(addprefix build/debug/tests/,$(test_names))
 
@@ -325,6 +328,19 @@ wheel-%:
 	build/wheel/$*/venv/bin/python -m pip wheel -q --no-build-isolation --no-deps -w build/wheel/$*/raw build/wheel/$*/source
 	PATH="$$PWD/$(VENV)/bin:$$PATH" $(venv_python) -m auditwheel repair -w build/wheel build/wheel/$*/raw/*.whl
 	tests/wheel/try_wheel build/wheel $* build/wheel/$*/try
+
+# the pages as a site: links to what it shows, as mkdocs takes one folder; where mkdocs cannot be installed, there is none
+site: build/site/pages/index.html
+
+build/site/pages/index.html: $(shell find README.md LICENSE docs input -type f 2>/dev/null) build/site/ready
+	@mkdir -p build/site/source && ln -sfn $(addprefix ../../../,README.md LICENSE docs input) build/site/source/
+	@NO_MKDOCS_2_WARNING=1 build/site/venv/bin/mkdocs build --strict -q -f docs/site/mkdocs.yml
+	@echo 'open $@; with the search: python3 -m http.server --directory build/site/pages'
+
+build/site/ready: docs/site/requirements.txt | build/deps-checked
+	$(PYTHON) -m venv build/site/venv
+	build/site/venv/bin/python -m pip install -q --disable-pip-version-check -r $<
+	@touch $@
 
 $(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
 	$(venv_python) -m pip install -q --disable-pip-version-check -r $<
