@@ -30,12 +30,14 @@ module verification
 
 contains
 
-   !> Refuses to verify what keeps no states, or more states than a run has.
+   !> Refuses to verify machines, what keeps no states, or more states than a run has.
    subroutine check_verification(inputs, states, error)
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: states
       type(error_type), allocatable, intent(out) :: error
       integer(i8) :: samples
+      call require(.not. inputs%is_machine(), '--verify: compares the films of one bearing with a rigid journal, not ' &
+         & //'those of a machine; run each bearing alone, with its load as rotor%static_load', error)
       call require(inputs%about%task /= 'branch', '--verify: the points of a branch keep no states to verify; run ' &
          & //'one of them with case%task = ''equilibrium'' or ''periodic''', error)
       call require(inputs%output%keep == 'all' .or. .not. any(inputs%about%task == ['march   ', 'periodic']), &
