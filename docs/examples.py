@@ -11,6 +11,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import h5py
 import numpy as np
 import tiltpad
 
@@ -55,6 +56,39 @@ def figures(folder: Path) -> Iterator[str]:
     yield f"of {stuck.runs} bearings that have a threshold speed"
 
 
+def machines(folder: Path) -> Iterator[str]:
+    """The same of the machines."""
+    with h5py.File(folder / "turbine_modes.h5") as run:
+        _, stuck, locked = run["modes/threshold_rpm"]
+        yield f"With stuck pivots the threshold speed is {stuck:.0f} rpm"
+        yield f"one with locked pads says {locked:.0f} rpm"
+    with h5py.File(folder / "turbine_branch.h5") as run:
+        yield f"The orbit loses its stability at {run['bifurcations/parameter'][0]:.0f} rpm"
+    middle = 6
+    with h5py.File(folder / "turbine_below.h5") as run:
+        size = 1e6 * run["summary/station_y_size"][middle]
+        yield f"comes to the orbit of the branch, {size:.1f} um peak to peak at the wheel in the middle"
+    with h5py.File(folder / "turbine_above.h5") as run:
+        size = 1e6 * np.ptp(run["station_y"][-50 * 60 :, middle])
+        order = run["bearings/front/summary/whirl_order"][()]
+        yield f"a limit cycle of {size:.0f} um at {order:.2f} of the shaft speed"
+        yield f"that is {order * 7600 / 60:.0f} Hz"
+    with h5py.File(folder / "overhung.h5") as run:
+        small, large = sorted(-run["equilibrium/bearing_load_y"][:])
+        yield f"The bearing at the impeller bears {large:.0f} N and the other one {small:.0f} N"
+    with h5py.File(folder / "overhung_response.h5") as run:
+        response = 1e6 * run["station_y_amplitude"][:]
+        peak = response[:, 7].argmax()
+        speed = 100 * round(run["parameter"][peak] / 100)
+        yield f"a flat peak of {response[peak, 7]:.1f} um near {speed} rpm"
+        yield f"the journal beside it moves by {response[peak, 6]:.1f} um"
+    with h5py.File(folder / "level.h5") as level, h5py.File(folder / "raised.h5") as raised:
+        loads = [-run["equilibrium/bearing_load_y"][:] for run in (level, raised)]
+        for name, *both in zip(level["bearing"].asstr(), *loads, strict=True):
+            yield "| `{}` | {:.0f} | {:.0f} |".format(name, *both)
+        yield f"moves {100 * (loads[1][1] / loads[0][1] - 1):.0f} % more load to the middle bearing"
+
+
 def main() -> None:
     program, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     shutil.rmtree(folder, ignore_errors=True)
@@ -64,7 +98,7 @@ def main() -> None:
     page = (DOCS / "examples.md").read_text()
     for line in commands(page):
         subprocess.run(["sh", "-c", line], check=True, cwd=folder, env=os.environ | {"PATH": path})
-    wrong = [words for words in figures(folder) if words not in page]
+    wrong = [words for words in (*figures(folder), *machines(folder)) if words not in page]
     if wrong:
         sys.exit(f"docs/examples.md: other figures now: {wrong}")
     for picture in folder.glob("example_*.png"):

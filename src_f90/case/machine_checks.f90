@@ -21,8 +21,9 @@ contains
          call check_bearings(machine, error)
          call check_parts(machine, error)
          call check_supports(machine, error)
-         call require(s%from == 'equilibrium' .or. s%from == 'file', 'start%from = '''//s%from//''': must be ' &
-            & //'''equilibrium'' or ''file'' for a machine', error)
+         ! samples have no velocities of the stations
+         call require(s%from == 'equilibrium', 'start%from = '''//s%from//''': must be ''equilibrium'' for a machine', &
+            & error)
          if (abs(q) > 0) call refuse('coefficients%cross_stiffness = '//to_text(q)//': must be 0 for a machine', error)
       end associate
    end subroutine check_machine

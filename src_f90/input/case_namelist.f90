@@ -179,8 +179,7 @@ contains
          case ('unbalance', 'balance_grade', 'balance_speed_rpm')
             instead = 'has no effect beside a shaft; give a group &unbalance with station and moment'
          case default
-            instead = 'is for a rigid journal in one bearing; a shaft in several starts from its equilibrium or ' &
-               & //'from a file'
+            instead = 'is for a rigid journal in one bearing; a shaft in several starts from its equilibrium'
          end select
       end if
       call refuse_values(a, instead, error)

@@ -1,5 +1,6 @@
 !> Builds the rotor of a case.
 module rotor_factory
+   use kinds, only: wp, rpm
    use errors, only: error_type
    use case_inputs, only: case_type
    use rotor_matrices, only: rotor_matrices_type
@@ -19,7 +20,7 @@ contains
       class(rotor_type), allocatable, intent(out) :: rotor
       !> Not allocated where there is a rotor.
       character(len=:), allocatable, intent(out) :: refusal
-      !> A rotor of as many displacements; where it is left out the shaft has as many as the highest speed asks for.
+      !> A rotor of as many displacements; where it is left out the shaft has as many as the highest speed of the task asks for.
       class(rotor_type), intent(in), optional :: before
       type(rotor_matrices_type) :: matrices
       type(elastic_rotor_type) :: elastic
@@ -36,7 +37,7 @@ contains
             modes = size(before%matrices%mode_frequency)
          end select
       end if
-      call find_rotor(inputs%machine, inputs%rotor%gravity, inputs%highest_speed(), matrices, error, modes)
+      call find_rotor(inputs%machine, inputs%rotor%gravity, highest_speed(inputs), matrices, error, modes)
       if (allocated(error)) then
          refusal = error%message
          return
@@ -48,4 +49,14 @@ contains
          allocate (rotor, source=elastic)
       end if
    end subroutine make_rotor
+
+   !> Highest speed of a task, rad/s, with those of a branch over the speed and of a search of threshold speeds.
+   pure real(wp) function highest_speed(inputs)
+      type(case_type), intent(in) :: inputs
+      highest_speed = inputs%highest_speed()
+      if (inputs%about%task == 'branch' .and. inputs%branch%parameter == 'operation%speed_rpm') &
+         & highest_speed = max(highest_speed, inputs%branch%last*rpm)
+      if (inputs%about%task == 'coefficients') highest_speed = max(highest_speed, &
+         & inputs%coefficients%threshold_up_to_rpm*rpm)
+   end function highest_speed
 end module rotor_factory

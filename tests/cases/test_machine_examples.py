@@ -1,8 +1,11 @@
-"""Machines of the pages: the one of docs/inputs.md, what is refused of it, and its files by docs/results.md."""
+"""Machines of the pages: that of docs/inputs.md, what is refused of it, and its files by docs/results.md;
+those of docs/examples.md, their figures and what the page claims."""
 
+import importlib.util
 import re
 
 import h5py
+import numpy as np
 import pytest
 
 SAMPLE = re.compile(r"^    (&case +title = 'Overhung fan'.*?)\n\n", re.MULTILINE | re.DOTALL)
@@ -112,3 +115,117 @@ def test_the_page_of_results_lists_what_a_machine_has_more(tiltpad, fan, root):
 def test_verify_refuses_a_machine(tiltpad, fan):
     said = tiltpad(fan, "--verify", 3, status=1).stderr
     assert "--verify: compares the films of one bearing with a rigid journal, not those of a machine" in said
+
+
+@pytest.fixture(scope="module")
+def page_of_examples(root):
+    """docs/examples.py."""
+    spec = importlib.util.spec_from_file_location("examples", root / "docs/examples.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def examples(tiltpad, root, page_of_examples, tmp_path_factory):
+    """The folder in which the program's commands of the page about machines were run."""
+    folder = tmp_path_factory.mktemp("examples")
+    (folder / "input").symlink_to(root / "input")
+    page = (root / "docs/examples.md").read_text()
+    for line in page_of_examples.commands(page[page.index("## A turbine that") :]):
+        program, *words = line.split()
+        if program == "tiltpad":
+            tiltpad(*words, "--quiet", cwd=folder, status=0)
+    return folder
+
+
+def test_the_page_of_examples_has_the_figures_of_its_machines(root, page_of_examples, examples):
+    page = (root / "docs/examples.md").read_text()
+    assert [words for words in page_of_examples.machines(examples) if words not in page] == []
+
+
+def test_stuck_pivots_lose_their_damping_at_the_threshold_speed_that_is_told(tiltpad, root, examples):
+    with h5py.File(examples / "turbine_modes.h5") as run:
+        assert list(run["pivot"].asstr()) == ["free", "stuck", "locked"]
+        threshold = run["modes/threshold_rpm"][1]
+    for speed, sign in ((threshold - 20, -1), (threshold + 20, 1)):
+        at = examples / f"modes{sign}.h5"
+        overrides = ["case%task=coefficients", f"operation%speed_rpm={speed}"]
+        tiltpad(root / "input/examples/turbine.nml", "--quiet", "--output", at, overrides=overrides, status=0)
+        with h5py.File(at) as run:
+            growth = np.nanmax(run["modes/eigenvalue_real"][:], axis=1)
+        assert np.sign(growth[1]) == sign
+        assert growth[0] < 0
+
+
+def test_orbits_of_vanishing_unbalance_lose_their_stability_where_stuck_pivots_do(tiltpad, root, examples):
+    with h5py.File(examples / "turbine_modes.h5") as run:
+        threshold = run["modes/threshold_rpm"][1]
+    speeds = []
+    for moment in (2e-3, 1e-3, 5e-4):
+        path = examples / "turbine_branch.h5"
+        if moment < 2e-3:
+            path = examples / f"branch{moment}.h5"
+            overrides = {"case%task": "branch", "branch%parameter": "operation%speed_rpm", "branch%step": 100}
+            overrides |= {"operation%speed_rpm": 7250, "branch%last": 7350, "unbalance(1)%moment": moment}
+            tiltpad(
+                root / "input/examples/turbine.nml", "--quiet", "--output", path,
+                overrides=[f"{name}={value}" for name, value in overrides.items()], status=0,
+            )  # fmt: skip
+        with h5py.File(path) as run:
+            assert run["bifurcations/kind"].asstr()[0] == "neimark_sacker"
+            speeds.append(run["bifurcations/parameter"][0])
+    # linear in the unbalance, up to what the two extrapolations to none differ by
+    coarse, fine = 2 * speeds[1] - speeds[0], 2 * speeds[2] - speeds[1]
+    assert abs(fine - threshold) < abs(fine - coarse) < 0.1 * (speeds[0] - threshold)
+
+
+def test_below_the_threshold_a_march_comes_to_the_orbit_and_above_to_a_limit_cycle(examples):
+    middle, last = 6, 50 * 60
+    with h5py.File(examples / "turbine_branch.h5") as run:
+        size = run["station_y_max"][0, middle] - run["station_y_min"][0, middle]
+        unstable = run["station_y_max"][-1, middle] - run["station_y_min"][-1, middle]
+        assert run["stable"][0] == 1
+        assert run["stable"][-1] == 0
+    with h5py.File(examples / "turbine_below.h5") as run:
+        assert run["bearings/front/summary/whirls"][()] == 0
+        assert run["summary/station_y_size"][middle] == pytest.approx(size, rel=2e-3)
+    with h5py.File(examples / "turbine_above.h5") as run:
+        y = run["station_y"][-2 * last :, middle]
+        assert run["bearings/front/summary/whirls"][()] == 1
+        assert np.ptp(y[:last]) == pytest.approx(np.ptp(y[last:]), rel=0.01)
+        assert np.ptp(y) > 10 * unstable
+
+
+def test_two_bearings_share_the_weight_by_the_levers(examples):
+    with h5py.File(examples / "overhung.h5") as run:
+        rotor, loads = run["rotor"], -run["equilibrium/bearing_load_y"][:]
+        place = rotor["station_position"][:]
+        length, diameter = rotor["section_length"][:], rotor["section_diameter"][:]
+        masses = np.concatenate([7850 * np.pi / 4 * diameter**2 * length, rotor["disc_mass"][:]])
+        at = np.concatenate([place[:-1] + length / 2, place[rotor["disc_station"][:].astype(int) - 1]])
+        first, second = place[rotor["bearing_station"][:].astype(int) - 1]
+        assert loads.sum() == pytest.approx(9.81 * masses.sum(), rel=1e-6)
+        assert loads[1] == pytest.approx(9.81 * masses @ (at - first) / (second - first), rel=1e-6)
+
+
+def test_the_branch_of_orbits_is_the_linear_response_where_the_unbalance_is_small(examples):
+    with h5py.File(examples / "overhung_linear.h5") as run:
+        linear = np.hypot(run["response/y_real"][0], run["response/y_imag"][0])
+    with h5py.File(examples / "overhung_response.h5") as run:
+        amplitude = [np.interp(7250, run["parameter"][:], each) for each in run["station_y_amplitude"][:].T]
+    assert amplitude[7] == pytest.approx(linear[7], rel=0.01)
+    assert amplitude[6] == pytest.approx(linear[6], rel=0.01)
+
+
+def test_a_raised_bearing_takes_load_from_its_neighbours(examples):
+    with h5py.File(examples / "level.h5") as level, h5py.File(examples / "raised.h5") as raised:
+        change = level["equilibrium/bearing_load_y"][:] - raised["equilibrium/bearing_load_y"][:]
+        place = level["rotor/station_position"][:][level["rotor/bearing_station"][:].astype(int) - 1]
+        weight = 9.81 * level["rotor/total_mass"][()]
+    assert change[1] > 0
+    assert change[0] < 0
+    assert change[2] < 0
+    # neither force nor moment of all bearings changes
+    assert abs(change.sum()) < 1e-6 * weight
+    assert abs(change @ (place - place[0])) < 1e-6 * weight * (place[-1] - place[0])
