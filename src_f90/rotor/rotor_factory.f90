@@ -20,7 +20,7 @@ contains
       class(rotor_type), allocatable, intent(out) :: rotor
       !> Not allocated where there is a rotor.
       character(len=:), allocatable, intent(out) :: refusal
-      !> A rotor of as many displacements; where it is left out the shaft has as many as the highest speed of the task asks for.
+      !> A rotor of as many displacements; where it is left out the shaft has as many as the highest speed needs.
       class(rotor_type), intent(in), optional :: before
       type(rotor_matrices_type) :: matrices
       type(elastic_rotor_type) :: elastic
@@ -54,9 +54,10 @@ contains
    pure real(wp) function highest_speed(inputs)
       type(case_type), intent(in) :: inputs
       highest_speed = inputs%highest_speed()
-      if (inputs%about%task == 'branch' .and. inputs%branch%parameter == 'operation%speed_rpm') &
-         & highest_speed = max(highest_speed, inputs%branch%last*rpm)
-      if (inputs%about%task == 'coefficients') highest_speed = max(highest_speed, &
-         & inputs%coefficients%threshold_up_to_rpm*rpm)
+      associate (branch => inputs%branch, task => inputs%about%task)
+         if (task == 'coefficients') highest_speed = max(highest_speed, inputs%coefficients%threshold_up_to_rpm*rpm)
+         if (task /= 'branch') return
+         if (branch%parameter == 'operation%speed_rpm') highest_speed = max(highest_speed, branch%last*rpm)
+      end associate
    end function highest_speed
 end module rotor_factory

@@ -1,6 +1,7 @@
 """Every case of input/ with the default settings: wall time, and error against a refined run of its own."""
 
 import os
+import re
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -11,9 +12,9 @@ from settings import REFINED, ROOT, Case
 
 
 def single_runs() -> list[Case]:
-    """All cases of the project that are one run."""
+    """All cases of the project that are one run of one bearing."""
     paths = [*sorted(ROOT.glob("input/paper/*.nml")), *sorted(ROOT.glob("input/examples/*.nml"))]
-    single = [path for path in paths if "&sweep" not in path.read_text()]
+    single = [path for path in paths if not re.search("&sweep|&shaft", path.read_text())]
     return [Case(path.stem, path.stem, str(path.relative_to(ROOT))) for path in single]
 
 
