@@ -25,6 +25,8 @@ module recorder
       !> The last sample of each bearing, and how many there were; their memory is used again.
       type(bearing_sample), allocatable, private :: taken(:)
       type(bearing_file_type), allocatable, private :: bearings(:)
+      !> y and z of the stations in the last sample, (2, station), m.
+      real(wp), allocatable, private :: stations(:, :)
       integer(i8), private :: samples = 0
    contains
       procedure :: sample
@@ -53,6 +55,7 @@ contains
       do b = 1, size(self%bearings)
          self%bearings(b) = run%bearing(b)
       end do
+      allocate (self%stations(2, run%model%rotor%stations))
       self%progress = new_progress(t, run%inputs%operation%duration, run%quiet)
       if (run%inputs%integration%stop_when_periodic > 0) call self%follow_orbit()
    end subroutine begin_recording
@@ -121,9 +124,9 @@ contains
          call self%run%extremes(b)%add(self%taken(b))
       end do
       associate (rotor => self%run%model%rotor)
-         call add_sample(self%run%file, self%bearings, self%taken, &
-            & rotor%station_displacements(y(:rotor%states)), error)
+         if (rotor%stations > 0) self%stations(:, :) = rotor%station_displacements(y(:rotor%states))
       end associate
+      call add_sample(self%run%file, self%bearings, self%taken, self%stations, error)
       self%run%reached = t
       associate (limit => self%run%inputs%integration%stop_when_periodic)
          if (limit > 0) then

@@ -19,13 +19,6 @@ module march_results
    !> Values of a sample: of the shaft, of a journal, and of a pad at most.
    integer, parameter :: of_shaft = 3, of_journal = 4, of_pad = 12
 
-   !> The series of a run, declared as the first sample is added.
-   type :: sample_values
-      real(wp), allocatable :: values(:)
-      integer :: count = 0
-      logical :: first = .false.
-   end type sample_values
-
 contains
 
    !> Adds a sample of all bearings, in the files of these, and of where the stations of a shaft are, (2, station), m:
@@ -36,47 +29,60 @@ contains
       type(bearing_sample), intent(in) :: samples(:)
       real(wp), intent(in) :: stations(:, :)
       type(error_type), allocatable, intent(out) :: error
-      type(sample_values) :: all
-      integer :: b
-      all%first = .not. file%is_declared()
-      allocate (all%values(of_shaft + sum([(of_journal + of_pad*size(samples(b)%states), b=1, size(samples))]) &
-         & + size(stations)))
+      real(wp) :: values(most_values(samples) + size(stations))
+      logical :: first
+      integer :: n, b
+      ! its series are declared as the first sample is added
+      first = .not. file%is_declared()
+      n = 0
       call one('time', samples(1)%time, 's', 'time')
       call one('shaft_angle', samples(1)%shaft_angle, 'rad', 'shaft angle')
       call one('speed', samples(1)%speed, 'rad/s', 'shaft speed')
       do b = 1, size(samples)
-         call take_bearing(all, bearings(b), samples(b))
+         call take_bearing(bearings(b), samples(b), first, values, n)
       end do
       if (size(stations) > 0) then
          call along('station_y', stations(1, :), 'shaft displacement, vertical')
          call along('station_z', stations(2, :), 'shaft displacement, horizontal')
       end if
-      call file%add(all%values(:all%count))
+      call file%add(values(:n))
       call file%error_of(error)
    contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (all%first) call file%declare(name, 1, '', units, long_name)
-         all%count = all%count + 1
-         all%values(all%count) = value
+         if (first) call file%declare(name, 1, '', units, long_name)
+         n = n + 1
+         values(n) = value
       end subroutine one
 
       !> At all stations of the shaft.
-      subroutine along(name, values, long_name)
+      subroutine along(name, at, long_name)
          character(len=*), intent(in) :: name, long_name
-         real(wp), intent(in) :: values(:)
-         if (all%first) call file%declare(name, size(values), 'station', 'm', long_name)
-         all%values(all%count + 1:all%count + size(values)) = values
-         all%count = all%count + size(values)
+         real(wp), intent(in) :: at(:)
+         if (first) call file%declare(name, size(at), 'station', 'm', long_name)
+         values(n + 1:n + size(at)) = at
+         n = n + size(at)
       end subroutine along
    end subroutine add_sample
 
-   !> What is sampled of a bearing.
-   subroutine take_bearing(all, file, sample)
-      type(sample_values), intent(inout) :: all
+   !> Most values of all bearings, and of the shaft without its stations.
+   pure integer function most_values(samples) result(n)
+      type(bearing_sample), intent(in) :: samples(:)
+      integer :: b
+      n = of_shaft
+      do b = 1, size(samples)
+         n = n + of_journal + of_pad*size(samples(b)%states)
+      end do
+   end function most_values
+
+   !> What is sampled of a bearing, behind the first n values.
+   subroutine take_bearing(file, sample, first, values, n)
       type(bearing_file_type), intent(in) :: file
       type(bearing_sample), intent(in) :: sample
+      logical, intent(in) :: first
+      real(wp), intent(inout), contiguous :: values(:)
+      integer, intent(inout) :: n
       integer :: i, k
       associate (position => sample%journal%position, velocity => sample%journal%velocity)
          call one('journal_y', position(1), 'm', 'journal displacement, vertical')
@@ -108,22 +114,22 @@ contains
                & 'normal force between the asperities of pad and journal')
          end associate
       end do
-      all%count = all%count + k*size(sample%states)
+      n = n + k*size(sample%states)
    contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (all%first) call file%declare(name, 1, '', units, long_name)
-         all%count = all%count + 1
-         all%values(all%count) = value
+         if (first) call file%declare(name, 1, '', units, long_name)
+         n = n + 1
+         values(n) = value
       end subroutine one
 
       !> Of pad i; the k-th series of the pads.
       subroutine each(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (all%first .and. i == 1) call file%declare(name, size(sample%states), 'pad', units, long_name)
-         all%values(all%count + k*size(sample%states) + i) = value
+         if (first .and. i == 1) call file%declare(name, size(sample%states), 'pad', units, long_name)
+         values(n + k*size(sample%states) + i) = value
          k = k + 1
       end subroutine each
    end subroutine take_bearing

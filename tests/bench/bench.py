@@ -20,6 +20,7 @@ from diagram import diagram, ladder
 from figures import draw
 from films import films, pads
 from machine import described
+from machines import machines
 from maps import maps
 from orbits import orbits
 from page import page
@@ -46,6 +47,7 @@ PARTS = {
     "peers": peers,
     "maps": maps,
     "warm": warm,
+    "machines": machines,
 }
 
 

@@ -1,6 +1,7 @@
 """The page of the benchmark: its words. Every number in it comes from the rows."""
 
 import costs
+import machines
 import maps
 import orbits
 import settings
@@ -238,6 +239,20 @@ viscosity does not fall makes the march with temperatures the same, step by step
 marches are those of the march alone.
 
 {warm}
+
+## Machines
+
+Elastic rotors on several bearings of the paper, with the defaults: {machine_speed} rpm and LuGre friction
+where nothing else is said. Errors are the largest deviations of all stations, and of the pads' tilts, from
+a run with {reference}: in the last revolution, in the run-up over all of it, over the largest peak-to-peak;
+for the modes those of all vibrations below five times the speed, from a map with closer films. ROSS marches
+the rotor, which is not reduced, on the stiffness and damping of its bearings at this speed and free pivots,
+and finds the modes on those that this program gave it for each speed; its error is that of the whirl of the
+disc, of linear bearings without friction. SciPy marches the same equations for {machine_span:g} s with the
+film of *Peers* and is extrapolated from there; its error is the largest deviation from this program with
+this film.
+
+{machines}
 """
 
 
@@ -293,4 +308,7 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         maps=maps.compared(rows["maps"]),
         warm_speeds=warm.MAP_SPEEDS,
         warm=warm.compared(rows["warm"]),
+        machine_speed=machines.SPEED,
+        machine_span=machines.SPAN,
+        machines=machines.compared(rows["machines"]),
     )

@@ -98,21 +98,21 @@ def film(ey, ez, vy, vz, speed, geometry, tolerance, p):
 
 
 @numba.njit(cache=True)
-def rates(t, y, speed, rotor, pads, geometry, contact, friction, tolerance, fields, moments):
-    """Right-hand side (1)-(4) and (24); fills the friction moments."""
-    mass, unbalance, gravity = rotor
+def pad_rates(
+    journal, states, speed, gravity, pads, geometry, contact, friction, tolerance, fields, moments, dydt
+):
+    """Force of the films on a journal (y, z and their rates); fills the rates of the pads' states, eqs (3),
+    (4) and (24), and the friction moments."""
     spacing, forces = contact
     ball, static, dynamic, stribeck, stiffness, damping = friction
-    dydt = np.empty_like(y)
-    fy = unbalance * speed**2 * math.cos(speed * t) - mass * gravity
-    fz = unbalance * speed**2 * math.sin(speed * t)
+    fy = fz = 0.0
     for k in range(len(pads)):
         theta, pivot_radius, centre, pad_mass, inertia, centre_radial = pads[k]
-        tilt, tilt_rate, depth, depth_rate, bristle = y[4 + STATES * k : 4 + STATES * (k + 1)]
+        tilt, tilt_rate, depth, depth_rate, bristle = states[STATES * k : STATES * (k + 1)]
         s, c = math.sin(theta - tilt), math.cos(theta - tilt)
-        ry = y[0] - (pivot_radius + depth) * math.sin(theta)
-        rz = y[1] - (pivot_radius + depth) * math.cos(theta)
-        wy, wz = y[2] - depth_rate * math.sin(theta), y[3] - depth_rate * math.cos(theta)
+        ry = journal[0] - (pivot_radius + depth) * math.sin(theta)
+        rz = journal[1] - (pivot_radius + depth) * math.cos(theta)
+        wy, wz = journal[2] - depth_rate * math.sin(theta), journal[3] - depth_rate * math.cos(theta)
         along, outward = ry * c - rz * s, ry * s + rz * c
         vy, vz = wy * c - wz * s + tilt_rate * outward, wy * s + wz * c - tilt_rate * along
         film_y, film_z = film(along, outward + centre, vy, vz, speed, geometry[k], tolerance, fields[k])
@@ -127,11 +127,24 @@ def rates(t, y, speed, rotor, pads, geometry, contact, friction, tolerance, fiel
         moments[k] = ball * normal * (stiffness * bristle + damping * bristle_rate)
         moment = -film_y * centre - moments[k] + pad_mass * gravity * centre_radial * c
         radial = -film_z - normal - pad_mass * gravity * s + pad_mass * centre_radial * tilt_rate**2
-        dydt[4 + STATES * k] = tilt_rate
-        dydt[5 + STATES * k] = moment / inertia
-        dydt[6 + STATES * k] = depth_rate
-        dydt[7 + STATES * k] = radial / pad_mass
-        dydt[8 + STATES * k] = bristle_rate
+        dydt[STATES * k] = tilt_rate
+        dydt[STATES * k + 1] = moment / inertia
+        dydt[STATES * k + 2] = depth_rate
+        dydt[STATES * k + 3] = radial / pad_mass
+        dydt[STATES * k + 4] = bristle_rate
+    return fy, fz
+
+
+@numba.njit(cache=True)
+def rates(t, y, speed, rotor, pads, geometry, contact, friction, tolerance, fields, moments):
+    """Right-hand side (1)-(4) and (24); fills the friction moments."""
+    mass, unbalance, gravity = rotor
+    dydt = np.empty_like(y)
+    fy, fz = pad_rates(
+        y[:4], y[4:], speed, gravity, pads, geometry, contact, friction, tolerance, fields, moments, dydt[4:]
+    )
+    fy += unbalance * speed**2 * math.cos(speed * t) - mass * gravity
+    fz += unbalance * speed**2 * math.sin(speed * t)
     dydt[0], dydt[1], dydt[2], dydt[3] = y[2], y[3], fy / mass, fz / mass
     return dydt
 
@@ -187,4 +200,11 @@ class Bearing:
         return rates(
             t, y, self.speed, self.rotor, self.pads, self.geometry, self.contact, self.friction,
             self.film_tolerance, self.fields, self.moments,
+        )  # fmt: skip
+
+    def force(self, journal: np.ndarray, states: np.ndarray, dydt: np.ndarray) -> tuple[float, float]:
+        """Force on a journal (y, z and their rates); fills the rates of the pads' states."""
+        return pad_rates(
+            journal, states, self.speed, self.rotor[2], self.pads, self.geometry, self.contact, self.friction,
+            self.film_tolerance, self.fields, self.moments, dydt,
         )  # fmt: skip

@@ -72,6 +72,7 @@ contains
          stiffness(i, i) = stiffness(i, i) + bearing(2 - mod(i, 2))
       end do
       found = 2*pi*whirl_frequencies(rotor%mass, rotor%damping + 4000*rpm*rotor%gyroscopic, stiffness)
+      print '(a,6f9.2)', what//':', found(:6)
       do i = 1, 6
          call expect_close(found(i), frequencies(i), merge(0.05_wp, 0.005_wp, frequencies(i) > 1000), what)
       end do
