@@ -251,7 +251,7 @@ def marched(row: Row, done: Launched, result: Path, exact: Path) -> Row:
         true = np.dstack([file["station_y"][()], file["station_z"][()]])
         at_rest = np.dstack([file[f"equilibrium/station_{axis}"][()] for axis in "yz"])
     moved = found["stations"].reshape(true.shape)
-    # the shaft's static deflection that the modes left out have is told by tiltpad alone
+    # tiltpad adds the static deflection of the modes that are left out
     moved = moved - moved[:1] + true[:1]
     row.error = float(abs(moved - true).max() / abs(true - at_rest).max())
     return row
