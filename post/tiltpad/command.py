@@ -39,6 +39,11 @@ OF_EITHER = (*VIBRATIONS, "response", "temperatures")
 SAMPLES = ("tornado", "distribution", "scatter")
 #: The plot of branches, below which studies may lie.
 BRANCH = "branch"
+#: Plots of a machine; MACHINE is that of a case or a result, drawn to scale.
+MACHINE, STATIONS, SHAFT, SHAPES = "machine", "stations", "shaft", "shapes"
+OF_MACHINES = (MACHINE, STATIONS, SHAFT, SHAPES)
+#: Plots of what a machine has as a whole, which the result of any of its bearings has, too.
+OF_WHOLE = ("multipliers", "stability")
 #: Options of some plots alone.
 OWN_OPTIONS = {
     "time": ("pressure", "film"),
@@ -49,14 +54,17 @@ OWN_OPTIONS = {
     "show": (STUDY, *SAMPLES),
     "over": (STUDY, *OF_EITHER),
     "where": (STUDY, *OF_EITHER, *SAMPLES),
-    "pivot": (STUDY, *VIBRATIONS, *SAMPLES),
+    "pivot": (STUDY, *VIBRATIONS, *SAMPLES, SHAPES),
+    "station": (STATIONS,),
 }
 #: Plots without the options --last and --pad.
 WITHOUT_LAST = (
     *("equilibrium", "runup", "orders", "waterfall", "pressure", "film", BEARING, STUDY),
-    *(BRANCH, *OF_EITHER, *SAMPLES),
+    *(BRANCH, *OF_EITHER, *SAMPLES, MACHINE, SHAFT, SHAPES),
 )
-WITHOUT_PAD = (BEARING, MOVIE, *VIBRATIONS, "response")
+WITHOUT_PAD = (BEARING, MOVIE, *VIBRATIONS, "response", *OF_MACHINES)
+#: Plots without the option --bearing.
+WITHOUT_BEARING = (STUDY, *SAMPLES, *OF_MACHINES)
 #: Exit status, as the program's own.
 INPUT_ERROR, FILE_ERROR = 1, 3
 
@@ -80,6 +88,10 @@ PLOTS = {
     "temperatures": "temperatures and viscosity of the pads: studies, a branch; heat balances of results",
     "film": "thickness and pressure of the films around the bearing at one instant (likewise)",
     "bearing": "the bearing of a case (.nml) or result: pads, pivots, angles, load, sense of rotation",
+    "machine": "a machine of a case (.nml) or result to scale: shaft, discs, bearings, unbalances, loads",
+    "stations": "orbits of the shaft of machines at stations (--station; last revolution)",
+    "shaft": "deflection of the shaft of machines at the equilibrium, with the loads of the bearings",
+    "shapes": "mode shapes of the shaft of a machine, forward or backward, in space (--pivot)",
     "movie": "journal and pads in motion, as .gif or .mp4 (last 2 revolutions)",
     "coefficients": "stiffness and damping over speed, of one result over whirl frequency (also .csv, .toml)",
     "stability": "damping ratio and logarithmic decrement of the modes, of studies and results",
@@ -196,14 +208,15 @@ def draw(options: argparse.Namespace, output: Path) -> None:
             option = {"kind": "as"}.get(name, name)
             words = f"the plot {allowed[0]}" if len(allowed) == 1 else f"the plots {', '.join(allowed)}"
             raise ValueError(f"--{option}: for {words}, not for {options.plot}")
-    for name, without in (("last", WITHOUT_LAST), ("pad", WITHOUT_PAD)):
+    without_options = {"last": WITHOUT_LAST, "pad": WITHOUT_PAD, "bearing": WITHOUT_BEARING}
+    for name, without in without_options.items():
         if getattr(options, name) is not None and options.plot in without:
             raise ValueError(f"--{name}: not for the plot {options.plot}")
     if form in TABLES:
         write_table(options, output)
         return
     mpl = matplotlib_for_files()
-    alone = {STUDY: draw_study, BEARING: draw_bearing, MOVIE: draw_movie}
+    alone = {STUDY: draw_study, BEARING: draw_scheme, MACHINE: draw_scheme, MOVIE: draw_movie}
     if options.plot in alone:
         alone[options.plot](options, output, form)
         return
@@ -213,7 +226,11 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         of_study = options.plot in SAMPLES
         either = options.plot in (BRANCH, *OF_EITHER)
         opened: Callable[[str], Run | Study] = read_study if of_study else read_either if either else read
-        runs = [stack.enter_context(opened(path)) for path in options.files]
+        runs: list[Run | Study] = []
+        for path in options.files:
+            source = opened(path)
+            stack.enter_context(source)
+            runs += bearings_of(source, options)
         stack.enter_context(mpl.style.context(plots.STYLE))
         if options.pad is not None and not (either or of_study):
             layout.shown_pads([run for run in runs if isinstance(run, Run)], options.pad)
@@ -224,6 +241,32 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
         stack.callback(plots.plt.close, figure)
         save(figure, output, form)
+
+
+def bearings_of(source: Run | Study, options: argparse.Namespace) -> list[Run | Study]:
+    """What is drawn of a file: of a machine the bearing that --bearing names, or all of them."""
+    if options.bearing is not None:
+        if isinstance(source, Study):
+            raise ValueError(f"--bearing: of results, and {source.path} is a study")
+        return [source.bearings[options.bearing]]
+    if isinstance(source, Study) or not source.bearings or options.plot in OF_MACHINES:
+        return [source]
+    if options.plot == "temperatures" and source.is_branch:
+        return [one_bearing(source, options)]
+    if options.plot in OF_WHOLE:
+        return [source.bearings.whole()]
+    return list(source.bearings.values())
+
+
+def one_bearing(run: Run, options: argparse.Namespace) -> Run:
+    """The run of one bearing, or of the bearing of a machine that --bearing names."""
+    if options.bearing is not None:
+        return run.bearings[options.bearing]
+    if run.bearings:
+        raise ValueError(
+            f"{run.path}: {options.plot}: of one bearing: {run.bearings.in_words()}; choose by --bearing"
+        )
+    return run
 
 
 def save(figure: Any, output: Path, form: str) -> None:
@@ -238,18 +281,24 @@ def write_table(options: argparse.Namespace, output: Path) -> None:
     if len(options.files) > 1 or options.over is not None:
         raise ValueError(f"{output}: a table is of one file, and over all its parameters")
     with read_either(options.files[0]) as source:
-        write_coefficients(source, output, pivot=options.pivot, where=kept(options) or None)
+        own = one_bearing(source, options) if isinstance(source, Run) else source
+        write_coefficients(own, output, pivot=options.pivot, where=kept(options) or None)
 
 
-def draw_bearing(options: argparse.Namespace, output: Path, form: str) -> None:
-    """Draws the bearing of a case or a result."""
-    from tiltpad.draw import bearing, plots
+def draw_scheme(options: argparse.Namespace, output: Path, form: str) -> None:
+    """Draws the bearing or the machine of a case or a result."""
+    from tiltpad.draw import bearing, machines, plots
 
-    path = one_file(options)
+    path, whole = one_file(options), options.plot == MACHINE
     with ExitStack() as stack:
         stack.enter_context(plots.plt.style.context(plots.STYLE))
-        case = resolved(path) if path.suffix == ".nml" else stack.enter_context(read(path))
-        figure = bearing.bearing(case)
+        case: Any
+        if path.suffix == ".nml":
+            case = resolved(path, None if whole else options.bearing)
+        else:
+            found = stack.enter_context(read(path))
+            case = found if whole else one_bearing(found, options)
+        figure = machines.machine(case) if whole else bearing.bearing(case)
         stack.callback(plots.plt.close, figure)
         save(figure, output, form)
 
@@ -259,7 +308,7 @@ def draw_movie(options: argparse.Namespace, output: Path, form: str) -> None:
     from tiltpad.draw import bearing
 
     with read(one_file(options)) as run:
-        bearing.movie(run, output, options.last)
+        bearing.movie(one_bearing(run, options), output, options.last)
 
 
 def one_file(options: argparse.Namespace) -> Path:
@@ -389,6 +438,17 @@ def plot_parser() -> Parser:
     parser.add_argument(
         "--decades", type=positive, metavar="N", help="waterfall: how far down the colours reach (3)"
     )
+    parser.add_argument(
+        "--bearing",
+        metavar="NAME",
+        help="shows this bearing of a machine only; without it all that go together",
+    )
+    parser.add_argument(
+        "--station",
+        type=station_numbers,
+        metavar="K,...",
+        help="stations: those of the shaft that are shown (1, 2, ...)",
+    )
     study = parser.add_argument_group("options for studies")
     study.add_argument(
         "--show", metavar="RESULT", help="result to draw (orbit_size, max_pressure, steps, ...)"
@@ -420,6 +480,12 @@ def assignment(text: str) -> tuple[str, str]:
     if not (name and equals and value):
         raise argparse.ArgumentTypeError(f"{text}: must be PARAMETER=VALUE")
     return name.strip(), value.strip()
+
+
+def station_numbers(text: str) -> list[int]:
+    with suppress(ValueError):
+        return [int(each) for each in text.split(",")]
+    raise argparse.ArgumentTypeError(f"{text}: must be numbers of stations, as 2,7")
 
 
 def positive(text: str) -> float:

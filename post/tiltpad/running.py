@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from tiltpad.files import namelist
-from tiltpad.files.archive import RunError
+from tiltpad.files.archive import RunError, meant
 from tiltpad.files.processes import run_program
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study, read_either
@@ -116,13 +116,21 @@ def argument(case: str | os.PathLike) -> str:
     return f"./{name}" if name.startswith("-") else name
 
 
-def resolved(case: str | os.PathLike) -> dict[str, dict[str, Any]]:
+def resolved(case: str | os.PathLike, bearing: str | None = None) -> dict[str, dict[str, Any]]:
     """The groups of a case with every default, as run.input; of a study those of its first run.
 
-    The program only checks the case.
+    Of a machine those of the bearing of this name, without a load. The program only checks the case.
     """
-    groups = checked(case)
-    return namelist.resolved(checked(case, "--run", "1") if "\n&sweep" in groups else groups)
+    text = checked(case)
+    text = checked(case, "--run", "1") if "\n&sweep" in text else text
+    groups = namelist.resolved(text)
+    names = namelist.bearing_names(groups) if namelist.is_machine(groups) else []
+    if bearing in names:
+        return namelist.resolved(namelist.of_bearing(text, bearing))
+    if bearing is not None:
+        there = f"its bearings are {', '.join(names)}" if names else "it is a case of one bearing"
+        raise ValueError(f"{case}: no bearing {bearing}{meant(bearing, names)}: {there}")
+    return groups
 
 
 def checked(case: str | os.PathLike, *options: str) -> str:

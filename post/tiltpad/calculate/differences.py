@@ -42,8 +42,14 @@ def varied(inputs: list[dict[str, dict[str, Any]]]) -> tuple[str, list[float]] |
 
 
 def by_variable(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    """The same values by "group%name", without those that are IGNORED."""
-    flat = {f"{group}%{name}": value for group in groups for name, value in groups[group].items()}
+    """The same values by "group%name", without those that are IGNORED; of a machine by "disc 2%name", too."""
+    blocks: dict[str, Any] = {}
+    for group, own in groups.items():
+        if isinstance(own, list):
+            blocks |= {f"{group} {number}": each for number, each in enumerate(own, 1)}
+        else:
+            blocks[group] = own
+    flat = {f"{group}%{name}": value for group, own in blocks.items() for name, value in own.items()}
     return {name: value for name, value in flat.items() if name not in IGNORED}
 
 
@@ -57,7 +63,8 @@ def flattened(groups: dict[str, dict[str, Any]]) -> dict[str, Any]:
     values = by_variable(groups)
     first, last = values.pop("operation%speed_rpm"), values.pop("operation%final_speed_rpm")
     found = {"speed": f"{first:g} rpm" if first == last else f"{first:g} to {last:g} rpm"}
-    found["pads"] = f"{namelist.count(values['pads%pivot_angle_deg'])} pads"
+    if "pads%pivot_angle_deg" in values:
+        found["pads"] = f"{namelist.count(values['pads%pivot_angle_deg'])} pads"
     for name, value in values.items():
         found[name] = shared(value) if name.startswith(PER_PAD) else value
     return found

@@ -21,14 +21,17 @@ LEVELS, COMBINATIONS = 10, 4
 
 
 class ArgumentError(ValueError):
-    """Arguments that do not fit the study.
+    """Arguments that do not fit the study or the machine.
 
-    The text has {show}, {over}, {kind}, {where} and {pad} where it speaks of these arguments, so that
-    the command can put its options there.
+    The text has {show}, {over}, {kind}, {where}, {pad} and {bearing} where it speaks of these arguments, so
+    that the command can put its options there.
     """
 
     #: Arguments by the command's options.
-    OPTIONS = {"show": "--show", "over": "--over", "kind": "--as", "where": "--where", "pad": "--pad"}
+    OPTIONS = {
+        **{"show": "--show", "over": "--over", "kind": "--as", "where": "--where", "pad": "--pad"},
+        "bearing": "--bearing",
+    }
 
     def __init__(self, text: str, **values: object):
         self.text, self.values = text, values

@@ -18,6 +18,7 @@ from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon
 
 from tiltpad.calculate import geometry, signals
 from tiltpad.calculate.geometry import Case, State
+from tiltpad.calculate.selection import ArgumentError
 from tiltpad.draw.layout import PAGE, plain, width
 from tiltpad.draw.plots import STYLE, polar
 from tiltpad.files.archive import RunError
@@ -46,6 +47,9 @@ def bearing(case: Run | Case) -> Figure:
     """
     run = case if isinstance(case, Run) else None
     groups = case.input if isinstance(case, Run) else case
+    if isinstance(groups["bearing"], list):
+        names = ", ".join(str(each["name"]) for each in groups["bearing"])
+        raise ArgumentError("of one bearing of the machine: choose by {bearing}: {names}", names=names)
     state = geometry.at_rest(run) if run else geometry.centred(groups)
     fig = plt.figure(figsize=(PAGE, 4.4))
     ax, beside = fig.subplots(1, 2, width_ratios=(1.45, 1))

@@ -16,6 +16,7 @@ from tiltpad.calculate.selection import ArgumentError
 from tiltpad.draw import diagrams, layout, plots
 from tiltpad.draw.branches import branch, multipliers, response
 from tiltpad.draw.films import film, pressure
+from tiltpad.draw.machines import shaft, shapes, stations
 from tiltpad.draw.orbits import equilibrium, orbit
 from tiltpad.draw.runups import orders, runup, size, waterfall
 from tiltpad.draw.samples import distribution, scatter, tornado
@@ -209,5 +210,6 @@ FIGURES = {
         *(hysteresis, friction, sticking, runup, orders, waterfall, pressure, film),
         *(coefficients, stability, campbell, response, branch, temperatures),
         *(tornado, distribution, scatter),
+        *(stations, shaft, shapes),
     )
 }

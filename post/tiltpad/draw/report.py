@@ -12,18 +12,20 @@ from tiltpad.calculate.coefficients import coefficients
 from tiltpad.calculate.library import MissingLibraryError
 from tiltpad.calculate.modes import modes
 from tiltpad.calculate.response import response
-from tiltpad.draw import figures
+from tiltpad.draw import figures, machine_report
 from tiltpad.draw.bearing import bearing
 from tiltpad.draw.branches import in_words as critical
 from tiltpad.draw.page import PICTURES, page, paragraph, picture, row, section, table
 from tiltpad.files.archive import NotInRunError
-from tiltpad.files.read import Run
+from tiltpad.files.read import Bearing, Run
 from tiltpad.files.units import SHOWN, digits, in_words
 
 
 def report(run: Run) -> str:
     """The page as text; tables and pictures that the run cannot have are left out."""
     title = run.title or Path(run.path).stem
+    if run.bearings:
+        return page(title, of_machine(run))
     parts = [
         f"<p class=origin>{escape(origin(run))}</p>",
         incomplete(run),
@@ -40,6 +42,25 @@ def report(run: Run) -> str:
         section("Cost", statistics(run)),
     ]
     return page(title, parts)
+
+
+def of_machine(run: Run) -> Iterable[str]:
+    """The parts of the page about a machine: the whole of it, then each of its bearings."""
+    yield f"<p class=origin>{escape(origin(run))}</p>"
+    yield incomplete(run)
+    yield orbit_stability(run)
+    yield machine_report.remarks(run)
+    yield section("Rotor", machine_report.rotor_figures(run))
+    yield section("Bearings", machine_report.bearing_figures(run))
+    yield section("Stations", machine_report.station_figures(run))
+    yield section("Films, solved closely", verification(run))
+    yield section("Modes", machine_report.mode_table(run))
+    yield section("Pictures", "".join(machine_report.pictures(run)))
+    for name, own in run.bearings.items():
+        tables = (pad_figures(own), spectrum_peaks(own), coefficient_table(own))
+        yield section(escape(f"Bearing {name}"), "".join([*tables, *pictures(own)]))
+    yield section("Input", f"<pre>{escape(run.attributes['input'].strip())}</pre>")
+    yield section("Cost", statistics(run))
 
 
 def origin(run: Run) -> str:
@@ -177,6 +198,8 @@ def pictures(run: Run) -> Iterable[str]:
     yield picture("bearing", lambda: bearing(run), "The bearing, with clearances enlarged.")
     for name in PICTURES:
         if (name == "size" and signals.steady(run)) or (name == "equilibrium" and run.samples):
+            continue
+        if isinstance(run, Bearing) and name in machine_report.WHOLE:
             continue
         pad = liveliest(run) if name == "poincare" else None
         try:

@@ -20,8 +20,8 @@ from h5py import h5d, h5l, h5t, h5z
 from tiltpad.files import heaps
 from tiltpad.files.former_names import FORMER_NAMES, renamed
 
-#: Oldest and newest format_version that this reader knows, of results and of studies.
-OLDEST_VERSION, FORMAT_VERSION = 2, 3
+#: Oldest format_version that this reader knows, today's of results and of studies, and that of machines.
+OLDEST_VERSION, FORMAT_VERSION, MACHINE_VERSION = 2, 3, 4
 #: Attributes of every file, and those that are numbers.
 REQUIRED = ("version", "created", "title", "task", "input")
 NUMBERS = ("format_version", "complete", "exit_status", "resumes", "run", "runs")
@@ -67,6 +67,9 @@ class Archive:
         "periodic",
         "summary",
         "by_revolution",
+        "rotor",
+        "response",
+        "synchronous",
     )
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"
@@ -74,10 +77,11 @@ class Archive:
     INTERNAL = (
         *("check_whole", "check_dataset", "scales", "sound", "without", "item", "own", "found", "listed"),
         *("former", "size", "why_not", "end", "in_words", "is_series", "KINDS", "OWN", "GROUPS", "INTERNAL"),
-        *("scale", "today", "most"),
+        *("scale", "today", "most", "inside", "check_bearings", "needs_one_bearing", "own_names"),
+        *("machine", "group"),
     )
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
-    OWN = ("file", "path", "attributes", "former", "found", "listed", "over", "size")
+    OWN = ("file", "path", "attributes", "former", "found", "listed", "over", "size", "machine", "group")
 
     def __init__(self, path: str | os.PathLike):
         self.path = os.fspath(path)
@@ -134,13 +138,16 @@ class Archive:
     def names(self, group: str = "") -> list[str]:
         """Names of the datasets and groups in the file or in a group of it, in alphabetical order."""
         if group not in self.listed:
-            found = self.item(group) if group else self.file
-            with reading(self.path, group or "the list of datasets"):
-                if group not in UNLIMITED:
-                    few_enough(found)
-                there = [plain(name) for name in found] if isinstance(found, h5py.Group) else []
+            there = self.inside(self.item(group) if group else self.file, group)
             self.listed[group] = sorted(self.today(f"{group}/{own}".lstrip("/")) for own in there)
         return self.listed[group]
+
+    def inside(self, found: h5py.Dataset | h5py.Group, group: str) -> list[str]:
+        """Names of what is in the group `found`, called `group` in messages; none of an array."""
+        with reading(self.path, group or "the list of datasets"):
+            if group not in UNLIMITED:
+                few_enough(found)
+            return [plain(name) for name in found] if isinstance(found, h5py.Group) else []
 
     def values(self, name: str, part: slice | int = slice(None)) -> Any:
         """A dataset as an array, or the samples `part` of it; a group as a dictionary of arrays."""
@@ -385,13 +392,13 @@ def check_origin(path: str, attributes: dict[str, Any]) -> None:
         if name in REQUIRED and not isinstance(value, str):
             raise damaged(path, f"attribute '{name}'", "not a text")
     version = int(attributes["format_version"])
-    if version > FORMAT_VERSION:
+    if version > MACHINE_VERSION:
         raise RunError(
-            f"{path}: format_version {version} is newer than {FORMAT_VERSION}, the newest this reader knows; "
-            "update the Python package tiltpad"
+            f"{path}: format_version {version} is newer than {MACHINE_VERSION}, "
+            "the newest this reader knows; update the Python package tiltpad"
         )
     if version < OLDEST_VERSION:
-        known = f"versions {OLDEST_VERSION} to {FORMAT_VERSION} can be read"
+        known = f"versions {OLDEST_VERSION} to {MACHINE_VERSION} can be read"
         raise RunError(f"{path}: format_version {version} is unknown; {known}")
 
 

@@ -24,9 +24,19 @@ LARGEST = 1e30
 #: The program writes some thousand characters.
 LONGEST = 1 << 20
 
+#: Groups that a machine has several times: those of its bearings, and what stands on its shaft.
+OF_BEARINGS = ("bearing", "oil", "pads", "pivot", "friction", "asperity", "film")
+SEVERAL = (*OF_BEARINGS, "disc", "unbalance", "load", "support")
+#: Groups and variables of a machine that a case of one bearing has not.
+OF_MACHINES = ("shaft", "reduction", "rotor", "disc", "unbalance", "load", "support")
+OF_PLACES = ("name", "station", "offset")
+#: The least mass, kg, that a rotor may have.
+LEAST_MASS = 1e-6
+
 #: Variables that the package uses: those of one number, those of one or several numbers, texts.
+OPERATION = ("operation%speed_rpm", "operation%final_speed_rpm", "operation%duration")
 ONE_NUMBER = (
-    *("operation%speed_rpm", "operation%final_speed_rpm", "operation%duration"),
+    *OPERATION,
     *("bearing%journal_radius", "bearing%machined_clearance", "bearing%assembled_clearance"),
     *("bearing%axial_length", "rotor%mass", "rotor%gravity"),
     *("pivot%socket_radius", "pivot%radius_difference"),
@@ -38,17 +48,54 @@ TEXTS = ("friction%model", "pads%motion")
 
 def resolved(text: str) -> dict[str, dict[str, Any]]:
     """Groups of the namelist text of a result; ValueError where a variable that is used is missing."""
-    if len(text) > LONGEST:
-        raise ValueError(f"{len(text)} characters")
     groups = parse(text)
+    if is_machine(groups):
+        needs_variables(groups, OPERATION, int | float)
+        return groups
     for names, kinds in ((ONE_NUMBER, int | float), (NUMBERS, int | float | tuple), (TEXTS, str)):
-        for group, _, name in (each.partition("%") for each in names):
-            value = groups.get(group, {}).get(name)
-            if not isinstance(value, kinds):
-                raise ValueError(f"{group}%{name} is {'missing' if value is None else value}")
+        needs_variables(groups, names, kinds)
     if len({count(groups["pads"][name.split("%")[1]]) for name in NUMBERS}) > 1:
         raise ValueError("the pads' values are not equally many")
     return groups
+
+
+def needs_variables(groups: Mapping[str, Any], names: Sequence[str], kinds: Any) -> None:
+    """Raises ValueError where one of these variables is missing, or is of another kind."""
+    for group, _, name in (each.partition("%") for each in names):
+        value = groups.get(group, {}).get(name)
+        if not isinstance(value, kinds):
+            raise ValueError(f"{group}%{name} is {'missing' if value is None else value}")
+
+
+def is_machine(groups: Mapping[str, Any]) -> bool:
+    """True for the groups of a machine: its bearings have names, and are a list."""
+    return isinstance(groups.get("bearing"), list)
+
+
+def bearing_names(groups: Mapping[str, Any]) -> list[str]:
+    """Names of the bearings of a machine, in the order of its input."""
+    return [f"{each.get('name', '')}" for each in groups["bearing"]]
+
+
+def of_bearing(text: str, name: str, load: Sequence[float] = (0, 0)) -> str:
+    """The namelist text of one bearing of a machine, as a case of its own under this load (y, z), N.
+
+    Its rotor is the mass that the bearing carries, and what else the load is.
+    """
+    gravity = parse(text).get("rotor", {}).get("gravity", 0)
+    mass = max(LEAST_MASS, -load[0] / gravity) if gravity > 0 else LEAST_MASS
+    rotor = {"mass": mass, "gravity": gravity, "static_load": (load[0] + mass * gravity, load[1])}
+    kept = ["\n".join(["&rotor", *(f"  {name} = {written(value)}" for name, value in rotor.items()), "/\n"])]
+    for block in re.split(r"^(?=&)", text, flags=re.MULTILINE)[1:]:
+        ((group, own),) = variables_of(block)
+        if group in OF_MACHINES or (
+            group in OF_BEARINGS and name not in (own.get("name"), own.get("bearing"))
+        ):
+            continue
+        places = (*OF_PLACES, "bearing") if group in OF_BEARINGS else ()
+        lines = (line for line in block.splitlines() if line.split("=")[0].strip() not in places)
+        kept.append("\n".join(lines) + "\n")
+    return "".join(kept)
 
 
 def count(value: Any) -> int:
@@ -58,15 +105,34 @@ def count(value: Any) -> int:
 def parse(text: str) -> dict[str, dict[str, Any]]:
     """Groups of the namelist text: {"bearing": {"assembled_clearance": 8e-5, ...}, ...}.
 
+    In a machine those that are there several times are lists: {"bearing": [{"name": "left", ...}, ...]}.
     It reads what the program writes (one assignment a line, texts in single quotes), not every namelist.
     """
-    groups: dict[str, dict[str, Any]] = {}
+    if len(text) > LONGEST:
+        raise ValueError(f"{len(text)} characters")
+    blocks = variables_of(text)
+    if not any(group == "bearing" and "name" in own for group, own in blocks):
+        return dict(blocks)
+    groups: dict[str, Any] = {}
+    for group, own in blocks:
+        if group in SEVERAL:
+            groups.setdefault(group, []).append(own)
+        else:
+            groups[group] = own
+    return groups
+
+
+def variables_of(text: str) -> list[tuple[str, dict[str, Any]]]:
+    """Each group of a namelist text with its variables, in its order."""
+    blocks: list[tuple[str, dict[str, Any]]] = []
     for found in ASSIGNMENT.finditer(text):
         if found["group"]:
-            groups[found["group"]] = group = {}
+            blocks.append((found["group"], {}))
+        elif blocks:
+            blocks[-1][1][found["name"]] = value_of(found["value"].strip())
         else:
-            group[found["name"]] = value_of(found["value"].strip())
-    return groups
+            raise ValueError(f"{found['name']} before any group")
+    return blocks
 
 
 def value_of(text: str) -> str | bool | int | float | tuple[int | float, ...]:
@@ -89,15 +155,17 @@ def number_of(word: str) -> int | float:
 def write_case(path: str | os.PathLike, groups: Mapping[str, Mapping[str, Any]]) -> Path:
     """Writes a case for the program: {"operation": {"speed_rpm": 3000}, ...}; gives its path.
 
+    A group that a machine has several times is a list: {"disc": [{"station": 3, ...}, {"station": 7, ...}]}.
     Values are numbers, texts, paths, truth values, or sequences of them. The input of a result,
     `run.input`, is such a dictionary. Raises ValueError for anything else.
     """
     lines = []
     for group, values in groups.items():
-        own = variables(group, values).items()
-        lines.append(f"&{group}")
-        lines += [f"  {name} = {written(value, is_varied(group, name))}" for name, value in own]
-        lines.append("/")
+        for each in values if isinstance(values, list) else [values]:
+            own = variables(group, each).items()
+            lines.append(f"&{group}")
+            lines += [f"  {name} = {written(value, is_varied(group, name))}" for name, value in own]
+            lines.append("/")
     write(path, "\n".join([*lines, ""]))
     return Path(path)
 

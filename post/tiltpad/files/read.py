@@ -6,8 +6,9 @@ import warnings
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from functools import cached_property, wraps
-from typing import Any
+from typing import Any, NoReturn
 
+import h5py
 import numpy as np
 
 from tiltpad.files import namelist
@@ -18,6 +19,10 @@ from tiltpad.files.writing import replacing
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
 #: Groups of a file, and the tasks that write them.
 TASKS = {"coefficients": "coefficients", "modes": "coefficients", "periodic": "periodic"}
+#: How names begin that are of a machine as a whole, and what a result of one bearing has not.
+OF_MACHINES = ("station", "bearing", "rotor", "response", "synchronous")
+#: What a run of one bearing has as attributes.
+OF_EACH = ("pads", "clearance")
 #: What only pads that tilt have.
 OF_TILTING = ("pad_tilt", "pivot_load", "friction_moment")
 #: Series of branches, by which a run without them is told that it is none.
@@ -48,9 +53,14 @@ class Run(Archive):
         run["equilibrium/journal_y"]         one of them
         run.title, run.complete, ...         attributes of the file; run.attributes has all of them
         run.input["bearing"]                 resolved namelist, a dictionary a group
+        run.bearings["left"].journal_y       of a machine: what it has of one of its bearings
+
+    The input of a machine has lists of the groups that are there several times: run.input["disc"][0]["mass"].
     """
 
     KINDS = "fiuS"
+    #: What stands before names in the file: the group of a bearing of a machine, with a slash at its end.
+    group = ""
 
     def __init__(self, path: str | os.PathLike):
         super().__init__(path)
@@ -67,14 +77,17 @@ class Run(Archive):
         return "\n".join(lines) + ">"
 
     def in_words(self) -> str:
-        """Task, whether it is complete, duration, pads, friction and speed."""
-        pads, friction = self.input["pads"]["motion"], self.input["friction"]["model"]
+        """Task, whether it is complete, duration, pads and friction or bearings, and speed."""
         first, final = (self.input["operation"][name] for name in ("speed_rpm", "final_speed_rpm"))
         words = [self.task, "complete" if self.complete else f"incomplete{self.end()}"]
         if self.samples and self.complete:
             words.append(f"{self.values('time', -1):g} s")
-        words.append(f"{self.pads} pad{'s' if self.pads > 1 else ''} ({pads})")
-        words.append("no friction" if friction == "none" else f"friction {friction}")
+        if self.bearings:
+            words.append(f"{len(self.bearings)} bearings ({', '.join(self.bearings)})")
+        else:
+            pads, friction = self.input["pads"]["motion"], self.input["friction"]["model"]
+            words.append(f"{self.pads} pad{'s' if self.pads > 1 else ''} ({pads})")
+            words.append("no friction" if friction == "none" else f"friction {friction}")
         words.append(
             f"{first:g} rpm" if first == final or self.task != "march" else f"{first:g} to {final:g} rpm"
         )
@@ -85,7 +98,8 @@ class Run(Archive):
         import xarray
 
         with reading(self.path, group or "it"):
-            data = xarray.load_dataset(self.path, engine="h5netcdf", group=group)
+            where = f"{self.group}{group or ''}".rstrip("/") or None
+            data = xarray.load_dataset(self.path, engine="h5netcdf", group=where)
         scales = {name: self[name] for name in data.dims if name in self and name not in data.coords}
         return data.assign_coords(scales)
 
@@ -129,14 +143,21 @@ class Run(Archive):
         with reading(self.path, "attribute 'input'"):
             return namelist.resolved(self.attributes["input"])
 
+    @cached_property
+    def bearings(self) -> "Bearings":
+        """The bearings of a machine by their names, each as the run of one bearing; else empty."""
+        return Bearings(self)
+
     @property
     def clearance(self) -> float:
         """Bearing clearance c_r, m."""
+        self.needs_one_bearing("clearance")
         return self.input["bearing"]["assembled_clearance"]
 
     @property
     def pads(self) -> int:
         """Number of pads."""
+        self.needs_one_bearing("pads")
         return namelist.count(self.input["pads"]["pivot_angle_deg"])
 
     @property
@@ -157,8 +178,31 @@ class Run(Archive):
             )
         if "complete" not in self.attributes:
             raise damaged(self.path, "attribute 'complete'", "it is missing")
+        if namelist.is_machine(self.input):
+            self.check_bearings()
+            return
         if "pad" in self and (there := self.length("pad")) != self.pads:
             raise damaged(self.path, "pad", f"{there} pads, and {self.pads} in the input")
+
+    def check_bearings(self) -> None:
+        """Refuses a machine whose input has other bearings than its datasets, or others of their pads."""
+        names = namelist.bearing_names(self.input)
+        with reading(self.path, "bearings"):
+            there = self.inside(self.own("bearings"), "bearings")
+        if sorted(there) != sorted(names) or self.length("bearing") != len(names):
+            text = f"there are {', '.join(there)}, and {', '.join(names)} in the input"
+            raise damaged(self.path, "bearings", text)
+        for each in self.bearings.values():
+            each.check_whole()
+
+    def needs_one_bearing(self, name: str) -> None:
+        """Raises NotInRunError for an attribute that a machine has of each bearing."""
+        if self.bearings:
+            raise NotInRunError(self.without(name))
+
+    def names(self, group: str = "") -> list[str]:
+        """Names of the datasets and groups in the file or in a group of it, in alphabetical order."""
+        return [name for name in super().names(group) if group or name != "bearings"]
 
     def sound(self, name: str, values: Any) -> Any:
         if np.asarray(values).dtype.kind == "S":
@@ -186,6 +230,8 @@ class Run(Archive):
 
     def why_not(self, name: str) -> str:
         """The reason why the run has no such dataset."""
+        if self.bearings:
+            return self.bearings.why_not(name)
         friction, motion = self.input["friction"]["model"], self.input["pads"]["motion"]
         if name == "bristle_deflection" and friction != "lugre":
             return f"friction model is '{friction}'"
@@ -218,6 +264,106 @@ class Run(Archive):
         if name == "spectrum":
             return "less than one revolution was sampled, or the run is incomplete"
         return f"there are {', '.join(self.names())}{meant(name, self.names())}"
+
+
+class Bearings(dict[str, "Bearing"]):
+    """The bearings of a machine by their names, in the order of its input; empty for any other run."""
+
+    def __init__(self, machine: Run):
+        self.machine = machine
+        names = namelist.bearing_names(machine.input) if namelist.is_machine(machine.input) else []
+        super().__init__({name: Bearing(machine, name) for name in names})
+
+    def __missing__(self, name: str) -> NoReturn:
+        why = self.in_words() if self else "it is a run of one bearing"
+        raise NotInRunError(
+            f"{self.machine.path}: no bearing {shown(f'{name}')}{meant(f'{name}', self)}: {why}"
+        )
+
+    def whole(self) -> "Bearing":
+        """One of them, called as the machine, for what this has as a whole."""
+        own = Bearing(self.machine, next(iter(self)))
+        own.attributes["title"] = self.machine.attributes["title"]
+        return own
+
+    def in_words(self) -> str:
+        """Their names, in words."""
+        return f"its bearings are {', '.join(self)}"
+
+    def why_not(self, name: str) -> str:
+        """The reason why the machine as a whole has no such dataset."""
+        there = next((each for each, own in self.items() if name in own or name in OF_EACH), None)
+        if there is not None:
+            own = f".{name}" if name in OF_EACH else f"[{name!r}]"
+            return f"its bearings have it, as run.bearings[{there!r}]{own}; {self.in_words()}"
+        if name.startswith(OF_MACHINES):
+            known = self.machine.names()
+            task = f"its task is '{self.machine.task}'"
+            return f"{task}, and there are {', '.join(known)}{meant(name, known)}"
+        return next(iter(self.values())).why_not(name)
+
+
+class Bearing(Run):
+    """A bearing of a machine as the run of one bearing: every calculation and picture of a run takes it.
+
+    It has what its group of the file has, and under their own names what the machine has as a whole: time,
+    speed, frequencies and damping of modes, Floquet multipliers. Its load is that of the equilibrium.
+    """
+
+    def __init__(self, machine: Run, name: str):
+        self.machine, self.group = machine, f"bearings/{name}/"
+        self.path, self.file, self.size, self.former = (
+            machine.path,
+            machine.file,
+            machine.size,
+            machine.former,
+        )
+        self.found, self.listed, self.over = {}, {}, {}
+        own = {key.removeprefix(self.group): value for key, value in machine.attributes.items()}
+        title = f"{machine.attributes['title']}, bearing {name}".removeprefix(", ")
+        with reading(self.path, "attribute 'input'"):
+            text = namelist.of_bearing(machine.attributes["input"], name, load_of(machine, name))
+        self.attributes = own | {"title": title, "input": text}
+
+    @cached_property
+    def input(self) -> dict[str, dict[str, Any]]:
+        """The resolved namelist of the bearing: {"bearing": {"assembled_clearance": 8e-5, ...}, ...}."""
+        with reading(self.path, f"attribute 'input' of {self.group}"):
+            return namelist.resolved(self.attributes["input"])
+
+    def own_names(self, group: str = "") -> list[str]:
+        """Names of what is in its group of the file, or in a group there."""
+        if group and group not in self.own_names():
+            return []
+        where = f"{self.group}{group}".rstrip("/")
+        with reading(self.path, where):
+            found = super().own(where)
+        return self.inside(found, where)
+
+    def names(self, group: str = "") -> list[str]:
+        """Names of the datasets and groups of the bearing, and of the machine as a whole, or in a group."""
+        if group not in self.listed:
+            shared = self.machine.names(group) if group in ("", *self.machine.names()) else []
+            found = {name for name in shared if not name.startswith(OF_MACHINES)}
+            self.listed[group] = sorted(found.union(self.own_names(group)))
+        return self.listed[group]
+
+    def own(self, path: str) -> h5py.Dataset | h5py.Group:
+        """The object of this path: that of the bearing, or else that of the machine."""
+        group, _, name = path.rpartition("/")
+        return super().own(self.group + path if name in self.own_names(group) else path)
+
+    def close(self) -> None:
+        """Closes the file of the machine."""
+        self.found.clear()
+        self.machine.close()
+
+
+def load_of(machine: Run, name: str) -> list[float]:
+    """The load of the rotor on a bearing at the equilibrium (y, z), N; none where there is no equilibrium."""
+    place = namelist.bearing_names(machine.input).index(name)
+    loads = [f"equilibrium/bearing_load_{axis}" for axis in "yz"]
+    return [float(machine[each][place]) if each in machine else 0.0 for each in loads]
 
 
 def needs_run(given: object) -> None:

@@ -1,0 +1,120 @@
+"""Parts of the page about a machine that the page about one bearing has not."""
+
+from collections.abc import Iterable, Sequence
+from functools import partial
+
+import numpy as np
+
+from tiltpad.calculate import behaviour, summary
+from tiltpad.calculate.stations import attached, positions, station_modes
+from tiltpad.draw import figures
+from tiltpad.draw.machines import in_words, machine
+from tiltpad.draw.page import paragraph, picture, row, table
+from tiltpad.files.archive import NotInRunError
+from tiltpad.files.read import Run
+from tiltpad.files.units import SHOWN, Shown, described, digits, fitted, numbers
+
+#: Pictures of the machine as a whole; those of the bearings are beside them.
+WHOLE = ("shaft", "stations", "shapes", "multipliers", "stability")
+#: What the rotor is, in the order of the table.
+ROTOR = ("total_mass", "left_out_frequency", "truncation_error", "damping_error")
+#: Figures of the stations, and their words at the head of the table.
+STATIONS = {
+    "equilibrium/station_y": "equilibrium y",
+    "equilibrium/station_z": "equilibrium z",
+    "summary/station_y_size": "peak to peak y",
+    "summary/station_z_size": "peak to peak z",
+    "summary/station_y_amplitude": "1x amplitude y",
+    "summary/station_z_amplitude": "1x amplitude z",
+}
+
+
+def remarks(run: Run) -> str:
+    """What is said of each bearing, those that rub as warnings."""
+    said = [
+        f"Bearing {name}: {each[0].lower()}{each[1:]}"
+        for name, own in run.bearings.items()
+        for each in behaviour.remarks(own)
+    ]
+    return "".join(paragraph(each, warning="rubs" in each) for each in said)
+
+
+def rotor_figures(run: Run) -> str:
+    """The mass of the rotor, its modes, the errors of its reduction, and what the file has of the whole run."""
+    rows = []
+    if "rotor/mode_frequency" in run:
+        kept = run["rotor/mode_frequency"]
+        words = "modes of the shaft that are kept, and the highest frequency of them"
+        rows.append((words, f"{len(kept)}, {digits(max(kept, default=0.0))}", "Hz"))
+    for name in (f"rotor/{each}" for each in ROTOR if f"rotor/{each}" in run):
+        own = Shown(run.about(name, "long_name"), 1, run.about(name, "units").replace("1", ""))
+        rows.append((own.text, digits(float(run[name])), own.unit))
+    rows += [row(shown, list(np.atleast_1d(value))) for _, shown, value in summary.journal(run)]
+    return table(("rotor and run", "value", "unit"), rows)
+
+
+def bearing_figures(run: Run) -> str:
+    """Stations, loads and key figures of the bearings, a column for each."""
+    names = list(run.bearings)
+    rows = []
+    if "rotor/bearing_station" in run:
+        rows.append(("station", *(f"{each:.0f}" for each in run["rotor/bearing_station"]), ""))
+    for axis, way in (("y", "vertical"), ("z", "horizontal")):
+        if (name := f"equilibrium/bearing_load_{axis}") in run:
+            rows.append(row(Shown(f"load of the rotor, {way}", 1e-3, "kN"), run[name]))
+    whole = {each.name for each in summary.journal(run)}
+    found = [{each.name: each for each in summary.journal(own)} for own in run.bearings.values()]
+    for name in dict.fromkeys(name for own in found for name in own if name not in whole):
+        shown = next(own[name].shown for own in found if name in own)
+        values = [float(own[name].value) if name in own else np.nan for own in found]
+        rows.append(row(shown, values))
+    return table(("bearing", *names, "unit"), rows)
+
+
+def station_figures(run: Run) -> str:
+    """Where the shaft is at the stations, and how far they move in the last revolution."""
+    there = {name: words for name, words in STATIONS.items() if name in run}
+    if not there:
+        return ""
+    columns, heads = [], []
+    for name, words in there.items():
+        shown = fitted(described(run, name, "journal_y"), run[name])
+        columns.append(numbers(shown, run[name]))
+        heads.append(f"{words} ({shown.unit})")
+    what, x = attached(run.input), positions(run)
+    known = "rotor/station_position" in run
+    rows: list[Sequence[str]] = []
+    for k, values in enumerate(zip(*columns, strict=True)):
+        label = ", ".join([f"{k + 1}", *what.get(k + 1, [])])
+        rows.append((label, f"{x[k]:.4g}" if known else "", *values))
+    return table(("station", "position (m)", *heads), rows)
+
+
+def mode_table(run: Run) -> str:
+    """The modes that vibrate, for all pivots, with the sense of their whirl."""
+    if "modes" not in run:
+        return ""
+    rows, notes = [], []
+    for pivot in (str(each) for each in run["pivot"]):
+        found = station_modes(run, pivot)
+        for k in np.flatnonzero(found.frequency > 0):
+            values = (SHOWN["damping_ratio"].factor * found.damping_ratio[k], found.log_decrement[k])
+            sense = in_words(found.whirl[k])
+            rows.append((f"{pivot}, {sense}", f"{found.frequency[k]:.5g}", *map(digits, values)))
+        if "modes/threshold_rpm" in run and np.isfinite(speed := run["modes/threshold_rpm"][len(notes)]):
+            notes.append(f"{pivot} pivots: {speed:.1f} rpm")
+    note = f"<p>Threshold speed of stability: {'; '.join(notes)}.</p>" if notes else ""
+    heads = ("pivots, whirl of the shaft", "frequency (Hz)", "damping ratio (%)", "logarithmic decrement")
+    return table(heads, rows) + note
+
+
+def pictures(run: Run) -> Iterable[str]:
+    """The pictures of the machine as a whole that this run can have."""
+    if "length" in run.input.get("shaft", {}):
+        yield picture("machine", lambda: machine(run), "The machine to scale.")
+    for name in WHOLE:
+        source = run if name in ("shaft", "stations", "shapes") else run.bearings.whole()
+        try:
+            yield picture(name, partial(figures.FIGURES[name], [source]))
+        except NotInRunError:
+            continue

@@ -1,0 +1,308 @@
+"""Results of machines: their stations and bearings, every plot of them, their report, and what is refused."""
+
+import subprocess
+
+import h5py
+import numpy as np
+import pytest
+import tiltpad
+from tiltpad import command, figures
+from tiltpad.calculate import stations
+from tiltpad.draw import machines
+
+pytestmark = pytest.mark.usefixtures("quick_pictures")
+
+MARCHED = "orbit equilibrium size poincare waveform spectrum hysteresis friction sticking runup pressure film"
+#: Tasks, and the plots of their results that are drawn; all others say in a line why not.
+DRAWN = {
+    "march": f"{MARCHED} machine stations shaft",
+    "equilibrium": "equilibrium pressure film machine shaft",
+    "coefficients": "equilibrium pressure film coefficients stability machine shaft shapes",
+    "periodic": f"{MARCHED} multipliers machine stations shaft",
+    "branch": "equilibrium pressure film machine shaft branch response multipliers",
+}
+#: Rounding alone is between a file's values and what is calculated from them.
+ROUNDING = 1e-12
+
+
+@pytest.fixture(scope="module")
+def machine(tiltpad, tmp_path_factory):
+    """machine("march"): path of the result of this task of a machine on two different bearings."""
+    folder = tmp_path_factory.mktemp("machine")
+    (folder / "machine.nml").write_text(CASE)
+
+    def path(task):
+        file = folder / f"{task}.h5"
+        if not file.exists():
+            words = ["--set", f"case%task={task}", *(BRANCH if task == "branch" else ())]
+            tiltpad("--quiet", "machine.nml", *words, "--output", file, cwd=folder, status=0)
+        return file
+
+    return path
+
+
+BRANCH = [word for each in ("parameter=operation%speed_rpm", "last=4200", "step=100") for word in
+          ("--set", f"branch%{each}")]  # fmt: skip
+CASE = """&case title='Machine' /
+&operation speed_rpm=4100, duration=0.06 /
+&output samples_per_revolution=60, spectrum_revolutions=2 /
+&film cavitation='none' /
+&friction model='lugre' /
+&shaft length=0.05, 0.05, 4*0.4, 2*0.05, 0.15, diameter=2*0.0998, 4*0.34, 3*0.0998 /
+&disc station=4, mass=2000, polar_inertia=400, diametral_inertia=220 /
+&disc station=10, mass=60, polar_inertia=2, diametral_inertia=1 /
+&unbalance station=4, moment=0.02 /
+&unbalance station=10, moment=0.001, angle_deg=90 /
+&load station=5, force=-2000, 1500 /
+&bearing name='drive_end', station=2 /
+&bearing name='free_end', station=8 /
+&pads bearing='free_end', pivot_angle_deg=-54, 18, 90, 162, 234, arc_deg=5*60 /
+&support bearing='free_end', mass=200, stiffness=1e9, 1e9, damping=1e5, 1e5 /
+"""
+
+
+def test_stations_and_bearings(machine):
+    with tiltpad.read(machine("march")) as run:
+        assert list(run.bearings) == ["drive_end", "free_end"]
+        assert run.scales("station_y") == ("time", "station")
+        assert run.about("station_y", "units") == "m"
+        left, right = run.bearings.values()
+        assert (left.pads, right.pads) == (2, 5)
+        with h5py.File(machine("march")) as file:
+            np.testing.assert_array_equal(right.pad_tilt, file["bearings/free_end/pad_tilt"])
+        np.testing.assert_allclose(left.journal_y, run.station_y[:, 1], atol=ROUNDING * 1e-4)
+        np.testing.assert_array_equal(left.time, run.time)
+        y, z = stations.station_orbit(run, 2)
+        np.testing.assert_allclose([np.ptp(y), np.ptp(z)], tiltpad.orbit_size(left), rtol=1e-9)
+        assert "2 bearings (drive_end, free_end)" in repr(run)
+
+
+def test_a_bearing_is_a_run_of_one_bearing(machine):
+    """Calculations take it, also those of the library: its films carry its load."""
+    with tiltpad.read(machine("equilibrium")) as run:
+        for k, (name, bearing) in enumerate(run.bearings.items()):
+            assert bearing.title == f"Machine, bearing {name}"
+            rotor = bearing.input["rotor"]
+            load = np.array([run[f"equilibrium/bearing_load_{axis}"][k] for axis in "yz"])
+            weight = np.array([rotor["mass"] * rotor["gravity"], 0])
+            np.testing.assert_allclose(
+                np.array(rotor["static_load"]) - weight, load, atol=1e-9 * abs(load[0])
+            )
+            found = tiltpad.pressure(bearing)
+            np.testing.assert_allclose(found.max_pressure, bearing["equilibrium/max_pressure"], rtol=1e-3)
+        assert sum(run["equilibrium/bearing_load_y"]) == pytest.approx(-9.81 * run["rotor/total_mass"] - 2000)
+    with tiltpad.read(machine("coefficients")) as run:
+        one, other = (tiltpad.modes(each) for each in run.bearings.values())
+        np.testing.assert_array_equal(one.frequency, other.frequency)
+        assert tiltpad.coefficients(run.bearings["free_end"]).stiffness.shape == (1, 2, 2)
+
+
+def test_what_a_machine_has_not_is_said(machine):
+    with tiltpad.read(machine("march")) as run:
+        with pytest.raises(tiltpad.NotInRunError, match=r"as run.bearings\['drive_end'\]\['journal_y'\]"):
+            run.journal_y  # noqa: B018
+        with pytest.raises(tiltpad.NotInRunError, match=r"as run.bearings\['drive_end'\].pads"):
+            run.pads  # noqa: B018
+        with pytest.raises(tiltpad.NotInRunError, match=r"no bearing fre_end \(did you mean free_end\?\)"):
+            run.bearings["fre_end"]
+        with pytest.raises(tiltpad.NotInRunError, match="no station 11 .*: stations are 1 to 10"):
+            stations.station_orbit(run, 11)
+        with pytest.raises(tiltpad.NotInRunError, match="its task is 'march', not 'coefficients'"):
+            stations.station_modes(run)
+
+
+def test_a_run_of_one_bearing_has_no_stations(run):
+    own = run("lugre")
+    assert not own.bearings
+    with pytest.raises(tiltpad.NotInRunError, match="it is a run of one bearing"):
+        own.bearings["left"]
+    with pytest.raises(tiltpad.NotInRunError, match="it is of one bearing and not of a machine"):
+        stations.station_orbit(own, 1)
+
+
+@pytest.mark.parametrize("task", DRAWN)
+def test_every_plot_or_a_line_that_says_why_not(machine, task, tmp_path, capsys):
+    for bearing in ((), ("--bearing", "free_end")):
+        for plot in command.PLOTS:
+            if plot == command.MOVIE:
+                continue
+            status = command.main([plot, str(machine(task)), "-o", str(tmp_path / "a.png"), *bearing])
+            said = capsys.readouterr().err
+            of_one = plot == command.BEARING and bearing
+            refused = bearing and plot in command.WITHOUT_BEARING
+            assert (status == 0) == ((plot in DRAWN[task].split() or bool(of_one)) and not refused), (
+                plot,
+                said,
+            )
+            assert said.count("\n") == (status != 0), said
+            assert "report this error" not in said, said
+
+
+@pytest.mark.parametrize("plot", ["bearing", "movie"])
+def test_a_picture_of_one_bearing_asks_which(machine, plot, tmp_path, capsys):
+    output = tmp_path / f"a.{'gif' if plot == 'movie' else 'png'}"
+    assert command.main([plot, str(machine("march")), "-o", str(output)]) == 1
+    assert "its bearings are drive_end, free_end; choose by --bearing" in capsys.readouterr().err
+
+
+def test_a_wrong_bearing_of_the_command(machine, capsys):
+    assert command.main(["orbit", str(machine("march")), "--bearing", "drive"]) == 1
+    assert "no bearing drive (did you mean drive_end?)" in capsys.readouterr().err
+
+
+def test_a_case_is_drawn(machine, program, tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("TILTPAD", str(program))
+    case, output = str(machine("march").parent / "machine.nml"), str(tmp_path / "a.png")
+    assert command.main(["machine", case, "-o", output]) == 0
+    assert command.main(["bearing", case, "--bearing", "free_end", "-o", output]) == 0
+    assert command.main(["bearing", case, "-o", output]) == 1
+    assert "choose by --bearing: drive_end, free_end" in capsys.readouterr().err
+    assert command.main(["bearing", case, "--bearing", "fre_end", "-o", output]) == 1
+    assert "(did you mean free_end?)" in capsys.readouterr().err
+
+
+def test_orbits_are_drawn(machine):
+    with tiltpad.read(machine("march")) as run:
+        fig = figures.FIGURES["stations"](run, station=[2, 4])
+        for ax, number in zip(fig.axes, (2, 4), strict=True):
+            y, z = stations.station_orbit(run, number)
+            np.testing.assert_allclose(ax.get_lines()[0].get_xydata(), 1e6 * np.column_stack([z, y]))
+        assert fig.axes[1].get_title() == "station 4: disc 1, unbalance 1"
+
+
+def test_the_static_line_is_drawn(machine):
+    with tiltpad.read(machine("equilibrium")) as run:
+        fig = figures.FIGURES["shaft"](run)
+        upper = fig.axes[0]
+        np.testing.assert_allclose(upper.get_lines()[0].get_ydata(), 1e6 * run["equilibrium/station_y"])
+        np.testing.assert_allclose(upper.get_lines()[0].get_xdata()[-1], 1.95)
+        load = run["equilibrium/bearing_load_y"][0]
+        assert f"drive_end: {1e-3 * load:.2f} kN" in [text.get_text() for text in upper.texts]
+
+
+def test_shapes_are_drawn_with_their_sense(machine):
+    with tiltpad.read(machine("coefficients")) as run:
+        found = stations.station_modes(run, "stuck")
+        fig = figures.FIGURES["shapes"](run, pivot="stuck")
+        titles = [ax.get_title() for ax in fig.axes]
+        for title in titles:
+            hertz = float(title.split()[0])
+            k = np.nanargmin(abs(found.frequency - hertz))
+            y, z = found.shape[k].T
+            turns = np.sum((np.conj(y) * z).imag)
+            assert machines.in_words(found.whirl[k]) in title
+            assert ("forward" in title) <= (turns < 0)
+            assert ("backward" in title) <= (turns > 0)
+        assert {"forward", "backward"} <= {title.split()[2] for title in "\n".join(titles).split("\n")[::2]}
+
+
+def test_names_are_those_of_the_documents(machine):
+    """Names, dimensions and units of a machine's file at its root."""
+    expected = {
+        "station": (("station",), "1"),
+        "station_y": (("time", "station"), "m"),
+        "station_z": (("time", "station"), "m"),
+        "equilibrium/station_y": (("station",), "m"),
+        "equilibrium/station_z": (("station",), "m"),
+        "equilibrium/bearing_load_y": (("bearing",), "N"),
+        "equilibrium/bearing_load_z": (("bearing",), "N"),
+        "rotor/total_mass": ((), "kg"),
+        "rotor/mode_frequency": (("rotor/mode",), "Hz"),
+        "rotor/left_out_frequency": ((), "Hz"),
+        "rotor/truncation_error": ((), "1"),
+        "rotor/damping_error": ((), "1"),
+        "rotor/station_position": (("station",), "m"),
+        "rotor/section_length": (("rotor/section",), "m"),
+        "rotor/section_diameter": (("rotor/section",), "m"),
+        "rotor/section_bore": (("rotor/section",), "m"),
+        "rotor/bearing_station": (("bearing",), "1"),
+        "rotor/disc_mass": (("rotor/disc",), "kg"),
+        "summary/station_y_size": (("station",), "m"),
+        "summary/station_z_amplitude": (("station",), "m"),
+    }
+    modes = {
+        **dict.fromkeys(("modes/frequency",), (("pivot", "mode"), "Hz")),
+        **dict.fromkeys(("modes/whirl",), (("pivot", "mode"), "1")),
+        **dict.fromkeys((f"modes/station_{axis}_{part}" for axis in "yz" for part in ("real", "imag")),
+                        (("pivot", "mode", "station"), "m")),
+        **dict.fromkeys(("response/amplitude", "response/y_real"), (("pivot", "station"), "m")),
+        "synchronous/log_decrement": (("pivot", "synchronous_mode"), "1"),
+    }  # fmt: skip
+    for task, names in (("march", expected), ("coefficients", modes)):
+        with tiltpad.read(machine(task)) as run:
+            assert run.format_version == 4
+            for name, (dimensions, units) in names.items():
+                assert run.scales(name) == dimensions, name
+                assert run.about(name, "units") == units, name
+                assert len(run.about(name, "long_name")) > 3, name
+
+
+def broken(name):
+    """Files of machines that are refused, and what is said."""
+
+    def other_names(file):
+        file.move("bearings/free_end", "bearings/other")
+
+    def other_pads(file):
+        del file["bearings/free_end/pad"]
+        file.move("bearings/drive_end/pad", "bearings/free_end/pad")
+
+    def outside(file):
+        del file["bearings/free_end"]
+        file["bearings/free_end"] = h5py.ExternalLink("other.h5", "/")
+
+    def no_group(file):
+        del file["bearings"]
+        file["bearings"] = np.zeros(3)
+
+    def no_numbers(file):
+        file["equilibrium/bearing_load_y"][:] = np.nan
+
+    def one_bearing(file):
+        text = file.attrs["input"]
+        file.attrs["input"] = text.replace("name = 'free_end'", "name = 'drive_end'")
+
+    return {
+        "other names": (other_names, "drive_end, other, and drive_end, free_end in the input"),
+        "other pads": (other_pads, "pad"),
+        "outside": (outside, "a link and not in this file"),
+        "no group": (no_group, "and drive_end, free_end in the input"),
+        "no numbers": (no_numbers, "attribute 'input'"),
+        "one bearing": (one_bearing, "and drive_end, drive_end in the input"),
+    }[name]
+
+
+@pytest.mark.parametrize(
+    "name", ["other names", "other pads", "outside", "no group", "no numbers", "one bearing"]
+)
+def test_broken_machines_are_refused(machine, name, tmp_path, capsys):
+    edit, words = broken(name)
+    path = tmp_path / "broken.h5"
+    path.write_bytes(machine("march").read_bytes())
+    with h5py.File(path, "r+") as file:
+        edit(file)
+    with pytest.raises(tiltpad.RunError) as error:
+        tiltpad.read(path)
+    assert words in str(error.value)
+    assert str(error.value).startswith(f"{path}: ")
+    assert command.main(["orbit", str(path), "-o", str(tmp_path / "a.png")]) == 3
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_the_input_is_a_case(machine, program, tmp_path):
+    """What was read is written as a case, which the program resolves to the same input."""
+    with tiltpad.read(machine("equilibrium")) as run:
+        assert [each["station"] for each in run.input["disc"]] == [4, 10]
+        case = tiltpad.write_case(tmp_path / "again.nml", run.input)
+        output = tmp_path / "again.h5"
+        subprocess.run([program, "--quiet", case, "--output", output], check=True)
+        with tiltpad.read(output) as again:
+            assert again.input == run.input
+            np.testing.assert_array_equal(again["equilibrium/station_y"], run["equilibrium/station_y"])
+
+
+def test_a_bearing_as_xarray(machine):
+    with tiltpad.read(machine("march")) as run:
+        data = run.bearings["free_end"].to_xarray()
+        assert data["pad_tilt"].dims == ("time", "pad")
+        assert data.sizes["pad"] == 5
