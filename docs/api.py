@@ -6,7 +6,18 @@ import sys
 import types
 
 import tiltpad
-from tiltpad import bearing, behaviour, diagrams, figures, plots, report, study_report, summary
+from tiltpad import (
+    bearing,
+    behaviour,
+    diagrams,
+    figures,
+    machines,
+    plots,
+    report,
+    stations,
+    study_report,
+    summary,
+)
 from tiltpad.files import read
 
 HEAD = """# Python package
@@ -16,6 +27,7 @@ HEAD = """# Python package
     import tiltpad
     run = tiltpad.read("case.h5")                 # opens the file, loads nothing
     run.journal_y                                 # a dataset, as an array in SI units
+    machine.bearings["left"].journal_y            # of a machine: a bearing is as a run of one bearing
     y, z = tiltpad.orbit(run, last=2)             # the functions below take a run and return arrays
     ax = tiltpad.plots.orbit(run)                 # draws one run on one pair of axes
     fig = tiltpad.figures.orbit([run, other])     # draws the picture that tiltpad-plot makes
@@ -34,6 +46,10 @@ HELPERS = (
     *("on_axes", "draw_amplitude", "direction_arrow", "polar", "marks_equilibrium", "pad_marks"),
     *("all_tilt", "label_films", "mark_orders"),
 )
+
+
+#: The same of what tells of the stations of a machine.
+OF_STATIONS = ("column", "positions", "attached", "named", "needs_machine")
 
 
 def main() -> None:
@@ -68,6 +84,8 @@ def main() -> None:
     section("tiltpad.report", report, [report.report])
     section("tiltpad.study_report", study_report, [study_report.study_report])
     section("tiltpad.bearing", bearing, [bearing.bearing, bearing.movie])
+    section("tiltpad.machines", machines, [machines.machine])
+    section("tiltpad.stations", stations, own_functions(stations, *OF_STATIONS))
 
 
 def own_functions(module: types.ModuleType, *helpers: str) -> list[types.FunctionType]:

@@ -19,6 +19,7 @@ HEAD = """# Gallery
 Most plots accept several files, `--last N` revolutions and `--pad K`; all but movies write PNG, PDF or SVG.
 """
 LUGRE, PAPER = "input/paper/steady_lugre.nml", "input/paper"
+MACHINE = "input/examples/unequal_bearings.nml"
 #: Runs: name, case and what is changed in it.
 RUNS = {
     "lugre": (LUGRE, ()),
@@ -43,6 +44,8 @@ RUNS = {
         ),
     ),
     "five_pads": ("input/examples/five_pads.nml", ()),
+    "machine": (MACHINE, ()),
+    "machine_modes": (MACHINE, ("case%task=coefficients",)),
     "warm": ("input/examples/warm_five_pads.nml", ()),
 }
 #: Studies: name, which is that of the folder, case, and what is varied.
@@ -106,6 +109,12 @@ PICTURES = (
     ("pressure", "lugre", "--time 1.9", "the film of the loaded pads"),
     ("pressure", "five_pads", "", "one scale for all pads: the upper ones carry next to nothing"),
     ("film", "five_pads", "", "thickness and pressure around the bearing"),
+    ("orbit", "machine", "", "the journals of a machine, a row for each bearing"),
+    ("hysteresis", "machine", "--bearing drive_end", "the pads of one bearing of a machine"),
+    ("machine", "machine", "", "a machine to scale: shaft, discs, bearings, a support, unbalances, load"),
+    ("stations", "machine", "--station 2,5,12,14", "orbits of the shaft of a machine at its stations"),
+    ("shaft", "machine", "", "the shaft at the equilibrium, and the loads of its bearings"),
+    ("shapes", "machine_modes", "--pivot stuck", "mode shapes of the shaft, forward and backward"),
     ("bearing", "five_pads", "", "pads, angles, load and sense of rotation, at the equilibrium"),
     ("movie", "five_pads", "--last 2", "the unloaded top pad flutters at half the shaft speed"),
     (

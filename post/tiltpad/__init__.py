@@ -146,8 +146,10 @@ __version__: str
 
 #: Modules with a name of their own here, and the floors that they are on.
 MODULES = {
-    **dict.fromkeys(("bearing", "diagrams", "figures", "plots", "report", "study_report"), "draw"),
-    **dict.fromkeys(("behaviour", "summary"), "calculate"),
+    **dict.fromkeys(
+        ("bearing", "diagrams", "figures", "machines", "plots", "report", "study_report"), "draw"
+    ),
+    **dict.fromkeys(("behaviour", "stations", "summary"), "calculate"),
     "units": "files",
 }
 

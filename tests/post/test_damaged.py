@@ -131,15 +131,15 @@ def test_a_foreign_file(tmp_path, capsys, kind):
 
 
 def test_a_later_format(changed, study, tmp_path, capsys):
-    path = changed("none", lambda file: file.attrs.modify("format_version", 4))
+    path = changed("none", lambda file: file.attrs.modify("format_version", 5))
     in_every_entry(capsys, path, ("run",))
-    assert "format_version 4 is newer than 3" in refused(capsys, "tiltpad-plot", ["orbit", path], path)
+    assert "format_version 5 is newer than 4" in refused(capsys, "tiltpad-plot", ["orbit", path], path)
     later = tmp_path / "later.h5"
     later.write_bytes(study.read_bytes())
     with h5py.File(later, "r+") as file:
-        file.attrs["format_version"] = 4
+        file.attrs["format_version"] = 5
     in_every_entry(capsys, later, ("study",))
-    assert "format_version 4 is newer than 3" in refused(capsys, "tiltpad-plot", ["study", later], later)
+    assert "format_version 5 is newer than 4" in refused(capsys, "tiltpad-plot", ["study", later], later)
 
 
 def test_a_study_is_no_run_and_a_run_no_study(study, small):

@@ -29,7 +29,7 @@ def test_every_picture_is_a_plot_of_the_command(root):
     from tiltpad import command
     from tiltpad.draw import page
 
-    alone = {command.STUDY, command.BEARING, command.MOVIE}
+    alone = {command.STUDY, command.BEARING, command.MACHINE, command.MOVIE}
     assert set(command.PLOTS) - alone == set(figures.FIGURES) == set(page.PICTURES)
 
 

@@ -306,3 +306,28 @@ def test_a_bearing_as_xarray(machine):
         data = run.bearings["free_end"].to_xarray()
         assert data["pad_tilt"].dims == ("time", "pad")
         assert data.sizes["pad"] == 5
+
+
+def test_the_report_tells_of_the_machine_and_of_each_bearing(machine, tmp_path):
+    page = tmp_path / "page.html"
+    assert command.report([str(machine("coefficients")), "-o", str(page)]) == 0
+    text = page.read_text()
+    for title in ("Rotor", "Bearings", "Stations", "Modes", "Bearing drive_end", "Bearing free_end", "Input"):
+        assert f"<h2>{title}</h2>" in text, title
+    with tiltpad.read(machine("coefficients")) as run:
+        mass, load = run["rotor/total_mass"], 1e-3 * run["equilibrium/bearing_load_y"][1]
+        found = stations.station_modes(run)
+    assert f"<td>mass of the rotor</td><td>{mass:.0f}</td>" in text
+    assert f"<td>{load:.2f}</td>" in text
+    k = np.flatnonzero(found.frequency > 0)[0]
+    assert f"<td>{found.frequency[k]:.5g}</td>" in text
+    pictures = ("machine", "shaft", "shapes", "stability", "bearing", "equilibrium", "film")
+    count = {name: text.count(f'<img alt="{name}"') for name in pictures}
+    assert count == dict.fromkeys(("machine", "shaft", "shapes", "stability"), 1) | dict.fromkeys(
+        ("bearing", "equilibrium", "film"), 2
+    )
+    assert command.report([str(machine("march")), "-o", str(page)]) == 0
+    text = page.read_text()
+    assert text.count('<img alt="stations"') == 1
+    assert text.count('<img alt="orbit"') == 2
+    assert "peak to peak y" in text

@@ -34,6 +34,7 @@ PLOTS = [
         "branch",
         *command.OF_EITHER,
         *command.SAMPLES,
+        *command.OF_MACHINES,
     )
 ]
 STEADY = [plot for plot in PLOTS if plot not in ("orders", "waterfall")]

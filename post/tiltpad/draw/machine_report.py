@@ -40,8 +40,8 @@ def remarks(run: Run) -> str:
 
 
 def rotor_figures(run: Run) -> str:
-    """The mass of the rotor, its modes, the errors of its reduction, and what the file has of the whole run."""
-    rows = []
+    """Mass and modes of the rotor, the errors of its reduction, and what the file has of the whole run."""
+    rows: list[Sequence[str]] = []
     if "rotor/mode_frequency" in run:
         kept = run["rotor/mode_frequency"]
         words = "modes of the shaft that are kept, and the highest frequency of them"
@@ -94,14 +94,15 @@ def mode_table(run: Run) -> str:
     """The modes that vibrate, for all pivots, with the sense of their whirl."""
     if "modes" not in run:
         return ""
-    rows, notes = [], []
-    for pivot in (str(each) for each in run["pivot"]):
+    rows: list[Sequence[str]] = []
+    notes: list[str] = []
+    for number, pivot in enumerate(str(each) for each in run["pivot"]):
         found = station_modes(run, pivot)
         for k in np.flatnonzero(found.frequency > 0):
             values = (SHOWN["damping_ratio"].factor * found.damping_ratio[k], found.log_decrement[k])
             sense = in_words(found.whirl[k])
             rows.append((f"{pivot}, {sense}", f"{found.frequency[k]:.5g}", *map(digits, values)))
-        if "modes/threshold_rpm" in run and np.isfinite(speed := run["modes/threshold_rpm"][len(notes)]):
+        if "modes/threshold_rpm" in run and np.isfinite(speed := run["modes/threshold_rpm"][number]):
             notes.append(f"{pivot} pivots: {speed:.1f} rpm")
     note = f"<p>Threshold speed of stability: {'; '.join(notes)}.</p>" if notes else ""
     heads = ("pivots, whirl of the shaft", "frequency (Hz)", "damping ratio (%)", "logarithmic decrement")

@@ -34,10 +34,13 @@ def machine(case: Run | Mapping[str, Any]) -> Figure:
     and polar inertia.
     """
     groups: Mapping[str, Any] = case.input if isinstance(case, Run) else case
+    where = f"{case.path}: " if isinstance(case, Run) else ""
     if not isinstance(groups.get("bearing"), list):
-        raise ValueError("a case of one bearing, and not of a machine: tiltpad-plot bearing draws it")
+        raise ValueError(f"{where}a case of one bearing, and not of a machine: tiltpad-plot bearing draws it")
     if "length" not in groups.get("shaft", {}):
-        raise ValueError("the rotor of this machine is of matrices, without sections of a shaft to draw")
+        raise ValueError(
+            f"{where}the rotor of this machine is of matrices, without sections of a shaft to draw"
+        )
     shaft = {
         name: np.atleast_1d(np.asarray(groups["shaft"][name], float))
         for name in ("length", "diameter", "bore")
@@ -244,7 +247,7 @@ def shapes(
 ) -> Figure:
     """Mode shapes of the shaft of a machine: ellipses of its stations, and the shaft at one instant."""
     if len(runs) > 1:
-        raise ValueError("shapes: of one result")
+        raise ValueError(f"shapes: of one result, not of {len(runs)}")
     run = runs[0]
     found = of_stations.station_modes(run, pivot)
     order = np.argsort(np.where(found.frequency > 0, found.frequency, np.inf), kind="stable")
