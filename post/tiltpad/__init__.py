@@ -16,6 +16,7 @@ from typing import Any
 from tiltpad.calculate.coefficients import Coefficients, coefficients
 from tiltpad.calculate.deviations import deviations
 from tiltpad.calculate.heat import HeatBalance, heat_balance
+from tiltpad.calculate.impedance import impedance
 from tiltpad.calculate.library import (
     Contact,
     LibraryError,
@@ -109,6 +110,7 @@ __all__ = [
     "full_spectrum",
     "heat_balance",
     "hysteresis",
+    "impedance",
     "last_revolutions",
     "loop_area",
     "losses",

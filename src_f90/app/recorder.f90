@@ -126,7 +126,8 @@ contains
       associate (rotor => self%run%model%rotor)
          if (rotor%stations > 0) self%stations(:, :) = rotor%station_displacements(y(:rotor%states))
       end associate
-      call add_sample(self%run%file, self%bearings, self%taken, self%stations, error)
+      call add_sample(self%run%file, self%bearings, self%taken, self%stations, &
+         & self%run%model%point%excitation_forces(t), error)
       self%run%reached = t
       associate (limit => self%run%inputs%integration%stop_when_periodic)
          if (limit > 0) then

@@ -15,7 +15,7 @@ module run_start
    use last_state, only: read_last_state
    use bearing_file, only: bearing_file_type
    use machine_results, only: put_machine
-   use march_results, only: put_viscosity, put_viscosity_history
+   use march_results, only: put_excitations, put_viscosity, put_viscosity_history
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use viscosity_history, only: viscosity_history_type
@@ -34,6 +34,7 @@ contains
       call run%file%start(run%inputs, namelist_of(run%inputs), error)
       if (allocated(error)) return
       call put_machine(run%file, run%inputs, run%model%rotor)
+      call put_excitations(run%file, size(run%inputs%excitations))
       if (run%tag%number > 0) call run%file%put_tag(run%tag)
    end subroutine create_file
 

@@ -32,9 +32,9 @@ contains
    !> Steady force W on the journal, weight and static load, N.
    pure real(wp) function load(inputs)
       type(case_type), intent(in) :: inputs
-      associate (point => operating_point_type(inputs))
-         load = norm2(point%load)
-      end associate
+      type(operating_point_type) :: point
+      point = operating_point_type(inputs)
+      load = norm2(point%load)
    end function load
 
    !> W/(L D), Pa.
@@ -65,11 +65,11 @@ contains
    pure real(wp) function attitude_angle(inputs, journal)
       type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: journal(2)
+      type(operating_point_type) :: point
       real(wp) :: along, across
-      associate (point => operating_point_type(inputs))
-         along = dot_product(point%load, journal)
-         across = point%load(1)*journal(2) - point%load(2)*journal(1)
-      end associate
+      point = operating_point_type(inputs)
+      along = dot_product(point%load, journal)
+      across = point%load(1)*journal(2) - point%load(2)*journal(1)
       attitude_angle = 0
       if (abs(along) + abs(across) > 0) attitude_angle = atan2(across, along)
    end function attitude_angle

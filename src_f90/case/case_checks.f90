@@ -5,6 +5,7 @@ module case_checks
    use errors, only: error_type, require, refuse, add_context
    use case_groups, only: clearance_range, is_set
    use case_inputs, only: case_type
+   use excitation_checks, only: check_excitations
    use machine_checks, only: check_machine
    implicit none (type, external)
    private
@@ -35,6 +36,7 @@ contains
       call check_output(inputs, error)
       call check_tasks(inputs, error)
       call check_branch(inputs, error)
+      call check_excitations(inputs, error)
    end subroutine check_case
 
    !> The groups of one bearing.

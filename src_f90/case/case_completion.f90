@@ -7,6 +7,7 @@ module case_completion
    use case_groups, only: bearing_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
       & clearance_range, temperature_range, viscosity_range
    use case_inputs, only: case_type
+   use excitation_checks, only: complete_excitations
    use oil_properties, only: reference_viscosity, density, grades
    implicit none (type, external)
    private
@@ -72,6 +73,7 @@ contains
          & any(inputs%about%task == ['equilibrium ', 'coefficients'])))
       if (.not. inputs%is_machine()) then
          call complete_bearing(inputs, error)
+         if (.not. allocated(error)) call complete_excitations(inputs, error)
          return
       end if
       do b = 1, inputs%bearing_count()
@@ -81,6 +83,7 @@ contains
          if (allocated(error)) return
          call inputs%set_bearing(b, one)
       end do
+      call complete_excitations(inputs, error)
    end subroutine complete_case
 
    !> The same of the groups of one bearing.

@@ -4,6 +4,7 @@ module case_inputs
    use case_groups, only: about_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, pads_type, &
       & pivot_type, friction_type, asperity_type, start_type, film_type, integration_type, output_type, &
       & coefficients_type, periodic_type, branch_type, unset, is_set
+   use excitations, only: excitation_type
    use machine_groups, only: machine_type
    implicit none (type, external)
    private
@@ -28,6 +29,8 @@ module case_inputs
       type(coefficients_type) :: coefficients
       type(periodic_type) :: periodic
       type(branch_type) :: branch
+      !> The groups &excitation.
+      type(excitation_type), allocatable :: excitations(:)
       !> Of a machine: shaft and bearings; not allocated where a rigid journal turns in one bearing.
       type(machine_type), allocatable :: machine
    contains
@@ -87,6 +90,7 @@ contains
       inputs%coefficients%frequency_ratio = [1.0_wp]
       inputs%branch%of = 'periodic'
       inputs%branch%parameter = ''
+      allocate (inputs%excitations(0))
       call inputs%set_final_speed()
    end function new_case
 

@@ -5,6 +5,7 @@ module machine_checks
    use errors, only: error_type, require, refuse
    use case_groups, only: is_set
    use case_inputs, only: case_type
+   use excitations, only: excitation_type
    use machine_groups, only: machine_type, most_stations
    implicit none (type, external)
    private
@@ -19,7 +20,7 @@ contains
       associate (machine => inputs%machine, s => inputs%start, q => inputs%coefficients%cross_stiffness)
          call check_shaft(machine, error)
          call check_bearings(machine, error)
-         call check_parts(machine, error)
+         call check_parts(machine, inputs%excitations, error)
          call check_supports(machine, error)
          ! samples have no velocities of the stations
          call require(s%from == 'equilibrium', 'start%from = '''//s%from//''': must be ''equilibrium'' for a machine', &
@@ -71,8 +72,9 @@ contains
    end subroutine check_bearings
 
    !> What is on the shaft is at its stations.
-   subroutine check_parts(machine, error)
+   subroutine check_parts(machine, excitations, error)
       type(machine_type), intent(in) :: machine
+      type(excitation_type), intent(in) :: excitations(:)
       type(error_type), allocatable, intent(inout) :: error
       integer :: i
       do i = 1, size(machine%discs)
@@ -89,6 +91,9 @@ contains
       end do
       do i = 1, size(machine%loads)
          call check_station('load('//to_text(i)//')', machine%loads(i)%station, machine, error)
+      end do
+      do i = 1, size(excitations)
+         call check_station('excitation('//to_text(i)//')', excitations(i)%station, machine, error)
       end do
    end subroutine check_parts
 

@@ -1,8 +1,9 @@
-!> The conditions under which a bearing runs: speed and its rate, load, unbalance, and which effects act. They are
+!> The conditions under which a bearing runs: speed and its rate, loads, unbalance, and which effects act. They are
 !> parameters of a model: another point needs no other model.
 module operating_point
    use kinds, only: wp, rpm
    use case_inputs, only: case_type
+   use excitations, only: excitation_type
    implicit none (type, external)
    private
    public :: operating_point_type
@@ -14,11 +15,16 @@ module operating_point
       real(wp) :: load(2) = 0
       !> Unbalance, kg m.
       real(wp) :: unbalance = 0
+      !> Forces over time; not allocated where there are none.
+      type(excitation_type), allocatable :: excitations(:)
       !> False: the pivots are without friction; the films do not cavitate, whatever their condition.
       logical :: friction = .true., cavitation = .true.
    contains
       procedure :: speed
       procedure :: shaft_angle
+      procedure :: excitation_forces
+      procedure :: excitation_rates
+      procedure :: next_switch
       procedure :: static
    end type operating_point_type
 
@@ -38,6 +44,7 @@ contains
          point%load = r%static_load - [r%mass*r%gravity, 0.0_wp]
       end associate
       point%unbalance = inputs%unbalance()
+      if (size(inputs%excitations) > 0) point%excitations = inputs%excitations
    end function point_of_case
 
    !> Shaft speed at time t, rad/s.
@@ -54,13 +61,60 @@ contains
       shaft_angle = (self%speed_rpm*rpm + 0.5_wp*self%acceleration*t)*t
    end function shaft_angle
 
-   !> The same load at the initial speed, kept, without unbalance and friction.
+   !> The forces of the excitations along y and z at time t, N, (2, excitation).
+   pure function excitation_forces(self, t) result(forces)
+      class(operating_point_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), allocatable :: forces(:, :)
+      integer :: i
+      allocate (forces(2, excitation_count(self)))
+      do i = 1, size(forces, 2)
+         forces(:, i) = self%excitations(i)%force(t, self%shaft_angle(t) - self%shaft_angle(self%excitations(i)%start))
+      end do
+   end function excitation_forces
+
+   !> How these forces change with time, N/s.
+   pure function excitation_rates(self, t) result(rates)
+      class(operating_point_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), allocatable :: rates(:, :)
+      integer :: i
+      allocate (rates(2, excitation_count(self)))
+      do i = 1, size(rates, 2)
+         rates(:, i) = self%excitations(i)%force_rate(t, &
+            & self%shaft_angle(t) - self%shaft_angle(self%excitations(i)%start), self%speed(t))
+      end do
+   end function excitation_rates
+
+   pure integer function excitation_count(self)
+      class(operating_point_type), intent(in) :: self
+      excitation_count = 0
+      if (allocated(self%excitations)) excitation_count = size(self%excitations)
+   end function excitation_count
+
+   !> The first time after t, s, at which the force of an excitation jumps, or (`jumps` is false) its rate does; huge
+   !> where there is none.
+   pure subroutine next_switch(self, t, next, jumps)
+      class(operating_point_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), intent(out) :: next
+      logical, intent(out) :: jumps
+      integer :: i
+      next = huge(t)
+      jumps = .false.
+      do i = 1, excitation_count(self)
+         call self%excitations(i)%next_switch(t, next, jumps)
+      end do
+   end subroutine next_switch
+
+   !> The same load at the initial speed, kept, without unbalance, excitations and friction.
    pure function static(self)
       class(operating_point_type), intent(in) :: self
       type(operating_point_type) :: static
       static = self
       static%acceleration = 0
       static%unbalance = 0
+      if (allocated(static%excitations)) deallocate (static%excitations)
       static%friction = .false.
    end function static
 end module operating_point

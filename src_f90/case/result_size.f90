@@ -72,7 +72,7 @@ contains
    pure integer function values_of_sample(inputs) result(values)
       type(case_type), intent(in) :: inputs
       integer :: b
-      values = 3
+      values = 3 + 2*size(inputs%excitations)
       if (inputs%is_machine()) values = values + 2*inputs%machine%station_count()
       do b = 1, inputs%bearing_count()
          values = values + values_of_bearing(inputs%of_bearing(b))

@@ -6,6 +6,8 @@ module case_fields
    use case_groups, only: most_ratios
    use case_inputs, only: case_type
    use machine_groups, only: machine_type
+   use excitations, only: excitation_type, make_excitations
+   use excitation_fields, only: list_excitations
    use bearing_fields, only: list_bearing, list_oil, list_pads, list_pivot, list_friction, list_asperity, list_film
    use machine_fields, only: list_rotor_file, list_parts, list_bearings, list_place
    implicit none (type, external)
@@ -60,6 +62,7 @@ contains
       type(case_type), intent(inout) :: inputs
       type(variable_table_type), intent(inout) :: v
       type(machine_type), intent(inout), optional :: also
+      type(excitation_type), allocatable :: one(:)
       logical :: rigid
       rigid = .not. inputs%is_machine()
       call list_case(inputs, v)
@@ -67,6 +70,12 @@ contains
       if (present(also)) call list_rotor_file(also, v)
       if (.not. rigid) call list_rotor_file(inputs%machine, v)
       call list_operation(inputs, v)
+      if (present(also)) then
+         call make_excitations(1, one)
+         call list_excitations(one, v, numbered=.false., stations=.true.)
+      else
+         call list_excitations(inputs%excitations, v, numbered=.true., stations=.not. rigid)
+      end if
       if (rigid) call list_bearing(inputs%bearing, v)
       if (present(also)) call list_place(also%bearings(1), v)
       if (rigid) call list_oil(inputs%oil, v)

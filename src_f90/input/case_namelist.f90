@@ -14,7 +14,7 @@ module case_namelist
    use assignments, only: namelist_type, assignment_type, study_group
    use assigned_values, only: read_word, read_reals, refuse_values
    use machine_names, only: kind_of, may_have_bearing
-   use machine_structure, only: make_machine, give_to_bearings
+   use machine_structure, only: make_several, give_to_bearings
    use variable_names, only: group_names, names_in, meant_variable, meant_group
    use namelist_text, only: parse_namelist
    use namelist_writer, only: lines_of
@@ -66,7 +66,7 @@ contains
       type(namelist_type), intent(out), optional :: given
       type(namelist_type) :: of_each
       inputs = case_type()
-      call make_machine(parsed, inputs, error)
+      call make_several(parsed, inputs, error)
       if (allocated(error)) return
       call leave_out(inputs)
       if (inputs%is_machine()) then

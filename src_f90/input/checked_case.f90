@@ -168,6 +168,8 @@ contains
             & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad ' &
             & //'shows trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)')
       end associate
+      if (size(inputs%excitations) > 0 .and. .not. inputs%moves()) call note('excitation: has no effect with ' &
+         & //'case%task = '''//inputs%about%task//''', where no force changes with time')
    contains
       subroutine note(line)
          character(len=*), intent(in) :: line

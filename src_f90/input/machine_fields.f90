@@ -10,7 +10,7 @@ module machine_fields
    use bearing_fields, only: list_bearing, list_oil, list_pads, list_pivot, list_friction, list_asperity, list_film
    implicit none (type, external)
    private
-   public :: list_rotor_file, list_parts, list_bearings, list_place
+   public :: list_rotor_file, list_parts, list_bearings, list_place, list_station
 
 contains
 

@@ -7,8 +7,8 @@ module machine_names
    public :: counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable, group_heading
    public :: identifier_of, is_name, longest_bearing
 
-   !> Groups of what there may be several of on a shaft, and of each bearing.
-   character(len=*), parameter :: several = ' disc unbalance load '
+   !> Groups of what there may be several of on a rotor, and of each bearing.
+   character(len=*), parameter :: several = ' disc unbalance load excitation '
    character(len=*), parameter :: of_bearings = ' bearing support oil pads pivot friction asperity film '
    character(len=*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
    !> Longest name of a bearing.

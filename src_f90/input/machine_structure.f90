@@ -1,16 +1,16 @@
-!> Which groups of a machine a case has: shaft, discs, bearings with their names. And what groups without a bearing's
-!> name say of all bearings.
+!> Which groups a case has of those that there may be several of: excitations, and of a machine discs, bearings with
+!> their names and others. And what groups without a bearing's name say of all bearings.
 module machine_structure
    use text, only: to_text, did_you_mean
    use errors, only: error_type, raise, refuse, input_error
    use case_inputs, only: case_type
+   use excitations, only: make_excitations
    use machine_groups, only: machine_type, most_bearings
    use assignments, only: namelist_type, assignment_type, undoes
-   use machine_names, only: counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, &
-      & naming_variable
+   use machine_names, only: counted, of_bearing, kind_of, bearing_of, may_have_bearing, naming_variable
    implicit none (type, external)
    private
-   public :: make_machine, give_to_bearings
+   public :: make_several, give_to_bearings
 
    !> Groups that only a machine has, and the variable of another group.
    character(len=*), parameter :: of_machine = ' shaft disc unbalance load support reduction '
@@ -18,16 +18,40 @@ module machine_structure
 
 contains
 
-   !> Gives a case its machine, with default values, where its namelist has groups of one.
+   !> Gives a case its excitations and its machine, with default values, where its namelist has groups of them.
+   subroutine make_several(parsed, inputs, error)
+      type(namelist_type), intent(in) :: parsed
+      type(case_type), intent(inout) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i
+      call make_excitations(count_of(parsed, 'excitation('), inputs%excitations)
+      if (has_machine(parsed)) call make_machine(parsed, inputs, error)
+      do i = 1, size(parsed%groups)
+         call look_at(parsed%groups(i), inputs, error)
+      end do
+      do i = 1, size(parsed%assignments)
+         call look_at(parsed%assignments(i), inputs, error)
+      end do
+   end subroutine make_several
+
+   !> Groups whose names begin so.
+   pure integer function count_of(parsed, beginning)
+      type(namelist_type), intent(in) :: parsed
+      character(len=*), intent(in) :: beginning
+      integer :: k
+      count_of = count([(index(parsed%groups(k)%group, beginning) == 1, k=1, size(parsed%groups))])
+   end function count_of
+
+   !> Gives a case its machine.
    subroutine make_machine(parsed, inputs, error)
       type(namelist_type), intent(in) :: parsed
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       integer :: i, b
-      if (.not. has_machine(parsed)) return
       associate (groups => parsed%groups)
          allocate (inputs%machine)
-         call inputs%machine%begin(count_of('bearing:'), count_of('disc('), count_of('unbalance('), count_of('load('))
+         call inputs%machine%begin(count_of(parsed, 'bearing:'), count_of(parsed, 'disc('), &
+            & count_of(parsed, 'unbalance('), count_of(parsed, 'load('))
          if (size(inputs%machine%bearings) > most_bearings) call refuse(to_text(size(inputs%machine%bearings)) &
             & //' groups &bearing with names; a machine has at most '//to_text(most_bearings)//' bearings', error)
          b = 0
@@ -40,19 +64,7 @@ contains
          do i = 1, size(groups)
             if (kind_of(groups(i)%group) == 'support') call put_support(bearing_of(groups(i)%group), inputs%machine)
          end do
-         do i = 1, size(groups)
-            call look_at(groups(i), inputs%machine, error)
-         end do
       end associate
-      do i = 1, size(parsed%assignments)
-         call look_at(parsed%assignments(i), inputs%machine, error)
-      end do
-   contains
-      pure integer function count_of(beginning)
-         character(len=*), intent(in) :: beginning
-         integer :: k
-         count_of = count([(index(parsed%groups(k)%group, beginning) == 1, k=1, size(parsed%groups))])
-      end function count_of
    end subroutine make_machine
 
    !> Whether a namelist has a group or variable that only a machine has.
@@ -87,17 +99,33 @@ contains
       end do
    end subroutine put_support
 
-   !> Refuses a group or an assignment of what the machine does not have.
-   subroutine look_at(a, machine, error)
+   !> Refuses a group or an assignment of what the case does not have.
+   subroutine look_at(a, inputs, error)
       type(assignment_type), intent(in) :: a
-      type(machine_type), intent(in) :: machine
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      character(len=:), allocatable :: kind, name, names
-      integer :: b
+      character(len=:), allocatable :: kind
       if (allocated(error)) return
       kind = kind_of(a%group)
+      if (kind == 'excitation') then
+         call look_at_number(a, kind, size(inputs%excitations), error)
+      else if (inputs%is_machine()) then
+         call look_at_part(a, kind, inputs%machine, error)
+      end if
+   end subroutine look_at
+
+   !> The same of what only a machine has.
+   subroutine look_at_part(a, kind, machine, error)
+      type(assignment_type), intent(in) :: a
+      character(len=*), intent(in) :: kind
+      type(machine_type), intent(in) :: machine
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: name, names
+      integer :: b
       name = bearing_of(a%group)
-      if (is_counted(kind)) call look_at_number(a, kind, machine, error)
+      if (kind == 'disc') call look_at_number(a, kind, size(machine%discs), error)
+      if (kind == 'unbalance') call look_at_number(a, kind, size(machine%unbalances), error)
+      if (kind == 'load') call look_at_number(a, kind, size(machine%loads), error)
       if (kind == 'support' .and. name == '' .and. .not. any([(allocated(machine%bearings(b)%support), &
          & b=1, size(machine%bearings))])) call refuse(a%origin//': '//a%group//'%'//a%name &
          & //': the case has no group &support', error)
@@ -115,24 +143,16 @@ contains
          call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': the case has no group &support of ' &
             & //'this bearing')
       end if
-   end subroutine look_at
+   end subroutine look_at_part
 
    !> Refuses the number of a group that there are fewer of.
-   subroutine look_at_number(a, kind, machine, error)
+   subroutine look_at_number(a, kind, number, error)
       type(assignment_type), intent(in) :: a
       character(len=*), intent(in) :: kind
-      type(machine_type), intent(in) :: machine
+      integer, intent(in) :: number
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: allowed
-      integer :: number, i
-      select case (kind)
-      case ('disc')
-         number = size(machine%discs)
-      case ('unbalance')
-         number = size(machine%unbalances)
-      case default
-         number = size(machine%loads)
-      end select
+      integer :: i
       do i = 1, number
          if (a%group == kind//counted(i)) return
       end do

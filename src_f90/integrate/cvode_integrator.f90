@@ -2,7 +2,7 @@
 !> alone know SUNDIALS.
 module cvode_integrator
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_funloc, c_int, c_loc, c_long, c_null_ptr, c_ptr
-   use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodewftolerances, fcvodesetuserdata, &
+   use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodereinit, fcvodewftolerances, fcvodesetuserdata, &
       & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, fcvodesetjacevalfrequency, &
       & fcvodesetlsetupfrequency, fcvodegetcurrentgamma, fcvodesetnonlinconvcoef, fcvodesetmaxord, &
       & fcvodesetmaxerrtestfails, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, &
@@ -20,6 +20,7 @@ module cvode_integrator
    use errors, only: error_type, raise, numerics_error
    use ode_model, only: ode_model_type, integrator_counts_type
    use newton_iteration, only: newton_iteration_type
+   use next_stop, only: next_stop_type
    use step_history, only: step_history_type, new_step_history
    implicit none (type, external)
    private
@@ -48,6 +49,7 @@ module cvode_integrator
       type(sunlinearsolver), pointer :: linear_solver => null()
       !> Time reached and last time, s; the state at the time reached.
       real(c_double) :: t(1) = 0, t_end = 0
+      type(next_stop_type) :: stop
       real(wp), allocatable :: y(:)
       real(wp) :: relative_tolerance = 0
       !> Absolute tolerance of each state.
@@ -140,16 +142,36 @@ contains
       logical :: ok
       ! shorter steps would not move the time
       flag = fcvodesetminstep(core%memory, epsilon(t_end)*t_end)
-      flag = fcvodesetstoptime(core%memory, t_end)
       core%t = t
       core%t_end = t_end
       core%order = 0
-      core%counts = integrator_counts_type()
+      call core%stop%find(core%model, t, t_end)
+      ! what just precedes a jump is passed at the first step
+      if (core%stop%time > t) flag = fcvodesetstoptime(core%memory, core%stop%time)
       call core%model%rhs(t, core%y, dydt, ok)
       if (.not. ok) call raise(error, numerics_error, failure(core, cv_first_rhsfunc_err))
       core%history = new_step_history(size(core%y) + merge(core%model%outputs, 0, core%keeps_outputs))
       call note_end(core)
    end subroutine begin
+
+   !> Goes on from a stop, anew or as before.
+   subroutine pass_stop(self, error)
+      class(integrator_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      integer(c_int) :: flag
+      associate (core => self%core)
+         if (core%stop%anew) then
+            core%counts = self%counts()
+            core%newton%linearizations = 0
+            core%newton%correction = 0
+            flag = fcvodereinit(core%memory, core%stop%resumed, core%y_vector)
+            call begin(core, core%stop%resumed, core%t_end, error)
+         else
+            call core%stop%find(core%model, core%t(1), core%t_end)
+            flag = fcvodesetstoptime(core%memory, core%stop%time)
+         end if
+      end associate
+   end subroutine pass_stop
 
    !> Notes the end of a step, or the start.
    subroutine note_end(core)
@@ -166,6 +188,8 @@ contains
       integer(c_int) :: flag
       associate (core => self%core)
          if (allocated(core%model%refusal)) deallocate (core%model%refusal)
+         if (core%t(1) >= core%stop%time .and. core%t(1) < core%t_end) call pass_stop(self, error)
+         if (allocated(error)) return
          flag = fcvode(core%memory, core%t_end, core%y_vector, core%t, cv_one_step)
          if (flag < 0) then
             call raise(error, numerics_error, failure(core, flag))
@@ -198,22 +222,17 @@ contains
       call self%core%history%at(t, self%core%order(1), values)
    end subroutine interpolate
 
-   !> What the integration cost since its start.
+   !> What the integration cost since its start; CVODE's own counts begin anew with it.
    type(integrator_counts_type) function counts(self)
       class(integrator_type), intent(in) :: self
-      integer(c_long) :: count(1)
+      integer(c_long), dimension(1) :: rhs, jacobians, failures, divergences
       integer(c_int) :: flag
-      counts = self%core%counts
-      associate (memory => self%core%memory)
-         flag = fcvodegetnumrhsevals(memory, count)
-         counts%rhs_evaluations = count(1)
-         flag = fcvodegetnumjacevals(memory, count)
-         counts%jacobian_evaluations = count(1) + self%core%newton%linearizations
-         flag = fcvodegetnumerrtestfails(memory, count)
-         counts%error_test_failures = count(1)
-         flag = fcvodegetnumnonlinsolvconvfails(memory, count)
-         counts%convergence_failures = count(1)
-      end associate
+      flag = fcvodegetnumrhsevals(self%core%memory, rhs)
+      flag = fcvodegetnumjacevals(self%core%memory, jacobians)
+      flag = fcvodegetnumerrtestfails(self%core%memory, failures)
+      flag = fcvodegetnumnonlinsolvconvfails(self%core%memory, divergences)
+      counts = self%core%counts + integrator_counts_type(0, rhs(1), jacobians(1) + self%core%newton%linearizations, &
+         & failures(1), divergences(1))
    end function counts
 
    !> Frees what the integration holds; the end of the variable's life does so too.
@@ -297,12 +316,10 @@ contains
       type(c_ptr), value :: user_pointer
       type(core_type), pointer :: core
       logical :: ok
+      call c_f_pointer(user_pointer, core)
       ok = .true.
       are_new = merge(0_c_int, 1_c_int, still_good /= 0)
-      if (still_good == 0) then
-         call c_f_pointer(user_pointer, core)
-         call core%model%linearize(t, numbers(y_vector), ok)
-      end if
+      if (still_good == 0) call core%model%linearize(t, numbers(y_vector), ok)
       linear_system_callback = merge(0_c_int, 1_c_int, ok)
    end function linear_system_callback
 
@@ -321,16 +338,12 @@ contains
       real(c_double), pointer, contiguous :: x(:), b(:)
       real(c_double) :: gamma(1)
       integer(c_int) :: flag
-      integer :: i
       logical :: ok
       call c_f_pointer(linear_solver%content, core)
       x => numbers(x_vector)
       b => numbers(b_vector)
       flag = fcvodegetcurrentgamma(core%memory, gamma)
-      !$omp simd
-      do i = 1, size(x)
-         x(i) = b(i)
-      end do
+      x(:) = b
       call core%model%solve(gamma(1), x, ok)
       solve_callback = merge(0_c_int, 1_c_int, ok)
    end function solve_callback

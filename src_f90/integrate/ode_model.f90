@@ -23,6 +23,7 @@ module ode_model
       procedure :: blocks
       procedure :: switching_points
       procedure :: df_dt
+      procedure :: next_switch
       !> The quantities sampled beside the states.
       procedure :: output
       !> What may soon stop the integration in the state evaluated last, for its message; else empty.
@@ -109,6 +110,17 @@ contains
       real(wp) :: df_dt(self%n)
       df_dt = 0
    end function df_dt
+
+   !> The first time after t, s, at which the rates jump, or (`jumps` is false) only their derivatives over time do;
+   !> huge where there is none. At that time itself the rates are those after it.
+   pure subroutine next_switch(self, t, next, jumps)
+      class(ode_model_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), intent(out) :: next
+      logical, intent(out) :: jumps
+      next = huge(t)
+      jumps = .false.
+   end subroutine next_switch
 
    !> From the last evaluation, and to first order at the state that `correction` leads to from the state of that
    !> evaluation; 0: in that state itself.

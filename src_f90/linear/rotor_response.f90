@@ -90,6 +90,7 @@ contains
       point = operating_point_type(model%inputs)
       point%speed_rpm = model%point%speed_rpm
       point%acceleration = 0
+      if (allocated(point%excitations)) deallocate (point%excitations)
       associate (n => model%rotor%positions)
          ! f = Re(F exp(i phi)): F from f at phi = 0 and from df/dt = Re(i Omega F) there
          turning = model%rotor%turn(point, 0.0_wp)/speed

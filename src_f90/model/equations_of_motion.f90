@@ -42,6 +42,7 @@ module equations_of_motion
       procedure :: blocks
       procedure :: switching_points
       procedure :: df_dt
+      procedure :: next_switch
       procedure :: evaluate
       procedure :: set_point
       procedure :: adopt
@@ -233,10 +234,8 @@ contains
             end do
          end associate
       end do
-      associate (n => self%rotor%positions)
-         dydt(:n) = y(n + 1:2*n)
-         dydt(n + 1:2*n) = self%rotor%accelerations(force)
-      end associate
+      dydt(:self%rotor%positions) = y(self%rotor%positions + 1:self%rotor%states)
+      dydt(self%rotor%positions + 1:self%rotor%states) = self%rotor%accelerations(force)
    end subroutine set_rates
 
    !> Derivatives of film and contact at (t, y), for `solve`.
@@ -309,10 +308,8 @@ contains
    pure subroutine blocks(self, number, states)
       class(machine_model), intent(in) :: self
       integer, intent(out) :: number, states
-      associate (of => self%layout%bearings)
-         states = of(1)%per_pad
-         number = merge(self%layout%pads, 0, states > 0 .and. all(of%per_pad == states))
-      end associate
+      states = self%layout%bearings(1)%per_pad
+      number = merge(self%layout%pads, 0, states > 0 .and. all(self%layout%bearings%per_pad == states))
    end subroutine blocks
 
    !> The tilt rates at which the pivot passes a switching point of its friction.
@@ -333,14 +330,21 @@ contains
       end do
    end subroutine switching_points
 
-   !> The unbalance turns; at constant speed.
+   !> Where the excitations switch.
+   pure subroutine next_switch(self, t, next, jumps)
+      class(machine_model), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), intent(out) :: next
+      logical, intent(out) :: jumps
+      call self%point%next_switch(t, next, jumps)
+   end subroutine next_switch
+
+   !> The unbalance turns, and excitations change; at constant speed.
    pure function df_dt(self, t)
       class(machine_model), intent(in) :: self
       real(wp), intent(in) :: t
       real(wp) :: df_dt(self%n)
       df_dt = 0
-      associate (n => self%rotor%positions)
-         df_dt(n + 1:2*n) = self%rotor%accelerations(self%rotor%turn(self%point, t))
-      end associate
+      df_dt(self%rotor%positions + 1:self%rotor%states) = self%rotor%accelerations(self%rotor%turn(self%point, t))
    end function df_dt
 end module equations_of_motion

@@ -33,6 +33,7 @@ contains
       speed = point%speed(0.0_wp)
       free = point
       free%friction = .false.
+      if (allocated(free%excitations)) deallocate (free%excitations)
       call model%set_point(free)
       do i = 2, 0, -1
          call model%rhs_and_jacobian(i*pi/(2*speed), y, rates(:, i), jacobian, ok)

@@ -14,22 +14,22 @@ module march_results
    use bearing_file, only: bearing_file_type
    implicit none (type, external)
    private
-   public :: add_sample, put_spectra, put_viscosity, put_viscosity_history, put_periodic
+   public :: add_sample, put_excitations, put_spectra, put_viscosity, put_viscosity_history, put_periodic
 
    !> Values of a sample: of the shaft, of a journal, and of a pad at most.
    integer, parameter :: of_shaft = 3, of_journal = 4, of_pad = 12
 
 contains
 
-   !> Adds a sample of all bearings, in the files of these, and of where the stations of a shaft are, (2, station), m:
-   !> the one list of what is sampled.
-   subroutine add_sample(file, bearings, samples, stations, error)
+   !> Adds a sample of all bearings, in the files of these, of where the stations of a shaft are, (2, station), m, and of
+   !> the forces of the excitations, (2, excitation), N: the one list of what is sampled.
+   subroutine add_sample(file, bearings, samples, stations, excitations, error)
       type(run_file_type), intent(inout) :: file
       type(bearing_file_type), intent(in) :: bearings(:)
       type(bearing_sample), intent(in) :: samples(:)
-      real(wp), intent(in) :: stations(:, :)
+      real(wp), intent(in) :: stations(:, :), excitations(:, :)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: values(most_values(samples) + size(stations))
+      real(wp) :: values(most_values(samples) + size(stations) + size(excitations))
       logical :: first
       integer :: n, b
       ! its series are declared as the first sample is added
@@ -42,8 +42,12 @@ contains
          call take_bearing(bearings(b), samples(b), first, values, n)
       end do
       if (size(stations) > 0) then
-         call along('station_y', stations(1, :), 'shaft displacement, vertical')
-         call along('station_z', stations(2, :), 'shaft displacement, horizontal')
+         call along('station', 'station_y', stations(1, :), 'm', 'shaft displacement, vertical')
+         call along('station', 'station_z', stations(2, :), 'm', 'shaft displacement, horizontal')
+      end if
+      if (size(excitations) > 0) then
+         call along('excitation', 'excitation_y', excitations(1, :), 'N', 'force of the excitation, vertical')
+         call along('excitation', 'excitation_z', excitations(2, :), 'N', 'force of the excitation, horizontal')
       end if
       call file%add(values(:n))
       call file%error_of(error)
@@ -56,17 +60,26 @@ contains
          values(n) = value
       end subroutine one
 
-      !> At all stations of the shaft.
-      subroutine along(name, at, long_name)
-         character(len=*), intent(in) :: name, long_name
+      !> At all stations of the shaft, or of all excitations.
+      subroutine along(dimension, name, at, units, long_name)
+         character(len=*), intent(in) :: dimension, name, units, long_name
          real(wp), intent(in) :: at(:)
-         if (first) call file%declare(name, size(at), 'station', 'm', long_name)
+         if (first) call file%declare(name, size(at), dimension, units, long_name)
          values(n + 1:n + size(at)) = at
          n = n + size(at)
       end subroutine along
    end subroutine add_sample
 
-   !> Most values of all bearings, and of the shaft without its stations.
+   !> Numbers the excitations of a run.
+   subroutine put_excitations(file, number)
+      class(record_type), intent(inout) :: file
+      integer, intent(in) :: number
+      integer :: i
+      if (number > 0) call file%put_list('excitation', [(real(i, wp), i=1, number)], '1', 'excitation number', &
+         & 'excitation')
+   end subroutine put_excitations
+
+   !> Most values of all bearings, and of the shaft without stations and excitations.
    pure integer function most_values(samples) result(n)
       type(bearing_sample), intent(in) :: samples(:)
       integer :: b

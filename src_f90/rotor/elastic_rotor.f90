@@ -32,6 +32,7 @@ module elastic_rotor
       procedure :: newton_right
       procedure :: row_accelerations
       procedure, private :: share
+      procedure, private :: from_stations
    end type elastic_rotor_type
 
 contains
@@ -103,7 +104,22 @@ contains
       if (self%unbalance > 0) share = point%unbalance/self%unbalance
    end function share
 
-   !> Weight and loads, unbalance, and what the shaft's bending, damping and gyroscopic moments answer.
+   !> What forces at the stations of the excitations, (2, excitation), are on its displacements.
+   pure function from_stations(self, point, forces) result(force)
+      class(elastic_rotor_type), intent(in) :: self
+      type(operating_point_type), intent(in) :: point
+      real(wp), intent(in) :: forces(:, :)
+      real(wp) :: force(self%positions)
+      integer :: i
+      force = 0
+      do i = 1, size(forces, 2)
+         associate (at => point%excitations(i)%station)
+            force = force + matmul(forces(:, i), self%matrices%station(2*at - 1:2*at, :))
+         end associate
+      end do
+   end function from_stations
+
+   !> Weight and loads, unbalance, excitations, and what the shaft's bending, damping and gyroscopic moments answer.
    pure function force(self, states, point, t)
       class(elastic_rotor_type), intent(in) :: self
       real(wp), intent(in) :: states(:)
@@ -117,9 +133,10 @@ contains
             & + self%share(point)*(speed**2*(m%unbalance(:, 1)*cos(phase) + m%unbalance(:, 2)*sin(phase)) &
             & + point%acceleration*(m%unbalance(:, 1)*sin(phase) - m%unbalance(:, 2)*cos(phase)))
       end associate
+      if (allocated(point%excitations)) force = force + self%from_stations(point, point%excitation_forces(t))
    end function force
 
-   !> The unbalance turns.
+   !> The unbalance turns, and excitations change.
    pure function turn(self, point, t)
       class(elastic_rotor_type), intent(in) :: self
       type(operating_point_type), intent(in) :: point
@@ -129,6 +146,7 @@ contains
       associate (u => self%matrices%unbalance)
          turn = self%share(point)*point%speed(t)**3*(u(:, 2)*cos(phase) - u(:, 1)*sin(phase))
       end associate
+      if (allocated(point%excitations)) turn = turn + self%from_stations(point, point%excitation_rates(t))
    end function turn
 
    pure function accelerations(self, force)

@@ -67,7 +67,7 @@ contains
       slopes = 0
    end function station_slopes
 
-   !> Load and unbalance.
+   !> Load, unbalance and excitations.
    pure function force(self, states, point, t)
       class(rigid_journal_type), intent(in) :: self
       real(wp), intent(in) :: states(:)
@@ -78,9 +78,10 @@ contains
       speed = point%speed(t)
       direction = [cos(phase), sin(phase)]
       force = point%load + point%unbalance*(speed**2*direction + point%acceleration*[direction(2), -direction(1)])
+      if (allocated(point%excitations)) force = force + sum(point%excitation_forces(t), dim=2)
    end function force
 
-   !> The unbalance turns.
+   !> The unbalance turns, and excitations change.
    pure function turn(self, point, t)
       class(rigid_journal_type), intent(in) :: self
       type(operating_point_type), intent(in) :: point
@@ -88,6 +89,7 @@ contains
       real(wp) :: turn(self%positions), phase
       phase = point%shaft_angle(t)
       turn = point%unbalance*point%speed(t)**3*[-sin(phase), cos(phase)]
+      if (allocated(point%excitations)) turn = turn + sum(point%excitation_rates(t), dim=2)
    end function turn
 
    pure function accelerations(self, force)

@@ -1,6 +1,7 @@
 !> Builds the rotor of a case.
 module rotor_factory
    use kinds, only: wp, rpm
+   use text, only: to_text
    use errors, only: error_type
    use case_inputs, only: case_type
    use rotor_matrices, only: rotor_matrices_type
@@ -45,6 +46,9 @@ contains
       call new_elastic_rotor(matrices, inputs%unbalance(), elastic, ok)
       if (.not. ok) then
          refusal = 'the equations of the shaft are singular'
+      else if (any(inputs%excitations%station > elastic%stations)) then
+         refusal = 'excitation: station = '//to_text(maxval(inputs%excitations%station))//': the rotor has '// &
+            & to_text(elastic%stations)//' stations'
       else
          allocate (rotor, source=elastic)
       end if

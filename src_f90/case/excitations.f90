@@ -1,0 +1,190 @@
+!> A force over time that excites a rotor: the namelist group excitation, and the force at a time.
+module excitations
+   use kinds, only: wp, pi, degree
+   use case_groups, only: unset, is_set
+   implicit none (type, external)
+   private
+   public :: excitation_type, make_excitations
+
+   type :: excitation_type
+      !> Of the shaft of a machine; 0 where a rigid journal is excited.
+      integer :: station = 0
+      !> Harmonic, chirp, step, ramp or table; a direction that turns with the phase: forward, backward, or no.
+      character(len=:), allocatable :: kind, rotating
+      !> N; direction from +y towards +z.
+      real(wp) :: amplitude = unset, direction_deg = 0
+      !> Of harmonic and chirp: frequency, or over the speed of the shaft; of a chirp that at its end; phase at the start.
+      real(wp) :: frequency_hz = unset, frequency_ratio = unset, final_frequency_hz = unset, phase_deg = 0
+      !> When it acts, s; it has no end where that is unset.
+      real(wp) :: start = 0, end = unset
+      !> CSV file of a table, and what was read from it: times after the start, s, rising, and forces along y and z, N.
+      character(len=:), allocatable :: file
+      real(wp), allocatable :: time(:), table(:, :)
+   contains
+      procedure :: force
+      procedure :: force_rate
+      procedure :: next_switch
+      procedure, private :: acts
+      procedure, private :: phase
+      procedure, private :: direction
+      procedure, private :: interval
+   end type excitation_type
+
+contains
+
+   !> Excitations of which nothing is given yet.
+   pure subroutine make_excitations(number, made)
+      integer, intent(in) :: number
+      type(excitation_type), allocatable, intent(out) :: made(:)
+      integer :: i
+      allocate (made(number))
+      do i = 1, number
+         made(i)%kind = 'harmonic'
+         made(i)%rotating = 'no'
+         made(i)%file = ''
+      end do
+   end subroutine make_excitations
+
+   !> Whether it acts at time t, s.
+   pure logical function acts(self, t)
+      class(excitation_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      acts = t >= self%start
+      if (is_set(self%end) .and. self%kind /= 'ramp') acts = acts .and. t < self%end
+   end function acts
+
+   !> Its phase at time t, rad, where the shaft has turned by an angle, rad, since the start of the excitation; and the
+   !> rate of the phase, rad/s, at a speed of the shaft, rad/s.
+   pure subroutine phase(self, t, turned, speed, angle, rate)
+      class(excitation_type), intent(in) :: self
+      real(wp), intent(in) :: t, turned, speed
+      real(wp), intent(out) :: angle, rate
+      real(wp) :: after, slope
+      after = t - self%start
+      if (is_set(self%frequency_ratio)) then
+         angle = self%frequency_ratio*turned
+         rate = self%frequency_ratio*speed
+      else
+         slope = 0
+         if (self%kind == 'chirp') slope = (self%final_frequency_hz - self%frequency_hz)/(self%end - self%start)
+         angle = 2*pi*(self%frequency_hz + 0.5_wp*slope*after)*after
+         rate = 2*pi*(self%frequency_hz + slope*after)
+      end if
+      angle = angle + self%phase_deg*degree
+   end subroutine phase
+
+   !> The force along y and z of amplitude 1 at a phase, rad; its derivative over the phase is that a quarter turn later.
+   pure function direction(self, angle)
+      class(excitation_type), intent(in) :: self
+      real(wp), intent(in) :: angle
+      real(wp) :: direction(2), towards
+      towards = self%direction_deg*degree
+      select case (self%rotating)
+      case ('forward')
+         direction = [cos(towards + angle), sin(towards + angle)]
+      case ('backward')
+         direction = [cos(towards - angle), sin(towards - angle)]
+      case default
+         direction = cos(angle)*[cos(towards), sin(towards)]
+      end select
+   end function direction
+
+   !> Between which rows of its table a time after its start, s, lies: the number of the first; 0 outside.
+   pure integer function interval(self, after) result(low)
+      class(excitation_type), intent(in) :: self
+      real(wp), intent(in) :: after
+      integer :: high, middle
+      low = 0
+      high = size(self%time)
+      if (after < self%time(1) .or. after >= self%time(high)) return
+      low = 1
+      do while (high > low + 1)
+         middle = (low + high)/2
+         if (self%time(middle) <= after) then
+            low = middle
+         else
+            high = middle
+         end if
+      end do
+   end function interval
+
+   !> Force along y and z at time t, s, N, where the shaft has turned by an angle, rad, since the start of the
+   !> excitation.
+   pure function force(self, t, turned)
+      class(excitation_type), intent(in) :: self
+      real(wp), intent(in) :: t, turned
+      real(wp) :: force(2), angle, rate
+      integer :: k
+      force = 0
+      if (.not. self%acts(t)) return
+      select case (self%kind)
+      case ('table')
+         k = self%interval(t - self%start)
+         if (k > 0) force = self%table(:, k) + (t - self%start - self%time(k))*slope(self, k)
+      case ('step')
+         force = self%amplitude*self%direction(0.0_wp)
+      case ('ramp')
+         force = self%amplitude*min(1.0_wp, (t - self%start)/(self%end - self%start))*self%direction(0.0_wp)
+      case default
+         call self%phase(t, turned, 0.0_wp, angle, rate)
+         force = self%amplitude*self%direction(angle)
+      end select
+   end function force
+
+   !> How the force changes with time, N/s, at a speed of the shaft, rad/s.
+   pure function force_rate(self, t, turned, speed)
+      class(excitation_type), intent(in) :: self
+      real(wp), intent(in) :: t, turned, speed
+      real(wp) :: force_rate(2), angle, rate
+      integer :: k
+      force_rate = 0
+      if (.not. self%acts(t)) return
+      select case (self%kind)
+      case ('table')
+         k = self%interval(t - self%start)
+         if (k > 0) force_rate = slope(self, k)
+      case ('step')
+         force_rate = 0
+      case ('ramp')
+         if (t < self%end) force_rate = self%amplitude/(self%end - self%start)*self%direction(0.0_wp)
+      case default
+         call self%phase(t, turned, speed, angle, rate)
+         force_rate = self%amplitude*rate*self%direction(angle + 0.5_wp*pi)
+      end select
+   end function force_rate
+
+   !> Slope of the table behind row k, N/s.
+   pure function slope(self, k)
+      class(excitation_type), intent(in) :: self
+      integer, intent(in) :: k
+      real(wp) :: slope(2)
+      slope = (self%table(:, k + 1) - self%table(:, k))/(self%time(k + 1) - self%time(k))
+   end function slope
+
+   !> Makes `next` the first time after t, s, at which the force jumps or its rate does, where that is before `next`;
+   !> `jumps` tells whether it is the force.
+   pure subroutine next_switch(self, t, next, jumps)
+      class(excitation_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), intent(inout) :: next
+      logical, intent(inout) :: jumps
+      integer :: k
+      call take_earlier(self%start, self%kind /= 'ramp' .and. self%kind /= 'table', t, next, jumps)
+      if (is_set(self%end)) call take_earlier(self%end, self%kind /= 'ramp', t, next, jumps)
+      if (self%kind /= 'table') return
+      do k = 1, size(self%time)
+         call take_earlier(self%start + self%time(k), k == 1 .or. k == size(self%time), t, next, jumps)
+      end do
+   end subroutine next_switch
+
+   !> Takes a time, s, if it is after t and before `next`; of two at the same time the jump.
+   pure subroutine take_earlier(time, jump, t, next, jumps)
+      real(wp), intent(in) :: time, t
+      logical, intent(in) :: jump
+      real(wp), intent(inout) :: next
+      logical, intent(inout) :: jumps
+      if (time <= t .or. time > next) return
+      jumps = jump .or. jumps .and. .not. time < next
+      next = time
+   end subroutine take_earlier
+end module excitations

@@ -1,0 +1,149 @@
+!> Reads columns of numbers from a CSV file whose first line names them.
+module number_columns
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   use text, only: to_text, lower_case, shortened
+   use errors, only: error_type, raise, add_context, input_error
+   use case_inputs, only: case_type
+   use csv_line, only: cell_type, next_cell, content
+   use text_scanner, only: control_character
+   use input_file, only: read_input
+   use assignments, only: read_number
+   implicit none (type, external)
+   private
+   public :: read_excitation_tables
+
+   !> Longest file, bytes.
+   integer, parameter :: longest_file = 100000000
+   character(len=*), parameter :: newline = achar(10), carriage = achar(13)
+
+contains
+
+   !> Reads the tables of a case's excitations.
+   subroutine read_excitation_tables(inputs, error)
+      type(case_type), intent(inout) :: inputs
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: numbers(:, :)
+      integer :: i, k
+      do i = 1, size(inputs%excitations)
+         associate (x => inputs%excitations(i))
+            if (x%kind /= 'table') cycle
+            call read_columns(x%file, [character(len=7) :: 'time', 'force_y', 'force_z'], numbers, error)
+            if (.not. allocated(error)) then
+               x%time = numbers(1, :)
+               x%table = numbers(2:, :)
+               if (x%time(1) < 0) call raise(error, input_error, x%file//' line 2: time = '//to_text(x%time(1)) &
+                  & //': must be at least 0, the start of the excitation')
+               do k = 2, size(x%time)
+                  if (.not. x%time(k) > x%time(k - 1)) call raise(error, input_error, x%file//' line '//to_text(k + 1) &
+                     & //': time = '//to_text(x%time(k))//': must be above that of the line before, ' &
+                     & //to_text(x%time(k - 1)))
+               end do
+            end if
+            call add_context(error, 'excitation('//to_text(i)//')%file')
+            if (allocated(error)) return
+         end associate
+      end do
+   end subroutine read_excitation_tables
+
+   !> Numbers of a file, (column, row), two rows at least. Its columns must have these names in this order.
+   subroutine read_columns(file, names, numbers, error)
+      character(len=*), intent(in) :: file, names(:)
+      real(wp), allocatable, intent(out) :: numbers(:, :)
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: text, line
+      real(wp), allocatable :: rows(:, :)
+      integer :: at, row, last, length
+      call read_input(file, 'table', longest_file, '', '', text, error)
+      if (allocated(error)) return
+      at = control_character(text)
+      if (at > 0) then
+         call raise(error, input_error, file//': not a text file (byte '//to_text(at)//' is a control character)')
+         return
+      end if
+      at = 1
+      ! a UTF-8 byte order mark
+      if (index(text, char(239)//char(187)//char(191)) == 1) at = 4
+      last = verify(text, ' '//newline//carriage//achar(9), back=.true.)
+      allocate (rows(size(names), 64))
+      row = -1
+      do while (at <= last)
+         length = index(text(at:last), newline) - 1
+         if (length < 0) length = last - at + 1
+         line = text(at:at + length - 1)
+         at = at + length + 1
+         row = row + 1
+         if (row > size(rows, 2)) rows = reshape(rows, [size(names), 2*size(rows, 2)], pad=rows)
+         if (row == 0) then
+            call check_names(line, file, names, error)
+         else
+            call read_row(line, file//' line '//to_text(row + 1), names, rows(:, row), error)
+         end if
+         if (allocated(error)) return
+      end do
+      if (row < 2) call raise(error, input_error, file//': has '//to_text(max(0, row))//' rows of numbers; it needs ' &
+         & //'a line of names, '//listed(names)//', and two rows or more')
+      numbers = rows(:, :max(0, row))
+   end subroutine read_columns
+
+   !> The first line names the columns.
+   subroutine check_names(line, file, names, error)
+      character(len=*), intent(in) :: line, file, names(:)
+      type(error_type), allocatable, intent(inout) :: error
+      type(cell_type) :: cell
+      integer :: at, i
+      logical :: fit
+      at = 1
+      fit = .true.
+      do i = 1, size(names)
+         call next_cell(without_return(line), at, cell)
+         fit = fit .and. lower_case(content(line, cell)) == trim(names(i))
+      end do
+      if (.not. fit .or. at <= len(without_return(line)) + 1) call raise(error, input_error, file//' line 1: ' &
+         & //shortened(line)//': must name the columns, '//listed(names))
+   end subroutine check_names
+
+   !> A number for each column.
+   subroutine read_row(line, origin, names, numbers, error)
+      character(len=*), intent(in) :: line, origin, names(:)
+      real(wp), intent(out) :: numbers(:)
+      type(error_type), allocatable, intent(inout) :: error
+      type(cell_type) :: cell
+      integer :: at, i
+      logical :: ok
+      at = 1
+      numbers = 0
+      do i = 1, size(names)
+         call next_cell(without_return(line), at, cell)
+         call read_number(lower_case(content(line, cell)), numbers(i), ok)
+         if (ok) ok = ieee_is_finite(numbers(i))
+         if (.not. ok) then
+            call raise(error, input_error, origin//': '//trim(names(i))//' = '//shortened(content(line, cell)) &
+               & //': must be a finite number; commas separate the columns, and decimals have a point')
+            return
+         end if
+      end do
+      if (at <= len(without_return(line)) + 1) call raise(error, input_error, origin//': has more than ' &
+         & //to_text(size(names))//' numbers; the columns are '//listed(names))
+   end subroutine read_row
+
+   !> A line without a carriage return at its end.
+   pure function without_return(line) result(text)
+      character(len=*), intent(in) :: line
+      character(len=:), allocatable :: text
+      text = line
+      if (len(line) == 0) return
+      if (line(len(line):) == carriage) text = line(:len(line) - 1)
+   end function without_return
+
+   !> "time, force_y, force_z"
+   pure function listed(names) result(text)
+      character(len=*), intent(in) :: names(:)
+      character(len=:), allocatable :: text
+      integer :: i
+      text = trim(names(1))
+      do i = 2, size(names)
+         text = text//', '//trim(names(i))
+      end do
+   end function listed
+end module number_columns

@@ -1,0 +1,64 @@
+"""Stiffness and damping identified from forced vibrations against those of the linearised bearing."""
+
+import numpy as np
+import pytest
+import tiltpad
+
+BASE = {
+    "rotor": {"mass": 2000.0, "unbalance": 0.0},
+    "operation": {"speed_rpm": 6000.0, "duration": 0.05},
+    "output": {"samples_per_revolution": 60},
+    "film": {"table_tolerance": 1e-6},
+}
+#: Bearings whose pads all carry: four pads that only tilt, four on flexible pivots, five.
+BEARINGS = {
+    "tilting": {
+        "pads": {"pivot_angle_deg": (-45.0, 225.0, 45.0, 135.0), "motion": "tilting_only"},
+        "bearing": {"preload": 0.5},
+    },
+    "flexible": {"pads": {"pivot_angle_deg": (-45.0, 225.0, 45.0, 135.0)}, "bearing": {"preload": 0.5}},
+    "five": {
+        "pads": {"pivot_angle_deg": (-54.0, 18.0, 90.0, 162.0, 234.0), "arc_deg": 60.0},
+        "bearing": {"preload": 0.5},
+    },
+}
+RATIOS = (0.25, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0)
+
+
+
+
+def identified(bearing, ratio, amplitude, **groups):
+    """Coefficients from two periodic orbits under forces along y and along z."""
+    excitation = {"amplitude": amplitude, "frequency_ratio": ratio}
+    runs = [
+        tiltpad.run(
+            BASE
+            | {"case": {"task": "periodic"}, "periodic": {"tolerance": 1e-11}}
+            | {"excitation": excitation | {"direction_deg": direction}}
+            | bearing
+            | groups
+        )
+        for direction in (0.0, 90.0)
+    ]
+    return tiltpad.impedance(runs)
+
+
+def deviation(found, expected):
+    """The largest difference of an element over the largest element."""
+    return np.abs(found - expected).max() / np.abs(expected).max()
+
+
+@pytest.mark.parametrize("name", BEARINGS)
+def test_without_friction_a_small_force_identifies_the_coefficients(name):
+    """1 N moves the journal by some 1e-4 of the clearance, so that what is not linear is 1e-8 of it; the orbit
+    is closed to 1e-11 of the clearance, 1e-7 of the motion. Both take their films from tables, whose slopes
+    are those of a film to 1e-4."""
+    reference = tiltpad.coefficients(
+        tiltpad.run(BASE | BEARINGS[name] | {"case": {"task": "coefficients"}}), frequency_ratio=RATIOS
+    )
+    for k, ratio in enumerate(RATIOS):
+        found = identified(BEARINGS[name], ratio, 1.0)
+        assert found.pivot == "identified"
+        assert found.frequency_ratio == pytest.approx([ratio])
+        assert deviation(found.stiffness[0], reference.stiffness[k]) < 1e-4, ratio
+        assert deviation(found.damping[0], reference.damping[k]) < 1e-4, ratio
