@@ -29,10 +29,10 @@ contains
             if (is_set(x%frequency_hz) .eqv. is_set(x%frequency_ratio)) cycle
             revolutions = common_multiple(revolutions, revolutions_of(x, inputs%operation%speed_rpm*rpm))
             if (revolutions < 1 .or. revolutions > most_revolutions) call refuse(name_of(i)//given_frequency(x) &
-               & //': must be a fraction of the speed of the shaft whose period is at most '//to_text(most_revolutions) &
-               & //' revolutions for case%task = '''//inputs%about%task//''', with periodic%revolutions and the other ' &
-               & //'excitations; its frequency over the speed is '//to_text(ratio(x, inputs%operation%speed_rpm*rpm)), &
-               & error)
+               & //': must be a fraction of the speed of the shaft whose period is at most ' &
+               & //to_text(most_revolutions)//' revolutions for case%task = '''//inputs%about%task//''', with ' &
+               & //'periodic%revolutions and the other excitations; its frequency over the speed is ' &
+               & //to_text(ratio(x, inputs%operation%speed_rpm*rpm)), error)
          end associate
          if (allocated(error)) return
       end do

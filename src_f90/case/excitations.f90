@@ -13,7 +13,8 @@ module excitations
       character(len=:), allocatable :: kind, rotating
       !> N; direction from +y towards +z.
       real(wp) :: amplitude = unset, direction_deg = 0
-      !> Of harmonic and chirp: frequency, or over the speed of the shaft; of a chirp that at its end; phase at the start.
+      !> Of harmonic and chirp: frequency, or over the speed of the shaft; of a chirp that at its end; phase at the
+      !> start.
       real(wp) :: frequency_hz = unset, frequency_ratio = unset, final_frequency_hz = unset, phase_deg = 0
       !> When it acts, s; it has no end where that is unset.
       real(wp) :: start = 0, end = unset
@@ -73,7 +74,8 @@ contains
       angle = angle + self%phase_deg*degree
    end subroutine phase
 
-   !> The force along y and z of amplitude 1 at a phase, rad; its derivative over the phase is that a quarter turn later.
+   !> The force along y and z of amplitude 1 at a phase, rad; its derivative over the phase is that a quarter turn
+   !> later.
    pure function direction(self, angle)
       class(excitation_type), intent(in) :: self
       real(wp), intent(in) :: angle

@@ -128,27 +128,26 @@ contains
          flag = fcvodesetmaxerrtestfails(core%memory, max_failures)
          ! CVODE takes its inverse; 0: no limit
          flag = fcvodesetmaxstep(core%memory, merge(max(options%max_step, tiny(t)), 0.0_wp, options%max_step > 0))
+         core%t = t
+         core%t_end = t_end
       end associate
-      call begin(self%core, t, t_end, error)
+      call begin(self%core, error)
    end subroutine start
 
    !> The first evaluation, once CVODE has the state y.
-   subroutine begin(core, t, t_end, error)
+   subroutine begin(core, error)
       type(core_type), intent(inout) :: core
-      real(wp), intent(in) :: t, t_end
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: dydt(size(core%y))
       integer(c_int) :: flag
       logical :: ok
       ! shorter steps would not move the time
-      flag = fcvodesetminstep(core%memory, epsilon(t_end)*t_end)
-      core%t = t
-      core%t_end = t_end
+      flag = fcvodesetminstep(core%memory, epsilon(core%t_end)*core%t_end)
       core%order = 0
-      call core%stop%find(core%model, t, t_end)
+      call core%stop%find(core%model, core%t(1), core%t_end)
       ! what just precedes a jump is passed at the first step
-      if (core%stop%time > t) flag = fcvodesetstoptime(core%memory, core%stop%time)
-      call core%model%rhs(t, core%y, dydt, ok)
+      if (core%stop%time > core%t(1)) flag = fcvodesetstoptime(core%memory, core%stop%time)
+      call core%model%rhs(core%t(1), core%y, dydt, ok)
       if (.not. ok) call raise(error, numerics_error, failure(core, cv_first_rhsfunc_err))
       core%history = new_step_history(size(core%y) + merge(core%model%outputs, 0, core%keeps_outputs))
       call note_end(core)
@@ -161,11 +160,12 @@ contains
       integer(c_int) :: flag
       associate (core => self%core)
          if (core%stop%anew) then
+            core%t = core%stop%resumed
             core%counts = self%counts()
             core%newton%linearizations = 0
             core%newton%correction = 0
-            flag = fcvodereinit(core%memory, core%stop%resumed, core%y_vector)
-            call begin(core, core%stop%resumed, core%t_end, error)
+            flag = fcvodereinit(core%memory, core%t(1), core%y_vector)
+            call begin(core, error)
          else
             call core%stop%find(core%model, core%t(1), core%t_end)
             flag = fcvodesetstoptime(core%memory, core%stop%time)

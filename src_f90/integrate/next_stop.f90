@@ -7,8 +7,8 @@ module next_stop
    public :: next_stop_type
 
    type :: next_stop_type
-      !> When steps end, and from when on they go on, s: where the rates jump, steps end just before, as at the time itself
-      !> the rates are those after the jump.
+      !> When steps end, and from when on they go on, s: where the rates jump, steps end just before, as at the time
+      !> itself the rates are those after the jump.
       real(wp) :: time = huge(1.0_wp), resumed = huge(1.0_wp)
       !> Whether the rates jump: what was before says nothing of what follows.
       logical :: anew = .false.

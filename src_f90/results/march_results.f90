@@ -21,8 +21,8 @@ module march_results
 
 contains
 
-   !> Adds a sample of all bearings, in the files of these, of where the stations of a shaft are, (2, station), m, and of
-   !> the forces of the excitations, (2, excitation), N: the one list of what is sampled.
+   !> Adds a sample of all bearings, in the files of these, of where the stations of a shaft are, (2, station), m, and
+   !> of the forces of the excitations, (2, excitation), N: the one list of what is sampled.
    subroutine add_sample(file, bearings, samples, stations, excitations, error)
       type(run_file_type), intent(inout) :: file
       type(bearing_file_type), intent(in) :: bearings(:)

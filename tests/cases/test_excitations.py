@@ -21,7 +21,7 @@ def journal(path):
 
 
 def test_a_step_leads_from_one_equilibrium_to_the_other(run, tmp_path):
-    """Until the step the journal rests; long after it, it is where a static load of this size has it."""
+    """Until the step the journal stays; long after it, it is where a static load of this size has it."""
     run(STEP, name="step")
     load = 3000 * np.array([np.cos(np.radians(120)), -np.sin(np.radians(120))])
     run(STILL, "case%task='equilibrium'", f"rotor%static_load={load[0]:.17g},{load[1]:.17g}", name="loaded")
@@ -100,7 +100,7 @@ def test_an_orbit_has_the_period_of_its_excitation(run, tmp_path):
 
 
 def test_a_machine_under_a_force_at_a_station(run, tmp_path):
-    """A slow ramp at a station ends where a static load there has the shaft; without a station it is refused."""
+    """A slow ramp at a station ends where a static load there has the shaft; without one it is refused."""
     force = "&excitation kind='ramp', amplitude=2000, direction_deg=90, end=0.1, station=7 /\n"
     run(MACHINE + force, name="ramp")
     load = "&load station=7, force=0, 2000 /\n"
@@ -112,12 +112,18 @@ def test_a_machine_under_a_force_at_a_station(run, tmp_path):
             expected = loaded[f"bearings/{name}/equilibrium/journal_z"][()]
             assert abs(found - expected) < 0.02 * abs(expected - start)
         assert ramp["excitation_z"][-1, 0] == 2000
-    assert "excitation(1)%station: must be given" in run(MACHINE + force.replace(", station=7", ""), status=1).stderr
+    assert (
+        "excitation(1)%station: must be given"
+        in run(MACHINE + force.replace(", station=7", ""), status=1).stderr
+    )
 
 
 def test_statics_say_that_they_know_no_excitation(run):
     for task in ("equilibrium", "coefficients"):
-        assert f"excitation: has no effect with case%task = '{task}'" in run(STEP, f"case%task='{task}'", name=task).stdout
+        assert (
+            f"excitation: has no effect with case%task = '{task}'"
+            in run(STEP, f"case%task='{task}'", name=task).stdout
+        )
 
 
 def test_a_study_varies_an_excitation(run, tmp_path):

@@ -25,8 +25,6 @@ BEARINGS = {
 RATIOS = (0.25, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0)
 
 
-
-
 def identified(bearing, ratio, amplitude, **groups):
     """Coefficients from two periodic orbits under forces along y and along z."""
     excitation = {"amplitude": amplitude, "frequency_ratio": ratio}
@@ -50,9 +48,9 @@ def deviation(found, expected):
 
 @pytest.mark.parametrize("name", BEARINGS)
 def test_without_friction_a_small_force_identifies_the_coefficients(name):
-    """1 N moves the journal by some 1e-4 of the clearance, so that what is not linear is 1e-8 of it; the orbit
-    is closed to 1e-11 of the clearance, 1e-7 of the motion. Both take their films from tables, whose slopes
-    are those of a film to 1e-4."""
+    """1 N moves the journal by some 1e-4 of the clearance, so that what is not linear is 1e-8 of it; the
+    orbit is closed to 1e-11 of the clearance, 1e-7 of the motion. The slopes of films from tables of a
+    tolerance of 1e-6 are those of the films to some 1e-5."""
     reference = tiltpad.coefficients(
         tiltpad.run(BASE | BEARINGS[name] | {"case": {"task": "coefficients"}}), frequency_ratio=RATIOS
     )

@@ -8,7 +8,7 @@ module switched_problem
 
    !> y' = -k (y - s(t)), where s jumps from 0 to 1 at a time, and after it grows with a slope from another time on.
    type, extends(small_ode_type) :: switched
-      real(wp) :: k = 300, jump = 0.1_wp, kink = 0.2_wp
+      real(wp) :: k = 300, jump = 0.1_wp, corner = 0.2_wp
       logical :: tells = .true.
    contains
       procedure :: rates
@@ -23,7 +23,7 @@ contains
       class(switched), intent(in) :: self
       real(wp), intent(in) :: t, y(:)
       real(wp) :: rates(size(y))
-      rates = -self%k*(y - merge(1.0_wp, 0.0_wp, t >= self%jump) - max(0.0_wp, t - self%kink))
+      rates = -self%k*(y - merge(1.0_wp, 0.0_wp, t >= self%jump) - max(0.0_wp, t - self%corner))
    end function rates
 
    pure function jacobian(self, t, y) result(matrix)
@@ -42,7 +42,7 @@ contains
       jumps = .false.
       if (.not. self%tells) return
       jumps = t < self%jump
-      if (t < self%kink) next = merge(self%jump, self%kink, jumps)
+      if (t < self%corner) next = merge(self%jump, self%corner, jumps)
    end subroutine next_switch
 
    pure real(wp) function exact(self, t)
@@ -50,7 +50,7 @@ contains
       real(wp), intent(in) :: t
       exact = 0
       if (t > self%jump) exact = 1 - exp(-self%k*(t - self%jump))
-      if (t > self%kink) exact = exact + (t - self%kink) - (1 - exp(-self%k*(t - self%kink)))/self%k
+      if (t > self%corner) exact = exact + (t - self%corner) - (1 - exp(-self%k*(t - self%corner)))/self%k
    end function exact
 end module switched_problem
 
@@ -58,7 +58,6 @@ program test_excitations
    use kinds, only: wp, pi
    use text, only: to_text
    use errors, only: error_type
-   use excitations, only: excitation_type
    use operating_point, only: operating_point_type
    use case_inputs, only: case_type
    use cvode_integrator, only: integrator_type, integrator_options

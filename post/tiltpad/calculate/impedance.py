@@ -40,12 +40,11 @@ def impedance(runs: Sequence[Run]) -> Coefficients:
     frequency = ratio * speed * np.pi / 30
     found = [amplitudes(run, ratio) for run in runs]
     motion, force = (np.column_stack(each) for each in zip(*found, strict=True))
-    area, *lengths = abs(np.linalg.det(motion)), *np.linalg.norm(motion, axis=0)
-    if not area > INDEPENDENT * np.prod(lengths):
+    if not abs(np.linalg.det(motion)) > INDEPENDENT * np.prod(np.linalg.norm(motion, axis=0)):
         raise ValueError("the motions of the two runs are not independent; excite in two directions")
     dynamic = force @ np.linalg.inv(motion)
     stiffness, damping = dynamic.real[None], dynamic.imag[None] / frequency
-    return Coefficients("identified", np.float64(speed), np.array([ratio]), stiffness, damping, {})
+    return Coefficients("identified", np.asarray(speed, float), np.array([ratio]), stiffness, damping, {})
 
 
 def frequency_ratio(run: Run) -> float:
@@ -82,5 +81,7 @@ def unbalance(run: Run) -> float:
     """Force of the unbalance of a run, N."""
     rotor, speed = run.input["rotor"], run.input["operation"]["speed_rpm"]
     if "balance_grade" in rotor:
-        raise NotInRunError(f"{run.path}: rotor%balance_grade: give rotor%unbalance at the speed of the shaft")
+        raise NotInRunError(
+            f"{run.path}: rotor%balance_grade: give rotor%unbalance at the speed of the shaft"
+        )
     return float(rotor["unbalance"] * (speed * np.pi / 30) ** 2)
