@@ -416,7 +416,8 @@ format: python
 	$(VENV)/bin/ruff check --fix --config post/pyproject.toml post tests docs
 	$(VENV)/bin/ruff format --config post/pyproject.toml post tests docs
 
-docs: run $(addprefix $(B)/tests/,test_film_accuracy test_fixed_pads test_losses)
+docs: run $(addprefix $(B)/tests/,test_film_accuracy test_fixed_pads test_losses \
+      test_rotor_matrices test_mode_selection)
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
 	$(venv_python) docs/modules.py
 	$(venv_python) docs/api.py > build/api.md && mv build/api.md docs/
