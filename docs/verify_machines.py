@@ -22,8 +22,8 @@ CASE = """
 &film cavitation = 'none' /
 """
 #: Values of an independent program: frequencies of the shaft with its journals held, Hz; y of a journal and
-#: of the disc in equilibrium, um; stiffness and damping of a bearing; eigenvalues, 1/s, with free pivots, with
-#: the synchronous matrices in place of the pads, and with stuck pivots.
+#: of the disc in equilibrium, um; stiffness and damping of a bearing; eigenvalues, 1/s, with free pivots,
+#: with the synchronous matrices in place of the pads, and with stuck pivots.
 HELD = (91.8029, 263.5415, 947.0458)
 REST = {"journal": (2, -67.1872), "disc": (7, -98.0403)}
 COEFFICIENTS = {"stiffness": (582.5918, "MN/m"), "damping": (0.941046, "MN s/m")}
