@@ -60,3 +60,17 @@ def test_without_friction_a_small_force_identifies_the_coefficients(name):
         assert found.frequency_ratio == pytest.approx([ratio])
         assert deviation(found.stiffness[0], reference.stiffness[k]) < 1e-4, ratio
         assert deviation(found.damping[0], reference.damping[k]) < 1e-4, ratio
+
+
+def test_pivots_stick_at_a_small_amplitude_and_free_themselves_at_a_large_one():
+    """LuGre: a small force identifies stuck pads, and a growing one comes nearer to free pads."""
+    bearing = BEARINGS["flexible"] | {"friction": {"model": "lugre"}}
+    reference = tiltpad.run(BASE | bearing | {"case": {"task": "coefficients"}})
+    stuck, free = (
+        tiltpad.coefficients(reference, pivot, frequency_ratio=0.5).stiffness[0]
+        for pivot in ("stuck", "free")
+    )
+    assert deviation(stuck, free) > 0.3
+    small, larger, large = (identified(bearing, 0.5, force).stiffness[0] for force in (1.0, 3000.0, 10000.0))
+    assert deviation(small, stuck) < 0.01
+    assert deviation(large, free) < 0.5 * deviation(larger, free) < 0.5 * deviation(small, free)
