@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import h5py
 import numpy as np
 import tiltpad
 from tiltpad import command
@@ -61,9 +62,13 @@ def test_every_command_of_the_tutorial_does_what_it_says(
     for name in re.findall(r"(?<!images/)\b[\w-]+\.(?:h5|png|pdf|svg|nml)\b", text):
         assert (tmp_path / name).exists(), name
     assert (tmp_path / "mine.html").exists()
-    for example, own in (("five_pads", "five.nml"), ("offset_preload", "bearing.nml")):
+    for example, own in (
+        ("five_pads", "five.nml"),
+        ("offset_preload", "bearing.nml"),
+        ("overhung", "rotor.nml"),
+    ):
         assert (root / f"input/examples/{example}.nml").read_text().endswith((tmp_path / own).read_text())
-    for words in figures(tmp_path):
+    for words in (*figures(tmp_path), *machine(tmp_path)):
         assert words in text
     same = [(tmp_path / name).stat().st_size for name in ("mine.h5", "again.h5")]
     assert same[0] == same[1]
@@ -101,6 +106,28 @@ def figures(folder):
     with result("cross.h5") as run:
         k = 1e-6 * tiltpad.coefficients(run, "free").stiffness[0]
         yield f"cross-coupled stiffness of {k[0, 1]:.0f} and {k[1, 0]:.0f} MN/m"
+
+
+def machine(folder):
+    """The same of the machine."""
+    with h5py.File(folder / "loads.h5") as run:
+        coupling, impeller = -run["equilibrium/bearing_load_y"][:]
+        yield f"{coupling:.0f} N at the coupling, {impeller:.0f} N at the impeller"
+    with h5py.File(folder / "whirl.h5") as study:
+
+        def slowest(speed, sense):
+            row = study["speed_rpm"][:].tolist().index(speed)
+            frequency, damping, whirl = (
+                study[name][row, 0] for name in ("frequency", "damping_ratio", "whirl")
+            )
+            found = np.flatnonzero((whirl * sense > 0) & (damping < 0.5) & (frequency > 0))
+            mode = found[frequency[found].argmin()]
+            return frequency[mode], damping[mode]
+
+        yield "is at {:.0f} Hz at 8000 rpm, with a damping ratio of {:.2f}".format(*slowest(8000, 1))
+        yield f"loses its damping with the speed, {slowest(12000, -1)[1]:.2f} at 12000 rpm"
+    with h5py.File(folder / "bode.h5") as run:
+        yield f"a flat peak of {1e6 * run['station_y_amplitude'][:, 7].max():.1f} um"
 
 
 def unbalance_response(root, block, folder):
