@@ -101,16 +101,18 @@ def use(path: Path, work: list[Callable[[Path], None]]) -> tuple[str, str]:
 
 
 def calculate(path: Path) -> None:
-    """Every array of a result, its key figures and its film."""
+    """Every array of a result or of a machine and its bearings, their key figures and films."""
     with tiltpad.read(path) as run:
-        repr(run), dir(run), run.input, run.clearance, run.pads
-        for name in run.names():
-            run[name]
-        summary.journal(run)
-        summary.pads(run)
-        tiltpad.poincare(run, 50)
-        tiltpad.pressure(run)
-        tiltpad.pressure(run, float(run.values("time", -1)))
+        for each in (run, *run.bearings.values()):
+            repr(each), dir(each), each.input
+            for name in each.names():
+                each[name]
+            summary.journal(each)
+        for own in run.bearings.values() or [run]:
+            own.clearance, own.pads, summary.pads(own)
+            tiltpad.poincare(own, 50)
+            tiltpad.pressure(own)
+            tiltpad.pressure(own, float(own.values("time", -1)))
 
 
 def calculate_study(path: Path) -> None:

@@ -49,7 +49,7 @@ def bearing(case: Run | Case) -> Figure:
     groups = case.input if isinstance(case, Run) else case
     if isinstance(groups["bearing"], list):
         names = ", ".join(str(each["name"]) for each in groups["bearing"])
-        raise ArgumentError("of one bearing of the machine: choose by {bearing}: {names}", names=names)
+        raise ArgumentError("a machine: choose one of its bearings by {bearing}: {names}", names=names)
     state = geometry.at_rest(run) if run else geometry.centred(groups)
     fig = plt.figure(figsize=(PAGE, 4.4))
     ax, beside = fig.subplots(1, 2, width_ratios=(1.45, 1))
