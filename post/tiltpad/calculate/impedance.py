@@ -51,7 +51,7 @@ def frequency_ratio(run: Run) -> float:
     """Frequency of the harmonic excitation of a run over the speed of the shaft."""
     given = run.input.get("excitation", {})
     speed = run.input["operation"]["speed_rpm"]
-    if given.get("kind") != "harmonic" or "journal_y" not in run or "excitation_y" not in run:
+    if run.bearings or given.get("kind") != "harmonic" or "journal_y" not in run or "excitation_y" not in run:
         raise NotInRunError(f"{run.path}: no harmonic excitation of a journal in this run")
     if speed != run.input["operation"]["final_speed_rpm"]:
         raise NotInRunError(f"{run.path}: no constant frequency in this run: the speed changes")
