@@ -14,6 +14,7 @@ from importlib.metadata import version
 from typing import Any
 
 from tiltpad.calculate.coefficients import Coefficients, coefficients
+from tiltpad.calculate.critical_speeds import CriticalSpeed, critical_speeds, write_critical_speeds
 from tiltpad.calculate.deviations import deviations
 from tiltpad.calculate.heat import HeatBalance, heat_balance
 from tiltpad.calculate.impedance import impedance
@@ -73,6 +74,7 @@ __all__ = [
     "Coefficients",
     "Collected",
     "Contact",
+    "CriticalSpeed",
     "HeatBalance",
     "IncompleteRunWarning",
     "LibraryError",
@@ -99,6 +101,7 @@ __all__ = [
     "contact",
     "pivot_load",
     "contact_pressure",
+    "critical_speeds",
     "deviations",
     "envelope",
     "friction_coefficient",
@@ -141,6 +144,7 @@ __all__ = [
     "waveform",
     "write_case",
     "write_coefficients",
+    "write_critical_speeds",
 ]
 
 

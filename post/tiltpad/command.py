@@ -13,6 +13,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any, NoReturn
 
+from tiltpad.calculate.critical_speeds import critical_speeds, operating_range, write_critical_speeds
 from tiltpad.calculate.library import LibraryError, MissingLibraryError
 from tiltpad.calculate.selection import ArgumentError
 from tiltpad.calculate.tables import write_coefficients
@@ -25,8 +26,9 @@ from tiltpad.files.writing import write
 from tiltpad.running import resolved
 
 FORMATS = ("png", "pdf", "svg")
-#: Formats of tables, which the plot of coefficients can be, too.
-COEFFICIENTS, TABLES = "coefficients", ("csv", "toml")
+#: The plots that can be tables, too: of coefficients, and of critical speeds; their formats.
+COEFFICIENTS, RESPONSE = "coefficients", "response"
+TABLES = {COEFFICIENTS: ("csv", "toml"), RESPONSE: ("csv",)}
 #: The plot of a study; those of the bearing itself, of a case or a result, and of its motion.
 STUDY, BEARING, MOVIE = "study", "bearing", "movie"
 #: Formats of a movie.
@@ -34,7 +36,7 @@ MOVIES = ("gif", "mp4")
 #: Plots of coefficients and modes: of results, and of studies.
 VIBRATIONS = ("coefficients", "stability", "campbell")
 #: Plots of results and of studies.
-OF_EITHER = (*VIBRATIONS, "response", "temperatures")
+OF_EITHER = (*VIBRATIONS, RESPONSE, "temperatures")
 #: Plots of studies of samples.
 SAMPLES = ("tornado", "distribution", "scatter")
 #: The plot of branches, below which studies may lie.
@@ -54,15 +56,16 @@ OWN_OPTIONS = {
     "show": (STUDY, *SAMPLES),
     "over": (STUDY, *OF_EITHER),
     "where": (STUDY, *OF_EITHER, *SAMPLES),
-    "pivot": (STUDY, *VIBRATIONS, *SAMPLES, SHAPES),
-    "station": (STATIONS,),
+    "pivot": (STUDY, *VIBRATIONS, RESPONSE, *SAMPLES, SHAPES),
+    "station": (STATIONS, RESPONSE),
+    "operating": (RESPONSE,),
 }
 #: Plots without the options --last and --pad.
 WITHOUT_LAST = (
     *("equilibrium", "runup", "orders", "waterfall", "pressure", "film", BEARING, STUDY),
     *(BRANCH, *OF_EITHER, *SAMPLES, MACHINE, SHAFT, SHAPES),
 )
-WITHOUT_PAD = (BEARING, MOVIE, *VIBRATIONS, "response", *OF_MACHINES)
+WITHOUT_PAD = (BEARING, MOVIE, *VIBRATIONS, RESPONSE, *OF_MACHINES)
 #: Plots without the option --bearing.
 WITHOUT_BEARING = (STUDY, *SAMPLES, *OF_MACHINES)
 #: Exit status, as the program's own.
@@ -84,7 +87,7 @@ PLOTS = {
     "waterfall": "amplitudes over speed and frequency of a run-up (of the journal; --pad: of its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
     "branch": "branches over their parameter, stable or not (--pad: its tilt), over studies of marches",
-    "response": "first harmonic of the journal, critical speeds, amplification: studies, run-ups, branches",
+    "response": "first harmonic, critical speeds, amplification: studies, run-ups, branches (also .csv)",
     "temperatures": "temperatures and viscosity of the pads: studies, a branch; heat balances of results",
     "film": "thickness and pressure of the films around the bearing at one instant (likewise)",
     "bearing": "the bearing of a case (.nml) or result: pads, pivots, angles, load, sense of rotation",
@@ -122,7 +125,7 @@ def report(arguments: Sequence[str] | None = None) -> int:
     """tiltpad-report: writes the page about a run; gives the exit status."""
     options = report_parser().parse_args(arguments)
     output = Path(options.output or f"{Path(options.file).stem}.html")
-    return finished("tiltpad-report", output, lambda: write_report(options.file, output))
+    return finished("tiltpad-report", output, lambda: write_report(options.file, output, options.operating))
 
 
 def collect(arguments: Sequence[str] | None = None) -> int:
@@ -201,7 +204,7 @@ def signals_stop() -> Iterator[None]:
 
 def draw(options: argparse.Namespace, output: Path) -> None:
     """Reads the runs, draws them and writes the picture."""
-    tables = TABLES if options.plot == COEFFICIENTS else ()
+    tables = TABLES.get(options.plot, ())
     form = needs_suffix(output, MOVIES if options.plot == MOVIE else FORMATS + tables)
     for name, allowed in OWN_OPTIONS.items():
         if getattr(options, name) is not None and options.plot not in allowed:
@@ -212,7 +215,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
     for name, without in without_options.items():
         if getattr(options, name) is not None and options.plot in without:
             raise ValueError(f"--{name}: not for the plot {options.plot}")
-    if form in TABLES:
+    if form in tables:
         write_table(options, output)
         return
     mpl = matplotlib_for_files()
@@ -238,6 +241,10 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         more = {name: getattr(options, name) for name in own if getattr(options, name) is not None}
         if options.plot in (*OF_EITHER, *SAMPLES):
             more |= {"where": kept(options)}
+        if options.plot == RESPONSE and options.station is not None:
+            if len(options.station) > 1:
+                raise ValueError("--station: the response is that of one station")
+            more["station"] = options.station[0]
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
         stack.callback(plots.plt.close, figure)
         save(figure, output, form)
@@ -246,8 +253,9 @@ def draw(options: argparse.Namespace, output: Path) -> None:
 def bearings_of(source: Run | Study, options: argparse.Namespace) -> list[Run | Study]:
     """What is drawn of a file: of a machine the bearing that --bearing names, or all of them."""
     if options.bearing is not None:
-        if isinstance(source, Study):
-            raise ValueError(f"--bearing: of results, and {source.path} is a study")
+        if isinstance(source, Study) and options.bearing not in source.bearings:
+            known = ", ".join(source.bearings) or "it is a study of one bearing"
+            raise ValueError(f"{source.path}: no bearing {options.bearing}: {known}")
         return [source.bearings[options.bearing]]
     if isinstance(source, Study) or not source.bearings or options.plot in OF_MACHINES:
         return [source]
@@ -277,12 +285,19 @@ def save(figure: Any, output: Path, form: str) -> None:
 
 
 def write_table(options: argparse.Namespace, output: Path) -> None:
-    """Reads a result or a study and writes its coefficients as a table."""
+    """Reads a result or a study and writes its coefficients or critical speeds as a table."""
     if len(options.files) > 1 or options.over is not None:
         raise ValueError(f"{output}: a table is of one file, and over all its parameters")
+    if options.station is not None:
+        raise ValueError("--station: for the picture, the table has all stations")
+    where = kept(options) or None
     with read_either(options.files[0]) as source:
         own = one_bearing(source, options) if isinstance(source, Run) else source
-        write_coefficients(own, output, pivot=options.pivot, where=kept(options) or None)
+        if options.plot == RESPONSE:
+            found = critical_speeds(own, where, options.pivot, options.operating)
+            write_critical_speeds(found, output)
+        else:
+            write_coefficients(own, output, pivot=options.pivot, where=where)
 
 
 def draw_scheme(options: argparse.Namespace, output: Path, form: str) -> None:
@@ -339,7 +354,7 @@ def kept(options: argparse.Namespace) -> dict[str, str]:
     return where
 
 
-def write_report(path: str, output: Path) -> None:
+def write_report(path: str, output: Path, operating: tuple[float, float] | None = None) -> None:
     """Reads the run and writes the page about it."""
     needs_suffix(output, ("html", "htm"))
     matplotlib_for_files()
@@ -347,7 +362,9 @@ def write_report(path: str, output: Path) -> None:
     from tiltpad.draw.study_report import study_report
 
     with read_either(path) as found:
-        page = study_report(found) if isinstance(found, Study) else report(found)
+        if operating is not None and not isinstance(found, Study):
+            raise ValueError("--operating: for the critical speeds of a study")
+        page = study_report(found, operating) if isinstance(found, Study) else report(found)
     write(output, page)
 
 
@@ -386,6 +403,7 @@ def report_parser() -> Parser:
     parser.add_argument(
         "-o", "--output", metavar="HTML", help="default: FILE's name with .html, in this folder"
     )
+    parser.add_argument("--operating", **OPERATING)
     return parser
 
 
@@ -430,6 +448,7 @@ def plot_parser() -> Parser:
     parser.add_argument(
         "--pivot", metavar="NAME", help="coefficients and modes of pivots free, stuck or locked"
     )
+    parser.add_argument("--operating", **OPERATING)
     parser.add_argument(
         "--orders", type=positive, metavar="N", help="spectrum, waterfall: up to N times the shaft speed"
     )
@@ -447,7 +466,7 @@ def plot_parser() -> Parser:
         "--station",
         type=station_numbers,
         metavar="K,...",
-        help="stations: those of the shaft that are shown (1, 2, ...)",
+        help="stations, response: those of the shaft that are shown (1, 2, ...)",
     )
     study = parser.add_argument_group("options for studies")
     study.add_argument(
@@ -463,6 +482,23 @@ def plot_parser() -> Parser:
         help="takes only the runs with this value; may be repeated",
     )
     return parser
+
+
+def speeds(text: str) -> tuple[float, float]:
+    """Operating speeds: "4000", or the lowest and the highest, "3600:4200"."""
+    with suppress(ValueError):
+        return operating_range([float(each) for each in text.split(":")])
+    raise argparse.ArgumentTypeError(
+        f"{text}: must be a speed in rpm, or the lowest and the highest, LOW:HIGH"
+    )
+
+
+#: The option for the speeds from which critical speeds must keep away.
+OPERATING: dict[str, Any] = {
+    "type": speeds,
+    "metavar": "RPM",
+    "help": "critical speeds: operating speed, or LOW:HIGH, that they keep a margin from",
+}
 
 
 def plot_name(text: str) -> str:

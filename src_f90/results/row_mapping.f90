@@ -12,7 +12,7 @@ module row_mapping
    private
    public :: row_mapping_type
 
-   !> The scale that every study has.
+   !> The scale that every study has, of a machine in the group of each bearing.
    character(len=*), parameter :: pads = 'pad'
 
    !> Where the numbers of a dataset of a record stand in a row.
@@ -152,8 +152,11 @@ contains
          new(n) = self%mappings(i)%own%column
          used(self%mappings(i)%over) = .true.
       end do
-      i = place_of(scales, pads)
-      if (i > 0) used(i) = .true.
+      do i = 1, size(scales)
+         associate (name => scales(i)%name)
+            if (name(index(name, '/', back=.true.) + 1:) == pads) used(i) = .true.
+         end associate
+      end do
    end subroutine find_lacking
 
    !> Whether a dataset has numbers but no place.

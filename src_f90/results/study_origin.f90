@@ -8,7 +8,7 @@ module study_origin
    use parameter_study, only: study_type
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type, most_rows
-   use provenance, only: format_version, now
+   use provenance, only: format_version, machine_version, now
    use study_columns, only: run_scale
    use study_marks, only: put_marks
    use study_parameters, only: parameter_type
@@ -27,7 +27,6 @@ contains
       type(error_type), allocatable :: error
       character(len=:), allocatable :: names
       integer :: k, i
-      call file%put_flag('format_version', format_version)
       call file%put_text('program', 'tiltpad')
       call file%put_text('version', program_version)
       call file%put_text('created', now())
@@ -37,6 +36,7 @@ contains
          call study%inputs(k, inputs, error)
          if (.not. allocated(error)) exit
       end do
+      call file%put_flag('format_version', merge(machine_version, format_version, inputs%is_machine()))
       if (allocated(error)) then
          call file%put_text('title', '')
          call file%put_text('input', '')

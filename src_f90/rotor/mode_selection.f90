@@ -18,8 +18,9 @@ module mode_selection
       real(wp) :: truncation_error = 0, damping_error = 0
    end type mode_selection_type
 
-   !> The modes are chosen for this error of amplitudes, and include all below this multiple of the highest speed.
-   real(wp), parameter :: target_error = 1e-4_wp, lowest_frequency = 3
+   !> The modes are chosen for this error of amplitudes, and include all below this multiple of the highest speed, and
+   !> below this frequency, Hz, so that a map over speeds has the same vibrations at all of them.
+   real(wp), parameter :: target_error = 1e-4_wp, lowest_multiple = 3, lowest_frequency = 500
    !> Amplitudes are compared in a vibration that grows so fast, relative to its frequency: as with this damping ratio.
    real(wp), parameter :: growth = 0.05_wp
 
@@ -45,7 +46,7 @@ contains
       if (is_set(machine%reduction%frequency)) then
          selection%modes = count(fixed%frequency <= 2*pi*machine%reduction%frequency)
       else
-         selection%modes = count(fixed%frequency <= lowest_frequency*highest_speed)
+         selection%modes = count(fixed%frequency <= max(lowest_multiple*highest_speed, 2*pi*lowest_frequency))
       end if
       do
          n = size(border) + fixed%planes*selection%modes

@@ -9,9 +9,8 @@ module hdf5_base
       & h5t_string, h5t_cset_utf8_f, h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, h5aget_type_f, &
       & h5adelete_f, h5aexists_f, h5aget_space_f, h5sget_simple_extent_npoints_f, h5lexists_f, h5ldelete_f, &
       & h5t_native_integer
-   use system_texts, only: fortran_text
    use processes, only: set_environment
-   use system_texts, only: write_refusal, forget_missing
+   use system_texts, only: fortran_text, write_refusal, forget_missing
    implicit none (type, external)
    private
    public :: hdf5_base_type, start_hdf5
@@ -34,8 +33,8 @@ module hdf5_base
       procedure :: create
       procedure :: open => open_file
       procedure :: close => close_file
+      !> Makes a group and those above it. True where there is a dataset, group or root attribute of that name.
       procedure :: make_group
-      !> True where there is a dataset or group, or a root attribute, of that name.
       procedure :: has
       procedure :: has_attribute
       !> Deletes a dataset or group.
@@ -186,12 +185,14 @@ contains
       call self%check(status, 'delete '//path)
    end subroutine delete
 
-   subroutine make_group(self, name)
+   recursive subroutine make_group(self, name)
       class(hdf5_base_type), intent(inout) :: self
       character(len=*), intent(in) :: name
       integer(hid_t) :: group
       integer :: status
-      if (allocated(self%failure)) return
+      if (allocated(self%failure) .or. name == '') return
+      if (self%has(name)) return
+      call self%make_group(name(:index(name, '/', back=.true.) - 1))
       call h5gcreate_f(self%id, name, group, status)
       call self%check(status, 'create group '//name)
       call h5gclose_f(group, status)
@@ -272,14 +273,13 @@ contains
       integer :: status
       value = 0
       if (allocated(self%failure)) return
-      buffer = 0
       pointer = c_loc(buffer)
       call self%open_attribute(name, attribute, status)
       if (status < 0) return
       call h5aread_f(attribute, h5t_native_integer, pointer, status)
       call self%check_read(status, 'read attribute '//name)
+      if (status >= 0) value = buffer
       call h5aclose_f(attribute, status)
-      value = buffer
    end subroutine get_flag
 
    !> Opens a root attribute of one value; a failure, and a negative status, where there is none.

@@ -42,7 +42,8 @@ module hdf5_rows
 
 contains
 
-   !> A new dataset of rows with these extents, all filled with a value. With `whole` the file has whole numbers.
+   !> A new dataset of rows with these extents, all filled with a value, in groups that are made where they are not
+   !> there. With `whole` the file has whole numbers.
    subroutine create(self, file, name, extents, rows, fill, whole)
       class(hdf5_rows_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
@@ -67,6 +68,7 @@ contains
          & hsize_t), status)
       call h5pset_fill_value_f(properties, h5t_native_double, c_loc(value), status)
       access = without_cache()
+      call file%make_group(name(:index(name, '/', back=.true.) - 1))
       call h5dcreate_f(file%id, name, kind, space, self%id, status, properties, dapl_id=access)
       call file%check(status, 'create '//name)
       if (status < 0) self%id = -1

@@ -53,6 +53,7 @@ contains
       call h5screate_simple_f(1, int([length], hsize_t), space, status, [h5s_unlimited_f])
       call h5pcreate_f(h5p_dataset_create_f, properties, status)
       call h5pset_chunk_f(properties, 1, int([rows_a_chunk(length, 1)], hsize_t), status)
+      call file%make_group(name(:index(name, '/', back=.true.) - 1))
       call h5dcreate_f(file%id, name, kind, space, self%id, status, properties)
       call file%check(status, 'create '//name)
       if (status < 0) self%id = -1

@@ -27,7 +27,7 @@ contains
             associate (own => self%datasets(k))
                if (.not. own%there .or. .not. (all .or. own%unwritten)) cycle
                if (own%scales == own%path .neqv. turn == 1) cycle
-               if (own%group() /= last) call make_groups(file, own%group())
+               if (own%group() /= last) call file%make_group(own%group())
                last = own%group()
                call write_dataset(own, file)
             end associate
@@ -66,16 +66,6 @@ contains
          first = first + length + 1
       end do
    end subroutine delete_groups
-
-   !> Makes a group with those above it.
-   recursive subroutine make_groups(file, group)
-      class(hdf5_type), intent(inout) :: file
-      character(len=*), intent(in) :: group
-      if (group == '') return
-      if (file%has(group)) return
-      call make_groups(file, group(:index(group, '/', back=.true.) - 1))
-      call file%make_group(group)
-   end subroutine make_groups
 
    subroutine write_dataset(own, file)
       type(dataset_type), intent(in) :: own

@@ -241,7 +241,7 @@ def test_results_without_coefficients_say_why(result, opened, folder):
             tiltpad.coefficients(opened(result(case_name)))
     with pytest.warns(tiltpad.IncompleteRunWarning, match="no equilibrium found"):
         failed = opened(folder / f"{FAILED:04d}.h5")
-    with pytest.raises(tiltpad.NotInRunError, match="no coefficients in this run: no equilibrium found"):
+    with pytest.raises(tiltpad.NotInRunError, match="no modes in this run: no equilibrium found"):
         tiltpad.modes(failed)
     with pytest.raises(TypeError, match="not a result or study"):
         tiltpad.coefficients("own.h5")

@@ -82,4 +82,4 @@ def test_whirl_from_y_to_z_is_forward(z, ahead):
     y_of_time, z_of_time = (np.real(each * np.exp(1j * time)) for each in (1, z))
     turned = np.unwrap(np.arctan2(z_of_time, y_of_time))
     assert (turned[-1] > turned[0]) == ahead
-    assert modes.forward(np.array([1, z, 0])) == ahead
+    assert modes.whirl(np.array([1, z, 0])) == (1 if ahead else -1)

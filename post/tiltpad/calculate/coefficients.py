@@ -10,15 +10,16 @@ from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 
-#: The one dataset that is there only where it was asked for.
+#: What only some results have: what was asked for; shapes of a bearing's modes, and of a machine's.
 SOUGHT = "threshold_rpm"
+SOME = (
+    *(SOUGHT, "shape_real", "shape_imag", "whirl"),
+    *("station_y_real", "station_y_imag", "station_z_real", "station_z_imag"),
+)
 #: What is used of the groups of a result.
 GROUPS = {
     "coefficients": ("stiffness", "damping", "full_stiffness", "full_damping", "full_mass"),
-    "modes": (
-        *("eigenvalue_real", "eigenvalue_imag", "frequency", "damping_ratio", "log_decrement"),
-        *("shape_real", "shape_imag", SOUGHT),
-    ),
+    "modes": ("eigenvalue_real", "eigenvalue_imag", "frequency", "damping_ratio", "log_decrement", *SOME),
 }
 #: The two positions of the journal come first.
 JOURNAL = 2
@@ -78,7 +79,7 @@ def coefficients(
     values of parameters. With `frequency_ratio` (whirl frequency over shaft speed, from 0 on) the pads are
     condensed at these frequencies; without it they are the program's own coefficients.
     """
-    found = series(source, pivot, where)
+    found = series(source, "coefficients", pivot, where)
     if frequency_ratio is None:
         ratios = source["frequency_ratio"]
         stiffness, damping = found.values["stiffness"], found.values["damping"]
@@ -123,12 +124,13 @@ def condensed(
 
 def series(
     source: Run | Study,
+    group: str,
     pivot: str | None = None,
     where: Mapping[str, Any] | None = None,
     over: str | None = None,
 ) -> Series:
-    """Coefficients and modes of a run, or of the chosen runs of a study at rising speed or parameter."""
-    own, k = chosen_pivot(source, pivot)
+    """A group of a run, or of the chosen runs of a study at rising speed or parameter."""
+    own, k = chosen_pivot(source, group, pivot)
     if single := isinstance(source, Run):
         if where:
             raise ValueError(f"{source.path}: where: for a study, this is one run")
@@ -143,24 +145,23 @@ def series(
         place = chosen[np.argsort((source[over] if over else speed)[chosen], kind="stable")]
         speed, parameters = speed[place], {name: source[name][place] for name in source.parameters}
     values = {}
-    for group, names in GROUPS.items():
-        for name in names:
-            path = f"{group}/{name}" if single else name
-            if name == SOUGHT and path not in source:
-                continue
-            each = source[path][None] if single else source[path][place]
-            values[name] = each[:, k] if "pivot" in (source.scales(path) or ()) else each
+    for name in GROUPS[group]:
+        path = f"{group}/{name}" if single else name
+        if name in SOME and path not in source:
+            continue
+        each = source[path][None] if single else source[path][place]
+        values[name] = each[:, k] if "pivot" in (source.scales(path) or ()) else each
     return Series(own, speed, values, parameters)
 
 
-def chosen_pivot(source: Run | Study, pivot: str | None) -> tuple[str, int]:
+def chosen_pivot(source: Run | Study, group: str, pivot: str | None) -> tuple[str, int]:
     """Name of the pivots that are chosen, and their place; the first ones by default."""
     if not isinstance(source, Run | Study):
         raise TypeError(
             f"{source!r}: not a result or study, as tiltpad.read and tiltpad.read_study open them"
         )
-    if ("coefficients" if isinstance(source, Run) else "stiffness") not in source:
-        raise NotInRunError(source.without("coefficients"))
+    if (missing := group if isinstance(source, Run) else GROUPS[group][0]) not in source:
+        raise NotInRunError(source.without(missing))
     return place_of_pivot(source, pivot)
 
 

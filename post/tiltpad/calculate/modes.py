@@ -22,7 +22,10 @@ class Modes(NamedTuple):
         frequency        Hz, likewise
         damping_ratio, log_decrement     likewise; a mode without vibration has no decrement (nan)
         shape            complex, (mode, position); of a study (run, mode, position)
-        position         names of the positions: y, z, tilt_1, pivot_deflection_1, ...
+        position         names of the positions: y, z, tilt_1, pivot_deflection_1, ...; of a machine those of
+                         its stations: y_1, z_1, y_2, ...
+        whirl            likewise as frequency, from -1 (circular backward) to 1 (forward, from +y to +z): of
+                         the journal, of a machine of all stations
         threshold_rpm    lowest speed at which a mode turns unstable, nan where there is none, or none was
                          looked for; of a study (run,)
         parameters       of a study: values of its parameters by name, (run,) each
@@ -39,6 +42,7 @@ class Modes(NamedTuple):
     log_decrement: np.ndarray
     shape: np.ndarray
     position: np.ndarray
+    whirl: np.ndarray
     threshold_rpm: np.ndarray
     parameters: dict[str, np.ndarray]
 
@@ -54,19 +58,32 @@ def modes(
     `pivot` is one of those in the file, by default the first; `where` keeps the runs of a study with these
     values of parameters; `over` is a parameter of the study that rises in place of the speed.
     """
-    found = series(source, pivot, where, over)
+    found = series(source, "modes", pivot, where, over)
     values = dict(found.values)
     values["eigenvalue"] = values["eigenvalue_real"] + 1j * values["eigenvalue_imag"]
-    values["shape"] = values["shape_real"] + 1j * values["shape_imag"]
+    if "station_y_real" in values:
+        plane = [values[f"station_{axis}_real"] + 1j * values[f"station_{axis}_imag"] for axis in "yz"]
+        values["shape"] = np.stack(plane, axis=-1).reshape(*plane[0].shape[:2], -1)
+        position = np.array([f"{axis}_{station:g}" for station in source["station"] for axis in "yz"])
+    else:
+        values["shape"] = values["shape_real"] + 1j * values["shape_imag"]
+        values["whirl"], position = whirl(values["shape"]), source["position_row"]
     order = tracked(values["eigenvalue"], values["shape"])
-    names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement", "shape")
-    own: list[Any] = [placed(values[name], order) for name in names]
+    names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement", "shape", "whirl")
+    own = {name: placed(values[name], order) for name in names}
     threshold = values.get("threshold_rpm", np.full(len(found.speed_rpm), np.nan))
-    if isinstance(source, Run):
-        first = [each[0] for each in (found.speed_rpm, *own)]
-        return Modes._make((found.pivot, *first, source["position_row"], threshold[0], {}))
-    return Modes._make(
-        (found.pivot, found.speed_rpm, *own, source["position_row"], threshold, found.parameters)
+    every = Modes(
+        found.pivot,
+        found.speed_rpm,
+        position=position,
+        threshold_rpm=threshold,
+        parameters=found.parameters,
+        **own,
+    )
+    if isinstance(source, Study):
+        return every
+    return every._replace(
+        **{name: getattr(every, name)[0] for name in ("speed_rpm", "threshold_rpm", *names)}
     )
 
 
@@ -123,7 +140,8 @@ def paired(apart: np.ndarray) -> np.ndarray:
     return found
 
 
-def forward(shape: np.ndarray) -> np.ndarray:
-    """True for modes in which the journal whirls in the sense of rotation, from +y to +z: (..., mode)."""
+def whirl(shape: np.ndarray) -> np.ndarray:
+    """Sense of the whirl of the journal, 1 in that of the rotation (+y to +z), -1 against it: (..., mode)."""
     y, z = (shape[..., k] for k in range(JOURNAL))
-    return (np.conj(y) * z).imag < 0
+    size = np.abs(y) ** 2 + np.abs(z) ** 2
+    return -2 * (np.conj(y) * z).imag / np.where(size > 0, size, 1)

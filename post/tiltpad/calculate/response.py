@@ -1,7 +1,8 @@
-"""The journal's response to unbalance over the speed: first harmonic, critical speeds, amplification.
+"""The response to unbalance over the speed: first harmonic, critical speeds, amplification.
 
-A critical speed, its amplification factor and the separation that it needs are those of API RP 684 (2nd
-edition, 2005) and API 617 (7th edition, 2002, 2.6.2).
+It is that of the journal, or of a station of a machine's shaft. A critical speed, its amplification factor
+and the separation that it needs are those of API RP 684 (2nd edition, 2005) and API 617 (7th edition, 2002,
+2.6.2).
 """
 
 from collections.abc import Mapping
@@ -9,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tiltpad.calculate.coefficients import place_of_pivot
 from tiltpad.calculate.selection import SPEED, axis_of, selected, varying
 from tiltpad.calculate.signals import at_angle, steady
 from tiltpad.calculate.spectra import order_track
@@ -22,6 +24,8 @@ DIRECTIONS = ("y", "z")
 HALF_POWER = np.sqrt(0.5)
 #: Points between two of a curve at which it is looked at.
 BETWEEN = 20
+#: The scale of a machine's stations.
+STATION = "station"
 #: Below this amplification factor a critical speed is damped so well that it needs no separation.
 DAMPED = 2.5
 
@@ -67,7 +71,7 @@ class Peak(NamedTuple):
 
 
 class Response(NamedTuple):
-    """First harmonic of the journal along a curve; its fields:
+    """First harmonic of the journal, or of a station, along a curve; its fields:
 
         parameter    name of what changes: speed_rpm
         values       of it, (n,), in the unit of the input
@@ -75,6 +79,7 @@ class Response(NamedTuple):
         phase        rad, (n, 2), by which it comes after the unbalance: it is
                      amplitude * cos(shaft angle - phase); without jumps of 2 pi, z next to y + pi/2
         peaks        critical speeds, those of y first; none over another parameter than the speed
+        station      of a machine's shaft, from 1; None for the journal of one bearing
 
     Runs of a study that have no motion are nan.
     """
@@ -84,20 +89,36 @@ class Response(NamedTuple):
     amplitude: np.ndarray
     phase: np.ndarray
     peaks: list[Peak]
+    station: int | None = None
 
 
 def response(
-    source: Run | Study, where: Mapping[str, Any] | None = None, over: str | None = None
+    source: Run | Study,
+    where: Mapping[str, Any] | None = None,
+    over: str | None = None,
+    station: int | None = None,
+    pivot: str | None = None,
 ) -> Response:
     """Response of a study over the speed, of a run-up, or of a branch of periodic orbits.
 
     The runs of a study are marches, or periodic orbits; `where` keeps those with these values of
-    parameters, `over` is a parameter in place of the speed. Peaks are looked for on a cubic through the
-    points; one from which the curve climbs higher before it falls to half power is part of another.
+    parameters, `over` is a parameter in place of the speed. Of a machine it is that of a station of the shaft
+    (1, 2, ..., by default the one that moves most), and its runs may be of the task coefficients, too: their
+    response is the linear one, with pivots as `pivot` says (by default the first). Peaks are looked for on a
+    cubic through the points; one from which the curve climbs higher before it falls to half power is part of
+    another.
     """
     if not isinstance(source, Study):
         needs_run(source)
-    if isinstance(source, Study):
+    if isinstance(source, Study) and STATION in source:
+        parameter, values, every = of_machine(source, where or {}, over, pivot)
+        station = station or busiest(every)
+        if not 1 <= station <= every.shape[1]:
+            raise ValueError(f"{source.path}: station {station}: must be 1 to {every.shape[1]}")
+        amplitude, phase = np.abs(every[:, station - 1]), -np.angle(every[:, station - 1])
+    elif station is not None or pivot is not None:
+        raise ValueError(f"{source.path}: station, pivot: for the study of a machine")
+    elif isinstance(source, Study):
         parameter, values, amplitude, phase = of_study(source, where or {}, over)
     elif where or over:
         raise ValueError(f"{source.path}: where, over: for a study, this is one run")
@@ -113,7 +134,32 @@ def response(
             way = source["arc_length"][source["branch"] == 1]
         for direction, each in zip(DIRECTIONS, amplitude[there].T, strict=True):
             peaks += peaks_of(direction, way, values[there], each)
-    return Response(parameter, values, amplitude, phase, peaks)
+    return Response(parameter, values, amplitude, phase, peaks, station)
+
+
+def of_machine(
+    study: Study, where: Mapping[str, Any], over: str | None, pivot: str | None
+) -> tuple[str, np.ndarray, np.ndarray]:
+    """Parameter, its rising values, and whirl of all stations, complex, m, (run, station, direction)."""
+    over, place = places(study, where, over)
+    linear = "response_y_real" in study
+    if pivot is not None and not linear:
+        raise ValueError(f"{study.path}: pivot: for a study of the task coefficients")
+    planes = []
+    for each in DIRECTIONS:
+        if linear:
+            k = place_of_pivot(study, pivot)[1]
+            planes.append((study[f"response_{each}_real"] + 1j * study[f"response_{each}_imag"])[place, k])
+        else:
+            amplitude, phase = (study[f"station_{each}_{what}"][place] for what in ("amplitude", "phase"))
+            planes.append(amplitude * np.exp(-1j * phase))
+    return over, study[over][place], np.stack(planes, axis=-1)
+
+
+def busiest(whirl: np.ndarray) -> int:
+    """The station that moves most, from 1; whirl is (run, station, direction)."""
+    largest = np.nanmax(np.abs(whirl), axis=(0, 2)) if np.isfinite(whirl).any() else np.zeros(1)
+    return int(np.argmax(largest)) + 1
 
 
 def aligned(phase: np.ndarray) -> np.ndarray:
@@ -129,13 +175,18 @@ def of_study(
     study: Study, where: Mapping[str, Any], over: str | None
 ) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
     """Parameter, its rising values, amplitudes and phases of the runs of a study."""
+    over, place = places(study, where, over)
+    return over, study[over][place], *harmonics(study, place)
+
+
+def places(study: Study, where: Mapping[str, Any], over: str | None) -> tuple[str, np.ndarray]:
+    """Parameter along which the runs of a study are drawn, and their places in its rising order."""
     chosen = selected(study, where)
     over = axis_of(study, over, chosen)
     if others := [name for name in varying(study, chosen) if name != over]:
         raise ValueError(f"{study.path}: runs differ in {', '.join(others)}, too: choose by where")
     place = np.flatnonzero(chosen)
-    place = place[np.argsort(study[over][place], kind="stable")]
-    return over, study[over][place], *harmonics(study, place)
+    return over, place[np.argsort(study[over][place], kind="stable")]
 
 
 def harmonics(source: Run | Study, place: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
@@ -182,8 +233,17 @@ def peaks_of(direction: str, way: np.ndarray, speed: np.ndarray, amplitude: np.n
         known = [each for each in edges if each is not None]
         if len(known) == len(edges):
             low, high = sorted(known)
-            found.append(Peak(direction, *map(float, (speed[top], amplitude[top], low, high))))
+            found.append(
+                Peak(direction, vertex(speed, amplitude, top), *map(float, (amplitude[top], low, high)))
+            )
     return found
+
+
+def vertex(speed: np.ndarray, amplitude: np.ndarray, top: np.signedinteger | int) -> float:
+    """Speed at the top of the parabola through the highest point of a dense curve and those next to it."""
+    below, own, above = amplitude[top - 1 : top + 2]
+    shift = 0.5 * (below - above) / (below - 2 * own + above)
+    return float(speed[top] + shift * (speed[top + 1] - speed[top - 1]) / 2)
 
 
 def half_power(speed: np.ndarray, amplitude: np.ndarray) -> float | None:

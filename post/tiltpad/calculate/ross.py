@@ -46,7 +46,7 @@ def to_ross(
 
     With `path` (.toml) a file is written, too, for `ross.BearingElement.load(path)`, for the node `node`.
     """
-    found = at_rest(source, series(source, pivot, where))
+    found = at_rest(source, series(source, "coefficients", pivot, where))
     ratios = np.unique(source["frequency_ratio"])
     if over is None:
         over = "frequency" if isinstance(source, Run) else "both" if len(ratios) > 1 else "speed"

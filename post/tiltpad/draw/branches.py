@@ -13,9 +13,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from tiltpad.calculate import branches, signals
+from tiltpad.calculate.critical_speeds import operating_range
 from tiltpad.calculate.response import DIRECTIONS, Peak
 from tiltpad.calculate.response import response as response_of
-from tiltpad.calculate.selection import needs
+from tiltpad.calculate.selection import SPEED, needs
 from tiltpad.draw import layout, plots
 from tiltpad.draw.vibrations import parts, title
 from tiltpad.files import units
@@ -39,14 +40,20 @@ def response(
     pad: int | None = None,
     over: str | None = None,
     where: Mapping[str, Any] | None = None,
+    station: int | None = None,
+    pivot: str | None = None,
+    operating: Sequence[float] | None = None,
 ) -> Figure:
-    """Amplitude and phase of the journal's first harmonic over the speed, with the critical speeds."""
-    found = parts(runs, None, over, where)
+    """Amplitude and phase of the first harmonic over the speed, with critical and operating speeds.
+
+    It is that of the journal; of machines that of a station, linear with pivots of a kind or of marches.
+    """
+    found = parts(runs, pivot, over, where)
     fig, panels = layout.stacked(["amplitude", "phase"])
     fig.set_figheight(4.2)
-    entries, size = [], SHOWN["amplitude"]
+    size, entries = SHOWN["amplitude"], list[tuple[str, dict[str, Any]]]()
     for color, one in enumerate(found):
-        own = response_of(one.source, one.where or None, one.over)
+        own = response_of(one.source, one.where or None, one.over, station, pivot)
         for k, direction in enumerate(DIRECTIONS):
             line = (
                 {"color": f"C{k}"}
@@ -64,10 +71,16 @@ def response(
                     ax.axvline(each.speed_rpm, color=line["color"], linestyle=":", linewidth=0.8)
             words = f"${direction}$" + (f": {'; '.join(map(in_words, peaks))}" if peaks else "")
             entries.append((f"{literal(one.text)}, {words}" if one.text else words, line))
+    if operating is not None and own.parameter == SPEED:
+        for ax in panels.values():
+            ax.axvspan(*operating_range(operating), color="C2", alpha=0.15, linewidth=0.8, zorder=0)
+        entries.append(("operating speeds", {"color": "C2", "alpha": 0.3, "linewidth": 6}))
     text, unit = units.named(own.parameter)
     panels["amplitude"].set(ylabel=f"{size.text}, order 1 ({size.unit})", ylim=(0, None))
     panels["phase"].set(ylabel="phase lag, order 1 (deg)", xlabel=units.Shown(text, 1, unit).label)
-    layout.heading(fig, entries, title(runs))
+    whose = [f"station {own.station}"] if own.station else []
+    whose += [f"pivots {one.pivot}"] if one.pivot else []
+    layout.heading(fig, entries, ", ".join(each for each in (title(runs), *whose) if each))
     return fig
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tiltpad.calculate.critical_speeds import CriticalSpeed, critical_speeds
 from tiltpad.calculate.results import key_results
 from tiltpad.calculate.selection import distinct, sampled, written
 from tiltpad.draw import figures
@@ -16,7 +17,7 @@ from tiltpad.draw.page import page, paragraph, picture, section, table
 from tiltpad.draw.sample_report import sample
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.study import Study
-from tiltpad.files.units import digits
+from tiltpad.files.units import SHOWN, digits
 
 #: Columns of the table, and its rows.
 COLUMNS, ROWS = 6, 300
@@ -24,8 +25,8 @@ COLUMNS, ROWS = 6, 300
 PICTURES = ("response", "coefficients", "stability", "campbell", "temperatures")
 
 
-def study_report(study: Study) -> str:
-    """The page as text."""
+def study_report(study: Study, operating: tuple[float, float] | None = None) -> str:
+    """The page as text; `operating` are the lowest and the highest operating speed, rpm."""
     title = study.title or Path(study.path).stem
     by = study.attributes
     origin = f"{Path(study.path).name}: {by['program']} {by['version']}, {by['created']}"
@@ -34,6 +35,7 @@ def study_report(study: Study) -> str:
         f"<p class=origin>{escape(origin)}</p>",
         summary(study),
         *(sample(study) if sampled(study, whole) else [section("Curves", "".join(curves(study)))]),
+        section("Critical speeds", critical(study, operating)),
         section("Runs that were not done", failures(study)),
         section("Runs", runs(study)),
         section("Input of the first run", f"<pre>{escape(by.get('input', '').strip())}</pre>"),
@@ -54,6 +56,36 @@ def summary(study: Study) -> str:
             text += f" {study.about(name, 'long_name') or name}: {own}."
     lost = paragraph(f"Runs without a file: {missing}.", warning=True) if missing else ""
     return paragraph(text) + lost
+
+
+def critical(study: Study, operating: tuple[float, float] | None) -> str:
+    """A table of the critical speeds at all stations, for each kind of pivots; empty where there are none."""
+    linear = "response_y_real" in study
+    rows = []
+    for pivot in [str(each) for each in study["pivot"]] if linear else [None]:
+        try:
+            found = critical_speeds(study, pivot=pivot, operating=operating)
+        except (ValueError, NotInRunError):
+            continue
+        rows += [critical_row(pivot, each) for each in found]
+    text = (
+        "N1, N2: speeds at half power; AF: amplification factor N/(N2 - N1); SM: separation margin; API 617."
+    )
+    if operating:
+        text += f" Operating speeds: {written(operating[0])} to {written(operating[1])} rpm."
+    heads = ("pivots", "station", "direction", "N (rpm)", "amplitude (µm)", "N1 (rpm)", "N2 (rpm)", "AF")
+    margins = ("required SM below (%)", "required SM above (%)", "SM (%)", "required SM (%)")
+    return table((*heads, *margins), rows) + paragraph(text) if rows else ""
+
+
+def critical_row(pivot: str | None, own: CriticalSpeed) -> tuple[str, ...]:
+    """Cells of a critical speed."""
+    peak = own.peak
+    size = digits(SHOWN["amplitude"].factor * peak.amplitude)
+    edges = (peak.below_rpm, peak.above_rpm, peak.amplification_factor)
+    numbers = (*edges, peak.margin_below, peak.margin_above, own.margin, own.required)
+    place = (pivot or "–", f"{own.station or '–'}", peak.direction, digits(peak.speed_rpm))
+    return (*place, size, *(digits(each) for each in numbers))
 
 
 def failures(study: Study) -> str:

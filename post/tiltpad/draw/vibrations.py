@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from tiltpad.calculate.coefficients import Coefficients
 from tiltpad.calculate.coefficients import coefficients as coefficients_of
-from tiltpad.calculate.modes import Modes, forward, modes
+from tiltpad.calculate.modes import Modes, modes
 from tiltpad.calculate.selection import axis_of, needs, selected, varying, written
 from tiltpad.draw.diagrams import mark_failed
 from tiltpad.draw.layout import COLUMN, DASHES, PAGE, dots, heading, labels, of_several, part_color
@@ -236,7 +236,7 @@ def campbell(
 def campbell_points(ax: Axes, own: Modes, color: str | None) -> Any:
     """Points of all modes, triangles by the whirl of the journal; without a colour by their damping."""
     speed = np.broadcast_to(own.speed_rpm[:, None], own.frequency.shape)
-    ahead = forward(own.shape)
+    ahead = own.whirl > 0
     look = {"vmin": 0, "vmax": 3, "cmap": "viridis", "s": 14, "linewidths": 0, "zorder": 3}
     for part, marker in ((ahead, "^"), (~ahead, "v")):
         colours = {"c": own.log_decrement[part]} if color is None else {"color": color}

@@ -3,13 +3,14 @@
 import csv
 import io
 import os
+from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import h5py
 import numpy as np
 
-from tiltpad.files.archive import Archive, RunError, damaged, plain, reading
+from tiltpad.files.archive import Archive, RunError, damaged, few_enough, plain, reading, shown
 from tiltpad.files.read import Run, StudyError, read
 from tiltpad.files.writing import write
 
@@ -20,6 +21,8 @@ REVOLUTIONS = 50
 #: States that Poincare points are kept of.
 POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}
 
+#: The group of the groups of a machine's bearings; how names begin that are of a machine as a whole alone.
+BEARINGS, OF_MACHINES = "bearings", ("station", "bearing", "response", "synchronous")
 
 #: Most bytes of a column of a study that is still being run: a thousand values of a hundred thousand runs.
 UNWRITTEN = 800_000_000
@@ -76,6 +79,7 @@ class Study(Archive):
         study.parameters                     names of the parameters
         study.title, study.created, ...      attributes of the file; study.attributes has all of them
         study.result(3).journal_y            the samples of a run that has a file of its own
+        study.bearings["left"].orbit_y       of machines: what a study of this bearing alone would have
     """
 
     KINDS = "fiuO"
@@ -92,16 +96,47 @@ class Study(Archive):
             return xarray.load_dataset(self.path, engine="h5netcdf")
 
     def to_csv(self, path: str | os.PathLike) -> None:
-        """Writes parameters and results of one number, a row for each run."""
+        """Writes parameters and results of one number, a row for each run.
+
+        Results of a bearing of a machine have the bearing's name before their own: left/orbit_y.
+        """
         others = {*RUN, *self.parameters, *self.GROUPS}
         there = [name for name in self.names() if name not in others]
-        single = [name for name in there if self.scales(name) == RUN]
-        names = ["run", *self.parameters, *single]
+        columns = {name: self[name] for name in ("run", *self.parameters)}
+        columns |= {name: self[name] for name in there if self.scales(name) == RUN}
+        for bearing, own in self.bearings.items():
+            mine = (name for name in own.inner(own.group) if own.scales(name) == RUN)
+            columns |= {f"{bearing}/{name}": own[name] for name in mine}
         text = io.StringIO()
         rows = csv.writer(text, lineterminator="\n")
-        rows.writerow(names)
-        rows.writerows(zip(*(self[name] for name in names), strict=True))
+        rows.writerow(columns)
+        rows.writerows(zip(*columns.values(), strict=True))
         write(path, text.getvalue())
+
+    @cached_property
+    def bearings(self) -> "dict[str, BearingStudy]":
+        """The bearings of a machine by their names, each as a study of its own; empty for any other study."""
+        there = self.inner(BEARINGS) if BEARINGS in super().names() else []
+        return {name: BearingStudy(self, name) for name in there}
+
+    def inner(self, path: str) -> list[str]:
+        """Names of what is in a group of the file."""
+        with reading(self.path, path):
+            if not isinstance(found := super().own(path), h5py.Group):
+                raise ValueError("not a group")
+            few_enough(found)
+            return sorted(plain(name) for name in found)
+
+    def names(self, group: str = "") -> list[str]:
+        """Names of the datasets and groups in the file or in a group of it, in alphabetical order."""
+        return [name for name in super().names(group) if group or name != BEARINGS]
+
+    def without(self, name: str) -> str:
+        """The message for a dataset that is missing."""
+        if there := [bearing for bearing, own in self.bearings.items() if name in own]:
+            known = " and ".join(f"study.bearings[{each!r}]" for each in there)
+            return f"{self.path}: no {shown(name)} of the whole machine: its bearings have it, as {known}"
+        return super().without(name)
 
     @property
     def parameters(self) -> list[str]:
@@ -184,3 +219,33 @@ class Study(Archive):
         if not all(isinstance(each, str) for each in texts):
             raise ValueError("not an array of texts")
         return np.array(texts, dtype=object).reshape(np.shape(values))
+
+
+class BearingStudy(Study):
+    """A bearing of a machine as the study of one bearing: every calculation and picture of a study takes it.
+
+    It has what is in its group of the file, and under their own names what the whole machine has: parameters,
+    ends of the runs, frequencies and damping of modes.
+    """
+
+    def __init__(self, machine: Study, name: str):
+        self.machine, self.group = machine, f"{BEARINGS}/{name}"
+        self.path, self.file, self.size = machine.path, machine.file, machine.size
+        self.found, self.listed, self.over, self.former = {}, {}, {}, {}
+        title = f"{machine.attributes['title']}, bearing {name}".removeprefix(", ")
+        self.attributes = machine.attributes | {"title": title}
+
+    def names(self, group: str = "") -> list[str]:
+        """Names of the datasets of the bearing, and of the machine as a whole."""
+        if group not in self.listed:
+            shared = {name for name in self.machine.names() if not name.startswith(OF_MACHINES)}
+            self.listed[group] = [] if group else sorted(shared.union(self.inner(self.group)))
+        return self.listed[group]
+
+    def own(self, path: str) -> h5py.Dataset | h5py.Group:
+        """The object of this path: that of the bearing, or else that of the machine."""
+        return super().own(f"{self.group}/{path}" if path in self.inner(self.group) else path)
+
+    def close(self) -> None:
+        """Closes the file of the machine."""
+        self.machine.close()
