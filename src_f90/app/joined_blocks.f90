@@ -40,7 +40,7 @@ contains
       if (allocated(error)) return
       if (.not. place%quiet .and. table%taken_from() /= '') print '(a)', path//': '//table%taken_from() &
          & //', which wrote it, has ended'
-      if (is_regular(path) .and. .not. is_made_of_files(place, path)) then
+      if (has_rows(place, path)) then
          call table%reopen(study, error)
          if (.not. allocated(error)) return
          call refuse(path, place%overwrite, way_out, error)
@@ -50,13 +50,14 @@ contains
       call table%begin(study, error, share%first(study%runs), share%last(study%runs))
    end subroutine open_table
 
-   !> Whether a file of a study is one that is made anew of the same files.
-   logical function is_made_of_files(place, path) result(made)
+   !> Whether there is a file of a study that goes on: not one that is made anew of the same files.
+   logical function has_rows(place, path) result(has)
       type(study_place_type), intent(in) :: place
       character(len=*), intent(in) :: path
-      made = place%filed
-      if (made) made = is_collected(path)
-   end function is_made_of_files
+      has = is_regular(path)
+      if (.not. (has .and. place%filed)) return
+      has = .not. is_collected(path)
+   end function has_rows
 
    !> Keeps the error that a file is in the way, unless it may be overwritten; what is no result never is.
    subroutine refuse(path, overwrite, way, error)
@@ -162,7 +163,9 @@ contains
          own = not_run
          if (is_regular(path)) call read_status(path, study, own, error)
          ! joined and deleted by another program meanwhile
-         if (allocated(error) .and. .not. is_regular(path)) deallocate (error)
+         if (allocated(error)) then
+            if (.not. is_regular(path)) deallocate (error)
+         end if
          if (allocated(error)) call refuse(path, place%overwrite, '; --block '//to_text(j)//'/'//to_text(of) &
             & //' --overwrite replaces it', error)
          associate (first => share%first(study%runs), last => share%last(study%runs))
@@ -180,7 +183,7 @@ contains
       character(len=:), allocatable :: path
       path = place%name//'.h5'
       status = not_run
-      if (.not. is_regular(path) .or. is_made_of_files(place, path)) return
+      if (.not. has_rows(place, path)) return
       call read_status(path, study, status, error)
       if (allocated(error)) call refuse(path, place%overwrite, way_out, error)
    end subroutine status_elsewhere

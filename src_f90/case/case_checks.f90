@@ -25,6 +25,7 @@ contains
       integer :: b
       if (inputs%is_machine()) then
          call check_machine(inputs, error)
+         if (.not. allocated(error)) call check_start(inputs, error)
          do b = 1, inputs%bearing_count()
             if (allocated(error)) return
             call check_groups(inputs%of_bearing(b), error)

@@ -104,7 +104,9 @@ contains
       integer :: b
       do b = 1, size(machine%bearings)
          if (.not. allocated(machine%bearings(b)%support)) cycle
-         associate (k => machine%bearings(b)%support%stiffness, name => machine%bearings(b)%name)
+         associate (k => machine%bearings(b)%support%stiffness, name => machine%bearings(b)%name, &
+            & mass => machine%bearings(b)%support%mass)
+            if (.not. mass > 0) call refuse('support:'//name//'%mass = '//to_text(mass)//': must be above 0, kg', error)
             if (.not. all(is_set(k))) then
                call refuse('support:'//name//'%stiffness: must be given, along y and z', error)
             else if (.not. all(k > 0)) then

@@ -27,6 +27,8 @@ module equilibrium_refusal
    real(wp), parameter :: moves = 0.5_wp
    !> Cosine of the angle between load and pivot below which one pad carries a load that points past it.
    real(wp), parameter :: through_pivot = 0.999_wp
+   !> What changes the load of a bearing.
+   character(len=*), parameter :: of_load = 'rotor%static_load; in a machine bearing%offset and load%force'
 
 contains
 
@@ -84,15 +86,15 @@ contains
          cause = 'without load '//to_text(pads)//trim(merge(' pad pushes', ' pads push ', pads == 1)) &
             & //' the journal away; give it a load or pads on all sides'
       else if (.not. model%layout%bearings(1)%tilting .and. load_on_pads(model)) then
-         cause = 'the films do not hold the journal; try another load (rotor%static_load) or clearance'
+         cause = 'the films do not hold the journal; try another load ('//of_load//') or clearance'
       else if (pads == 1 .and. .not. load_on_pads(model)) then
-         cause = 'the load points past the only pad; turn the load (rotor%static_load) or the pad ' &
+         cause = 'the load points past the only pad; turn the load ('//of_load//') or the pad ' &
             & //'(pads%pivot_angle_deg)'
       else if (pads == 1) then
          cause = 'one pad: the journal rolls off it; add a second pad (pads%pivot_angle_deg)'
       else if (.not. load_on_pads(model)) then
          cause = 'the load points to '//to_text(load_angle(model))//' deg, where no pad is; turn the load ' &
-            & //'(rotor%static_load) or add a pad there (pads%pivot_angle_deg)'
+            & //'('//of_load//') or add a pad there (pads%pivot_angle_deg)'
       else if (allocated(traces%without_equilibrium)) then
          cause = listed(traces%without_equilibrium) &
             & //trim(merge(' has ', ' have', count(traces%without_equilibrium) == 1)) &
@@ -106,8 +108,7 @@ contains
          cause = listed(traces%held)//' (unloaded) did not come to equilibrium'//help(traces)
       else
          cause = 'the search did not end; try another load or clearance'
-         if (model%layout%bearings(1)%tilting) cause = cause//', or a march from another start (' &
-            & //other_start(traces)//')'
+         if (model%layout%bearings(1)%tilting) cause = cause//', or'//other_start(traces)
       end if
    end function cause
 
@@ -115,14 +116,15 @@ contains
    function help(traces)
       type(search_traces), intent(in) :: traces
       character(len=:), allocatable :: help
-      help = '; try more preload, or a march from another start ('//other_start(traces)//')'
+      help = '; try more preload, or'//other_start(traces)
    end function help
 
    !> Where a march can start without an equilibrium.
    function other_start(traces)
       type(search_traces), intent(in) :: traces
       character(len=:), allocatable :: other_start
-      other_start = 'start%from = '''//merge('partial', 'centred', allocated(traces%held))//''''
+      other_start = ' (but not in a machine) a march from another start (start%from = ''' &
+         & //merge('partial', 'centred', allocated(traces%held))//''')'
    end function other_start
 
    !> Whether pads are held in a partial equilibrium.

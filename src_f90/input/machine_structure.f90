@@ -7,7 +7,7 @@ module machine_structure
    use excitations, only: make_excitations
    use machine_groups, only: machine_type, most_bearings
    use assignments, only: namelist_type, assignment_type, undoes
-   use machine_names, only: counted, of_bearing, kind_of, bearing_of, may_have_bearing, naming_variable
+   use machine_names, only: counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable
    implicit none (type, external)
    private
    public :: make_several, give_to_bearings
@@ -52,8 +52,9 @@ contains
          allocate (inputs%machine)
          call inputs%machine%begin(count_of(parsed, 'bearing:'), count_of(parsed, 'disc('), &
             & count_of(parsed, 'unbalance('), count_of(parsed, 'load('))
-         if (size(inputs%machine%bearings) > most_bearings) call refuse(to_text(size(inputs%machine%bearings)) &
-            & //' groups &bearing with names; a machine has at most '//to_text(most_bearings)//' bearings', error)
+         if (size(inputs%machine%bearings) > most_bearings) call refuse(parsed%file//': ' &
+            & //to_text(size(inputs%machine%bearings))//' groups &bearing with names; a machine has at most ' &
+            & //to_text(most_bearings)//' bearings', error)
          b = 0
          do i = 1, size(groups)
             if (index(groups(i)%group, 'bearing:') /= 1) cycle
@@ -129,6 +130,13 @@ contains
       if (kind == 'support' .and. name == '' .and. .not. any([(allocated(machine%bearings(b)%support), &
          & b=1, size(machine%bearings))])) call refuse(a%origin//': '//a%group//'%'//a%name &
          & //': the case has no group &support', error)
+      if (a%group == 'bearing' .and. a%name == 'station') call refuse(a%origin//': bearing%station: must be in a ' &
+         & //'group &bearing with a name, as each bearing has a station of its own', error)
+      if (a%group /= kind .and. .not. is_counted(kind)) then
+         if (.not. (may_have_bearing(kind) .and. name /= '' .and. a%group == kind//of_bearing(name))) &
+            & call refuse(a%origin//': unknown group '//a%group//'; the name of a bearing stands behind its own ' &
+            & //'groups alone, as in pads:left', error)
+      end if
       if (name == '' .or. allocated(error)) return
       b = machine%find_bearing(name)
       if (b == 0) then

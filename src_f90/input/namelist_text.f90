@@ -58,6 +58,7 @@ contains
          call require(group%group /= '', group%origin//': a group''s name is missing behind &', error)
          call require(len(group%group) <= longest_name, group%origin//': unknown group &' &
             & //shortened(group%group), error)
+         call refuse_ending(group, error)
          call require(size(parsed%groups) < most_items, group%origin//': more than '//to_text(most_items) &
             & //' groups', error)
          if (allocated(error)) return
@@ -109,6 +110,19 @@ contains
       new(1)%overrides = .true.
       call put_assignment(new(1), parsed)
    end subroutine parse_override
+
+   !> Refuses the start of a group with the number or the bearing's name behind it that --set and messages have.
+   subroutine refuse_ending(group, error)
+      type(assignment_type), intent(in) :: group
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: kind
+      kind = kind_of(group%group)
+      if (kind == group%group) return
+      call require(.not. is_counted(kind), group%origin//': unknown group &'//shortened(group%group)//'; groups &' &
+         & //kind//' are counted in their order, without a number', error)
+      call require(.not. may_have_bearing(kind), group%origin//': unknown group &'//shortened(group%group) &
+         & //'; the bearing of a group &'//kind//' is named in it: '//naming_variable(kind)//' = ''...''', error)
+   end subroutine refuse_ending
 
    !> Gives a group and its assignments its number, where it is one of several, or the name of the bearing that one of
    !> them says, which is taken out. Refuses what is given twice.

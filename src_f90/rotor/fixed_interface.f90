@@ -1,6 +1,7 @@
 !> The basis of Craig and Bampton (AIAA Journal 6 (1968) 1313-1319): static deflections of a rotor over displacements of
 !> its journals, and its vibration modes with the journals held.
 module fixed_interface
+   ! heap: matrices of all displacements of a shaft
    use kinds, only: wp
    use linear_algebra, only: dpotrf, dpotrs, dsygv
    use rotor_component, only: rotor_component_type, in_planes

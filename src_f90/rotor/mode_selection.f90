@@ -1,5 +1,6 @@
 !> How many fixed-interface modes a rotor keeps, and what the others and the damping of the high ones cost.
 module mode_selection
+   ! heap: matrices of all displacements of a shaft
    use kinds, only: wp, pi
    use case_groups, only: is_set
    use machine_groups, only: machine_type
@@ -9,7 +10,7 @@ module mode_selection
    use reduction_error, only: response_problem_type, amplitudes, amplitude_error
    implicit none (type, external)
    private
-   public :: mode_selection_type, select_modes, mode_damping
+   public :: mode_selection_type, select_modes, mode_damping, most_modes
 
    !> Modes kept in a plane, and errors of amplitudes at the highest speed, relative to the largest one: of leaving out
    !> the others, and of damping those above `reduction%damp_above`.
@@ -21,12 +22,15 @@ module mode_selection
    !> The modes are chosen for this error of amplitudes, and include all below this multiple of the highest speed, and
    !> below this frequency, Hz, so that a map over speeds has the same vibrations at all of them.
    real(wp), parameter :: target_error = 1e-4_wp, lowest_multiple = 3, lowest_frequency = 500
+   !> Most modes that a rotor keeps, those of both planes: a march has dense matrices of them.
+   integer, parameter :: most_modes = 120
    !> Amplitudes are compared in a vibration that grows so fast, relative to its frequency: as with this damping ratio.
    real(wp), parameter :: growth = 0.05_wp
 
 contains
 
    !> Chooses the modes for a highest speed, rad/s: by `reduction%frequency`, or else by the error of amplitudes.
+   !> More than `most_modes` are counted alone, to be refused.
    subroutine select_modes(machine, component, fixed, border, highest_speed, selection)
       type(machine_type), intent(in) :: machine
       type(rotor_component_type), intent(in) :: component
@@ -46,14 +50,16 @@ contains
       if (is_set(machine%reduction%frequency)) then
          selection%modes = count(fixed%frequency <= 2*pi*machine%reduction%frequency)
       else
-         selection%modes = count(fixed%frequency <= max(lowest_multiple*highest_speed, 2*pi*lowest_frequency))
+         selection%modes = min(most_modes/fixed%planes, &
+            & count(fixed%frequency <= max(lowest_multiple*highest_speed, 2*pi*lowest_frequency)))
       end if
+      if (fixed%planes*selection%modes > most_modes) return
       do
          n = size(border) + fixed%planes*selection%modes
          found = amplitudes(reduced, n)
          selection%truncation_error = amplitude_error(found, exact)
          if (is_set(machine%reduction%frequency) .or. selection%modes == size(fixed%frequency) &
-            & .or. selection%truncation_error <= target_error) exit
+            & .or. fixed%planes*(selection%modes + 1) > most_modes .or. selection%truncation_error <= target_error) exit
          selection%modes = selection%modes + 1
       end do
       call add_damping(machine, fixed, selection%modes, rate, reduced)

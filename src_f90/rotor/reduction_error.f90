@@ -1,5 +1,6 @@
 !> How well a reduced rotor vibrates: amplitudes of forced vibrations, compared with those of the whole one.
 module reduction_error
+   ! heap: matrices of all displacements of a shaft
    use kinds, only: wp
    use linear_algebra, only: zgesv
    implicit none (type, external)

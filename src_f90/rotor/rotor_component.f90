@@ -1,5 +1,6 @@
 !> A free rotor before it is put into its bearings, in any displacements: M q'' + (C + Omega G) q' + K q = f.
 module rotor_component
+   ! heap: matrices of all displacements of a shaft
    use kinds, only: wp
    use machine_groups, only: machine_type
    use given_rotor, only: given_rotor_type

@@ -1,5 +1,6 @@
 !> The equations of an elastic rotor on its journals, with few displacements: what the time integration has of a shaft.
 module rotor_matrices
+   ! heap: matrices of all displacements of a shaft
    use kinds, only: wp, pi
    use machine_groups, only: machine_type
    use rotor_component, only: rotor_component_type

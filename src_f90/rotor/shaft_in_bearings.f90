@@ -1,14 +1,15 @@
 !> The rotor of a machine on its journals: shaft, discs and supports, reduced to few displacements.
 module shaft_in_bearings
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   ! heap: matrices of all displacements of a shaft
    use kinds, only: wp
-   use text, only: list_text
+   use text, only: list_text, to_text
    use errors, only: error_type, input_error, raise
    use machine_groups, only: machine_type
    use rotor_component, only: rotor_component_type, shaft_component, given_component
    use component_checks, only: check_component
    use fixed_interface, only: fixed_interface_type, find_fixed_interface
-   use mode_selection, only: mode_selection_type, select_modes
+   use mode_selection, only: mode_selection_type, select_modes, most_modes
    use rotor_matrices, only: rotor_matrices_type, reduced_rotor
    implicit none (type, external)
    private
@@ -49,6 +50,10 @@ contains
          selection%modes = min(modes, size(fixed%frequency))
       else
          call select_modes(machine, component, fixed, border, highest_speed, selection)
+         if (fixed%planes*selection%modes > most_modes) call raise(error, input_error, 'reduction%frequency = ' &
+            & //to_text(machine%reduction%frequency)//': '//to_text(fixed%planes*selection%modes)//' modes are below ' &
+            & //'it, those of both planes; a machine keeps at most '//to_text(most_modes))
+         if (allocated(error)) return
       end if
       matrices = reduced_rotor(machine, component, fixed, selection%modes, gravity)
       matrices%truncation_error = selection%truncation_error

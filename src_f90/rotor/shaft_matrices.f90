@@ -1,6 +1,7 @@
 !> Matrices of a whole shaft with its discs in one plane: deflection and slope of station 1, of station 2, ... The other
 !> plane has the same ones.
 module shaft_matrices
+   ! heap: matrices of all displacements of a shaft
    use kinds, only: wp
    use machine_groups, only: machine_type
    use beam_section, only: beam_section_type

@@ -7,6 +7,7 @@ module rotor_file
    use machine_groups, only: machine_type
    use given_rotor, only: given_rotor_type
    use guarded_open, only: try_reading
+   use files, only: is_regular
    use hdf5_file, only: hdf5_type
    implicit none (type, external)
    private
@@ -27,13 +28,18 @@ contains
       if (machine%rotor_file == '') return
       refusal = 'there is no such file'
       inquire (file=machine%rotor_file, exist=exists)
-      if (exists) call try_reading(machine%rotor_file, refusal)
+      if (exists) refusal = 'a directory, device or pipe, not a file of matrices'
+      if (is_regular(machine%rotor_file)) call try_reading(machine%rotor_file, refusal)
       if (refusal /= '') then
          call raise(error, input_error, 'rotor%file = '''//machine%rotor_file//''': '//refusal)
          return
       end if
       allocate (machine%given)
       call file%open(machine%rotor_file, writing=.false.)
+      if (file%id < 0) then
+         call raise(error, input_error, 'rotor%file = '''//machine%rotor_file//''': not an HDF5 file')
+         return
+      end if
       call read_matrices(file, machine%given, error)
       if (allocated(file%failure)) call raise(error, input_error, file%failure)
       call file%close()
