@@ -118,7 +118,7 @@ contains
       type(variable_table_type), intent(inout) :: v
       call v%group('support', 'A machine: what a bearing stands on; without this group it stands on the ground')
       call v%number(support%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', &
-         & 'mass that moves with the housing of the bearing, that of the pads with it')
+         & 'mass that moves with the housing of the bearing, that of the pads with it; must be above 0')
       call v%numbers(support%stiffness, 'stiffness', 0.0_wp, 1e15_wp, 'N/m', 'along y and z')
       call v%numbers(support%damping, 'damping', 0.0_wp, 1e12_wp, 'N s/m', 'along y and z')
    end subroutine list_support

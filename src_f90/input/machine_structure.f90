@@ -133,9 +133,10 @@ contains
       if (a%group == 'bearing' .and. a%name == 'station') call refuse(a%origin//': bearing%station: must be in a ' &
          & //'group &bearing with a name, as each bearing has a station of its own', error)
       if (a%group /= kind .and. .not. is_counted(kind)) then
-         if (.not. (may_have_bearing(kind) .and. name /= '' .and. a%group == kind//of_bearing(name))) &
-            & call refuse(a%origin//': unknown group '//a%group//'; the name of a bearing stands behind its own ' &
-            & //'groups alone, as in pads:left', error)
+         if (.not. (may_have_bearing(kind) .and. name /= '' .and. a%group == kind//of_bearing(name))) then
+            call refuse(a%origin//': unknown group '//a%group//'; the name of a bearing stands behind its own groups ' &
+               & //'alone, as in pads:left', error)
+         end if
       end if
       if (name == '' .or. allocated(error)) return
       b = machine%find_bearing(name)

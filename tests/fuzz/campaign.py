@@ -8,6 +8,7 @@ from random import Random
 
 import cases
 import faults
+import machines
 import mutate
 import spelling
 import studies
@@ -57,6 +58,9 @@ class Campaign:
             return
         if self.corpus and kind < 0.6:
             self.check(mutate.mutated(dice, self.corpus), "changed", back=dice.random() < 0.2)
+            return
+        if kind < 0.65:
+            self.check(machines.draw(dice), "valid machine", intended=0)
             return
         inputs = cases.draw(dice, self.variables)
         if kind < 0.8:

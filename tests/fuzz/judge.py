@@ -3,7 +3,7 @@
 import re
 
 from harness import NOT_ITSELF, Case, Reply
-from reader import Refused
+from reader import Refused, Unjudged
 from reference import Variable
 from runs import answered
 from runs import expected as runs_of
@@ -29,6 +29,8 @@ def findings(case: Case, reply: Reply, variables: dict[str, Variable], words=Non
     except Refused as refused:
         if reply.status == 0:
             found.append(f"accepted, but: {refused}")
+        return found
+    except Unjudged:
         return found
     if reply.status == 0:
         count, cases = answered(reply.text)

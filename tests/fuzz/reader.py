@@ -5,7 +5,7 @@ import re
 from dataclasses import dataclass, field
 
 from harness import Case
-from reference import Variable
+from reference import OF_MACHINES, OF_MACHINES_TOO, Variable
 
 MOST_ITEMS = 1000
 MOST_TEXT = 1000
@@ -24,8 +24,20 @@ REPEAT = re.compile(rb"(?:([0-9]{1,6})\*)?(.*)", re.S)
 CONTROL = re.compile(rb"[\0-\x08\x0b\x0c\x0e-\x1f\x7f]|\r(?!\n)")
 
 
+#: Words that make a case a machine: its groups, their names with numbers and bearings, what names a bearing.
+OF_MACHINE = re.compile(
+    rf"&\s*(?:{'|'.join(OF_MACHINES)})\b|\b(?:name|bearing|station|offset)[\s(]*="
+    rf"|^\s*(?:(?:{'|'.join(OF_MACHINES)})\b|[^%=]*[:(][^%=]*%)|{'|'.join(OF_MACHINES_TOO)}".encode(),
+    re.I,
+)
+
+
 class Refused(Exception):
     """The text is no case; the words say why."""
+
+
+class Unjudged(Exception):
+    """The text may be a machine, whose values this reader does not know."""
 
 
 @dataclass
@@ -75,7 +87,12 @@ class Scanner:
 
 
 def read(case: Case, known: set[str]) -> tuple[list[Assignment], bool]:
-    """The assignments of a case, with those of --set in place; whether it has a study. Or Refused."""
+    """The assignments of a case, with those of --set in place; whether it has a study.
+
+    Or Refused, or Unjudged.
+    """
+    if any(OF_MACHINE.search(text) for text in (case.text, *case.sets)):
+        raise Unjudged
     assignments, groups = read_file(case.text, known | {STUDY})
     for argument in case.sets:
         assignments = read_set(argument).put(assignments)
@@ -175,6 +192,8 @@ def resolve(assignments: list[Assignment], variables: dict[str, Variable]) -> di
     given: dict[str, list[Assignment]] = {}
     for each in assignments:
         key = f"{each.group}%{each.name}"
+        if key in OF_MACHINES_TOO:
+            raise Unjudged
         if key not in variables:
             raise Refused(f"unknown {key}")
         given.setdefault(key, []).append(each)

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 GROUP = re.compile(r"^## &(\w+)$", re.M)
 ROW = re.compile(r"^\| `(\w+)` \| (.*?) \| .*? \| (.*?) \| (.*?) \|$", re.M)
 MOST_PADS = 24
+#: What only machines have: groups, and variables of other groups. None of them is resolved here.
+OF_MACHINES = ("shaft", "disc", "unbalance", "load", "support", "reduction")
+OF_MACHINES_TOO = ("rotor%file", "bearing%station", "bearing%offset")
 
 
 @dataclass(frozen=True)
@@ -34,13 +37,16 @@ class Variable:
 
 
 def variables(markdown: str) -> dict[str, Variable]:
-    """All variables by "group%name", in the order of the reference."""
+    """All variables of a rigid journal in one bearing by "group%name", in the order of the reference."""
     found = {}
     parts = GROUP.split(markdown)
     for group, table in zip(parts[1::2], parts[2::2], strict=True):
+        if group in OF_MACHINES:
+            continue
         for name, default, allowed, meaning in ROW.findall(table):
             variable = _variable(group, name, default.strip("`"), allowed, meaning)
-            found[variable.key] = variable
+            if variable.key not in OF_MACHINES_TOO:
+                found[variable.key] = variable
     return found
 
 
