@@ -99,7 +99,7 @@ contains
       call write_bytes(path, 'no matrices')
       machine = from_file()
       call read_rotor(machine, error)
-      call expect_error(error, input_error, 'HDF5 could not open', 'another file')
+      call expect_error(error, input_error, 'not an HDF5 file', 'another file')
       rotor = turned_round()
       rotor%mass = rotor%mass(:40, :40)
       call write_rotor(rotor)
