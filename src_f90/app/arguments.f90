@@ -211,12 +211,12 @@ contains
          & 'Calculates a journal bearing with tilting or fixed pads, which a namelist case describes, and writes', &
          & 'an HDF5 result file: by case%task a march in time, the static equilibrium, stiffness and damping', &
          & '(coefficients), a periodic orbit, or branches of equilibria or orbits.', &
-         & 'A case with a group &sweep describes many runs; each run writes its own file.', &
+         & 'A case with a group &sweep describes the runs of a study; the result file has a row for each.', &
          & '', &
          & 'options:', &
          & '  --output FILE           names the result file; default: the case''s name with .h5, in this folder', &
-         & '                          (for a study: names the folder of the files 0001.h5, ...; default: the', &
-         & '                          case''s name)', &
+         & '                          (of a study with its rows; runs that keep samples have files of their own', &
+         & '                          in the folder of this name, 0001.h5, ...)', &
          & '  --overwrite             replaces a checkpoint, or the result of another case: refused without it', &
          & '  --resume FILE           continues a run that was stopped or killed, from its last checkpoint;', &
          & '                          with a CASE, starts the run if FILE does not exist', &

@@ -7,6 +7,7 @@ module coefficients_task
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model
    use static_model, only: equilibrium_type, make_fine
+   use mode_names, only: is_of_rotor
    use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type
    use equilibrium, only: settle_equilibrium
    use stability_threshold, only: find_thresholds
@@ -22,7 +23,7 @@ module coefficients_task
    private
    public :: run_coefficients
 
-   !> Whirl frequencies and modes that are printed at most.
+   !> Whirl frequencies, and modes of the rotor and of the pads, that are printed at most.
    integer, parameter :: most = 4
 
 contains
@@ -134,22 +135,39 @@ contains
       end do
    end subroutine print_response
 
-   !> The least damped modes.
+   !> What modes of the rotor, and those of pads, say of stability, and the least damped ones that vibrate or grow.
    subroutine print_modes(modes)
       type(vibration_modes_type), intent(in) :: modes
-      integer :: i
-      do i = 1, min(most, count(modes%damping_ratio < 1))
-         associate (value => modes%eigenvalue(i))
+      logical :: of_rotor(size(modes%name))
+      of_rotor = is_of_rotor(modes%name)
+      call print_kind(modes, of_rotor, trim(merge('the shaft  ', 'the journal', any(index(modes%name, 'shaft') == 1))) &
+         & //' is')
+      call print_kind(modes, .not. of_rotor, 'the pads are')
+   end subroutine print_modes
+
+   subroutine print_kind(modes, of_kind, who)
+      type(vibration_modes_type), intent(in) :: modes
+      logical, intent(in) :: of_kind(:)
+      character(len=*), intent(in) :: who
+      integer, allocatable :: shown(:)
+      integer :: i, k
+      if (.not. any(of_kind)) return
+      shown = pack([(i, i=1, size(of_kind))], of_kind .and. modes%damping_ratio < 1)
+      print '(a)', '  '//who//trim(merge(' unstable', ' stable  ', any(of_kind .and. modes%eigenvalue%re > 0))) &
+         & //trim(merge(':                  ', ', without vibration', size(shown) > 0))
+      do k = 1, min(most, size(shown))
+         i = shown(k)
+         associate (value => modes%eigenvalue(i), title => '    mode '//to_text(i)//' ('//trim(modes%name(i))//'): ')
             if (value%im > 0) then
-               print '(a)', '  mode '//to_text(i)//': '//fixed_text(value%im/(2*pi), 4)//' Hz, damping ratio ' &
+               print '(a)', title//fixed_text(value%im/(2*pi), 4)//' Hz, damping ratio ' &
                   & //fixed_text(modes%damping_ratio(i), 5)//', logarithmic decrement ' &
                   & //fixed_text(modes%log_decrement(i), 4)
             else
-               print '(a)', '  mode '//to_text(i)//': grows without vibration, '//fixed_text(value%re, 3)//' 1/s'
+               print '(a)', title//'grows without vibration, '//fixed_text(value%re, 3)//' 1/s'
             end if
          end associate
       end do
-   end subroutine print_modes
+   end subroutine print_kind
 
    !> Where stability is lost, or, where it is lost already, what the next crossing is.
    subroutine print_threshold(threshold, sought_up_to, speed, unstable)

@@ -7,6 +7,7 @@ module linear_bearing
    use linear_algebra, only: zgesv
    use errors, only: error_type, raise, numerics_error
    use equations_of_motion, only: machine_model
+   use mode_names, only: mode_name, mode_name_length
    use force_balance, only: force_derivatives, bearing_derivatives, add_sticking, masses, find_vibrations
    implicit none (type, external)
    private
@@ -39,6 +40,8 @@ module linear_bearing
       complex(wp), allocatable :: shape(:, :)
       !> -Re/|eigenvalue|; -2 pi Re/Im, no number where nothing vibrates.
       real(wp), allocatable :: damping_ratio(:), log_decrement(:)
+      !> What moves; only of the modes of a machine with its pads.
+      character(len=mode_name_length), allocatable :: name(:)
    end type vibration_modes_type
 
    !> One element, or the last dimension, for each way that the pivots may behave.
@@ -92,6 +95,10 @@ contains
                      & //' pivots are singular')
                   return
                end if
+               associate (modes => found%modes(i))
+                  modes%name = [(mode_name(model, modes%shape(:, k), lengths(model), modes%eigenvalue(k)%im > 0), &
+                     & k=1, size(modes%eigenvalue))]
+               end associate
             end do
          end associate
       end associate

@@ -7,6 +7,7 @@ module rotor_response
    use errors, only: error_type, raise, numerics_error
    use operating_point, only: operating_point_type
    use equations_of_motion, only: machine_model
+   use mode_names, only: at_stations
    use linear_bearing, only: linear_bearing_type, vibration_modes_type, bearing_coefficients_type, find_modes
    implicit none (type, external)
    private
@@ -52,24 +53,6 @@ contains
          end do
       end associate
    end subroutine find_rotor_response
-
-   !> Stations of the rotor's displacements, which turn, m.
-   pure function at_stations(model, positions) result(stations)
-      type(machine_model), intent(in) :: model
-      complex(wp), intent(in) :: positions(:)
-      complex(wp) :: stations(2, model%rotor%stations)
-      real(wp) :: states(model%rotor%states), still(2, model%rotor%stations)
-      real(wp), dimension(2, model%rotor%stations) :: re, im
-      associate (n => model%rotor%positions)
-         states = 0
-         still = model%rotor%station_displacements(states)
-         states(:n) = positions(:n)%re
-         re = model%rotor%station_displacements(states) - still
-         states(:n) = positions(:n)%im
-         im = model%rotor%station_displacements(states) - still
-      end associate
-      stations = cmplx(re, im, wp)
-   end function at_stations
 
    !> The steady whirl under the unbalance: (K + i Omega C - Omega^2 M) x = f.
    subroutine whirl(model, linear, stations, ok)

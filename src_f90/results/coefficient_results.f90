@@ -4,6 +4,7 @@ module coefficient_results
    use kinds, only: wp, pi
    use record, only: record_type
    use summary_group, only: put_figure
+   use mode_names, only: mode_name_length
    use state_layout, only: pads_layout_type
    use linear_bearing, only: bearing_coefficients_type, vibration_modes_type
    implicit none (type, external)
@@ -81,12 +82,19 @@ contains
          & 'masses of the pads: forces (N) and moments (N m) over accelerations (m/s^2, rad/s^2)', of_positions)
    end subroutine put_full
 
-   !> The eigenvalues of the modes of rotor and pads, and the least damping ratio.
+   !> The names and eigenvalues of the modes of rotor and pads, and the least damping ratio.
    subroutine put_modes(file, found)
       class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
+      character(len=mode_name_length), allocatable :: names(:, :)
       integer :: i
       call put_mode_values(file, 'modes', of_modes, found%modes, 2*size(found%bearings(1)%moves))
+      allocate (names(2*size(found%bearings(1)%moves), size(found%modes)))
+      names = ''
+      do i = 1, size(found%modes)
+         names(:size(found%modes(i)%name), i) = found%modes(i)%name
+      end do
+      call file%put_labels('modes/name', [names], 'what moves in the mode', shape(names), of_modes)
       ! those in vibration stand in the order of their damping
       call put_figure(file, 'least_damping_ratio', [(found%modes(i)%damping_ratio(1), i=1, size(found%modes))], '1', &
          & 'least damping ratio of all modes', 'pivot')

@@ -93,21 +93,20 @@ contains
       call self%write_reals(path, values, int(counts, hsize_t), units, long_name, scales)
    end subroutine put_array
 
-   !> A dimension scale of texts, all of one length in the file, filled up with zero bytes.
-   subroutine put_labels(self, path, labels, long_name)
+   !> Texts, all of one length in the file, filled up with zero bytes.
+   subroutine put_labels(self, path, labels, counts, long_name, scales)
       class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, labels(:), long_name
+      character(len=*), intent(in) :: path, labels(:), long_name, scales
+      integer, intent(in) :: counts(:)
       character(kind=c_char, len=len(labels)), target :: buffer(size(labels))
       integer(hid_t) :: dataset, kind
       integer :: status, i
       if (allocated(self%failure)) return
-      do i = 1, size(labels)
-         buffer(i) = trim(labels(i))//repeat(c_null_char, len(labels) - len_trim(labels(i)))
-      end do
+      buffer = [(trim(labels(i))//repeat(c_null_char, len(labels) - len_trim(labels(i))), i=1, size(labels))]
       call h5tcopy_f(h5t_fortran_s1, kind, status)
       call h5tset_size_f(kind, len(labels, size_t), status)
       call h5tset_strpad_f(kind, h5t_str_nullpad_f, status)
-      call self%open_or_create(path, kind, [size(labels, kind=hsize_t)], '1', long_name, path, dataset)
+      call self%open_or_create(path, kind, int(counts, hsize_t), '1', long_name, scales, dataset)
       call self%write_all(dataset, kind, c_loc(buffer), path)
       call h5tclose_f(kind, status)
    end subroutine put_labels

@@ -124,17 +124,23 @@ contains
       call self%put(path, of_reals, values, extents, units, long_name, scales, '')
    end subroutine put_array
 
-   !> A scale of texts.
-   subroutine put_labels(self, path, texts, long_name)
+   !> A scale of texts, or texts over scales, in the order of Fortran and with this size in each dimension.
+   subroutine put_labels(self, path, texts, long_name, extents, scales)
       class(record_type), intent(inout) :: self
       character(len=*), intent(in) :: path, texts(:), long_name
+      integer, intent(in), optional :: extents(:)
+      character(len=*), intent(in), optional :: scales
       character(len=:), allocatable :: joined
       integer :: i
       joined = ''
       do i = 1, size(texts)
          joined = joined//trim(texts(i))//newline
       end do
-      call self%put(path, of_texts, [real(wp) ::], [size(texts)], '1', long_name, path, joined)
+      if (present(scales)) then
+         call self%put(path, of_texts, [real(wp) ::], extents, '1', long_name, scales, joined)
+      else
+         call self%put(path, of_texts, [real(wp) ::], [size(texts)], '1', long_name, path, joined)
+      end if
    end subroutine put_labels
 
    subroutine put(self, path, kind, values, extents, units, long_name, scales, texts)

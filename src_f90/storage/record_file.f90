@@ -72,7 +72,7 @@ contains
       class(hdf5_type), intent(inout) :: file
       select case (own%kind)
       case (of_texts)
-         call file%put_labels(own%path, lines(own%texts), own%long_name)
+         call file%put_labels(own%path, lines(own%texts), own%extents, own%long_name, own%scales)
       case (of_counts)
          call file%put_count(own%path, nint(own%values(1), i8), own%long_name)
       case default

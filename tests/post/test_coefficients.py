@@ -43,6 +43,8 @@ def test_a_study_has_what_its_members_have(study, run, folder):
     np.testing.assert_array_equal(study.frequency_ratio, [0.5, 1, 2])
     for group in ("coefficients", "modes"):
         for name, values in run[group].items():
+            if name == "name":
+                continue  # texts are no columns
             np.testing.assert_array_equal(study[name][0], values, name)
             assert np.isnan(study[name][FAILED - 1]).all(), name
             assert study.about(name, "units") == run.about(f"{group}/{name}", "units"), name
@@ -118,6 +120,47 @@ def test_modes_solve_the_equations_of_motion(run):
         parts = np.array([value**2 * mass @ shape, value * damping @ shape, stiffness @ shape])
         assert np.abs(parts.sum(axis=0)).max() < 1e-7 * np.abs(parts).max()
     np.testing.assert_allclose(found.damping_ratio, -found.eigenvalue.real / np.abs(found.eigenvalue))
+
+
+def test_names_of_modes_are_those_of_the_program(study, run, folder, opened):
+    """tiltpad.modes tells them from the shapes, which a study has alone; the program from its model."""
+    for source, row in ((run, 1), (opened(folder / "0003.h5"), 3)):
+        for k, pivot in enumerate(PIVOTS):
+            known = source["modes/name"][k]
+            np.testing.assert_array_equal(tiltpad.modes(source, pivot).name, known[known != ""])
+            own = tiltpad.modes(study, pivot).name[row]
+            assert sorted(own[own != ""]) == sorted(known[known != ""])
+    free = tiltpad.modes(run, "free")
+    kinds = {str(name) for name in free.name}
+    assert {"journal, backward", "pad 1, tilt"} <= kinds, kinds
+    of_journal = np.abs(free.shape[:, :2]).max(axis=1) > 0.25
+    assert np.char.startswith(free.name, "journal").tolist() == of_journal.tolist()
+
+
+def test_a_pad_without_load_that_vibrates_is_no_instability_of_the_journal(tiltpad, tmp_path):
+    """Pads above a journal that the lower ones carry grow at half the speed, and the journal does not."""
+    import tiltpad as package
+
+    (tmp_path / "case.nml").write_text(
+        "&case task='coefficients' /\n&pads pivot_angle_deg=-45, 45, 135, 225, arc_deg=72 /\n"
+    )
+    said = tiltpad("case.nml", cwd=tmp_path, status=0).stdout
+    free = said.partition("pivots free:")[2].partition("pivots ")[0]
+    assert "the journal is stable:" in free
+    assert "the pads are unstable:" in free
+    journal, _, pads = free.partition("the pads are")
+    assert journal.count("(journal, ") == 2
+    assert "(pad" not in journal
+    assert "(pad 2, tilt)" in pads
+    assert "(journal" not in pads
+    with package.read(tmp_path / "case.h5") as case:
+        found = package.modes(case)
+        assert {name[:5] for name in found.name[found.damping_ratio < 0]} == {"pad 2", "pad 3"}
+        shares = np.abs(found.shape[found.damping_ratio < 0][:, :2])
+        assert shares.max() < 1e-2
+        assert found.frequency[:2] == pytest.approx([6500 / 120] * 2, rel=0.02)
+        ring, other = figures.stability(case, pivot="free").axes[0].get_lines()[:2]
+        assert ring.get_markerfacecolor() == other.get_markerfacecolor() == "none"
 
 
 def test_a_study_s_modes_are_those_of_its_members_in_another_order(study, run):

@@ -41,6 +41,8 @@ contains
       if (mod(k, 3) == 0) call record%put_real('summary/only', 0.3_wp*k, 'W', 'of every third')
       call record%put_table('modes/frequency', reshape([(1.5_wp**i, i=1, 2*k)], [k, 2]), 'Hz', 'frequencies', &
          & 'pivot pad')
+      call record%put_labels('modes/name', [character(len=8) :: ('mode '//to_text(i), i=1, 2*k)], 'names', &
+         & [k, 2], 'pivot pad')
    end subroutine fill
 
    !> It has all of run k, and nothing else.
@@ -241,8 +243,22 @@ contains
       call file%open(path, writing=.false.)
       call read_record(file, found)
       call expect_run(found, 3, 'read back')
+      call expect(len(names_of(found)) > 40 .and. names_of(found) == names_of(record), 'names read back')
       call expect(.not. allocated(file%failure), 'the file is whole')
       call file%close()
       call delete_file(path)
    end subroutine written_again
+
+   !> The texts of a table, and its scales.
+   function names_of(record) result(names)
+      type(record_type), intent(in) :: record
+      character(len=:), allocatable :: names
+      integer :: i
+      names = ''
+      do i = 1, record%count
+         associate (own => record%datasets(i))
+            if (own%path == 'modes/name') names = own%texts//own%scales
+         end associate
+      end do
+   end function names_of
 end program test_record

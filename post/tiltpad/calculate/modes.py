@@ -1,6 +1,6 @@
 """Modes of rotor and pads, of a run or over the runs of a study."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,6 +11,8 @@ from tiltpad.files.study import Study
 
 #: Modes that are farther apart are different ones: by their eigenvalues (0 to 2) and shapes (0 to 1).
 ANOTHER = 1.0
+#: As in the program: a mode is the journal's, or of several pads, from this part of the largest displacement on.
+SHARE_OF_JOURNAL, SHARE_OF_PAD = 0.25, 0.5
 
 
 class Modes(NamedTuple):
@@ -22,6 +24,8 @@ class Modes(NamedTuple):
         frequency        Hz, likewise
         damping_ratio, log_decrement     likewise; a mode without vibration has no decrement (nan)
         shape            complex, (mode, position); of a study (run, mode, position)
+        name             what moves: "journal, forward", "pad 3, tilt", "pads, tilt", ..., of a machine "shaft,
+                         forward", ... or "pads", likewise; empty where there is no mode
         position         names of the positions: y, z, tilt_1, pivot_deflection_1, ...; of a machine those of
                          its stations: y_1, z_1, y_2, ...
         whirl            likewise as frequency, from -1 (circular backward) to 1 (forward, from +y to +z): of
@@ -41,6 +45,7 @@ class Modes(NamedTuple):
     damping_ratio: np.ndarray
     log_decrement: np.ndarray
     shape: np.ndarray
+    name: np.ndarray
     position: np.ndarray
     whirl: np.ndarray
     threshold_rpm: np.ndarray
@@ -70,7 +75,8 @@ def modes(
         values["whirl"], position = whirl(values["shape"]), source["position_row"]
     order = tracked(values["eigenvalue"], values["shape"])
     names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement", "shape", "whirl")
-    own = {name: placed(values[name], order) for name in names}
+    own: dict[str, Any] = {name: placed(values[name], order) for name in names}
+    own["name"] = mode_names(own["shape"], [str(each) for each in position], own["frequency"] > 0, own["whirl"])
     threshold = values.get("threshold_rpm", np.full(len(found.speed_rpm), np.nan))
     every = Modes(
         found.pivot,
@@ -83,7 +89,7 @@ def modes(
     if isinstance(source, Study):
         return every
     return every._replace(
-        **{name: getattr(every, name)[0] for name in ("speed_rpm", "threshold_rpm", *names)}
+        **{name: getattr(every, name)[0] for name in ("speed_rpm", "threshold_rpm", "name", *names)}
     )
 
 
@@ -145,3 +151,42 @@ def whirl(shape: np.ndarray) -> np.ndarray:
     y, z = (shape[..., k] for k in range(JOURNAL))
     size = np.abs(y) ** 2 + np.abs(z) ** 2
     return -2 * (np.conj(y) * z).imag / np.where(size > 0, size, 1)
+
+
+def mode_names(
+    shape: np.ndarray, positions: Sequence[str], vibrates: np.ndarray, whirl: np.ndarray
+) -> np.ndarray:
+    """What moves in the modes, as in the dataset `modes/name`: (..., mode), empty where none is.
+
+    Shapes are (..., mode, position); their largest element is 1 m, and tilts count times a length that this
+    tells: each pad has modes in which its tilt is the largest.
+    """
+    sizes = np.abs(np.nan_to_num(shape))
+    places = dict.fromkeys(name.rsplit("_", 1)[-1] for name in positions[JOURNAL:])
+    pads = {pad: [k for k, name in enumerate(positions) if name.endswith(f"_{pad}")] for pad in places}
+    for k in (k for k, name in enumerate(positions) if name.startswith("tilt")):
+        longest = sizes[..., k].max(axis=-1, keepdims=True, initial=0)
+        sizes[..., k] /= np.where(longest > 0, longest, 1)
+    sense = np.where(vibrates, np.where(whirl > 0, ", forward", ", backward"), "")
+    own = np.char.add("journal", sense)
+    if "y_1" in positions:
+        moves = sizes.max(axis=-1) >= SHARE_OF_JOURNAL
+        own = np.where(moves, np.char.add("shaft", sense), "pads")
+    elif pads:
+        of_pads = np.stack([sizes[..., k].max(axis=-1) for k in pads.values()], axis=-1)
+        several = (of_pads >= SHARE_OF_PAD * of_pads.max(axis=-1, keepdims=True)).sum(axis=-1) > 1
+        first = of_pads.argmax(axis=-1)
+        who = np.where(several, "pads", np.array([f"pad {pad}" for pad in pads])[first])
+        how = np.stack(
+            [np.array([positions[j] for j in k])[sizes[..., k].argmax(-1)] for k in pads.values()], axis=-1
+        )
+        how = np.take_along_axis(how, first[..., None], axis=-1)[..., 0]
+        what = np.where(np.char.startswith(how, "tilt"), ", tilt", ", pivot deflection")
+        of_journal = sizes[..., :JOURNAL].max(axis=-1) >= SHARE_OF_JOURNAL * sizes.max(axis=-1)
+        own = np.where(of_journal, own, np.char.add(who, what))
+    return np.where(np.isnan(shape).all(axis=-1), "", own)
+
+
+def of_journal(name: np.ndarray) -> np.ndarray:
+    """True for the names of modes of the journal or the shaft, and not of pads."""
+    return np.char.startswith(name, "journal") | np.char.startswith(name, "shaft")

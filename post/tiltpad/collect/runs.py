@@ -11,7 +11,7 @@ import numpy as np
 from tiltpad.calculate import signals
 from tiltpad.collect.parameters import varied_values
 from tiltpad.files.archive import NotInRunError, RunError, damaged, reading
-from tiltpad.files.read import Run, read
+from tiltpad.files.read import TEXTS, Run, read
 from tiltpad.files.study import POINTS, REVOLUTIONS
 
 #: Exit status of a run that was done, and those of one that did not end: running or killed, stopped.
@@ -148,7 +148,7 @@ def columns(run: Run, done: bool) -> dict[str, tuple[str, tuple[str, ...]]]:
     found: dict[str, tuple[str, tuple[str, ...]]] = {}
     for group, before in GROUPS.items():
         for own in run.names(group) if group in run else ():
-            if not DATASET.fullmatch(own):
+            if not DATASET.fullmatch(own) or f"{group}/{own}" in TEXTS:
                 continue
             dimensions = run.scales(f"{group}/{own}")
             pads = "pad_" if dimensions == ("pad",) and not own.startswith("pad_") else ""

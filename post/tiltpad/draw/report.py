@@ -10,7 +10,7 @@ import numpy as np
 from tiltpad.calculate import behaviour, signals, summary
 from tiltpad.calculate.coefficients import coefficients
 from tiltpad.calculate.library import MissingLibraryError
-from tiltpad.calculate.modes import modes
+from tiltpad.calculate.modes import modes, of_journal
 from tiltpad.calculate.response import response
 from tiltpad.draw import figures, machine_report
 from tiltpad.draw.bearing import bearing
@@ -173,24 +173,36 @@ def mode_table(run: Run) -> str:
     """The modes of all pivots, and the threshold speeds of stability where they were looked for."""
     if "modes" not in run:
         return ""
-    rows, thresholds = [], []
+    rows, thresholds, verdicts = [], [], []
     for pivot in run["pivot"]:
         found = modes(run, pivot)
-        own = zip(found.frequency, found.damping_ratio, found.log_decrement, strict=True)
+        own = list(zip(found.name, found.frequency, found.damping_ratio, found.log_decrement, strict=True))
+        journal = of_journal(found.name)
         rows += [
             (
                 f"{pivot}",
+                f"{name}",
                 f"{hertz:.5g}",
                 digits(SHOWN["damping_ratio"].factor * ratio),
                 digits(SHOWN["log_decrement"].factor * decrement),
             )
-            for hertz, ratio, decrement in own
-            if np.isfinite(hertz)
+            for kind in (journal, ~journal)
+            for (name, hertz, ratio, decrement), here in zip(own, kind, strict=True)
+            if here and (hertz > 0 or ratio < 0)
         ]
+        for who, kind in (("The journal is", journal), ("The pads are", ~journal & (found.name != ""))):
+            if kind.any():
+                how = "unstable" if (found.damping_ratio[kind] < 0).any() else "stable"
+                verdicts.append(f"{who} {how} with {pivot} pivots.")
         if np.isfinite(found.threshold_rpm):
             thresholds.append(f"{pivot} pivots: {found.threshold_rpm:.1f} rpm")
     note = f"<p>Threshold speed of stability: {'; '.join(thresholds)}.</p>" if thresholds else ""
-    return table(("pivots", "frequency (Hz)", "damping ratio (%)", "logarithmic decrement"), rows) + note
+    head = ("pivots", "mode", "frequency (Hz)", "damping ratio (%)", "logarithmic decrement")
+    return (
+        table(head, rows)
+        + f"<p>{' '.join(verdicts)} Modes without vibration that decay are not listed.</p>"
+        + note
+    )
 
 
 def pictures(run: Run) -> Iterable[str]:

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from tiltpad.calculate.coefficients import Coefficients
 from tiltpad.calculate.coefficients import coefficients as coefficients_of
-from tiltpad.calculate.modes import Modes, modes
+from tiltpad.calculate.modes import Modes, modes, of_journal
 from tiltpad.calculate.selection import axis_of, needs, selected, varying, written
 from tiltpad.draw.diagrams import mark_failed
 from tiltpad.draw.layout import COLUMN, DASHES, PAGE, dots, heading, labels, of_several, part_color
@@ -33,6 +33,10 @@ MOST = 10
 DAMPED = 0.6
 #: Frequencies of a Campbell diagram reach up to this multiple of the shaft's.
 ORDERS = 2
+#: Colours of the rings of unstable modes, of the journal and of pads.
+UNSTABLE = ("C1", "C3")
+#: Kinds of modes in legends.
+KINDS = ("journal", "pads")
 
 
 class Part(NamedTuple):
@@ -113,7 +117,10 @@ def stability(
     over: str | None = None,
     where: Mapping[str, Any] | None = None,
 ) -> Figure:
-    """Damping ratio and logarithmic decrement of the modes, of results over their frequency."""
+    """Damping ratio and logarithmic decrement of the modes, of results over their frequency.
+
+    Modes of pads are hollow points, or dashed lines where the mode is one of pads at the last of its runs.
+    """
     found = parts(runs, pivot, over, where)
     fig = plt.figure(figsize=(COLUMN, 4.2))
     panels = fig.subplots(2, 1, sharex=True)
@@ -124,13 +131,16 @@ def stability(
         x = own.frequency if single else own.parameters[one.over]
         alone = not single and len(found) == 1
         shades = mode_colors(own) if alone else [own_color] * own.damping_ratio.shape[-1]
+        journal = of_journal(own.name) if single else of_journal(last_names(own))
         for ax, name in zip(panels, ("damping_ratio", "log_decrement"), strict=True):
             values = SHOWN[name].factor * getattr(own, name)
             for k in range(values.shape[-1]):
                 if single:
-                    ax.plot(x[k], values[k], color=shades[k], **dots(1))
+                    hollow = {} if journal[k] else {"markerfacecolor": "none"}
+                    ax.plot(x[k], values[k], color=shades[k], **(dots(1) | hollow))
                 else:
-                    ax.plot(x, values[:, k], color=shades[k], **dots(len(x)))
+                    dashes = DASHES[0 if journal[k] else 1]
+                    ax.plot(x, values[:, k], dashes, color=shades[k], **dots(len(x)))
         if not single:
             missing = x[np.isnan(own.frequency).all(axis=1)]
             mark_failed(panels[1], missing, own_color if len(found) > 1 else None)
@@ -143,8 +153,19 @@ def stability(
         show_from_zero(ax, *(SHOWN[name].factor * each for each in end))
         ax.set_ylabel(SHOWN[name].label)
     panels[1].set_xlabel(SHOWN["frequency"].label if isinstance(runs[0], Run) else axis_label(found))
-    heading(fig, names(found), title(runs))
+    looks = [{"marker": "o", "linestyle": ""}, {"marker": "o", "linestyle": "", "markerfacecolor": "none"}]
+    if not isinstance(runs[0], Run):
+        looks = [{"linestyle": dashes} for dashes in DASHES[:2]]
+    kinds = [(name, {"color": "0.3"} | look) for name, look in zip(KINDS, looks, strict=True)]
+    heading(fig, [*names(found), *kinds], title(runs))
     return fig
+
+
+def last_names(own: Modes) -> np.ndarray:
+    """Of each mode of a study its name in the last run that has it, (mode,)."""
+    there = own.name != ""
+    last = len(there) - 1 - there[::-1].argmax(axis=0)
+    return own.name[last, np.arange(there.shape[1])]
 
 
 def mode_colors(own: Modes) -> list[str]:
@@ -186,7 +207,10 @@ def campbell(
     over: str | None = None,
     where: Mapping[str, Any] | None = None,
 ) -> Figure:
-    """Frequencies of the modes over the speed of studies, with the whirl of the journal and the damping."""
+    """Frequencies of the modes over the speed of studies, with the whirl of the journal and the damping.
+
+    Modes of the journal and those of pads have marks of their own, also where they are unstable.
+    """
     for each in runs:
         if isinstance(each, Run):
             raise NotInRunError(
@@ -219,13 +243,13 @@ def campbell(
         ax.plot(ends, order * ends / 60, dashes, color="0.3", linewidth=0.8, zorder=0)
     ax.set(xlim=ends, ylim=(0, top), xlabel=SHOWN["speed"].label, ylabel=SHOWN["frequency"].label)
     mark: dict[str, Any] = {"linestyle": "", "color": "0.3", "markersize": 4}
+    ring = mark | {"marker": "o", "markerfacecolor": "none", "markersize": 7}
     marks = [
-        ("forward", mark | {"marker": "^"}),
-        ("backward", mark | {"marker": "v"}),
-        (
-            "unstable",
-            mark | {"marker": "o", "markerfacecolor": "none", "markeredgecolor": "C1", "markersize": 8},
-        ),
+        ("journal forward", mark | {"marker": "^"}),
+        ("journal backward", mark | {"marker": "v"}),
+        ("pads", mark | {"marker": "o", "markersize": 2}),
+        ("journal unstable", ring | {"markeredgecolor": UNSTABLE[0]}),
+        ("pad unstable", ring | {"markeredgecolor": UNSTABLE[1]}),
         ("shaft speed", {"color": "0.3"}),
         ("0.5x", {"color": "0.3", "linestyle": "--"}),
     ]
@@ -234,21 +258,29 @@ def campbell(
 
 
 def campbell_points(ax: Axes, own: Modes, color: str | None) -> Any:
-    """Points of all modes, triangles by the whirl of the journal; without a colour by their damping."""
+    """Points of all modes, those of the journal by its whirl; without a colour by their damping."""
     speed = np.broadcast_to(own.speed_rpm[:, None], own.frequency.shape)
     ahead = own.whirl > 0
-    look = {"vmin": 0, "vmax": 3, "cmap": "viridis", "s": 14, "linewidths": 0, "zorder": 3}
-    for part, marker in ((ahead, "^"), (~ahead, "v")):
+    look: dict[str, Any] = {"zorder": 3}
+    if color is None:
+        look |= {"vmin": 0, "vmax": 3, "cmap": "viridis"}
+    journal = of_journal(own.name)
+    for part, marker, size in ((~journal, "o", 6), (journal & ~ahead, "v", 14), (journal & ahead, "^", 14)):
         colours = {"c": own.log_decrement[part]} if color is None else {"color": color}
         points = ax.scatter(
             speed[part],
             own.frequency[part],
             marker=marker,
-            **(look if color is None else {"s": 14}),
+            s=size,
+            linewidths=0,
+            **look,
             **colours,
         )
-    growing = own.log_decrement < 0
-    ax.scatter(speed[growing], own.frequency[growing], s=50, facecolors="none", edgecolors="C1", zorder=4)
+    for part, shade in zip((journal, ~journal), UNSTABLE, strict=True):
+        growing = part & (own.log_decrement < 0)
+        ax.scatter(
+            speed[growing], own.frequency[growing], s=45, facecolors="none", edgecolors=shade, zorder=4
+        )
     return points
 
 

@@ -17,6 +17,8 @@ from tiltpad.files.writing import replacing
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
+#: Tables of texts.
+TEXTS = ("modes/name",)
 #: Groups of a file, and the tasks that write them.
 TASKS = {"coefficients": "coefficients", "modes": "coefficients", "periodic": "periodic"}
 #: How names begin that are of a machine as a whole, and what a result of one bearing has not.
@@ -206,9 +208,10 @@ class Run(Archive):
 
     def sound(self, name: str, values: Any) -> Any:
         if np.asarray(values).dtype.kind == "S":
-            if self.scales(name) != (name,):
+            if self.scales(name) != (name,) and name not in TEXTS:
                 raise ValueError("not an array of numbers")
-            return np.array([plain(each).rstrip() for each in values])
+            texts = [plain(each).rstrip() for each in np.ravel(values)]
+            return np.array(texts).reshape(np.shape(values))
         if name in AXES and not np.isfinite(values).all():
             raise ValueError("it is not finite")
         if np.any(np.abs(values) > namelist.LARGEST):

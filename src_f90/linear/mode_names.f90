@@ -1,0 +1,97 @@
+!> What moves in a mode, in words: 'journal, forward', 'shaft, backward', 'pad 3, tilt', 'pads, pivot deflection'.
+module mode_names
+   use kinds, only: wp
+   use text, only: to_text
+   use equations_of_motion, only: machine_model
+   implicit none (type, external)
+   private
+   public :: mode_name_length, mode_name, is_of_rotor, at_stations
+
+   integer, parameter :: mode_name_length = 100
+   !> Pads that tilt follow the journal, so that their tilts are as large as its displacement in its own modes, and many
+   !> times as large in those of pads: a mode is the rotor's if its displacement is this part of the largest, or more.
+   real(wp), parameter :: share_of_rotor = 0.25_wp
+   !> A mode is of several pads if a second one moves this part of the largest, or more.
+   real(wp), parameter :: share_of_pad = 0.5_wp
+
+contains
+
+   !> The name of a mode of this shape: by its largest part, as its positions are displaced times the lengths that stand
+   !> for 1 rad of a tilt. A vibration of the rotor goes forward, in the sense of rotation from +y to +z, or backward.
+   pure function mode_name(model, shape, lengths, vibrates) result(name)
+      type(machine_model), intent(in) :: model
+      complex(wp), intent(in) :: shape(:)
+      real(wp), intent(in) :: lengths(:)
+      logical, intent(in) :: vibrates
+      character(len=mode_name_length) :: name
+      real(wp) :: sizes(size(shape)), of_pad, largest, second
+      integer :: b, i, bearing, pad
+      sizes = abs(shape)*lengths
+      if (maxval(sizes(:model%rotor%positions)) >= share_of_rotor*maxval(sizes)) then
+         name = merge('shaft  ', 'journal', model%inputs%is_machine())
+         if (vibrates) name = trim(name)//merge(', forward ', ', backward', goes_forward(model, shape))
+         return
+      end if
+      largest = 0
+      second = 0
+      do b = 1, size(model%layout%bearings)
+         do i = 1, model%layout%bearings(b)%pads
+            of_pad = maxval(sizes(model%layout%bearings(b)%own_positions(i)))
+            second = max(second, min(of_pad, largest))
+            if (of_pad <= largest) cycle
+            largest = of_pad
+            bearing = b
+            pad = i
+         end do
+      end do
+      name = 'pads'
+      if (second < share_of_pad*largest) name = 'pad '//to_text(pad)
+      associate (of => model%layout%bearings(bearing))
+         if (model%inputs%is_machine() .and. name /= 'pads') then
+            name = 'bearing '''//model%inputs%machine%bearings(bearing)%name//''', '//name
+         end if
+         if (maxloc(sizes(of%own_positions(pad)), dim=1) == 1) then
+            name = trim(name)//', tilt'
+         else
+            name = trim(name)//', pivot deflection'
+         end if
+      end associate
+   end function mode_name
+
+   !> Whether a mode of this name is one of the rotor, and not of pads.
+   elemental logical function is_of_rotor(name)
+      character(len=*), intent(in) :: name
+      is_of_rotor = index(name, 'journal') == 1 .or. index(name, 'shaft') == 1
+   end function is_of_rotor
+
+   !> By the stations of a shaft, or by the journal.
+   pure logical function goes_forward(model, shape)
+      type(machine_model), intent(in) :: model
+      complex(wp), intent(in) :: shape(:)
+      complex(wp) :: stations(2, model%rotor%stations)
+      if (model%rotor%stations > 0) then
+         stations = at_stations(model, shape)
+         goes_forward = aimag(sum(conjg(stations(1, :))*stations(2, :))) < 0
+      else
+         goes_forward = aimag(conjg(shape(1))*shape(2)) < 0
+      end if
+   end function goes_forward
+
+   !> Stations of the rotor's displacements, which turn, m.
+   pure function at_stations(model, positions) result(stations)
+      type(machine_model), intent(in) :: model
+      complex(wp), intent(in) :: positions(:)
+      complex(wp) :: stations(2, model%rotor%stations)
+      real(wp) :: states(model%rotor%states), still(2, model%rotor%stations)
+      real(wp), dimension(2, model%rotor%stations) :: re, im
+      associate (n => model%rotor%positions)
+         states = 0
+         still = model%rotor%station_displacements(states)
+         states(:n) = positions(:n)%re
+         re = model%rotor%station_displacements(states) - still
+         states(:n) = positions(:n)%im
+         im = model%rotor%station_displacements(states) - still
+      end associate
+      stations = cmplx(re, im, wp)
+   end function at_stations
+end module mode_names
