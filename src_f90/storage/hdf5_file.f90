@@ -4,10 +4,10 @@ module hdf5_file
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5screate_f, h5screate_simple_f, h5sclose_f, h5s_scalar_f, &
       & h5sget_simple_extent_npoints_f, h5sget_simple_extent_ndims_f, h5tclose_f, h5tcopy_f, h5tequal_f, &
-      & h5tget_size_f, h5tset_size_f, h5tset_strpad_f, h5t_fortran_s1, h5t_str_nullpad_f, &
-      & h5dcreate_f, h5dopen_f, h5dwrite_f, h5dread_f, h5dclose_f, h5dget_space_f, h5dget_type_f, &
-      & h5dget_create_plist_f, h5pget_layout_f, h5pget_chunk_f, h5pget_external_count_f, h5pclose_f, h5d_virtual_f, &
-      & h5d_chunked_f, h5p_default_f, h5t_native_double, h5kind_to_type, h5_integer_kind
+      & h5tget_size_f, h5tset_size_f, h5tset_strpad_f, h5t_fortran_s1, h5t_str_nullpad_f, h5dcreate_f, h5dopen_f, &
+      & h5dwrite_f, h5dread_f, h5dclose_f, h5dget_space_f, h5dget_type_f, h5dget_create_plist_f, h5pget_layout_f, &
+      & h5pget_chunk_f, h5pget_external_count_f, h5pclose_f, h5d_virtual_f, h5d_chunked_f, h5p_default_f, &
+      & h5t_native_double, h5kind_to_type, h5_integer_kind
    use h5ds, only: h5dsset_scale_f, h5dsattach_scale_f
    use kinds, only: wp, i8
    use hdf5_base, only: hdf5_base_type
@@ -102,7 +102,9 @@ contains
       integer(hid_t) :: dataset, kind
       integer :: status, i
       if (allocated(self%failure)) return
-      buffer = [(trim(labels(i))//repeat(c_null_char, len(labels) - len_trim(labels(i))), i=1, size(labels))]
+      do i = 1, size(labels)
+         buffer(i) = trim(labels(i))//repeat(c_null_char, len(labels) - len_trim(labels(i)))
+      end do
       call h5tcopy_f(h5t_fortran_s1, kind, status)
       call h5tset_size_f(kind, len(labels, size_t), status)
       call h5tset_strpad_f(kind, h5t_str_nullpad_f, status)
@@ -173,8 +175,7 @@ contains
       if (status == dimensions) bytes = product(real(chunk(:dimensions), wp))*letter
    end function chunk_bytes
 
-   !> Opens a dataset, or creates it. One that is there must be what would be created: HDF5 would write numbers of any
-   !> size that a damaged type claims.
+   !> Opens or creates a dataset. One that is there must be the same: a damaged type may claim numbers of any size.
    subroutine open_or_create(self, path, kind, dims, units, long_name, scales, dataset)
       class(hdf5_type), intent(inout) :: self
       character(len=*), intent(in) :: path, units, long_name, scales

@@ -30,6 +30,7 @@ contains
    subroutine fill(record, k)
       type(record_type), intent(inout) :: record
       integer, intent(in) :: k
+      character(len=8) :: names(2*k)
       integer :: i
       call record%clear()
       call record%put_flag('complete', mod(k, 2))
@@ -41,8 +42,10 @@ contains
       if (mod(k, 3) == 0) call record%put_real('summary/only', 0.3_wp*k, 'W', 'of every third')
       call record%put_table('modes/frequency', reshape([(1.5_wp**i, i=1, 2*k)], [k, 2]), 'Hz', 'frequencies', &
          & 'pivot pad')
-      call record%put_labels('modes/name', [character(len=8) :: ('mode '//to_text(i), i=1, 2*k)], 'names', &
-         & [k, 2], 'pivot pad')
+      do i = 1, 2*k
+         names(i) = 'mode '//to_text(i)
+      end do
+      call record%put_labels('modes/name', names, 'names', [k, 2], 'pivot pad')
    end subroutine fill
 
    !> It has all of run k, and nothing else.
@@ -250,7 +253,7 @@ contains
    end subroutine written_again
 
    !> The texts of a table, and its scales.
-   function names_of(record) result(names)
+   pure function names_of(record) result(names)
       type(record_type), intent(in) :: record
       character(len=:), allocatable :: names
       integer :: i

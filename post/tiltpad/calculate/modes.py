@@ -11,7 +11,7 @@ from tiltpad.files.study import Study
 
 #: Modes that are farther apart are different ones: by their eigenvalues (0 to 2) and shapes (0 to 1).
 ANOTHER = 1.0
-#: As in the program: a mode is the journal's, or of several pads, from this part of the largest displacement on.
+#: As in the program: parts of the largest displacement that make a mode the journal's, or several pads'.
 SHARE_OF_JOURNAL, SHARE_OF_PAD = 0.25, 0.5
 
 
