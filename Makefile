@@ -300,7 +300,8 @@ python_library: $$(call objects_of,library)
 $(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/deps-checked
 	$(PYTHON) -m venv $(VENV)
 	$(venv_python) -m pip install -q --disable-pip-version-check --no-compile -r post/requirements.txt
-	$(venv_python) -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -e post
+	$(venv_python) -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -e post \
+	   --config-settings editable_mode=compat
 	@touch $@
 
 # A wheel for each Python from 3.11 on whose headers are at hand: program, commands and library, with all that they

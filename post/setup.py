@@ -1,4 +1,7 @@
-"""What pyproject.toml cannot say: parts compiled for one machine and one Python, and programs."""
+"""What pyproject.toml cannot say: parts compiled for one machine and one Python, and programs.
+
+The Makefile installs it with editable_mode=compat, as type checkers find the package of a checkout in no other way.
+"""
 
 from pathlib import Path
 

@@ -62,6 +62,8 @@ def run(
     """
     options = ["--overwrite"] * overwrite + ["--quiet"] * quiet + ["--verify", f"{verify}"] * (verify != 0)
     for group, values in overrides.items():
+        if not isinstance(values, Mapping) and (likely := meant(group, ("overwrite", "quiet", "verify"))):
+            raise ValueError(f"run has no option {group}{likely}")
         for name, value in namelist.variables(group, values).items():
             options += ["--set", f"{group}%{name}={namelist.written(value, namelist.is_varied(group, name))}"]
 
@@ -99,7 +101,7 @@ def result_of(case: str | os.PathLike, target: Path, options: Sequence[str]) -> 
     """Runs the program."""
     words = [program(), argument(case), "--output", os.fspath(target), *options]
     done = run_program(words, stderr=subprocess.PIPE)
-    said = done.stderr.strip().removeprefix("tiltpad: error: ")
+    said = done.stderr.strip().removeprefix("tiltpad: error: ").removeprefix("--set: ")
     said = said.replace("--overwrite", "overwrite=True").replace("--output", "output")
     if done.returncode == INPUT_ERROR:
         raise ValueError(said)

@@ -11,7 +11,7 @@ import tiltpad
 from PIL import Image
 from tiltpad import command, figures, units
 from tiltpad.calculate import differences, signals
-from tiltpad.draw import bearing, layout, orbits
+from tiltpad.draw import bearing, branches, layout, orbits
 from tiltpad.running import resolved
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
@@ -47,9 +47,17 @@ def test_what_many_runs_differ_in_is_found_once(run, monkeypatch):
     assert calls == [9]
 
 
+def test_labels_of_special_points_do_not_overlap():
+    _, ax = plt.subplots()
+    ax.plot([0, 100], [0, 10])
+    marked = [(50, 5, "PD"), (51, 5.2, "LP"), (51, 8, "LP"), (52, 5, "PD")]
+    assert branches.apart(marked, ax) == [(50, 5.2, "PD, LP"), (51, 8, "LP")]
+    plt.close()
+
+
 def test_a_legend_has_as_many_columns_as_fit():
     texts = ["Pump bearing 5 pads", "4 pads", *(f"pad {k}" for k in range(1, 6))]
-    assert [layout.columns_of(texts, width) for width in (20, 50, 200)] == [1, 3, 7]
+    assert [layout.columns_of(texts, width) for width in (20, 54, 200)] == [1, 3, 7]
 
 
 def test_runs_of_different_bearings_have_their_own_circles(run):

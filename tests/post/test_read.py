@@ -71,8 +71,15 @@ def test_a_closed_file_can_be_overwritten(run):
         ("fixed", "spectrum/pad_tilt", "pad motion is 'fixed'"),
         ("runup", "spectrum/journal_y", "no spectrum in this run: the speed changes"),
         ("equilibrium", "journal_y", "no journal_y in this run: its task is 'equilibrium'"),
-        ("lugre", "journal_x", "no journal_x in this run: there are asperity_force, "),
-        ("lugre", "pivot_loads", "time (did you mean pivot_load?)"),
+        ("lugre", "nonsense", "no nonsense in this run: there are asperity_force, "),
+        ("lugre", "pivot_loads", "no pivot_loads in this run (did you mean pivot_load?)"),
+        ("equilibrium", "jounal_y", "no jounal_y in this run (did you mean equilibrium/journal_y?)"),
+        (
+            "equilibrium",
+            "equilibrium_y",
+            "no equilibrium_y in this run (did you mean equilibrium/journal_y?)",
+        ),
+        ("equilibrium", "journal_y", "nothing was marched in time (did you mean equilibrium/journal_y?)"),
     ],
 )
 def test_a_dataset_that_the_case_lacks(run, result, case_name, name, reason):
@@ -116,3 +123,15 @@ def test_what_tells_runs_apart(run):
         "1500 to 6500 rpm, 2 pads, duration = 0.1 s",
     ]
     assert differences.differences([inputs[0], inputs[0]]) == ["", ""]
+
+
+def test_a_notebook_shows_a_table(run):
+    case = run("lugre")
+    page = case._repr_html_()
+    for name in ("journal_y", "pivot_load"):
+        about = [case.about(name, which) for which in ("units", "long_name")]
+        cells = "</td><td>".join([name, str(case[name].shape), *about])
+        assert f"<td>{cells}</td>" in page
+    assert "<summary>equilibrium</summary>" in page
+    case.attributes["title"] = "<b>"
+    assert "&lt;b&gt;: march" in case._repr_html_()

@@ -20,6 +20,8 @@ study = tiltpad.run("mine.nml", sweep={"operation%speed_rpm": "3000:6000:1000"})
 if isinstance(study, tiltpad.Study):
     study.to_csv("study.csv")
 """
+#: The same as a user checks it, who has his own configuration.
+STRICT = ["--strict", "--config-file", ""]
 WRONG = ("tiltpad.read(3)", "tiltpad.orbit('mine.h5')", "tiltpad.orbit(run, last='all')", "tiltpad.modes()")
 
 
@@ -38,3 +40,10 @@ def test_mypy_accepts_the_package_and_scripts_that_use_it(root, tmp_path):
     # the folder may be that of an earlier test, in which mypy saw the same file
     found = re.findall(r"^.*?([\w.]+):(\d+): error: ", done.stdout, re.MULTILINE)
     assert found == [("wrong.py", str(k)) for k in range(3, 3 + len(WRONG))], done.stdout
+
+
+def test_a_strict_check_accepts_a_users_script(tmp_path):
+    (tmp_path / "mine.py").write_text(SCRIPT)
+    words = [sys.executable, "-m", "mypy", *STRICT, "mine.py"]
+    done = subprocess.run(words, cwd=tmp_path, text=True, capture_output=True)
+    assert done.returncode == 0, done.stdout + done.stderr

@@ -80,4 +80,5 @@ def described(name: str, value: Any) -> str:
             return WORDS.get(value, value)
         return f"{name.partition('%')[0]} {value}" if text == "model" else value.replace("_", " ")
     numbers = value if isinstance(value, tuple) else (value,)
-    return f"{text} = {', '.join(f'{number:g}' for number in numbers)} {unit}".rstrip()
+    shown = units.shown(text, unit, numbers)
+    return f"{text} = {', '.join(f'{shown.factor * number:g}' for number in numbers)} {shown.unit}".rstrip()

@@ -134,7 +134,9 @@ def windows(
 ) -> Iterator[tuple[float, np.ndarray, np.ndarray]]:
     """Windows along a run whose speed changes: speed in the middle, shaft angles, values times weights.
 
-    The values are at equal steps of the shaft angle over whole revolutions; the weights (Hann) sum to 1.
+    The values are at equal steps of the shaft angle over whole revolutions; the weights (Hann) sum to 1. The
+    slope of the values over a window is left out, as a slow drift would spread over the lowest orders. It is
+    fitted with the weights, and so takes nothing from whole orders.
     """
     if signals.steady(run):
         raise NotInRunError(
@@ -151,12 +153,12 @@ def windows(
         steps = len(angle) - 4
         even = start + length * np.arange(steps) / steps
         weight = np.sin(np.pi * np.arange(steps) / steps) ** 2
+        weight /= weight.sum()
+        values = signals.at_angle(angle, signals.series(run, name, part, pad), even)
+        away = even - start - length / 2
+        values = values - away * (weight @ (away * values)) / (weight @ away**2)
         speed = signals.at_angle(angle, run.values("speed", part), np.array([start + length / 2]))[0]
-        yield (
-            speed,
-            even,
-            weight / weight.sum() * signals.at_angle(angle, signals.series(run, name, part, pad), even),
-        )
+        yield speed, even, weight * values
 
 
 def needs_pad(run: Run, name: str, pad: int | None) -> None:

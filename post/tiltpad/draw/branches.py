@@ -134,6 +134,7 @@ def draw_branches(run: Run, ax: Axes, name: str, pad: int | None, color: str | N
     """The highest and lowest values of a dataset along all branches of a run, with the bifurcation points."""
     part = slice(None) if pad is None else (slice(None), pad - 1)
     parameter, special = run["parameter"], branches.bifurcations(run)
+    marked: list[tuple[float, float, str]] = []
     for values in (SHOWN[name].factor * run[f"{name}_{end}"][part] for end in ("max", "min")):
         for each in branches.stretches(run):
             line = {"color": color or color_of(each.branch)} | ({} if each.stable else UNSTABLE)
@@ -141,8 +142,29 @@ def draw_branches(run: Run, ax: Axes, name: str, pad: int | None, color: str | N
         for point in special:
             at = (point.parameter, values[point.point])
             ax.plot(*at, **MARK | {"color": color or color_of(point.branch)})
-            place = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"}
-            ax.annotate(literal(point.letters), at, **place, size="x-small")
+            marked.append((*at, literal(point.letters)))
+    for place, y, letters in apart(marked, ax):
+        where = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"}
+        ax.annotate(letters, (place, y), **where, size="x-small")
+
+
+def apart(marked: Sequence[tuple[float, float, str]], ax: Axes) -> list[tuple[float, float, str]]:
+    """Points with their letters (x, y, letters): one label for points whose labels would overlap."""
+    wide, high = (np.ptp(each) or 1.0 for each in (ax.dataLim.intervalx, ax.dataLim.intervaly))
+    found: list[tuple[float, float, str]] = []
+    for x, y, letters in sorted(marked):
+        near = [
+            k
+            for k, each in enumerate(found)
+            if abs(x - each[0]) < 0.08 * wide and abs(y - each[1]) < 0.06 * high
+        ]
+        if near:
+            others = found[near[0]]
+            words = others[2] if letters in others[2].split(", ") else f"{others[2]}, {letters}"
+            found[near[0]] = (others[0], max(y, others[1]), words)
+        else:
+            found.append((x, y, letters))
+    return found
 
 
 def draw_marches(study: Study, ax: Axes, run: Run, name: str, pad: int | None) -> None:

@@ -214,7 +214,7 @@ def columns_of(texts: Sequence[str], characters: int) -> int:
     """Number of columns of a legend that is this number of characters wide; it is filled column by column."""
     long = np.array([max(map(len, text.splitlines() or [""])) for text in texts])
     for columns in range(len(texts), 1, -1):
-        if sum(each.max() + 7 for each in np.array_split(long, columns)) <= characters:
+        if sum(each.max() + 8 for each in np.array_split(long, columns)) <= characters:
             return columns
     return 1
 

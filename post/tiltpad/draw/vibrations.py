@@ -314,6 +314,14 @@ def parts(
     return found
 
 
+def in_unit(name: str, value: Any, among: np.ndarray) -> str:
+    """A value of a parameter with its name, in the unit of all its values: "radius difference 100 µm"."""
+    if isinstance(value, str):
+        return f"{name} {written(value)}"
+    shown = units.shown(*units.named(name), among)
+    return f"{shown.text} {shown.factor * value:g} {shown.unit}".rstrip()
+
+
 def groups(
     source: Run | Study, over: str | None, where: dict[str, Any]
 ) -> list[tuple[str, dict[str, Any], str]]:
@@ -326,7 +334,7 @@ def groups(
     keys = dict.fromkeys(zip(*(source[name][chosen] for name in others), strict=True) if others else [()])
     known = [key for key in keys if all(value == value and value != "" for value in key)]
     return [
-        (", ".join(f"{name} {written(value)}" for name, value in zip(others, key, strict=True)),
+        (", ".join(in_unit(name, value, source[name]) for name, value in zip(others, key, strict=True)),
          where | dict(zip(others, key, strict=True)), along)
         for key in known
     ]  # fmt: skip

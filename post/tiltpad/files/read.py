@@ -5,6 +5,7 @@ import textwrap
 import warnings
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
+from difflib import get_close_matches
 from functools import cached_property, wraps
 from typing import Any, NoReturn
 
@@ -12,7 +13,9 @@ import h5py
 import numpy as np
 
 from tiltpad.files import namelist
-from tiltpad.files.archive import Archive, NotInRunError, RunError, damaged, meant, plain, reading, shown
+from tiltpad.files.archive import Archive, NotInRunError, RunError, damaged, plain, reading, shown
+from tiltpad.files.notebook import html_of
+from tiltpad.files.units import SHOWN
 from tiltpad.files.writing import replacing
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
@@ -64,6 +67,13 @@ class Run(Archive):
     #: What stands before names in the file: the group of a bearing of a machine, with a slash at its end.
     group = ""
 
+    title: str
+    task: str
+    version: str
+    created: str
+    format_version: int
+    complete: int
+
     def __init__(self, path: str | os.PathLike):
         super().__init__(path)
         if not self.attributes["complete"]:
@@ -77,6 +87,9 @@ class Run(Archive):
             own = f"{group}/: {', '.join(self.names(group))}"
             lines += textwrap.wrap(own, 100, initial_indent="  ", subsequent_indent="    ")
         return "\n".join(lines) + ">"
+
+    def _repr_html_(self) -> str:
+        return html_of(self, f"{self.title or self.path}: {self.in_words()}")
 
     def in_words(self) -> str:
         """Task, whether it is complete, duration, pads and friction or bearings, and speed."""
@@ -229,7 +242,25 @@ class Run(Archive):
 
     def without(self, name: str) -> str:
         """The message for a dataset that is missing."""
-        return f"{self.path}: no {shown(name)} in this run: {self.why_not(name)}"
+        missing, likely = f"{self.path}: no {shown(name)} in this run", self.likely(name)
+        words = f" (did you mean {' or '.join(likely)}?)" if likely else ""
+        # what other runs have is told by its reason
+        if likely and name.rpartition("/")[2] not in {*SHOWN, *OF_BRANCHES, *self.GROUPS}:
+            return missing + words
+        return f"{missing}: {self.why_not(name)}" + words * any(each.endswith(f"/{name}") for each in likely)
+
+    def likely(self, name: str) -> list[str]:
+        """What a name that is missing may stand for, in the file or in its groups: equilibrium/journal_y."""
+        groups = [each for each in self.names() if each in self.GROUPS and each != "checkpoint"]
+        inside = [(group, own) for group in groups for own in self.names(group)]
+        parts = [f"{group}/{own}" for group, own in inside if name.startswith(f"{group}_")]
+        parts = [each for each in parts if each.endswith(name[name.find("_") :])]
+        if 0 < len(parts) <= 3:
+            return parts
+        paths = {own: f"{group}/{own}" for group, own in reversed(inside)} | {
+            own: own for own in self.names()
+        }
+        return [paths[each] for each in get_close_matches(name.rpartition("/")[2], paths, 1)]
 
     def why_not(self, name: str) -> str:
         """The reason why the run has no such dataset."""
@@ -266,7 +297,7 @@ class Run(Archive):
             return "the speed changes"
         if name == "spectrum":
             return "less than one revolution was sampled, or the run is incomplete"
-        return f"there are {', '.join(self.names())}{meant(name, self.names())}"
+        return f"there are {', '.join(self.names())}"
 
 
 class Bearings(dict[str, "Bearing"]):

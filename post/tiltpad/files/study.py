@@ -11,6 +11,7 @@ import h5py
 import numpy as np
 
 from tiltpad.files.archive import Archive, RunError, damaged, few_enough, plain, reading, shown
+from tiltpad.files.notebook import html_of
 from tiltpad.files.read import Run, StudyError, read
 from tiltpad.files.writing import write
 
@@ -84,9 +85,18 @@ class Study(Archive):
 
     KINDS = "fiuO"
 
+    title: str
+    version: str
+    created: str
+    format_version: int
+
     def __repr__(self) -> str:
         runs, over = self.length("run"), ", ".join(self.parameters)
         return f"<tiltpad study {self.path!r}: {runs} runs over {over}>"
+
+    def _repr_html_(self) -> str:
+        heading = f"{self.title or self.path}: {self.length('run')} runs over {', '.join(self.parameters)}"
+        return html_of(self, heading)
 
     def to_xarray(self) -> Any:
         """The datasets as an xarray.Dataset in memory, over the runs; needs xarray and h5netcdf."""

@@ -131,8 +131,8 @@ def named(name: str) -> tuple[str, str]:
 
 
 def shown(text: str, unit: str, values: Sequence[float] | np.ndarray) -> Shown:
-    """The unit in which values of an input variable are shown: µm for lengths below a millimetre."""
-    if unit == "m" and np.nanmax(np.abs(values), initial=0) < 1e-3:
+    """The unit in which values of an input variable are shown: µm for lengths up to a millimetre."""
+    if unit == "m" and np.nanmax(np.abs(values), initial=0) <= 1e-3:
         return Shown(text, 1e6, "µm")
     return Shown(text, 1, "" if unit == "1" else unit)
 
