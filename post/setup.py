@@ -1,6 +1,6 @@
 """What pyproject.toml cannot say: parts compiled for one machine and one Python, and programs.
 
-The Makefile installs it with editable_mode=compat, as type checkers find the package of a checkout in no other way.
+The Makefile installs it with editable_mode=compat: so type checkers find the package of a checkout.
 """
 
 from pathlib import Path

@@ -1,7 +1,7 @@
 """Coefficients for ROSS, a program for rotor dynamics (https://ross.readthedocs.io), from its version 3 on.
 
-ROSS 3.0 asks for Python 3.12, ROSS 3.1 for Python 3.13. This package needs neither: a ROSS in an environment of
-its own reads the file that `path` names.
+ROSS 3.0 asks for Python 3.12, ROSS 3.1 for Python 3.13. This package needs neither: a ROSS in an environment
+of its own reads the file that `path` names.
 
 ROSS has the axes x and y, y up, and its shafts turn from +x to +y. This program's shaft turns from +y to +z:
 ROSS's x is -z, so that k_xx = K_zz, k_xy = -K_zy, k_yx = -K_yz, k_yy = K_yy, and likewise for the damping.

@@ -244,7 +244,7 @@ class Run(Archive):
         """The message for a dataset that is missing."""
         missing, likely = f"{self.path}: no {shown(name)} in this run", self.likely(name)
         words = f" (did you mean {' or '.join(likely)}?)" if likely else ""
-        # what other runs have is told by its reason
+        # what other runs have has its own reason
         if likely and name.rpartition("/")[2] not in {*SHOWN, *OF_BRANCHES, *self.GROUPS}:
             return missing + words
         return f"{missing}: {self.why_not(name)}" + words * any(each.endswith(f"/{name}") for each in likely)
