@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 from tiltpad.files import namelist
-from tiltpad.files.archive import Archive, NotInRunError, RunError, damaged, plain, reading, shown
+from tiltpad.files.archive import Archive, NotInRunError, RunError, damaged, meant, plain, reading, shown
 from tiltpad.files.notebook import html_of
 from tiltpad.files.units import SHOWN
 from tiltpad.files.writing import replacing
