@@ -24,8 +24,8 @@ class Modes(NamedTuple):
         frequency        Hz, likewise
         damping_ratio, log_decrement     likewise; a mode without vibration has no decrement (nan)
         shape            complex, (mode, position); of a study (run, mode, position)
-        name             what moves: "journal, forward", "pad 3, tilt", "pads, tilt", ..., of a machine "shaft,
-                         forward", ... or "pads", likewise; empty where there is no mode
+        name             what moves: "journal, forward", "pad 3, tilt", "pads, tilt", ..., of a machine
+                         "shaft, forward", ... or "pads", likewise; empty where there is no mode
         position         names of the positions: y, z, tilt_1, pivot_deflection_1, ...; of a machine those of
                          its stations: y_1, z_1, y_2, ...
         whirl            likewise as frequency, from -1 (circular backward) to 1 (forward, from +y to +z): of
@@ -76,7 +76,8 @@ def modes(
     order = tracked(values["eigenvalue"], values["shape"])
     names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement", "shape", "whirl")
     own: dict[str, Any] = {name: placed(values[name], order) for name in names}
-    own["name"] = mode_names(own["shape"], [str(each) for each in position], own["frequency"] > 0, own["whirl"])
+    vibrates = own["frequency"] > 0
+    own["name"] = mode_names(own["shape"], [str(each) for each in position], vibrates, own["whirl"])
     threshold = values.get("threshold_rpm", np.full(len(found.speed_rpm), np.nan))
     every = Modes(
         found.pivot,
