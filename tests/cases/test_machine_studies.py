@@ -11,6 +11,7 @@ import h5py
 import numpy as np
 import pytest
 import tiltpad as package
+from conftest import wait_for
 
 SPEEDS = "1000:8000:70"
 LENGTHS = "length=2*0.05, 8*0.2, 2*0.05, diameter=2*0.0998, 8*0.34, 2*0.0998"
@@ -161,6 +162,7 @@ def test_a_stopped_study_goes_on_and_loses_nothing(start, performed, tiltpad, tm
     overrides = ["case%task=march", "output%keep=summary", "sweep%operation%speed_rpm=3000:6000:250"]
     (tmp_path / "case.nml").write_text(MACHINE)
     process = start(tmp_path, "case.nml", "--jobs", "1", overrides=overrides)
+    wait_for(lambda: any(tmp_path.glob("case.h5*")), process)
     process.send_signal(signal.SIGTERM)
     assert process.wait() in (0, 4)
     tiltpad("case.nml", overrides=overrides, cwd=tmp_path, status=0)
