@@ -74,3 +74,18 @@ def test_pivots_stick_at_a_small_amplitude_and_free_themselves_at_a_large_one():
     small, larger, large = (identified(bearing, 0.5, force).stiffness[0] for force in (1.0, 3000.0, 10000.0))
     assert deviation(small, stuck) < 0.01
     assert deviation(large, free) < 0.5 * deviation(larger, free) < 0.5 * deviation(small, free)
+
+
+def test_several_excitations_of_one_frequency_are_one_force():
+    """Halves of a force are read back as a list, and are the force; two frequencies are refused."""
+    half = {"amplitude": 0.5, "frequency_ratio": 0.5}
+    case = BASE | {"case": {"task": "periodic"}} | BEARINGS["tilting"]
+    directions = (0.0, 90.0)
+    runs = [tiltpad.run(case | {"excitation": [half | {"direction_deg": each}] * 2}) for each in directions]
+    assert [each["amplitude"] for each in runs[0].input["excitation"]] == [0.5, 0.5]
+    whole = identified(BEARINGS["tilting"], 0.5, 1.0)
+    # orbits are closed to 1e-8 of the clearance, 1e-4 of the motion
+    assert deviation(tiltpad.impedance(runs).stiffness, whole.stiffness) < 1e-3
+    other = tiltpad.run(case | {"excitation": [half, half | {"frequency_ratio": 1.0}]})
+    with pytest.raises(tiltpad.NotInRunError, match="different frequencies"):
+        tiltpad.impedance([other, other])

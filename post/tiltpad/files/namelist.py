@@ -105,17 +105,18 @@ def count(value: Any) -> int:
 def parse(text: str) -> dict[str, dict[str, Any]]:
     """Groups of the namelist text: {"bearing": {"assembled_clearance": 8e-5, ...}, ...}.
 
-    In a machine those that are there several times are lists: {"bearing": [{"name": "left", ...}, ...]}.
+    Excitations are a list, and in a machine all that are there several times: {"bearing": [{"name": "left",
+    ...}, ...]}.
     It reads what the program writes (one assignment a line, texts in single quotes), not every namelist.
     """
     if len(text) > LONGEST:
         raise ValueError(f"{len(text)} characters")
     blocks = variables_of(text)
-    if not any(group == "bearing" and "name" in own for group, own in blocks):
-        return dict(blocks)
+    machine = any(group == "bearing" and "name" in own for group, own in blocks)
+    several = SEVERAL if machine else ("excitation",)
     groups: dict[str, Any] = {}
     for group, own in blocks:
-        if group in SEVERAL:
+        if group in several:
             groups.setdefault(group, []).append(own)
         else:
             groups[group] = own
