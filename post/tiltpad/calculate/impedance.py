@@ -27,8 +27,8 @@ def impedance(runs: Sequence[Run]) -> Coefficients:
 
     with the mass m of the journal. The result has one frequency and the pivot "identified". With friction
     K and C depend on the amplitude. Without it a small force gives those of the task coefficients within 1e-4
-    of their largest element if film%table_tolerance is 1e-6; default tables add up to 2e-4. Raises ValueError where runs do not fit each other, and NotInRunError
-    where a run has no harmonic excitation.
+    of their largest element if film%table_tolerance is 1e-6; default tables add up to 2e-4. Raises ValueError
+    where runs do not fit each other, and NotInRunError where a run has no harmonic excitation.
     """
     if len(runs) != 2:
         raise ValueError(f"{len(runs)} runs: two are needed, with independent excitations")
