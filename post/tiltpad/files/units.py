@@ -86,7 +86,7 @@ THOUSANDTH = {
     **{"MN/m": "kN/m", "kN/m": "N/m", "kN s/m": "N s/m"},
 }
 
-#: Units of the input variables by name. Others are pure numbers, or their names end in _rpm or _deg.
+#: Units of the input variables by name. Others are pure numbers, or their names end in _rpm, _deg or _hz.
 UNITS = {
     **{"specific_heat": "J/(kg K)", "cross_stiffness": "N/m"},
     **{"mass": "kg", "unbalance": "kg m", "inertia": "kg m²", "characteristic_load": "N", "static_load": "N"},
@@ -106,6 +106,7 @@ UNITS = {
     **{"pivot_deflection": "m", "pivot_deflection_rate": "m/s"},
     **dict.fromkeys(("offset", "length", "diameter", "bore"), "m"),
     **{"polar_inertia": "kg m²", "diametral_inertia": "kg m²", "moment": "kg m", "force": "N"},
+    **{"amplitude": "N", "start": "s", "end": "s"},
     **{"stiffness": "N/m", "damping": "N s/m", "frequency": "Hz", "damp_above": "Hz"},
     **dict.fromkeys(("critical_velocity", "stribeck_velocity"), "m/s"),
     **{"decay": "s/m", "bristle_stiffness": "1/m", "bristle_damping": "s/m", "viscous_coefficient": "s/m"},
@@ -124,9 +125,9 @@ def named(name: str) -> tuple[str, str]:
     if name in UNITS_BY_GROUP:
         return name.split("%")[-1].replace("_", " "), UNITS_BY_GROUP[name]
     name = name.split("%")[-1]
-    for ending in ("deg", "rpm"):
-        if name.endswith("_" + ending):
-            return name.removesuffix("_" + ending).replace("_", " "), ending
+    for ending, unit in (("_deg", "deg"), ("_rpm", "rpm"), ("_hz", "Hz")):
+        if name.endswith(ending):
+            return name.removesuffix(ending).replace("_", " "), unit
     return name.replace("_", " "), UNITS.get(name, "")
 
 
