@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -50,7 +51,7 @@ def impedance(runs: Sequence[Run]) -> Coefficients:
 
 def frequency_ratio(run: Run) -> float:
     """Frequency of the harmonic excitation of a run over the speed of the shaft."""
-    given = [] if run.bearings else run.input.get("excitation", [])
+    given: Any = [] if run.bearings else run.input.get("excitation", [])
     kinds = {each.get("kind") for each in given}
     if kinds != {"harmonic"} or "journal_y" not in run or "excitation_y" not in run:
         raise NotInRunError(f"{run.path}: no harmonic excitation of a journal in this run")

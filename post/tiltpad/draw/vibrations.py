@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from tiltpad.calculate.coefficients import Coefficients
 from tiltpad.calculate.coefficients import coefficients as coefficients_of
 from tiltpad.calculate.modes import Modes, modes, of_journal
+from tiltpad.calculate.response import STATION
 from tiltpad.calculate.selection import axis_of, needs, selected, varying, written
 from tiltpad.draw.diagrams import mark_failed
 from tiltpad.draw.layout import COLUMN, DASHES, PAGE, dots, heading, labels, of_several, part_color
@@ -244,11 +245,12 @@ def campbell(
     ax.set(xlim=ends, ylim=(0, top), xlabel=SHOWN["speed"].label, ylabel=SHOWN["frequency"].label)
     mark: dict[str, Any] = {"linestyle": "", "color": "0.3", "markersize": 4}
     ring = mark | {"marker": "o", "markerfacecolor": "none", "markersize": 7}
+    rotor = "shaft" if any(STATION in one.source for one in found) else "journal"
     marks = [
-        ("journal forward", mark | {"marker": "^"}),
-        ("journal backward", mark | {"marker": "v"}),
+        (f"{rotor} forward", mark | {"marker": "^"}),
+        (f"{rotor} backward", mark | {"marker": "v"}),
         ("pads", mark | {"marker": "o", "markersize": 2}),
-        ("journal unstable", ring | {"markeredgecolor": UNSTABLE[0]}),
+        (f"{rotor} unstable", ring | {"markeredgecolor": UNSTABLE[0]}),
         ("pad unstable", ring | {"markeredgecolor": UNSTABLE[1]}),
         ("shaft speed", {"color": "0.3"}),
         ("0.5x", {"color": "0.3", "linestyle": "--"}),
