@@ -239,7 +239,7 @@ contains
       call expect_text_words(names_in('rotor'), &
          & ' mass unbalance balance_grade balance_speed_rpm gravity static_load file')
       call expect_text_words(names_in('roto'), '')
-      call expect(index(group_names()//' ', ' case rotor operation bearing ') == 1, 'groups in their order')
+      call expect(index(group_names()//' ', ' case rotor operation excitation bearing ') == 1, 'groups in their order')
       call expect_text_words(meant_variable('operation', 'sped_rpm'), ' (did you mean speed_rpm?)')
       call expect_text_words(meant_variable('operation', 'mass'), ' (did you mean rotor%mass or pads%mass?)')
       call expect_text_words(meant_variable('', 'speed_rpm'), ' (did you mean operation%speed_rpm?)')
