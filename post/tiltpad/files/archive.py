@@ -78,7 +78,7 @@ class Archive:
         *("check_whole", "check_dataset", "scales", "sound", "without", "item", "own", "found", "listed"),
         *("former", "size", "why_not", "end", "in_words", "is_series", "KINDS", "OWN", "GROUPS", "INTERNAL"),
         *("scale", "today", "most", "inside", "check_bearings", "needs_one_bearing", "own_names"),
-        *("machine", "group", "likely"),
+        *("machine", "group", "likely", "is_cold"),
     )
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
     OWN = ("file", "path", "attributes", "former", "found", "listed", "over", "size", "machine", "group")

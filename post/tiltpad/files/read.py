@@ -245,7 +245,8 @@ class Run(Archive):
         missing, likely = f"{self.path}: no {shown(name)} in this run", self.likely(name)
         words = f" (did you mean {' or '.join(likely)}?)" if likely else ""
         # what other runs have has its own reason
-        if likely and name.rpartition("/")[2] not in {*SHOWN, *OF_BRANCHES, *self.GROUPS}:
+        of_others = name.rpartition("/")[2] in {*SHOWN, *OF_BRANCHES, *self.GROUPS} or self.is_cold(name)
+        if likely and not of_others:
             return missing + words
         return f"{missing}: {self.why_not(name)}" + words * any(each.endswith(f"/{name}") for each in likely)
 
@@ -262,6 +263,11 @@ class Run(Archive):
         }
         return [paths[each] for each in get_close_matches(name.rpartition("/")[2], paths, 1)]
 
+    def is_cold(self, name: str) -> bool:
+        """True for what a heat balance tells, of a run without one."""
+        thermal = self.input.get("thermal", {}).get("model", "none")
+        return name.endswith(("_temperature", "viscosity")) and thermal == "none"
+
     def why_not(self, name: str) -> str:
         """The reason why the run has no such dataset."""
         if self.bearings:
@@ -273,8 +279,7 @@ class Run(Archive):
             return f"pad motion is '{motion}'"
         if motion == "fixed" and any(each in name for each in OF_TILTING):
             return "pad motion is 'fixed'"
-        thermal = self.input.get("thermal", {}).get("model", "none")
-        if name.endswith(("_temperature", "viscosity")) and thermal == "none":
+        if self.is_cold(name):
             return "it has no heat balance (thermal%model = 'none')"
         if name.startswith("equilibrium") and (start := self.input.get("start", {}).get("from")):
             return f"it did not start at one (start%from = '{start}')"
