@@ -1,4 +1,4 @@
-!> Equilibria and closed orbits of machines, and where their shafts are, for tests.
+!> Equilibria and closed orbits of bearings and machines, and where shafts are, for tests.
 module machine_orbits
    use kinds, only: wp
    use errors, only: error_type
@@ -36,7 +36,7 @@ contains
       displacements = 1e6_wp*model%rotor%station_displacements([rotor, spread(0.0_wp, 1, size(rotor))])
    end function stations
 
-   !> The closed orbit of the machine, at tolerance.
+   !> The closed orbit that the motion from the equilibrium leads to, at tolerance.
    subroutine close_orbit(inputs, tolerance, model, found)
       type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: tolerance

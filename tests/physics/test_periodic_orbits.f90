@@ -7,14 +7,12 @@ program test_periodic_orbits
    use case_inputs, only: case_type
    use marching, only: march_options
    use cvode_integrator, only: integrator_type
-   use factories, only: converged_films
-   use equations_of_motion, only: machine_model, new_machine_model
-   use static_model, only: equilibrium_type
-   use equilibrium, only: find_equilibrium
+   use equations_of_motion, only: machine_model
    use force_balance, only: force_derivatives, masses, find_vibrations
    use orbit_polynomials, only: orbit_type
    use constant_orbit, only: newton_round
-   use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit, are_stable
+   use machine_orbits, only: close_orbit
+   use periodic_orbit, only: periodic_orbit_type, are_stable
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
 
@@ -48,27 +46,6 @@ contains
       inputs%film%cavitation = 'none'
    end function paper
 
-   !> The orbit that the motion from the equilibrium leads to.
-   subroutine find(inputs, tolerance, model, found)
-      type(case_type), intent(in) :: inputs
-      real(wp), intent(in) :: tolerance
-      type(machine_model), intent(out), target :: model
-      type(periodic_orbit_type), intent(out) :: found
-      type(equilibrium_type) :: static
-      type(march_options) :: options
-      type(error_type), allocatable :: error
-      model = new_machine_model(inputs, converged_films)
-      call find_equilibrium(model, static, error)
-      if (.not. allocated(error)) then
-         options%relative_tolerance = tolerance
-         options%absolute_tolerance = tolerance*model%scale
-         call find_periodic_orbit(model, options, model%static_state(static%rotor, static%tilt, &
-            & static%pivot_deflection), found, error)
-      end if
-      call expect_no_error(error, 'the orbit is found')
-      if (allocated(error)) call expect(.false., error%message)
-   end subroutine find
-
    !> Values of an independent program: to the digits given.
    subroutine published()
       type(machine_model) :: model
@@ -76,7 +53,7 @@ contains
       real(wp), allocatable :: y(:)
       real(wp) :: low(2), high(2)
       integer :: k
-      call find(paper('tilting_radial', 'none'), 1e-7_wp, model, found)
+      call close_orbit(paper('tilting_radial', 'none'), 1e-7_wp, model, found)
       call expect_close(found%orbit%start(1), -59.8566e-6_wp, 1e-10_wp, 'y at phase 0')
       call expect_close(found%orbit%start(2), -5.7793e-6_wp, 1e-10_wp, 'z at phase 0')
       low = huge(low)
@@ -110,7 +87,7 @@ contains
       logical :: ok
       inputs = paper(motion, 'none')
       inputs%rotor%unbalance = 0
-      call find(inputs, 1e-6_wp, model, found)
+      call close_orbit(inputs, 1e-6_wp, model, found)
       n = model%layout%n_positions()
       allocate (stiffness(n, n), damping(n, n), values(2*n))
       call model%evaluate(0.0_wp, found%orbit%start, .true., ok)
@@ -141,7 +118,7 @@ contains
       complex(wp), allocatable :: coarse(:), fine(:), finest(:)
       real(wp) :: errors(2)
       inputs = paper('tilting_radial', friction)
-      call find(inputs, tolerance, model, found)
+      call close_orbit(inputs, tolerance, model, found)
       coarse = found%multipliers
       fine = refined(model, found%orbit)
       fine = refined(model, found%orbit)
@@ -181,7 +158,7 @@ contains
       type(march_options) :: options
       type(integrator_type) :: integrator
       type(error_type), allocatable :: error
-      call find(paper('tilting_radial', friction), 1e-6_wp, model, found)
+      call close_orbit(paper('tilting_radial', friction), 1e-6_wp, model, found)
       options%relative_tolerance = 1e-8_wp
       options%absolute_tolerance = 1e-8_wp*model%scale
       call integrator%start(model, options, 0.0_wp, found%orbit%start, found%period, error)
