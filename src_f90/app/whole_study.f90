@@ -77,7 +77,8 @@ contains
          & merge(jobs, processors(), jobs > 0), runner, tally, path, error)
       if (allocated(error)) return
       call tell(study, tally, path, runs, quiet, failures, error)
-      if (share%of == 1 .or. stop_requested()) return
+      if (share%of == 1) return
+      if (stop_requested()) return
       call join_blocks(study, runner%place, share%of, of_joining)
       if (allocated(of_joining)) call move_alloc(of_joining, error)
    end subroutine perform_study
@@ -98,6 +99,7 @@ contains
       type(path_type), allocatable :: taken(:)
       integer, allocatable :: status(:)
       logical, allocatable :: wanted(:)
+      logical :: joined
       integer :: k, first, last
       first = share%first(study%runs)
       last = share%last(study%runs)
@@ -110,7 +112,9 @@ contains
       else
          call status_elsewhere(study, runner%place, status, error)
          if (allocated(error)) return
-         if (all(stays(status(first:last)) .and. .not. missing(first:last)) .and. .not. is_regular(path)) then
+         ! all is there in the file of the whole study, which has been joined
+         joined = .not. is_regular(path)
+         if (joined .and. all(stays(status(first:last)) .and. .not. missing(first:last))) then
             path = runner%place%name//'.h5'
             tally = new_tally(status(first:last))
             return
