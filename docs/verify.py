@@ -9,6 +9,7 @@ import tempfile
 import tiltpad
 import verify_coefficients
 import verify_film
+import verify_fits
 import verify_machines
 import verify_orbits
 import verify_warm
@@ -241,6 +242,17 @@ nine of ten and all are below these errors, and below these multiples of the est
 | | rotors | half | nine of ten | all | over the estimate: half | nine of ten | all |
 |---|---|---|---|---|---|---|---|
 {random_rotors}
+
+## Fits
+
+`tiltpad.fit` of three parameters at a time to the orbit of the paper's bearing with a friction coefficient of 0.1, 720
+values with 1 % of normal noise, from the middle of wide bounds, {seeds} times with other noise. Deviations are over the
+true value: the one told by a fit, and the root mean square of the errors. Of normal errors 95.4 % lie within two
+standard deviations, of 20 therefore 19.1 on average, and fewer than 17 of them with a probability of 1.2 %.
+
+| parameter | true | standard deviation | of the errors | within two standard deviations |
+|---|---|---|---|---|
+{fits}
 """  # noqa: E501
 
 # Converged equilibria: motion, rpm: y, z um, tilts mrad, minimum film thickness um, y by ROSS um.
@@ -270,6 +282,7 @@ TABLES = (
     *verify_orbits.TABLES,
     *verify_warm.TABLES,
     *verify_machines.TABLES,
+    *verify_fits.TABLES,
 )
 TIGHT = (
     "film%table_tolerance=2e-6",
@@ -320,7 +333,10 @@ def main(program):
         sys.exit(f"no rows of {', '.join(empty)}")
     closer = f"`{verify_coefficients.CLOSER[0]}`"
     tight = ", ".join(f"`{each}`" for each in TIGHT)
-    print(PAGE.format(closer=closer, tight=tight, times=verify_film.TIMES, **tables), end="")
+    print(
+        PAGE.format(closer=closer, tight=tight, times=verify_film.TIMES, seeds=verify_fits.SEEDS, **tables),
+        end="",
+    )
 
 
 main(sys.argv[1])

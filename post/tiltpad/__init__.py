@@ -32,6 +32,7 @@ from tiltpad.calculate.library import (
     pivot_load,
     pressure,
 )
+from tiltpad.calculate.measured import Measured
 from tiltpad.calculate.modes import Modes, modes
 from tiltpad.calculate.pivots import (
     friction_coefficient,
@@ -66,6 +67,7 @@ from tiltpad.files.archive import NotInRunError, RunError
 from tiltpad.files.namelist import write_case
 from tiltpad.files.read import IncompleteRunWarning, Run, of_run, read
 from tiltpad.files.study import Study, read_study
+from tiltpad.fitting import Fit, fit
 from tiltpad.running import MissingProgramError, run
 from tiltpad.sampling import sample
 from tiltpad.up_and_down import brute_force
@@ -75,11 +77,13 @@ __all__ = [
     "Collected",
     "Contact",
     "CriticalSpeed",
+    "Fit",
     "HeatBalance",
     "IncompleteRunWarning",
     "LibraryError",
     "Losses",
     "RunWarning",
+    "Measured",
     "MissingLibraryError",
     "MissingProgramError",
     "Modes",
@@ -104,6 +108,7 @@ __all__ = [
     "critical_speeds",
     "deviations",
     "envelope",
+    "fit",
     "friction_coefficient",
     "friction_force",
     "friction_power",

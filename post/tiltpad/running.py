@@ -64,14 +64,22 @@ def run(
     for group, values in overrides.items():
         if not isinstance(values, Mapping) and (likely := meant(group, ("overwrite", "quiet", "verify"))):
             raise ValueError(f"run has no option {group}{likely}")
-        for name, value in namelist.variables(group, values).items():
-            options += ["--set", f"{group}%{name}={namelist.written(value, namelist.is_varied(group, name))}"]
+    options += settings(overrides)
 
     def started(folder: Path) -> Run | Study:
         target = Path(output) if output is not None else folder / "result.h5"
         return result_of(case_file(case, folder), target, options)
 
     return in_temporary_folder(started)
+
+
+def settings(overrides: Groups) -> list[str]:
+    """The options of the program that set the values of these groups."""
+    options = []
+    for group, values in overrides.items():
+        for name, value in namelist.variables(group, values).items():
+            options += ["--set", f"{group}%{name}={namelist.written(value, namelist.is_varied(group, name))}"]
+    return options
 
 
 def case_file(case: "str | os.PathLike | Groups | None", folder: Path) -> str | os.PathLike:
