@@ -19,6 +19,9 @@ module run_summary
       & print_misalignment, print_figures, print_temperatures
    public :: print_march, print_cost
 
+   !> Reynolds number of a film above which it may be turbulent: published limits lie from here to 1500.
+   real(wp), parameter :: laminar = 500
+
 contains
 
    !> "bearing 'drive_end' at station 2: load y -19620.0, z 0.0 N, "
@@ -130,13 +133,19 @@ contains
          associate (pad => figures%pads(i))
             print '(a)', '  pad '//to_text(i)//': load '//fixed_text(pad%load, 1)//' N, loss ' &
                & //fixed_text(pad%power(), 1)//' W, oil in '//micro(pad%inlet)//', out '//micro(pad%outlet) &
-               & //' and at the sides '//micro(pad%side)//' ml/s'
+               & //' and at the sides '//micro(pad%side)//' ml/s, Reynolds number ' &
+               & //fixed_text(figures%reynolds_number(i), 1)
          end associate
       end do
       associate (pads => figures%pads)
          print '(a)', '  all pads: loss '//fixed_text(sum(pads%power()), 1)//' W, oil in '//micro(sum(pads%inlet)) &
             & //', at the sides '//micro(sum(pads%side))//' ml/s'//warmer(figures%rise_fresh, ', oil warmer by ', &
             & 'fresh at every pad')//warmer(figures%rise_side, ' to ', 'fresh for the sides alone')
+      end associate
+      associate (fastest => maxloc(figures%reynolds_number, dim=1))
+         if (figures%reynolds_number(fastest) > laminar) print '(a)', '  the film of pad '//to_text(fastest) &
+            & //' may be turbulent: its Reynolds number is above '//to_text(nint(laminar))//'; these films are ' &
+            & //'laminar, turbulent ones lose more power'
       end associate
 
    contains

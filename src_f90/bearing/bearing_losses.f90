@@ -26,8 +26,11 @@ module bearing_losses
       real(wp) :: journal_drag = 0, pad_drag = 0
       !> Flow in at the leading edge, out at the trailing edge and out at both sides, m^3/s.
       real(wp) :: inlet = 0, outlet = 0, side = 0
+      !> Over the arc, m.
+      real(wp) :: mean_film_thickness = 0
    contains
       procedure :: power
+      procedure :: reynolds_number
    end type pad_loss
 
    type :: bearing_losses_type
@@ -52,6 +55,14 @@ contains
       power = self%couette + self%pressure + self%boundary
    end function power
 
+   !> rho U h/mu with the mean film thickness, at a speed of the journal's surface, m/s; of oil of a density, kg/m^3,
+   !> and a viscosity, Pa s.
+   elemental real(wp) function reynolds_number(self, surface_speed, density, viscosity)
+      class(pad_loss), intent(in) :: self
+      real(wp), intent(in) :: surface_speed, density, viscosity
+      reynolds_number = density*abs(surface_speed)*self%mean_film_thickness/viscosity
+   end function reynolds_number
+
    !> Of every pad in a state, with the oil of each, the speed in rad/s. What a pad lacks whose film is closed or not
    !> found is no number.
    subroutine find(self, bearing, journal, pads, oil, speed, losses)
@@ -73,6 +84,7 @@ contains
             if (asperity%touches) motion%position = asperity%film_position
             call self%films(i)%find(motion, oil(i), speed, film)
             losses(i) = of_pad(pad, speed, film, asperity)
+            losses(i)%mean_film_thickness = pad%gap%mean_film_thickness(motion, pad%directions)
          end associate
       end do
    end subroutine find

@@ -25,6 +25,8 @@ module heat_balance_equations
       !> sense of rotation, rad.
       real(wp) :: eccentricity_ratio = 0, attitude_angle = 0
       type(pad_loss), allocatable :: pads(:)
+      !> Of each film.
+      real(wp), allocatable :: reynolds_number(:)
       !> K: of the oil of each film from the leading to the trailing edge; of all oil where the pads draw fresh oil
       !> alone, and where fresh oil replaces only what leaves at the sides. All heat stays in the oil.
       real(wp), allocatable :: temperature_rise(:)
@@ -320,6 +322,10 @@ contains
       figures%attitude_angle = attitude_angle(model%inputs, static%rotor)
       call find_losses(model, model%static_state(static%rotor, static%tilt, static%pivot_deflection), balance)
       figures%pads = balance%losses
+      associate (surface_speed => model%point%speed(0.0_wp)*model%inputs%bearing%journal_radius)
+         figures%reynolds_number = figures%pads%reynolds_number(surface_speed, model%inputs%oil%density, &
+            & static%viscosity)
+      end associate
       associate (pads => figures%pads, heat => model%inputs%oil%density*model%inputs%oil%specific_heat)
          ! oil that leaves at the sides is warmed half of the way
          figures%temperature_rise = rise(pads%power(), heat*(pads%inlet + pads%outlet)/2)

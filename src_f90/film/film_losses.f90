@@ -13,7 +13,7 @@ module film_losses
    use kinds, only: wp
    use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok, cavitation_none, &
       & cavitation_reynolds
-   use pad_gap, only: pad_gap_type, pad_directions
+   use pad_gap, only: pad_gap_type, pad_directions, over_arc
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type
    use direct_film, only: is_cavitated, share_of_modes
@@ -137,13 +137,6 @@ contains
             & *dot_product(motion%velocity, over_arc(d))
       end associate
    end subroutine full_film
-
-   !> Integrals of sine and cosine over the arc.
-   pure function over_arc(directions)
-      type(pad_directions), intent(in) :: directions
-      real(wp) :: over_arc(2)
-      over_arc = [directions%trailing(2) - directions%leading(2), directions%leading(1) - directions%trailing(1)]
-   end function over_arc
 
    !> The part of w that comes from the journal's rotation, m/s.
    pure function wedge_velocity(self, motion, speed)

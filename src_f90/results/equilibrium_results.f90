@@ -89,6 +89,7 @@ contains
          call list('side_flow', pads%side, 'm^3/s', 'flow out at both sides')
          call list('temperature_rise', figures%temperature_rise, 'K', &
             & 'warming of the oil from leading to trailing edge')
+         call list('reynolds_number', figures%reynolds_number, '1', 'rho U h/mu with the mean film thickness')
          call number('total_power_loss', sum(pads%power()), 'W', 'power loss of all pads')
          call number('total_inlet_flow', sum(pads%inlet), 'm^3/s', 'flow in at all leading edges')
          call number('total_outlet_flow', sum(pads%outlet), 'm^3/s', 'flow out at all trailing edges')

@@ -63,7 +63,7 @@ UNITS = """
 0 3 -1: total_side_flow
 1 0 -2: stiffness
 1 0 -1: damping
-0 0 0: pad_tilt mean_temperature maximum_temperature multiplier_real
+0 0 0: pad_tilt reynolds_number mean_temperature maximum_temperature multiplier_real
 """
 EXPONENTS = {
     name: [int(each) for each in exponents.split()]

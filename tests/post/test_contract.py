@@ -57,6 +57,7 @@ EQUILIBRIUM = {
     "equilibrium/outlet_flow": (("pad",), "m^3/s"),
     "equilibrium/side_flow": (("pad",), "m^3/s"),
     "equilibrium/temperature_rise": (("pad",), "K"),
+    "equilibrium/reynolds_number": (("pad",), "1"),
     "equilibrium/total_power_loss": ((), "W"),
     "equilibrium/total_inlet_flow": ((), "m^3/s"),
     "equilibrium/total_outlet_flow": ((), "m^3/s"),

@@ -48,7 +48,9 @@ contains
       type(journal_motion) :: journal
       type(pad_state) :: pads(2)
       type(film_motion) :: motion
-      integer :: i
+      integer, parameter :: points = 1000
+      real(wp) :: angles(points), mean
+      integer :: i, k
       call make('&pads arc_deg=69.3, 60, pivot_ratio=0.5, 0.6 /', model, losses)
       journal = journal_motion([-40e-6_wp, 5e-6_wp], [1e-3_wp, -2e-3_wp])
       pads = [pad_state(-1e-4_wp, 0.1_wp, 7e-6_wp, 1e-3_wp), pad_state(8e-4_wp, -0.1_wp, 6e-6_wp, 0.0_wp)]
@@ -67,6 +69,12 @@ contains
                & /pad%gap%pad_radius()), 2*film%couette, 1e-12_wp*film%couette, 'drag')
             call expect_close(speed*found(i)%journal_drag, film%couette + film%wedge, 1e-12_wp*film%couette, 'drive')
             call expect(.not. abs(found(i)%boundary) > 0, 'nothing touches')
+            ! the midpoint rule errs by (step of phi)^2/24 of what h varies
+            angles = [((k - 0.5_wp)/points*pad%gap%arc() - pad%gap%trailing_angle, k=1, points)]
+            mean = sum(pad%gap%thickness(motion, sin(angles), cos(angles)))/points
+            call expect_close(found(i)%mean_film_thickness, mean, 1e-7_wp*mean, 'mean film thickness')
+            call expect_close(found(i)%reynolds_number(speed*pad%gap%journal_radius, 860.0_wp, 0.02_wp), 860*speed &
+               & *pad%gap%journal_radius*mean/0.02_wp, 1e-3_wp, 'Reynolds number')
          end associate
       end do
       call expect(abs(found(1)%couette - found(2)%couette) > 1, 'the pads differ')

@@ -6,7 +6,7 @@ module pad_gap
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: pad_gap_type, pad_directions, film_motion
+   public :: pad_gap_type, pad_directions, film_motion, over_arc
 
    !> Geometry and boundary pressures of one pad's film.
    type :: pad_gap_type
@@ -23,6 +23,7 @@ module pad_gap
       procedure :: thickness
       procedure :: directions
       procedure :: min_film_thickness
+      procedure :: mean_film_thickness
       procedure :: thinnest_place
    end type pad_gap_type
 
@@ -103,6 +104,22 @@ contains
             & dot_product(motion%position, directions%trailing))
       end if
    end function min_film_thickness
+
+   !> Mean film thickness over the arc, m.
+   pure real(wp) function mean_film_thickness(self, motion, directions) result(h)
+      class(pad_gap_type), intent(in) :: self
+      type(film_motion), intent(in) :: motion
+      !> The pad's own, computed once.
+      type(pad_directions), intent(in) :: directions
+      h = self%machined_clearance - dot_product(motion%position, over_arc(directions))/self%arc()
+   end function mean_film_thickness
+
+   !> Integrals of sine and cosine over the arc.
+   pure function over_arc(directions)
+      type(pad_directions), intent(in) :: directions
+      real(wp) :: over_arc(2)
+      over_arc = [directions%trailing(2) - directions%leading(2), directions%leading(1) - directions%trailing(1)]
+   end function over_arc
 
    !> The direction (sin phi, cos phi) of the pad's thinnest place, and how fast it turns as the journal moves across
    !> it, 1/m: not at all at an edge.
