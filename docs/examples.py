@@ -3,6 +3,7 @@
 usage: examples.py TILTPAD FOLDER-FOR-RUNS
 """
 
+import contextlib
 import os
 import re
 import shutil
@@ -16,6 +17,8 @@ import numpy as np
 import tiltpad
 
 DOCS = Path(__file__).resolve().parent
+#: The section on fits, whose blocks of Python are run.
+FIT = "Which friction coefficient has my machine?"
 #: Inputs of the tolerances that the page speaks of.
 NAMES = ("assembled_clearance", "preload", "bristle_stiffness")
 
@@ -23,6 +26,27 @@ NAMES = ("assembled_clearance", "preload", "bristle_stiffness")
 def commands(page: str) -> list[str]:
     """The commands of a page, a line each."""
     return [line for block in re.findall(r"```sh\n(.*?)```", page, re.DOTALL) for line in block.splitlines()]
+
+
+def python(page: str, heading: str) -> list[str]:
+    """The blocks of Python of a section."""
+    section = page.partition(f"## {heading}")[2].partition("\n## ")[0]
+    return re.findall(r"```python\n(.*?)```", section, re.DOTALL)
+
+
+def fits(page: str, folder: Path) -> Iterator[str]:
+    """What the page says of its fits."""
+    names: dict = {}
+    with contextlib.chdir(folder):
+        for block in python(page, FIT):
+            exec(block, names)
+    fit, more = names["fit"], names["more"]
+    friction, stiffness, clearance = map(fit.in_words, range(3))
+    yield f"The friction coefficient is {friction}, the stiffness {stiffness}, the clearance {clearance},"
+    yield f"is now {more.in_words(0)}, and still found"
+    least = np.abs(more.correlation[1:, 1:]).min()
+    yield f"have correlations of {np.floor(1e3 * least) / 1e3:g} and more"
+    yield f"no better than to {1e6 * more.deviations[2]:.1f} µm"
 
 
 def figures(folder: Path) -> Iterator[str]:
@@ -98,7 +122,9 @@ def main() -> None:
     page = (DOCS / "examples.md").read_text()
     for line in commands(page):
         subprocess.run(["sh", "-c", line], check=True, cwd=folder, env=os.environ | {"PATH": path})
-    wrong = [words for words in (*figures(folder), *machines(folder)) if words not in page]
+    os.environ["TILTPAD"] = str(program)
+    found = (*figures(folder), *machines(folder), *fits(page, folder))
+    wrong = [words for words in found if words not in page]
     if wrong:
         sys.exit(f"docs/examples.md: other figures now: {wrong}")
     for picture in folder.glob("example_*.png"):

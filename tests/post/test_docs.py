@@ -55,12 +55,36 @@ def test_the_worked_examples(root, program, tmp_path):
         assert (root / "docs" / picture).exists()
 
 
+def python_of(root, heading):
+    """The blocks of Python of a section of the worked examples."""
+    section = (root / "docs/examples.md").read_text().partition(f"## {heading}")[2].partition("\n## ")[0]
+    return re.findall(r"```python\n(.*?)```", section, re.DOTALL)
+
+
+def test_the_worked_example_of_a_fit(root, program, tmp_path, monkeypatch, capsys):
+    """Its first fit has the figures of the page, and finds what was hidden; `make docs` runs the second."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("TILTPAD", str(program))
+    (tmp_path / "input").symlink_to(root / "input")
+    names: dict = {}
+    for block in python_of(root, "Which friction coefficient")[:2]:
+        exec(block, names)
+    fit = names["fit"]
+    error = fit.values - [0.12, 4e5, 82e-6]
+    # chi-squared of 3, 99.9 %
+    assert error @ np.linalg.inv(fit.covariance) @ error < 16.3
+    assert fit.in_words(0) in (root / "docs/examples.md").read_text()
+    assert capsys.readouterr().out.startswith("<tiltpad fit: 240 values")
+    assert (tmp_path / "example_fit.png").exists()
+    plots.plt.close("all")
+
+
 def test_the_worked_example_of_tolerances(root, program, tmp_path, monkeypatch, capsys):
     """A small one: its Python draws the table, the program runs it, and it answers which input matters."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("TILTPAD", str(program))
     (tmp_path / "input").symlink_to(root / "input")
-    draws, asks = re.findall(r"```python\n(.*?)```", (root / "docs/examples.md").read_text(), re.DOTALL)
+    draws, asks = python_of(root, "Tolerances")
     assert ", 256, " in draws
     exec(draws, {})
     whole = (tmp_path / "tolerances.csv").read_text()

@@ -106,6 +106,11 @@ def figures(folder):
     with result("cross.h5") as run:
         k = 1e-6 * tiltpad.coefficients(run, "free").stiffness[0]
         yield f"cross-coupled stiffness of {k[0, 1]:.0f} and {k[1, 0]:.0f} MN/m"
+    for size in ("small", "large"):
+        k = 1e-6 * tiltpad.impedance([result(f"{size}_{axis}.h5") for axis in "yz"]).stiffness[0]
+        yield f"{k[0, 0]:.0f} MN/m in the vertical and {k[0, 1]:.0f} MN/m across"
+    with result("linear.h5") as run:
+        yield f"freely have {1e-6 * tiltpad.coefficients(run, 'free').stiffness[0, 0, 0]:.0f} MN/m"
 
 
 def machine(folder):
