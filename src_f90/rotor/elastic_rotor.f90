@@ -83,9 +83,14 @@ contains
    pure function station_displacements(self, states) result(displacements)
       class(elastic_rotor_type), intent(in) :: self
       real(wp), intent(in) :: states(:)
-      real(wp) :: displacements(2, self%stations)
-      displacements = reshape(matmul(self%matrices%station, states(:self%positions)) &
-         & + self%matrices%station_offset, [2, self%stations])
+      real(wp) :: displacements(2, self%stations), flat(2*self%stations)
+      integer :: i
+      ! called for every sample: columns are added up faster than by matmul
+      flat = self%matrices%station_offset
+      do i = 1, self%positions
+         flat = flat + states(i)*self%matrices%station(:, i)
+      end do
+      displacements = reshape(flat, [2, self%stations])
    end function station_displacements
 
    pure function station_slopes(self, states) result(slopes)
