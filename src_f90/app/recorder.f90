@@ -1,6 +1,6 @@
 !> Watches a march: samples, checkpoints and progress go where they belong.
 module recorder
-   use kinds, only: wp, i8
+   use kinds, only: wp, i8, pi
    use text, only: to_text
    use errors, only: error_type, raise, stopped
    use marching, only: march_observer_type
@@ -8,6 +8,8 @@ module recorder
    use loops, only: periodicity, new_periodicity
    use bearing_samples, only: bearing_sample, take_sample
    use march_results, only: add_sample, put_spectra
+   use machine_results, only: put_turned_rotor
+   use result_size, only: sample_interval
    use bearing_file, only: bearing_file_type
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
@@ -124,7 +126,11 @@ contains
          call self%run%extremes(b)%add(self%taken(b))
       end do
       associate (rotor => self%run%model%rotor)
-         if (rotor%stations > 0) self%stations(:, :) = rotor%station_displacements(y(:rotor%states))
+         if (rotor%stations > 0) then
+            self%stations(:, :) = rotor%station_displacements(y(:rotor%states))
+            if (is_turned(self%taken(1), sample_interval(self%run%inputs))) call put_turned_rotor(self%run%file, t, &
+               & y(:rotor%states))
+         end if
       end associate
       call add_sample(self%run%file, self%bearings, self%taken, self%stations, &
          & self%run%model%point%excitation_forces(t), error)
@@ -136,6 +142,13 @@ contains
          end if
       end associate
    end subroutine record
+
+   !> Whether the shaft has turned whole revolutions at a sample, as closely as samples at this interval, s, are.
+   pure logical function is_turned(sample, interval)
+      type(bearing_sample), intent(in) :: sample
+      real(wp), intent(in) :: interval
+      is_turned = abs(sample%shaft_angle - 2*pi*anint(sample%shaft_angle/(2*pi))) <= 0.501_wp*sample%speed*interval
+   end function is_turned
 
    !> Writes the spectra of all bearings, from samples at this interval, s.
    subroutine put_all_spectra(self, interval)

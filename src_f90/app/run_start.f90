@@ -4,7 +4,6 @@ module run_start
    use text, only: to_text
    use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
    use files, only: real_path
-   use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
    use static_model, only: equilibrium_type
    use bearing_equilibrium, only: find_partial_equilibrium
@@ -75,7 +74,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> The equilibrium, if it was sought.
       real(wp), allocatable, intent(out), optional :: equilibrium_state(:)
-      type(journal_motion) :: journal
+      real(wp), allocatable :: rotor(:)
       type(pad_state), allocatable :: pads(:)
       logical :: ok
       associate (model => run%model, from => run%inputs%start%from)
@@ -85,19 +84,22 @@ contains
             if (.not. allocated(error)) call note_oil(run)
             if (present(equilibrium_state) .and. .not. allocated(error)) equilibrium_state = y
             if (allocated(error) .or. .not. run%inputs%is_disturbed()) return
-            journal = model%rotor%journal(y(:model%rotor%states), 1)
+            rotor = y(:model%rotor%states)
             pads = model%layout%bearings(1)%pad_states(y)
          else
-            allocate (pads(model%layout%pads))
-            if (from == 'file') call start_from_file(run, journal, pads, error)
+            allocate (pads(model%layout%pads), rotor(model%rotor%states))
+            rotor = 0
+            if (from == 'file') call start_from_file(run, rotor, pads, error)
             if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, .false., error, equilibrium_state)
-            if (from == 'partial') call start_partially(run, journal, pads, error)
+            if (from == 'partial') call start_partially(run, rotor, pads, error)
             if (.not. allocated(error)) call create_file(run, error)
             if (allocated(error)) return
             call note_oil(run)
          end if
-         call disturb(run, journal, pads)
-         y = model%state(journal, pads)
+         call disturb(run, rotor, pads)
+         if (.not. allocated(y)) allocate (y(model%n))
+         y(:size(rotor)) = rotor
+         call model%layout%put_all_pads(pads, y)
          call model%evaluate(0.0_wp, y, .false., ok)
          if (.not. ok) then
             call raise(error, numerics_error, model%refusal)
@@ -106,7 +108,7 @@ contains
          end if
       end associate
       run%computed = .true.
-      if (.not. run%quiet) call print_start(run%inputs, journal%position, pads%tilt)
+      if (.not. run%quiet) call print_start(run%inputs, rotor, pads%tilt)
    end subroutine make_start
 
    !> Writes the viscosities of warm oil at the start of the march, and their course where they change. A branch has
@@ -183,9 +185,9 @@ contains
    end subroutine continue_from_checkpoint
 
    !> The last state of another result.
-   subroutine start_from_file(run, journal, pads, error)
+   subroutine start_from_file(run, rotor, pads, error)
       type(case_run_type), intent(in) :: run
-      type(journal_motion), intent(inout) :: journal
+      real(wp), intent(out) :: rotor(:)
       type(pad_state), intent(inout) :: pads(:)
       type(error_type), allocatable, intent(out) :: error
       associate (file => run%inputs%start%file)
@@ -193,16 +195,16 @@ contains
             call raise(error, input_error, 'start%file = '''//file//''': is the result of this run itself; name ' &
                & //'another with --output')
          else
-            call read_last_state(file, run%model%layout%bearings(1), journal, pads, error)
+            call read_last_state(file, run%inputs, run%model%layout, rotor, pads, error)
             call add_context(error, 'start%file')
          end if
       end associate
    end subroutine start_from_file
 
    !> Journal and loaded pads in equilibrium, and pads without equilibrium held at zero tilt on their pivots.
-   subroutine start_partially(run, journal, pads, error)
+   subroutine start_partially(run, rotor, pads, error)
       type(case_run_type), intent(inout) :: run
-      type(journal_motion), intent(inout) :: journal
+      real(wp), intent(inout) :: rotor(:)
       type(pad_state), intent(inout) :: pads(:)
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_type) :: static
@@ -211,7 +213,7 @@ contains
       call find_partial_equilibrium(run%model, static, held, error, stop_requested)
       call say_nothing_computed(error)
       if (allocated(error)) return
-      journal%position = static%rotor
+      rotor(:size(static%rotor)) = static%rotor
       pads%tilt = static%tilt
       pads%pivot_deflection = static%pivot_deflection
       run%model%oil%viscosity = static%viscosity
@@ -221,14 +223,14 @@ contains
       end do
    end subroutine start_partially
 
-   !> Adds the values of the group.
-   pure subroutine disturb(run, journal, pads)
+   !> Adds the values of the group, which are for a rigid journal.
+   pure subroutine disturb(run, rotor, pads)
       type(case_run_type), intent(in) :: run
-      type(journal_motion), intent(inout) :: journal
+      real(wp), intent(inout) :: rotor(:)
       type(pad_state), intent(inout) :: pads(:)
+      if (run%inputs%is_machine()) return
       associate (s => run%inputs%start)
-         journal%position = journal%position + s%journal
-         journal%velocity = journal%velocity + s%journal_velocity
+         rotor = rotor + [s%journal, s%journal_velocity]
          pads%tilt = pads%tilt + s%pad_tilt
          pads%tilt_rate = pads%tilt_rate + s%pad_tilt_rate
          pads%pivot_deflection = pads%pivot_deflection + s%pivot_deflection

@@ -72,15 +72,25 @@ contains
       if (size_note(inputs, 1) /= '') print '(a)', size_note(inputs, 1)
    end subroutine print_notes
 
-   !> Where a march starts that does not start at the equilibrium itself; journal, m, tilts, rad.
-   subroutine print_start(inputs, journal, tilt)
+   !> Where a march starts that does not start at the equilibrium itself: displacements of the journals, which stand
+   !> first, m, and tilts of the pads of all bearings, rad.
+   subroutine print_start(inputs, journals, tilt)
       type(case_type), intent(in) :: inputs
-      real(wp), intent(in) :: journal(2), tilt(:)
-      character(len=:), allocatable :: tilts
-      tilts = ''
-      if (inputs%tilting()) tilts = ', tilts '//list_text(1e3_wp*tilt, 4)//' mrad'
-      print '(a)', 'start from '''//inputs%start%from//''': journal y '//micro(journal(1))//', z ' &
-         & //micro(journal(2))//' um'//tilts
+      real(wp), intent(in) :: journals(:), tilt(:)
+      type(case_type) :: own
+      character(len=:), allocatable :: tilts, of
+      integer :: b, before
+      before = 0
+      do b = 1, inputs%bearing_count()
+         own = inputs%of_bearing(b)
+         of = ''
+         if (inputs%is_machine()) of = bearing_title(inputs, b)
+         tilts = ''
+         if (own%tilting()) tilts = ', tilts '//list_text(1e3_wp*tilt(before + 1:before + own%pad_count()), 4)//' mrad'
+         before = before + own%pad_count()
+         print '(a)', 'start from '''//inputs%start%from//''': '//of//'journal y '//micro(journals(2*b - 1))//', z ' &
+            & //micro(journals(2*b))//' um'//tilts
+      end do
    end subroutine print_start
 
    !> An equilibrium of a bearing, behind this title, and the stability of one that is alone.

@@ -112,7 +112,7 @@ contains
          sample = sample_of(k, n, file%samples, run%inputs%output%samples_per_revolution)
          call file%part_of_samples('time', sample, 1, at)
          time(k) = at(1, 1)
-         call read_states(file%hdf5, run%model%layout%bearings(1), sample, journal, pads)
+         call read_states(file%hdf5, '', run%model%layout%bearings(1), sample, journal, pads)
          call file%error_of(error)
          if (.not. allocated(error) .and. .not. all_finite(journal, pads)) call raise(error, system_error, run%path &
             & //': damaged: a state is not a number')

@@ -22,9 +22,8 @@ contains
          call check_bearings(machine, error)
          call check_parts(machine, inputs%excitations, error)
          call check_supports(machine, error)
-         ! samples have no velocities of the stations
-         call require(s%from == 'equilibrium', 'start%from = '''//s%from//''': must be ''equilibrium'' for a machine', &
-            & error)
+         call require(any(s%from == ['equilibrium', 'file       ']), 'start%from = '''//s%from//''': must be ' &
+            & //'''equilibrium'' or ''file'' for a machine', error)
          if (abs(q) > 0) call refuse('coefficients%cross_stiffness = '//to_text(q)//': must be 0 for a machine', error)
       end associate
    end subroutine check_machine

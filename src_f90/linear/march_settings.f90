@@ -14,9 +14,9 @@ module march_settings
    real(wp), parameter :: rigid_tolerance = 0.3_wp
    !> And with friction over those without: what its moment errs by is above what the states do.
    real(wp), parameter :: friction_tolerance = 0.5_wp
-   !> And of an elastic rotor: in its light vibrations above the speed BDF of the orders 3 to 5 is unstable, so that they
-   !> go on as large as the error test lets them. Run-ups of docs/benchmarks.md, over the largest amplitude: errors of
-   !> 1e-3 to 3e-3 with 1, of 3e-4 to 6e-4 with 0.1, for a fifth more steps.
+   !> And of an elastic rotor: in its light vibrations above the speed BDF of the orders 3 to 5 is unstable, so that
+   !> they go on as large as the error test lets them. The run-up of tests/bench/machines.py errs by 3e-3 of its largest
+   !> amplitude with 1, and by 3e-4 with 0.1, for a quarter more steps.
    real(wp), parameter :: elastic_tolerance = 0.1_wp
 
    !> Steps in a revolution from which on low orders are tried. Of 70 cases of the stress test (seed 1) with lightly

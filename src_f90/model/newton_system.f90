@@ -46,8 +46,8 @@ module newton_system
       procedure :: jacobian
    end type newton_system_type
 
-   !> A change of the speed, over the speed, that leaves the condensed rotor as it is: gyroscopic moments that are off by
-   !> so little slow the convergence by no more.
+   !> A change of the speed, over the speed, that leaves the condensed rotor as it is: gyroscopic moments that are off
+   !> by so little slow the convergence by no more.
    real(wp), parameter :: same_speed = 1e-3_wp
 
 contains
@@ -167,8 +167,9 @@ contains
       real(wp) :: kept(size(u) - self%rotor + self%journals)
       ok = .true.
       associate (last => self%condensed)
-         if (abs(last%gamma - gamma) > 0 .or. abs(last%speed - self%speed) > same_speed*abs(self%speed)) &
-            & call condense(self, rotor, gamma, ok)
+         if (abs(last%gamma - gamma) > 0 .or. abs(last%speed - self%speed) > same_speed*abs(self%speed)) then
+            call condense(self, rotor, gamma, ok)
+         end if
       end associate
       if (.not. ok) return
       associate (n => self%journals, m => self%rotor)

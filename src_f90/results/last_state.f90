@@ -6,9 +6,11 @@ module last_state
    use errors, only: error_type, raise, system_error
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
+   use case_inputs, only: case_type
    use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
-   use state_layout, only: pads_layout_type
+   use state_layout, only: state_layout_type, pads_layout_type
+   use machine_results, only: bearing_group, turned_time, turned_state
    use restart, only: restart_type, read_result, open_result
    implicit none (type, external)
    private
@@ -19,59 +21,146 @@ module last_state
 
 contains
 
-   !> The motion of the journal and the states of the pads in the last sample of a result at which the shaft had turned
-   !> whole revolutions, as closely as samples are: so the unbalance goes on from where it was. The result must have
-   !> the states of this layout.
-   subroutine read_last_state(path, layout, journal, pads, error)
+   !> The states of rotor and pads in the last sample of a result at which the shaft had turned whole revolutions, as
+   !> closely as samples are: so the unbalance goes on from where it was. The result must have the states of this case,
+   !> whose layout this is; of the modes of a shaft it may have fewer or more.
+   subroutine read_last_state(path, inputs, layout, rotor, pads, error)
       character(len=*), intent(in) :: path
-      type(pads_layout_type), intent(in) :: layout
-      type(journal_motion), intent(inout) :: journal
+      type(case_type), intent(in) :: inputs
+      type(state_layout_type), intent(in) :: layout
+      !> Displacements of the rotor, then their rates; states of the pads of all bearings.
+      real(wp), intent(out) :: rotor(:)
       type(pad_state), intent(inout) :: pads(:)
       type(error_type), allocatable, intent(out) :: error
       type(restart_type) :: found
       type(hdf5_type) :: file
+      type(journal_motion) :: journal
       integer(i8) :: at
+      integer :: b
+      rotor = 0
       call read_result(path, found, error)
       if (.not. allocated(error)) call open_result(path, file, error)
       if (allocated(error)) return
-      call refuse_other_states(path, file, found, layout, error)
+      call refuse_other_rotor(path, found%inputs, inputs, error)
+      do b = 1, size(layout%bearings)
+         if (.not. allocated(error)) call refuse_other_pads(path, found%inputs%of_bearing(b), layout%bearings(b), error)
+      end do
+      if (.not. allocated(error)) call refuse_no_samples(path, file, error)
       if (.not. allocated(error)) then
          at = last_whole_turn(file, found%inputs%output%samples_per_revolution)
-         call read_states(file, layout, at, journal, pads)
+         if (inputs%is_machine()) call read_turned_rotor(file, 2*size(layout%bearings), at, rotor)
+         do b = 1, size(layout%bearings)
+            associate (own => layout%bearings(b))
+               call read_states(file, bearing_group(inputs, b), own, at, journal, &
+                  & pads(own%other_pads + 1:own%other_pads + own%pads))
+            end associate
+         end do
+         if (.not. inputs%is_machine()) rotor = [journal%position, journal%velocity]
          if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       end if
       call file%close()
-      if (.not. allocated(error) .and. .not. all_finite(journal, pads)) call raise(error, system_error, path &
-         & //': damaged: its last state is not a number')
+      if (allocated(error) .or. all(ieee_is_finite(rotor)) .and. all_finite(journal, pads)) return
+      call raise(error, system_error, path//': damaged: its last state is not a number')
    end subroutine read_last_state
 
-   !> Refuses a result without samples, or whose pads have other states.
-   subroutine refuse_other_states(path, file, found, layout, error)
+   !> Refuses a rotor whose displacements are others: in other bearings, or on other supports.
+   subroutine refuse_other_rotor(path, there, here, error)
       character(len=*), intent(in) :: path
-      class(hdf5_type), intent(inout) :: file
-      type(restart_type), intent(in) :: found
+      type(case_type), intent(in) :: there, here
+      type(error_type), allocatable, intent(out) :: error
+      logical :: same
+      integer :: b
+      same = there%is_machine() .eqv. here%is_machine()
+      if (same .and. here%is_machine()) same = there%bearing_count() == here%bearing_count()
+      if (.not. same) then
+         call raise(error, system_error, path//': has '//rotor_text(there)//', and this case '//rotor_text(here) &
+            & //'; no start for it')
+         return
+      end if
+      if (.not. here%is_machine()) return
+      do b = 1, here%bearing_count()
+         associate (one => there%machine%bearings(b), own => here%machine%bearings(b))
+            if (one%name /= own%name) then
+               call raise(error, system_error, path//': has the bearing '//one%name//' where this case has '//own%name &
+                  & //'; no start for it')
+            else if (allocated(one%support) .neqv. allocated(own%support)) then
+               call raise(error, system_error, path//': the bearing '//own%name//' stands on a support there or in ' &
+                  & //'this case, not in both; no start for it')
+            end if
+         end associate
+         if (allocated(error)) return
+      end do
+   end subroutine refuse_other_rotor
+
+   pure function rotor_text(inputs) result(text)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: text
+      text = 'a rigid journal in one bearing'
+      if (inputs%is_machine()) text = 'a shaft in '//to_text(inputs%bearing_count())//' bearings'
+   end function rotor_text
+
+   !> Refuses the result of a bearing whose pads have other states.
+   subroutine refuse_other_pads(path, there, layout, error)
+      character(len=*), intent(in) :: path
+      type(case_type), intent(in) :: there
       type(pads_layout_type), intent(in) :: layout
       type(error_type), allocatable, intent(out) :: error
-      type(hdf5_series_type) :: time
       logical :: bristles
-      bristles = found%inputs%friction%model == 'lugre'
-      if (found%inputs%pad_count() /= layout%pads) then
-         call raise(error, system_error, path//': has '//to_text(found%inputs%pad_count())//' pads, and this case ' &
+      bristles = there%friction%model == 'lugre'
+      if (there%pad_count() /= layout%pads) then
+         call raise(error, system_error, path//': has '//to_text(there%pad_count())//' pads, and this case ' &
             & //to_text(layout%pads)//'; no start for it')
-      else if (any([found%inputs%tilting(), found%inputs%tilting_radial()] .neqv. [layout%tilting, layout%radial])) then
-         call raise(error, system_error, path//': has pads%motion = '''//found%inputs%pads%motion &
+      else if (any([there%tilting(), there%tilting_radial()] .neqv. [layout%tilting, layout%radial])) then
+         call raise(error, system_error, path//': has pads%motion = '''//there%pads%motion &
             & //''', and this case another; no start for it')
       else if (bristles .neqv. layout%bristles) then
-         call raise(error, system_error, path//': has friction%model = '''//found%inputs%friction%model//''', which ' &
+         call raise(error, system_error, path//': has friction%model = '''//there%friction%model//''', which ' &
             & //trim(merge('has   ', 'has no', bristles))//' bristle deflections; no start for this case')
-      else
-         if (file%has('time')) then
-            call time%open(file, 'time')
-            call time%close(file)
-         end if
-         if (time%length == 0) call raise(error, system_error, path//': has no samples of a motion to start from')
       end if
-   end subroutine refuse_other_states
+   end subroutine refuse_other_pads
+
+   !> Refuses a result without samples.
+   subroutine refuse_no_samples(path, file, error)
+      character(len=*), intent(in) :: path
+      class(hdf5_type), intent(inout) :: file
+      type(error_type), allocatable, intent(out) :: error
+      type(hdf5_series_type) :: time
+      if (file%has('time')) then
+         call time%open(file, 'time')
+         call time%close(file)
+      end if
+      if (time%length == 0) call raise(error, system_error, path//': has no samples of a motion to start from')
+   end subroutine refuse_no_samples
+
+   !> The states of the rotor of a machine, kept where the shaft had turned whole revolutions, and the number, from 0,
+   !> of this sample. Behind the first displacements, `fixed` in number and those of supports, stand the modes: those
+   !> that are not in the file stay 0, and those that the case does not have are left out.
+   subroutine read_turned_rotor(file, fixed, at, rotor)
+      class(hdf5_type), intent(inout) :: file
+      integer, intent(in) :: fixed
+      integer(i8), intent(out) :: at
+      real(wp), intent(inout) :: rotor(:)
+      type(hdf5_series_type) :: series
+      real(wp), allocatable :: time(:, :), found(:)
+      real(wp) :: turned
+      integer :: own, other, both
+      at = 0
+      other = file%list_size(turned_state)/2
+      if (other < fixed) call file%check_read(-1, 'read '//turned_state)
+      if (allocated(file%failure)) return
+      allocate (found(2*other))
+      call file%get_list(turned_state, found)
+      turned = file%get_real(turned_time)
+      call series%open(file, 'time')
+      call series%read(file, 0_i8, int(series%length), time)
+      call series%close(file)
+      if (allocated(file%failure)) return
+      at = minloc(abs(time(1, :) - turned), dim=1) - 1
+      own = size(rotor)/2
+      both = min(own, other)
+      rotor(:both) = found(:both)
+      rotor(own + 1:own + both) = found(other + 1:other + both)
+   end subroutine read_turned_rotor
 
    !> Number of the sample, from 0, in which the shaft has turned whole revolutions, of the last revolution.
    integer(i8) function last_whole_turn(file, samples_per_revolution) result(at)
@@ -95,9 +184,10 @@ contains
       at = series%length - n + findloc(beside <= minval(beside) + same_angle, .true., dim=1, back=.true.) - 1
    end function last_whole_turn
 
-   !> The states in a sample; the file keeps a failure where one is not there.
-   subroutine read_states(file, layout, at, journal, pads)
+   !> The states in a sample of the bearing of a group; the file keeps a failure where one is not there.
+   subroutine read_states(file, group, layout, at, journal, pads)
       class(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: group
       type(pads_layout_type), intent(in) :: layout
       integer(i8), intent(in) :: at
       type(journal_motion), intent(inout) :: journal
@@ -123,7 +213,7 @@ contains
          real(wp), intent(inout) :: values(:)
          type(hdf5_series_type) :: series
          real(wp), allocatable :: found(:, :)
-         call series%open(file, name)
+         call series%open(file, group//name)
          if (.not. allocated(file%failure)) then
             if (series%width /= size(values) .or. series%length <= at) call file%check_read(-1, 'find '//name)
          end if

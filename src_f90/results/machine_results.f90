@@ -9,9 +9,11 @@ module machine_results
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
    private
-   public :: bearing_group, put_bearings, put_machine, put_machine_equilibrium
+   public :: bearing_group, put_bearings, put_machine, put_machine_equilibrium, put_turned_rotor, turned_time, turned_state
 
    character(len=*), parameter :: group = 'rotor/'
+   !> Where the state is from which another march may start, and its time.
+   character(len=*), parameter :: turned_time = group//'turned_time', turned_state = group//'turned_state'
 
 contains
 
@@ -43,6 +45,17 @@ contains
       call file%put_list(group//'pad', [(real(i, wp), i=1, inputs%pad_count())], '1', 'pad number', group//'pad')
       call file%put_list(group//'pivot_angle', inputs%pads%pivot_angle_deg*degree, 'rad', 'pivot angle', group//'pad')
    end subroutine put_pads
+
+   !> Keeps the state of the rotor of a machine at time t, s, where the shaft has turned whole revolutions: another
+   !> march may start there, for which samples of stations do not suffice.
+   subroutine put_turned_rotor(file, t, states)
+      class(record_type), intent(inout) :: file
+      real(wp), intent(in) :: t, states(:)
+      call file%put_real(turned_time, t, 's', 'time of the last sample at which the shaft had turned ' &
+         & //'whole revolutions')
+      call file%put_list(turned_state, states, '1', 'state of the rotor at that time: displacements, then rates', &
+         & '')
+   end subroutine put_turned_rotor
 
    !> Writes the rotor of a machine with its bearings; nothing of a rigid journal.
    subroutine put_machine(file, inputs, rotor)

@@ -4,6 +4,7 @@ module restart
    use text, only: to_text, replaced
    use errors, only: error_type, raise, add_context, system_error, numerics_error
    use case_inputs, only: case_type
+   use read_files, only: file_marks, changed_file
    use variable_table, only: variable_type, variable_table_type
    use case_fields, only: list_variables, checkpoint_variable
    use case_namelist, only: case_from_text
@@ -22,6 +23,8 @@ module restart
    type :: restart_type
       !> Resolved namelist of the run.
       type(case_type) :: inputs
+      !> What it has read from other files.
+      character(len=:), allocatable, private :: files
       !> Which run of a study it is.
       type(run_tag) :: tag
       !> True where an earlier version of the program wrote it; the rest is not known then.
@@ -71,6 +74,8 @@ contains
       end if
       call file%get_flag('complete', complete)
       call file%get_text('input', input)
+      found%files = ''
+      if (file%has_attribute('file_marks')) call file%get_text('file_marks', found%files)
       found%checkpoint = file%has('checkpoint/time')
       if (file%has('summary/'//states_figure)) found%verified_states = file%get_real('summary/'//states_figure)
       found%reason = ''
@@ -216,6 +221,7 @@ contains
       type(restart_type), intent(in) :: found
       type(error_type), allocatable, intent(out) :: error
       type(variable_table_type) :: here, there
+      character(len=:), allocatable :: changed
       integer :: i
       call list_variables(ours, here)
       call list_variables(found%inputs, there)
@@ -232,6 +238,12 @@ contains
             return
          end associate
       end do
+      changed = changed_file(file_marks(ours), found%files)
+      if (changed /= '') then
+         call raise(error, system_error, path//': is the result of another case; the file that '//changed &
+            & //' names has changed since')
+         return
+      end if
       if (tag%number == 0) then
          if (found%tag%number > 0 .and. .not. go_on) call raise(error, system_error, path//': is run ' &
             & //to_text(found%tag%number)//' of a study')

@@ -39,7 +39,10 @@ ADDED = {
         "support:left%mass = 0: must be above 0, kg",
     ),
     "many bearings": (HUNDRED_BEARINGS, "case.nml: 102 groups &bearing with names; a machine has at most 20"),
-    "start": ("&start from='file' /", "case.nml: start%from = 'file': must be 'equilibrium' for a machine"),
+    "start": (
+        "&start from='centred' /",
+        "case.nml: start%from = 'centred': must be 'equilibrium' or 'file' for a machine",
+    ),
     "end": ("&disc station=14 /", "disc(2)%station = 14: must be 1 to 13"),
     "same station": (
         "&bearing name='x', station=2 /",
