@@ -4,6 +4,7 @@ module run_start
    use text, only: to_text
    use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
    use files, only: real_path
+   use read_files, only: file_marks, marks_name
    use kinematics, only: pad_state
    use static_model, only: equilibrium_type
    use bearing_equilibrium, only: find_partial_equilibrium
@@ -30,8 +31,11 @@ contains
    subroutine create_file(run, error)
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: files
       call run%file%start(run%inputs, namelist_of(run%inputs), error)
       if (allocated(error)) return
+      files = file_marks(run%inputs)
+      if (files /= '') call run%file%put_text(marks_name, files)
       call put_machine(run%file, run%inputs, run%model%rotor)
       call put_excitations(run%file, size(run%inputs%excitations))
       if (run%tag%number > 0) call run%file%put_tag(run%tag)

@@ -5,8 +5,10 @@ module read_files
    use case_inputs, only: case_type
    implicit none (type, external)
    private
-   public :: file_marks, changed_file
+   public :: file_marks, changed_file, marks_name
 
+   !> What the list of marks is called in a result.
+   character(len=*), parameter :: marks_name = 'file_marks'
    character(len=*), parameter :: newline = achar(10)
 
 contains

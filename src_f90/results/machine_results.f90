@@ -9,7 +9,8 @@ module machine_results
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
    private
-   public :: bearing_group, put_bearings, put_machine, put_machine_equilibrium, put_turned_rotor, turned_time, turned_state
+   public :: bearing_group, put_bearings, put_machine, put_machine_equilibrium, put_turned_rotor, turned_time, &
+      & turned_state
 
    character(len=*), parameter :: group = 'rotor/'
    !> Where the state is from which another march may start, and its time.

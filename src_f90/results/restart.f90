@@ -4,7 +4,7 @@ module restart
    use text, only: to_text, replaced
    use errors, only: error_type, raise, add_context, system_error, numerics_error
    use case_inputs, only: case_type
-   use read_files, only: file_marks, changed_file
+   use read_files, only: file_marks, changed_file, marks_name
    use variable_table, only: variable_type, variable_table_type
    use case_fields, only: list_variables, checkpoint_variable
    use case_namelist, only: case_from_text
@@ -75,7 +75,7 @@ contains
       call file%get_flag('complete', complete)
       call file%get_text('input', input)
       found%files = ''
-      if (file%has_attribute('file_marks')) call file%get_text('file_marks', found%files)
+      if (file%has_attribute(marks_name)) call file%get_text(marks_name, found%files)
       found%checkpoint = file%has('checkpoint/time')
       if (file%has('summary/'//states_figure)) found%verified_states = file%get_real('summary/'//states_figure)
       found%reason = ''

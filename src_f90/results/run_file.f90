@@ -6,7 +6,6 @@ module run_file
    use kinds, only: wp, i8, pi
    use errors, only: error_type, raise, system_error
    use case_inputs, only: case_type
-   use read_files, only: file_marks
    use parameter_study, only: run_tag
    use record, only: record_type
    use record_file, only: write_record
@@ -69,7 +68,6 @@ contains
       character(len=*), intent(in) :: input
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: files
       self%keep = inputs%output%keep
       self%wanted = figure_samples(inputs)
       if (self%filed) then
@@ -84,8 +82,6 @@ contains
       call self%put_text('title', inputs%about%title)
       call self%put_text('task', inputs%about%task)
       call self%put_text('input', input)
-      files = file_marks(inputs)
-      if (files /= '') call self%put_text('file_marks', files)
       call put_bearings(self, inputs)
       if (inputs%about%task /= 'branch') call put_figure(self, 'speed', inputs%operation%speed_rpm*pi/30, 'rad/s', &
          & 'shaft speed at the end')

@@ -1,5 +1,7 @@
-"""Machines that are stopped and go on, and marches that start from other results: they end as those that were not
-disturbed, and what no longer fits is refused in one line."""
+"""Machines that are stopped and go on, and marches that start from other results.
+
+They end as those that were not disturbed, and what no longer fits is refused in one line.
+"""
 
 import shutil
 import signal
@@ -84,9 +86,12 @@ def test_a_branch_goes_on_to_the_bit(run, start, tiltpad, tmp_path):
             assert one.attrs[name] == other.attrs[name], name
 
 
-GIVEN = "&operation speed_rpm=600, duration=1000 /\n&rotor file='rotor.h5' /\n&unbalance station=3, moment=1e-3 /\n" + (
-    "&bearing name='a', station=1 /\n&bearing name='b', station=5 /\n"
-)
+GIVEN = """&operation speed_rpm=600, duration=1000 /
+&rotor file='rotor.h5' /
+&unbalance station=3, moment=1e-3 /
+&bearing name='a', station=1 /
+&bearing name='b', station=5 /
+"""
 TABLE = "&operation speed_rpm=600, duration=1000 /\n&excitation kind='table', file='force.csv' /\n"
 
 
@@ -113,11 +118,10 @@ def test_a_file_that_has_changed_is_no_way_on(start, tiltpad, tmp_path, case, ma
     (tmp_path / "case.nml").write_text(case.replace("1000", repr(shorten(path))))
     make(tmp_path, 1e-15)
     line = tiltpad("--resume", "case.h5", "-q", cwd=tmp_path, status=3).stderr
-    assert line == (
-        f"tiltpad: error: case.h5: is the result of another case; the file that {variable} names has changed since\n"
-    )
+    why = f"is the result of another case; the file that {variable} names has changed since"
+    assert line == f"tiltpad: error: case.h5: {why}\n"
     line = tiltpad("case.nml", "-q", cwd=tmp_path, status=3).stderr
-    assert f"the file that {variable} names has changed since; --overwrite replaces it" in line
+    assert f"{why}; --overwrite replaces it" in line
     make(tmp_path, 0.0)
     tiltpad("--resume", "case.h5", "-q", cwd=tmp_path, status=0)
     with h5py.File(path) as file:
@@ -171,13 +175,13 @@ def test_a_start_with_other_modes(tiltpad, orbit):
 
 #: What starts from the result of the machine, and what the line says.
 REFUSED = {
-    "one bearing": ("", (), "has a shaft in 2 bearings, and this case a rigid journal in one bearing"),
+    "one bearing": ("", (), "has a shaft in 2 bearings, and this case a rigid journal"),
     "more bearings": (
         MACHINE + "&bearing name='third', station=6 /\n", (),
         "has a shaft in 2 bearings, and this case a shaft in 3 bearings",
     ),
-    "other names": (MACHINE.replace("left", "free_end"), (), "has the bearing left where this case has free_end"),
-    "no support": (MACHINE[: MACHINE.index("&support")], (), "the bearing right stands on a support there or in"),
+    "other names": (MACHINE.replace("left", "free"), (), "has the bearing left where this case has free"),
+    "no support": (MACHINE[: MACHINE.index("&support")], (), "bearing right stands on a support there or in"),
     "pads": (MACHINE, ("pads:left%pivot_angle_deg=-90",), "has 2 pads, and this case 1"),
     "bristles": (MACHINE, ("friction:right%model='lugre'",), "has no bristle deflections"),
 }  # fmt: skip
