@@ -27,7 +27,7 @@ def films(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray]:
     bearing, pads = run.input["bearing"], run.input["pads"]
     part = tiltpad.last_revolutions(run)
     time, speed = run.values("time", part), run.values("speed", part)
-    journal_radius, clearance = bearing["journal_radius"], bearing["machined_clearance"]
+    journal_radius, clearance = bearing["journal_radius"], np.array(bearing["machined_clearance"])
     pad_radius = journal_radius + clearance
     angle, distance = (np.array(pads[name]) for name in ("pivot_angle_deg", "pivot_distance"))
     angle, half_arc = np.radians(angle), 0.5 * np.radians(pads["arc_deg"])

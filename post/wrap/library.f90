@@ -39,7 +39,7 @@ contains
       !> middle plane.
       real(c_double), intent(in) :: along(n), across(m)
       !> Angles from the pivot, rad; axial places, m; pressure there, Pa.
-      real(c_double), intent(out) :: phi(n, pads), z(m), pressure(m, n, pads)
+      real(c_double), intent(out) :: phi(n, pads), z(m, pads), pressure(m, n, pads)
       !> Force on the journal in the pad frame, N; highest pressure at the solver's own points, Pa; least film
       !> thickness, m.
       real(c_double), intent(out) :: force(2, pads), max_pressure(pads), min_film_thickness(pads)
@@ -63,6 +63,7 @@ contains
          associate (arc => inputs%pads%arc_deg*degree)
             do i = 1, pads
                phi(:, i) = (along - 1 + inputs%pads%pivot_ratio(i))*arc(i)
+               z(:, i) = 0.5_c_double*inputs%bearing%axial_length(i)*across
             end do
          end associate
          samples = model%bearings(1)%sampled()
@@ -70,7 +71,6 @@ contains
          force(2, :) = samples%film_force(2)
          max_pressure = samples%max_pressure
          min_film_thickness = samples%min_film_thickness
-         z = 0.5_c_double*inputs%bearing%axial_length*across
          call model%bearings(1)%pressure_field(phi, z, pressure)
       end if
       call tell(error, status, message)

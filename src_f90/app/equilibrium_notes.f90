@@ -53,7 +53,7 @@ contains
       slopes = run%model%rotor%station_slopes(static%rotor)
       associate (of => run%inputs%machine%bearings(b), bearing => run%model%layout%bearings(b))
          slope = norm2(slopes(:, of%station))
-         misalignment = slope*of%bearing%axial_length/2/minval(static%min_film_thickness(bearing%all_pads()))
+         misalignment = maxval(slope*of%bearing%axial_length/2/static%min_film_thickness(bearing%all_pads()))
       end associate
       call put_misalignment(file, misalignment)
       if (.not. run%quiet) call print_misalignment(slope, misalignment)

@@ -162,7 +162,7 @@ contains
       integer :: i
       associate (b => inputs%bearing, p => inputs%pads)
          do i = 1, size(gaps)
-            gaps(i) = pad_gap_type(b%journal_radius, b%machined_clearance, b%axial_length, &
+            gaps(i) = pad_gap_type(b%journal_radius, b%machined_clearance(i), b%axial_length(i), &
                & p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
                & b%supply_pressure, b%ambient_pressure, b%cavitation_pressure)
          end do
@@ -238,8 +238,8 @@ contains
             position%angle = p%pivot_angle_deg(i)*degree
             position%sin_angle = sin(position%angle)
             position%cos_angle = cos(position%angle)
-            position%pivot_radius = b%journal_radius + b%assembled_clearance + p%pivot_distance(i)
-            position%centre_distance = b%journal_radius + b%machined_clearance + p%pivot_distance(i)
+            position%pivot_radius = b%journal_radius + b%assembled_clearance(i) + p%pivot_distance(i)
+            position%centre_distance = b%journal_radius + b%machined_clearance(i) + p%pivot_distance(i)
             pad%directions = pad%gap%directions()
             pad%largest_tilt = 0.5_wp*p%arc_deg(i)*degree
             pad%ball_radius = v%socket_radius - v%radius_difference

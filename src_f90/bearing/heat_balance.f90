@@ -35,8 +35,8 @@ module heat_balance
       real(wp) :: journal_radius
       !> Length of each pad's arc, m.
       real(wp), allocatable :: arc(:)
-      !> Pad clearance times length of the pads, m^2.
-      real(wp) :: section
+      !> Clearance of each pad times its length, m^2.
+      real(wp), allocatable :: section(:)
    contains
       procedure :: temperatures
       procedure :: viscosities
@@ -184,10 +184,11 @@ contains
          & + self%arc/(speed*self%journal_radius)
    end subroutine renewal
 
-   !> Flow through a film, m^3/s, below which it counts as standing.
-   pure real(wp) function least_flow(self, speed)
+   !> Flow through each film, m^3/s, below which it counts as standing.
+   pure function least_flow(self, speed)
       class(heat_balance_type), intent(in) :: self
       real(wp), intent(in) :: speed
+      real(wp) :: least_flow(size(self%section))
       least_flow = least_share*speed*self%journal_radius*self%section/2
    end function least_flow
 

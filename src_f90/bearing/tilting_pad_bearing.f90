@@ -104,7 +104,7 @@ contains
       integer :: i
       self%pads = new_pads(inputs)
       self%per_mass = reshape([(self%pads(i)%inverse_masses(), i=1, size(self%pads))], [2, 2, size(self%pads)])
-      self%clearance = inputs%bearing%assembled_clearance
+      self%clearance = inputs%clearance()
       call make_friction(inputs, self%friction)
       self%asperities = new_asperities(inputs)
    end subroutine set_parts
@@ -294,10 +294,10 @@ contains
    end function sampled
 
    !> Pressure of every film in the state evaluated last, Pa, (axial position, angle, pad), at angles from the pivot,
-   !> rad, (angle, pad), and distances from the middle plane, m.
+   !> rad, (angle, pad), and distances from the middle plane, m, (axial position, pad).
    subroutine pressure_field(self, phi, z, pressure)
       class(tilting_pad_bearing_type), intent(inout) :: self
-      real(wp), intent(in) :: phi(:, :), z(:)
+      real(wp), intent(in) :: phi(:, :), z(:, :)
       real(wp), intent(out) :: pressure(:, :, :)
       call self%film%field(self%film_motion, self%oil, self%speed, phi, z, pressure)
    end subroutine pressure_field

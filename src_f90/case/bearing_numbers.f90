@@ -11,22 +11,23 @@ module bearing_numbers
 
 contains
 
-   !> Preload of the pads, 1 - c_r/c_m.
-   pure real(wp) function preload(inputs)
+   !> Preload of each pad, 1 - c_r/c_m.
+   pure function preload(inputs)
       type(case_type), intent(in) :: inputs
+      real(wp) :: preload(inputs%pad_count())
       preload = 1 - inputs%bearing%assembled_clearance/inputs%bearing%machined_clearance
    end function preload
 
    !> c_r over R_J.
    pure real(wp) function clearance_ratio(inputs)
       type(case_type), intent(in) :: inputs
-      clearance_ratio = inputs%bearing%assembled_clearance/inputs%bearing%journal_radius
+      clearance_ratio = inputs%clearance()/inputs%bearing%journal_radius
    end function clearance_ratio
 
-   !> L over D.
+   !> L over D, of the longest pad.
    pure real(wp) function length_over_diameter(inputs)
       type(case_type), intent(in) :: inputs
-      length_over_diameter = inputs%bearing%axial_length/(2*inputs%bearing%journal_radius)
+      length_over_diameter = maxval(inputs%bearing%axial_length)/(2*inputs%bearing%journal_radius)
    end function length_over_diameter
 
    !> Steady force W on the journal, weight and static load, N.
@@ -37,11 +38,11 @@ contains
       load = norm2(point%load)
    end function load
 
-   !> W/(L D), Pa.
+   !> W/(L D), Pa, with the length of the longest pad.
    pure real(wp) function specific_load(inputs)
       type(case_type), intent(in) :: inputs
       associate (b => inputs%bearing)
-         specific_load = load(inputs)/(2*b%journal_radius*b%axial_length)
+         specific_load = load(inputs)/(2*b%journal_radius*maxval(b%axial_length))
       end associate
    end function specific_load
 
@@ -57,7 +58,7 @@ contains
    pure real(wp) function eccentricity_ratio(inputs, journal)
       type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: journal(2)
-      eccentricity_ratio = norm2(journal)/inputs%bearing%assembled_clearance
+      eccentricity_ratio = norm2(journal)/inputs%clearance()
    end function eccentricity_ratio
 
    !> Angle from the load to the journal, at (y, z), m, in the sense of rotation, from -pi to pi; 0 where one of them

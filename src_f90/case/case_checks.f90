@@ -76,20 +76,26 @@ contains
    subroutine check_bearing(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: pad
       real(wp) :: ratio
+      integer :: i
       associate (b => inputs%bearing)
-         ratio = b%machined_clearance/b%journal_radius
-         if (.not. (ratio >= clearance_range(1) .and. ratio <= clearance_range(2))) call refuse( &
-            & 'bearing%machined_clearance = '//to_text(b%machined_clearance)//': must be ' &
-            & //to_text(clearance_range(1))//' to '//to_text(clearance_range(2))//' of bearing%journal_radius = ' &
-            & //to_text(b%journal_radius)//' (both in m)', error)
-         if (.not. (b%assembled_clearance <= 2*b%machined_clearance)) call refuse('bearing%assembled_clearance = ' &
-            & //to_text(b%assembled_clearance)//': must be at most twice bearing%machined_clearance = ' &
-            & //to_text(b%machined_clearance), error)
-         ratio = b%axial_length/b%journal_radius
-         if (.not. (ratio >= 0.02_wp .and. ratio <= 50)) call refuse('bearing%axial_length = ' &
-            & //to_text(b%axial_length)//': must be 0.02 to 50 times bearing%journal_radius = ' &
-            & //to_text(b%journal_radius)//' (both in m)', error)
+         do i = 1, inputs%pad_count()
+            pad = ' (both in m; pad '//to_text(i)//')'
+            ratio = b%machined_clearance(i)/b%journal_radius
+            if (.not. (ratio >= clearance_range(1) .and. ratio <= clearance_range(2))) call refuse( &
+               & 'bearing%machined_clearance = '//to_text(b%machined_clearance(i))//': must be ' &
+               & //to_text(clearance_range(1))//' to '//to_text(clearance_range(2))//' of bearing%journal_radius = ' &
+               & //to_text(b%journal_radius)//pad, error)
+            if (.not. (b%assembled_clearance(i) <= 2*b%machined_clearance(i))) call refuse( &
+               & 'bearing%assembled_clearance = '//to_text(b%assembled_clearance(i)) &
+               & //': must be at most twice bearing%machined_clearance = '//to_text(b%machined_clearance(i)) &
+               & //pad, error)
+            ratio = b%axial_length(i)/b%journal_radius
+            if (.not. (ratio >= 0.02_wp .and. ratio <= 50)) call refuse('bearing%axial_length = ' &
+               & //to_text(b%axial_length(i))//': must be 0.02 to 50 times bearing%journal_radius = ' &
+               & //to_text(b%journal_radius)//pad, error)
+         end do
          if (.not. (b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
             & .or. inputs%film%cavitation == 'none')) call refuse('bearing%cavitation_pressure = ' &
             & //to_text(b%cavitation_pressure)//': must not exceed bearing%supply_pressure = ' &

@@ -49,7 +49,7 @@ contains
    !> The same of the groups of one bearing.
    pure subroutine leave_out_of_bearing(inputs)
       type(case_type), intent(inout) :: inputs
-      inputs%bearing%machined_clearance = unset
+      inputs%bearing%machined_clearance(:) = unset
       inputs%bearing%viscosity = unset
       inputs%oil%law = ''
       associate (pads => inputs%pads)
@@ -91,37 +91,43 @@ contains
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
       integer :: i
-      call set_clearance(inputs, error)
-      if (.not. allocated(error)) call complete_oil(inputs, error)
+      do i = 1, inputs%pad_count()
+         call set_clearance(inputs, i, error)
+         if (allocated(error)) return
+      end do
+      call complete_oil(inputs, error)
       do i = 1, inputs%pad_count()
          if (allocated(error)) return
          call set_pad(inputs, i, error)
       end do
    end subroutine complete_bearing
 
-   !> The pad clearance: as given, by the preload, or the paper's.
-   subroutine set_clearance(inputs, error)
+   !> A pad's clearance: as given, by the preload, or the paper's.
+   subroutine set_clearance(inputs, i, error)
       type(case_type), intent(inout) :: inputs
+      integer, intent(in) :: i
       type(error_type), allocatable, intent(out) :: error
-      type(bearing_type) :: paper
-      associate (b => inputs%bearing)
-         if (is_set(b%preload) .and. is_set(b%machined_clearance)) then
-            call raise(error, input_error, 'bearing%preload = '//to_text(b%preload)//': bearing%machined_clearance = ' &
-               & //to_text(b%machined_clearance)//' is given too; give one of them')
-         else if (is_set(b%preload)) then
-            b%machined_clearance = b%assembled_clearance/(1 - b%preload)
-            associate (ratio => b%machined_clearance/b%journal_radius)
+      type(case_type) :: paper
+      paper = case_type()
+      associate (b => inputs%bearing, machined => inputs%bearing%machined_clearance(i))
+         if (is_set(b%preload(i)) .and. is_set(machined)) then
+            call raise(error, input_error, 'bearing%preload = '//to_text(b%preload(i)) &
+               & //': bearing%machined_clearance = '//to_text(machined)//' is given too; give one of them (pad ' &
+               & //to_text(i)//')')
+         else if (is_set(b%preload(i))) then
+            machined = b%assembled_clearance(i)/(1 - b%preload(i))
+            associate (ratio => machined/b%journal_radius)
                if (ratio < clearance_range(1) .or. ratio > clearance_range(2)) call raise(error, input_error, &
-                  & 'bearing%preload = '//to_text(b%preload)//': gives bearing%machined_clearance = ' &
-                  & //to_text(b%machined_clearance)//' with bearing%assembled_clearance = ' &
-                  & //to_text(b%assembled_clearance)//'; it must be '//to_text(clearance_range(1))//' to ' &
+                  & 'bearing%preload = '//to_text(b%preload(i))//': gives bearing%machined_clearance = ' &
+                  & //to_text(machined)//' with bearing%assembled_clearance = ' &
+                  & //to_text(b%assembled_clearance(i))//'; it must be '//to_text(clearance_range(1))//' to ' &
                   & //to_text(clearance_range(2))//' of bearing%journal_radius = '//to_text(b%journal_radius) &
-                  & //' (all in m)')
+                  & //' (all in m; pad '//to_text(i)//')')
             end associate
-         else if (.not. is_set(b%machined_clearance)) then
-            b%machined_clearance = paper%machined_clearance
+         else
+            call fill(machined, paper%bearing%machined_clearance(1))
          end if
-         b%preload = unset
+         b%preload(i) = unset
       end associate
    end subroutine set_clearance
 
@@ -147,9 +153,9 @@ contains
          else
             call fill(p%thickness(i), p%pivot_distance(i))
             call fill(p%density(i), steel)
-            sector = new_annular_sector(inputs%bearing%journal_radius + inputs%bearing%machined_clearance, &
+            sector = new_annular_sector(inputs%bearing%journal_radius + inputs%bearing%machined_clearance(i), &
                & p%thickness(i), p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
-               & inputs%bearing%axial_length, p%pivot_distance(i))
+               & inputs%bearing%axial_length(i), p%pivot_distance(i))
             call fill(p%mass(i), p%density(i)*sector%volume)
             call fill(p%inertia(i), p%mass(i)*sector%squared_radius)
             call fill(p%centre_tangential(i), sector%centre_tangential)
@@ -193,7 +199,7 @@ contains
       integer, intent(in) :: i
       real(wp) :: size_of(5)
       associate (b => inputs%bearing, p => inputs%pads)
-         size_of = [b%journal_radius, b%axial_length, p%arc_deg(i), p%pivot_ratio(i), p%pivot_distance(i)]
+         size_of = [b%journal_radius, b%axial_length(i), p%arc_deg(i), p%pivot_ratio(i), p%pivot_distance(i)]
       end associate
    end function size_of
 

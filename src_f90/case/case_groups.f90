@@ -46,10 +46,10 @@ module case_groups
    end type operation_type
 
    type :: bearing_type
-      real(wp) :: journal_radius = 49.9e-3_wp, machined_clearance = 100e-6_wp
-      real(wp) :: assembled_clearance = 80e-6_wp, axial_length = 100e-3_wp
-      !> 1 - assembled over pad clearance where it is given instead of the latter; unset in a complete case.
-      real(wp) :: preload = unset
+      real(wp) :: journal_radius = 49.9e-3_wp
+      !> One value a pad. The preload, 1 - assembled over pad clearance, is given instead of the latter; unset in a
+      !> complete case.
+      real(wp), allocatable :: machined_clearance(:), assembled_clearance(:), preload(:), axial_length(:)
       !> Of the oil, where its law is 'constant'; else unset in a complete case.
       real(wp) :: viscosity = 19e-3_wp
       real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0

@@ -39,6 +39,7 @@ module case_inputs
       procedure :: of_bearing
       procedure :: set_bearing
       procedure :: pad_count
+      procedure :: clearance
       procedure :: moves
       procedure :: seeks_orbits
       procedure :: tilting
@@ -65,6 +66,10 @@ contains
       inputs%thermal%model = 'none'
       inputs%thermal%march = 'frozen'
       inputs%output%keep = 'all'
+      inputs%bearing%machined_clearance = [100e-6_wp, 100e-6_wp]
+      inputs%bearing%assembled_clearance = [80e-6_wp, 80e-6_wp]
+      inputs%bearing%preload = [unset, unset]
+      inputs%bearing%axial_length = [100e-3_wp, 100e-3_wp]
       inputs%pads%pivot_angle_deg = [-45.0_wp, 225.0_wp]
       inputs%pads%arc_deg = [69.3_wp, 69.3_wp]
       inputs%pads%pivot_ratio = [0.5_wp, 0.5_wp]
@@ -187,6 +192,12 @@ contains
       class(case_type), intent(in) :: self
       pad_count = size(self%pads%pivot_angle_deg)
    end function pad_count
+
+   !> The bearing clearance c_r, m: of pads that differ the smallest.
+   pure real(wp) function clearance(self)
+      class(case_type), intent(in) :: self
+      clearance = minval(self%bearing%assembled_clearance)
+   end function clearance
 
    !> False for pads that are fixed: lobes of a plain bearing.
    pure logical function tilting(self)

@@ -112,9 +112,9 @@ contains
       type(pad_state) :: pads(model%layout%pads)
       type(pad_frame) :: frame
       integer :: i
-      associate (load => model%point%load, bearing => model%inputs%bearing)
+      associate (load => model%point%load)
          if (norm2(load) > 0) then
-            journal%position = fractions(k)*bearing%assembled_clearance*load/norm2(load)
+            journal%position = fractions(k)*model%inputs%clearance()*load/norm2(load)
             if (model%layout%bearings(1)%radial) pads%pivot_deflection = &
                & model%bearings(1)%contact%law%pivot_deflection(norm2(load)/size(pads))
          end if
@@ -122,7 +122,7 @@ contains
          do i = 1, size(pads)
             associate (position => model%bearings(1)%pads(i)%position)
                frame = frame_of(position, journal, pads(i))
-               pads(i)%tilt = (frame%along + bearing%machined_clearance/3)/position%centre_distance
+               pads(i)%tilt = (frame%along + model%inputs%bearing%machined_clearance(i)/3)/position%centre_distance
             end associate
          end do
       end associate
@@ -133,9 +133,12 @@ contains
    pure function middle_of_bores(model) result(middle)
       type(machine_model), intent(in) :: model
       real(wp) :: middle(2)
-      associate (b => model%inputs%bearing, pads => model%bearings(1)%pads)
-         middle = -(b%machined_clearance - b%assembled_clearance)/size(pads) &
-            & *[sum(pads%position%sin_angle), sum(pads%position%cos_angle)]
+      associate (pads => model%bearings(1)%pads, &
+         & out => model%inputs%bearing%machined_clearance - model%inputs%bearing%assembled_clearance)
+         ! equal pads add nothing to the first term
+         middle = -out(1)/size(pads)*[sum(pads%position%sin_angle), sum(pads%position%cos_angle)] &
+            & - [dot_product(out - out(1), pads%position%sin_angle), &
+            & dot_product(out - out(1), pads%position%cos_angle)]/size(pads)
       end associate
    end function middle_of_bores
 

@@ -17,13 +17,14 @@ contains
       type(variable_table_type), intent(inout) :: v
       call v%group('bearing', 'Geometry, oil and boundary pressures')
       call v%number(bearing%journal_radius, 'journal_radius', 1e-4_wp, 10.0_wp, 'm', 'radius R_J of the journal')
-      call v%number(bearing%machined_clearance, 'machined_clearance', 1e-9_wp, 0.1_wp, 'm', &
+      call v%each(bearing%machined_clearance, 'pads', 'machined_clearance', 1e-9_wp, 0.1_wp, 'm', &
          & 'radial clearance c_m between pad bore and journal')
-      call v%number(bearing%assembled_clearance, 'assembled_clearance', 1e-9_wp, 0.1_wp, 'm', &
-         & 'radial clearance c_r at the pivots')
-      call v%number(bearing%preload, 'preload', -1.0_wp, 0.999_wp, '1', &
+      call v%each(bearing%assembled_clearance, 'pads', 'assembled_clearance', 1e-9_wp, 0.1_wp, 'm', &
+         & 'radial clearance c_r at the pivots; where pads differ, the smallest is that of the bearing')
+      call v%each(bearing%preload, 'pads', 'preload', -1.0_wp, 0.999_wp, '1', &
          & 'instead of machined_clearance: preload m of the pads, c_m = c_r/(1 - m)')
-      call v%number(bearing%axial_length, 'axial_length', 1e-5_wp, 100.0_wp, 'm', 'pad length L along the shaft')
+      call v%each(bearing%axial_length, 'pads', 'axial_length', 1e-5_wp, 100.0_wp, 'm', &
+         & 'pad length L along the shaft')
       call v%number(bearing%viscosity, 'viscosity', viscosity_range(1), viscosity_range(2), 'Pa s', &
          & 'dynamic viscosity of the oil where oil%law is constant')
       call v%number(bearing%supply_pressure, 'supply_pressure', -1e9_wp, 1e9_wp, 'Pa', &
@@ -83,9 +84,9 @@ contains
       type(pads_type), intent(inout) :: pads
       type(variable_table_type), intent(inout) :: v
       call v%group('pads', &
-         & 'The bearing has one pad for each pivot angle; other variables take one value for all pads or one for each')
+         & 'The bearing has one pad for each pivot angle')
       call v%list(pads%pivot_angle_deg, max_pads, 'pivot_angle_deg', -360.0_wp, 360.0_wp, 'deg', &
-         & 'angle theta of each pivot, from +z towards +y', counts=.true.)
+         & 'angle theta of each pivot, from +z towards +y', counts='pads')
       call v%each(pads%arc_deg, 'pads', 'arc_deg', 0.1_wp, 360.0_wp, 'deg', &
          & 'arc theta_1 + theta_2; at most 350 for pads that tilt')
       call v%each(pads%pivot_ratio, 'pads', 'pivot_ratio', 0.01_wp, 0.99_wp, '1', &

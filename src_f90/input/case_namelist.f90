@@ -13,7 +13,7 @@ module case_namelist
    use case_parameter, only: check_branch_parameter
    use assignments, only: namelist_type, assignment_type, study_group
    use assigned_values, only: read_word, read_reals, refuse_values
-   use machine_names, only: kind_of, may_have_bearing
+   use machine_names, only: kind_of, bearing_of, may_have_bearing
    use machine_structure, only: make_several, give_to_bearings
    use variable_names, only: group_names, names_in, meant_variable, meant_group
    use namelist_text, only: parse_namelist
@@ -85,29 +85,54 @@ contains
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(variable_table_type) :: table
-      integer :: at(size(parsed%assignments)), things, i, k
-      !> The elements that are given, without those that groups of all bearings give.
-      logical :: taken(most_each, 2)
+      integer :: at(size(parsed%assignments)), i
       call list_variables(inputs, table)
       call find_variables(parsed, table, inputs, at, error)
-      if (allocated(error)) return
       do i = 1, table%count
+         if (allocated(error)) return
+         if (table%variables(i)%counts /= '') call fill_variable(parsed, at == i, table%variables(i), error)
+      end do
+      do i = 1, table%count
+         if (allocated(error)) return
          associate (v => table%variables(i))
+            if (v%counts /= '') cycle
             if (v%each /= '') then
-               v%values = spread(v%values(1), 1, things)
-               v%most = things
+               v%most = number_of(v, table)
+               v%values = spread(v%values(1), 1, v%most)
             end if
-            taken = .false.
-            do k = 1, size(at)
-               if (at(k) == i) call assign(parsed%assignments(k), v, &
-                  & taken(:, merge(1, 2, parsed%assignments(k)%of_all)), error)
-               if (allocated(error)) return
-            end do
-            if (v%counts) things = size(v%values)
+            call fill_variable(parsed, at == i, v, error)
          end associate
       end do
-      call put_variables(table, inputs)
+      if (.not. allocated(error)) call put_variables(table, inputs)
    end subroutine fill_variables
+
+   !> How many values a variable has that has one for each of something.
+   pure integer function number_of(v, table)
+      type(variable_type), intent(in) :: v
+      type(variable_table_type), intent(in) :: table
+      integer :: k
+      do k = 1, table%count
+         associate (list => table%variables(k))
+            if (list%counts == v%each .and. bearing_of(list%group) == bearing_of(v%group)) number_of = size(list%values)
+         end associate
+      end do
+   end function number_of
+
+   !> Gives a variable the values of its assignments.
+   subroutine fill_variable(parsed, its_own, v, error)
+      type(namelist_type), intent(in) :: parsed
+      logical, intent(in) :: its_own(:)
+      type(variable_type), intent(inout) :: v
+      type(error_type), allocatable, intent(inout) :: error
+      !> The elements that are given, without those that groups of all bearings give.
+      logical :: taken(most_each, 2)
+      integer :: k
+      taken = .false.
+      do k = 1, size(its_own)
+         if (its_own(k) .and. .not. allocated(error)) call assign(parsed%assignments(k), v, &
+            & taken(:, merge(1, 2, parsed%assignments(k)%of_all)), error)
+      end do
+   end subroutine fill_variable
 
    !> Refuses values in the group of a task that this case's task has no use for.
    subroutine refuse_idle_groups(parsed, inputs, error)

@@ -98,7 +98,7 @@ contains
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: text
       integer :: i
-      text = said('preload', preload(inputs), '1 - c_r/c_m') &
+      text = said_of_pads('preload', preload(inputs), '1 - c_r/c_m') &
          & //said('clearance ratio', clearance_ratio(inputs), 'c_r/R_J') &
          & //said('length ratio', length_over_diameter(inputs), 'L/D')
       if (inputs%oil%law == 'constant') return
@@ -126,6 +126,22 @@ contains
       if (load(inputs) > 0) text = text//said('Sommerfeld number', sommerfeld_number(inputs), &
          & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start')
    end function derived_of_load
+
+   !> A value of each pad, one line where all are equal.
+   function said_of_pads(name, values, meaning) result(text)
+      character(len=*), intent(in) :: name, meaning
+      real(wp), intent(in) :: values(:)
+      character(len=:), allocatable :: text
+      integer :: i
+      text = ''
+      do i = 1, size(values)
+         if (all(abs(values - values(1)) <= 0)) then
+            text = said(name, values(1), meaning)
+            return
+         end if
+         text = text//said(name, values(i), meaning//', pad '//to_text(i))
+      end do
+   end function said_of_pads
 
    function said(name, value, meaning) result(line)
       character(len=*), intent(in) :: name, meaning
@@ -161,7 +177,8 @@ contains
       ! as large as a journal in inches
       if (inputs%bearing%journal_radius > largest_usual) call note('bearing%journal_radius = ' &
          & //to_text(inputs%bearing%journal_radius)//': all lengths are in metres; an inch is 0.0254')
-      if (preload(inputs) < 0) call note('negative preload '//to_text(preload(inputs))//': the bore of the pads is ' &
+      if (any(preload(inputs) < 0)) call note('negative preload '//to_text(minval(preload(inputs))) &
+         & //': the bore of the pads is ' &
          & //'tighter than the clearance at the pivots; such a pad touches the journal at its edges first')
       associate (surface => inputs%highest_speed()*inputs%bearing%journal_radius)
          if (inputs%thermal%model /= 'none' .and. surface > compared_up_to) call note('surface speed ' &

@@ -75,7 +75,7 @@ contains
       call v%group('shaft', 'A machine: the sections of its shaft, from station 1 to station 2, from there to ' &
          & //'station 3, ...; *Machines* above')
       call v%list(shaft%length, most_sections, 'length', 1e-6_wp, 1e3_wp, 'm', 'length of each section', &
-         & counts=.true.)
+         & counts='sections')
       call v%each(shaft%diameter, 'sections', 'diameter', 1e-4_wp, 100.0_wp, 'm', 'outer diameter')
       call v%each(shaft%bore, 'sections', 'bore', 0.0_wp, 100.0_wp, 'm', 'inner diameter; 0: solid')
       call v%number(shaft%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'of its material')

@@ -142,6 +142,7 @@ contains
          allowed = v%range_text()
          if (v%whole) allowed = 'whole, '//allowed
          if (v%any_length) meaning = meaning//'; 1 to '//to_text(v%most)//' of them'
+         if (v%each /= '') meaning = meaning//'; one for all '//v%each//' or one each'
       end if
       text = '| `'//v%name//'` | '//default//' | '//v%unit//' | '//allowed//' | '//meaning//' |'//newline
    end function row

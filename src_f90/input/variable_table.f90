@@ -27,10 +27,10 @@ module variable_table
       logical :: whole = .false.
       !> Whether it is not set in the case that the table was filled from.
       logical :: may_be_unset = .false.
-      !> Whether the list may have any length, up to the most values, and whether it tells how many values the lists
-      !> behind it have that have one each; of these what has one, "pads", else empty.
-      logical :: any_length = .false., counts = .false.
-      character(len=:), allocatable :: each
+      !> Whether the list may have any length, up to the most values; what it tells the number of, "pads", and what
+      !> has one value each; else empty.
+      logical :: any_length = .false.
+      character(len=:), allocatable :: counts, each
       integer :: most = 1
    contains
       procedure :: range_text
@@ -116,6 +116,7 @@ contains
          v%name = name
          v%meaning = meaning
          v%unit = '1'
+         v%counts = ''
          v%each = ''
       end associate
    end function next
@@ -208,15 +209,15 @@ contains
       value = nint(x)
    end subroutine whole
 
-   !> A list of reals of any length up to `most`. With `counts` the lists behind it that have one value each have as
-   !> many.
+   !> A list of reals of any length up to `most`. It may tell the number of what lists with one value each belong to:
+   !> `counts` is "pads".
    subroutine list(self, values, most, name, low, high, unit, meaning, counts)
       class(variable_table_type), intent(inout) :: self
       real(wp), allocatable, intent(inout) :: values(:)
       integer, intent(in) :: most
       real(wp), intent(in) :: low, high
       character(len=*), intent(in) :: name, unit, meaning
-      logical, intent(in), optional :: counts
+      character(len=*), intent(in), optional :: counts
       if (self%filled) values = self%variables(self%at + 1)%values
       call self%numbers(values, name, low, high, unit, meaning)
       associate (v => self%variables(self%at))
@@ -226,7 +227,7 @@ contains
       end associate
    end subroutine list
 
-   !> One real for each of what the list before it has counted: for each of the pads.
+   !> One real for each of what another list counts: for each of the pads.
    subroutine each(self, values, things, name, low, high, unit, meaning)
       class(variable_table_type), intent(inout) :: self
       real(wp), allocatable, intent(inout) :: values(:)

@@ -54,12 +54,12 @@ contains
       integer :: i
       associate (b => inputs%bearing, friction => bearing%friction)
          do i = 1, size(pads)
-            pads(i)%tilt = b%assembled_clearance/((b%journal_radius + b%machined_clearance) &
+            pads(i)%tilt = b%assembled_clearance(i)/((b%journal_radius + b%machined_clearance(i)) &
                & *inputs%pads%arc_deg(i)*degree)
             pads(i)%tilt_rate = min(pads(i)%tilt*speed, sticking_scale*friction%sticking_velocity &
                & /bearing%pads(i)%ball_radius)
             if (layout%radial) then
-               pads(i)%pivot_deflection = 1e-3_wp*b%assembled_clearance
+               pads(i)%pivot_deflection = 1e-3_wp*b%assembled_clearance(i)
                if (force > 0) pads(i)%pivot_deflection = max(pads(i)%pivot_deflection, &
                   & bearing%contact%law%pivot_deflection(force))
                pads(i)%pivot_deflection_rate = pads(i)%pivot_deflection*speed

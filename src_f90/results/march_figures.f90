@@ -244,7 +244,7 @@ contains
       end if
       call take('journal_y', y)
       call take('journal_z', z)
-      call whirl_of(y(1, :), z(1, :), revolutions, inputs%bearing%assembled_clearance, order, amplitude, whirls)
+      call whirl_of(y(1, :), z(1, :), revolutions, inputs%clearance(), order, amplitude, whirls)
       call put_figure(file, 'last_revolutions', revolutions, '1', &
          & 'revolutions over which lift-off, orders and shares are')
       call put_figure(file, 'whirl_order', known(order), '1', &

@@ -157,16 +157,16 @@ class Bearing:
         self.count = len(np.atleast_1d(pads["pivot_angle_deg"]))
         self.film_tolerance = film_tolerance
         machined, inner, length = (
-            bearing[name] for name in ("machined_clearance", "journal_radius", "axial_length")
+            self.each(bearing[name]) for name in ("machined_clearance", "journal_radius", "axial_length")
         )
         radius = inner + machined
         arc, distance = np.radians(self.each(pads["arc_deg"])), self.each(pads["pivot_distance"])
         ratio = self.each(pads["pivot_ratio"])
         self.pads = self.columns(
-            np.radians(pads["pivot_angle_deg"]), inner + bearing["assembled_clearance"] + distance,
+            np.radians(pads["pivot_angle_deg"]), inner + self.each(bearing["assembled_clearance"]) + distance,
             radius + distance, pads["mass"], pads["inertia"], pads["centre_radial"],
         )  # fmt: skip
-        relaxation = [optimal_relaxation(each, radius, length) for each in arc]
+        relaxation = [optimal_relaxation(*each) for each in zip(arc, radius, length, strict=True)]
         self.geometry = self.columns(
             radius, inner, machined, length, ratio * arc, (1 - ratio) * arc, bearing["viscosity"], relaxation
         )

@@ -146,8 +146,8 @@ def case(run: tiltpad.Run) -> str:
     values |= dict(zip(names, bearing.friction, strict=True))
     values |= {
         "columns": COLUMNS, "rows": ROWS, "arc": bearing.geometry[:, 4:6].sum(axis=1),
-        "trailing": bearing.geometry[:, 5], "length": inputs["axial_length"],
-        "machined": inputs["machined_clearance"], "radius": bearing.geometry[0, 0],
+        "trailing": bearing.geometry[:, 5], "length": np.max(inputs["axial_length"]),
+        "machined": np.max(inputs["machined_clearance"]), "radius": bearing.geometry[0, 0],
         "inner": inputs["journal_radius"], "viscosity": inputs["viscosity"], "speed": bearing.speed,
         "outer": pivot["socket_radius"], "difference": pivot["radius_difference"],
         "compliance": compliance(pivot), "factor": pivot["deflection_factor"],

@@ -3,6 +3,7 @@
 import math
 from random import Random
 
+from reader import PIVOTS
 from reference import MOST_PADS, Variable
 
 # what is drawn together, as the program checks one against the other
@@ -68,19 +69,19 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
     for key, variable in variables.items():
         if key not in SPECIAL and variable.group not in ("pads", *OF_TASK) and dice.random() < few:
             found[key] = anything(dice, variable)
+    around = pads(dice, variables) if dice.random() < few else {}
     for group, together in zip(TOGETHER, (operation, bearing, pressures, pivot, friction), strict=True):
         if dice.random() < few:
-            found.update(zip(group, together(dice), strict=True))
+            found.update(zip(group, together(dice, len(around.get(PIVOTS, (-45, 225)))), strict=True))
     if dice.random() < few:
         found["rotor%balance_speed_rpm"] = (dice.choice((-1.0, 1.0, 1e6, dice.uniform(1, 1e6))),)
     if dice.random() < few:
         found["film%circumferential_cells"] = (float(dice.choice((0, 8, 2000, 2 * dice.randint(4, 1000)))),)
     if dice.random() < few:
         found["film%axial_cells"] = (float(dice.choice((0, 2, 1000, dice.randint(2, 1000)))),)
-    if dice.random() < few:
-        found.update(pads(dice, variables))
-        if found["pads%motion"] == (b"fixed",):
-            found["friction%model"] = (b"none",)
+    found.update(around)
+    if found.get("pads%motion") == (b"fixed",):
+        found["friction%model"] = (b"none",)
     fit_memory(found)
     if dice.random() < few:
         found.update(start(dice, variables))
@@ -162,7 +163,7 @@ def fit_memory(found: dict[str, tuple]) -> None:
     if found.get("film%cavitation", (b"reynolds",)) != (b"reynolds",):
         return
     cells = max(found.get("film%circumferential_cells", (0.0,))[0], 100)
-    count = len(found.get("pads%pivot_angle_deg", (-45, 225)))
+    count = len(found.get(PIVOTS, (-45, 225)))
     most = float(math.isqrt(int(MOST_IN_BLOCKS / (cells * count))))
     if "film%axial_cells" in found:
         found["film%axial_cells"] = (min(found["film%axial_cells"][0], most),)
@@ -198,7 +199,7 @@ def log_between(dice: Random, low: float, high: float) -> float:
     return min(max(math.exp(dice.uniform(math.log(least), math.log(high))), low), high)
 
 
-def operation(dice: Random):
+def operation(dice: Random, _pads: int):
     """Speeds, duration, sampling."""
     speed = log_between(dice, 1e-3, 1e6)
     final = dice.choice((-1.0, speed, 0.0, log_between(dice, 1e-3, 1e6)))
@@ -211,15 +212,19 @@ def operation(dice: Random):
     return (speed,), (final,), (duration,), (periodic,), (float(samples),), (start,)
 
 
-def bearing(dice: Random):
-    """Radius, clearances, length."""
+def bearing(dice: Random, pads: int):
+    """Radius; clearances and length of all pads, or of each."""
     radius = log_between(dice, 1e-4, 10)
-    clearance = min(radius * log_between(dice, 1.01e-5, 0.0499), 0.1)
-    assembled = max(1e-9, min(clearance * log_between(dice, 1e-3, 1.999), 0.1))
-    return (radius,), (clearance,), (assembled,), (radius * log_between(dice, 0.11, 9.9),)
+
+    def pad() -> tuple[float, float, float]:
+        clearance = min(radius * log_between(dice, 1.01e-5, 0.0499), 0.1)
+        assembled = max(1e-9, min(clearance * log_between(dice, 1e-3, 1.999), 0.1))
+        return clearance, assembled, radius * log_between(dice, 0.11, 9.9)
+
+    return (radius,), *zip(*(pad() for _ in range(dice.choice((1, pads)))), strict=True)
 
 
-def pressures(dice: Random):
+def pressures(dice: Random, _pads: int):
     """Pressures and film."""
     solver, cavitation = dice.choice(
         (
@@ -238,7 +243,7 @@ def pressures(dice: Random):
     return (middle,), (high,), (low,), (solver.encode(),), (cavitation.encode(),)
 
 
-def pivot(dice: Random):
+def pivot(dice: Random, _pads: int):
     """Contact law and radii."""
     law = dice.choice(("fang", "hertz"))
     socket = log_between(dice, 1e-5, 2)
@@ -246,7 +251,7 @@ def pivot(dice: Random):
     return (law.encode(),), (socket,), (dice.choice((0.0, difference)) if law == "fang" else difference,)
 
 
-def friction(dice: Random):
+def friction(dice: Random, _pads: int):
     """Friction model and coefficients."""
     model = dice.choice(("none", "bengisu_akay", "lugre"))
     static = log_between(dice, 1e-6, 10)

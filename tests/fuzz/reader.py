@@ -197,18 +197,20 @@ def resolve(assignments: list[Assignment], variables: dict[str, Variable]) -> di
         if key not in variables:
             raise Refused(f"unknown {key}")
         given.setdefault(key, []).append(each)
-    pads, found = 0, {}
-    for key, variable in variables.items():
-        here = given.get(key, [])
-        found[key] = words(variable, here) if variable.is_text else numbers(variable, here, pads)
-        if variable.fixes_pads:
-            pads = len(found[key])
+    pads = len(numbers(variables[PIVOTS], given.get(PIVOTS, []), 0))
+    found = {
+        key: words(variable, given.get(key, []))
+        if variable.is_text
+        else numbers(variable, given.get(key, []), pads)
+        for key, variable in variables.items()
+    }
     if "output%keep" not in given and found["case%task"][0] in (b"equilibrium", b"coefficients"):
         found["output%keep"] = (b"summary",)
     if found["case%task"] == (b"branch",) and found["output%keep"] != (b"all",):
         raise Refused("a branch keeps all of its points")
     if found["operation%final_speed_rpm"] == (None,):
         found["operation%final_speed_rpm"] = found["operation%speed_rpm"]
+    found["bearing%machined_clearance"] = pad_clearances(found)
     for key in FOLLOWING:
         if set(found[key]) == {None}:
             # as if it were not given
@@ -218,6 +220,8 @@ def resolve(assignments: list[Assignment], variables: dict[str, Variable]) -> di
     return found
 
 
+#: The variable whose length is the number of pads.
+PIVOTS = "pads%pivot_angle_deg"
 #: What decides whether pads are those of the paper, and what is then theirs.
 SIZE = (
     *("bearing%journal_radius", "bearing%axial_length"),
@@ -228,13 +232,17 @@ BODY = ("pads%mass", "pads%inertia", "pads%centre_tangential", "pads%centre_radi
 FOLLOWING = ("bearing%machined_clearance", "bearing%viscosity", "pads%mass", "pads%inertia")
 
 
+def pad_clearances(found: dict[str, tuple | None]) -> tuple[float | None, ...]:
+    """The pad clearance of each pad, as given or by its preload; None: neither."""
+    names = ("machined_clearance", "preload", "assembled_clearance")
+    pads = list(zip(*(found[f"bearing%{name}"] for name in names), strict=True))
+    if any(machined is not None and preload is not None for machined, preload, _ in pads):
+        raise Refused("preload and pad clearance")
+    return tuple(machined if preload is None else own / (1 - preload) for machined, preload, own in pads)
+
+
 def complete(found: dict[str, tuple | None], given: dict[str, list], variables: dict[str, Variable]) -> None:
     """What follows from other variables."""
-    (preload,) = found["bearing%preload"]
-    if preload is not None and "bearing%machined_clearance" in given:
-        raise Refused("preload and pad clearance")
-    if preload is not None:
-        found["bearing%machined_clearance"] = (found["bearing%assembled_clearance"][0] / (1 - preload),)
     complete_oil(found, given)
     bodies = [each for key in (*BODY, "pads%density", "pads%thickness") for each in given.get(key, ())]
     if any(value != variables[key].default[0] for key in SIZE for value in found[key]):
@@ -322,6 +330,8 @@ def numbers(variable: Variable, assignments: list[Assignment], pads: int) -> tup
     values = list(variable.default) if variable.fixes_pads else list(variable.default[:1] * size)
     if not variable.per_pad:
         values = list(variable.default)
+    if variable.key in FOLLOWING:
+        values = [None] * size
     taken: set[int] = set()
     for each in assignments:
         new = list(number_list(variable, each, most))

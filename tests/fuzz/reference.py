@@ -64,7 +64,7 @@ def _variable(group: str, name: str, default: str, allowed: str, meaning: str) -
         low=float(low),
         high=float(high),
         whole=allowed.startswith("whole"),
-        per_pad=group == "pads" or name.startswith(("pad_", "pivot_")),
+        per_pad="one for all pads or one each" in meaning,
         fixes_pads="of them" in meaning,
         most=int(longest[1]) if longest else MOST_PADS,
     )

@@ -141,7 +141,7 @@ contains
       inputs%pads%centre_tangential = 3e-3_wp
       found = found_in(inputs)
       associate (b => inputs%bearing, p => inputs%pads)
-         film = pad_gap_type(b%journal_radius, b%machined_clearance, b%axial_length, 0.55_wp*69.3_wp*degree, &
+         film = pad_gap_type(b%journal_radius, b%machined_clearance(1), b%axial_length(1), 0.55_wp*69.3_wp*degree, &
             & 0.45_wp*69.3_wp*degree, 0.0_wp, 0.0_wp, 0.0_wp)
          solver = new_sor_film([film, film], sor_options(tolerance=1e-10_wp, max_sweeps=100000, &
             & cavitation=cavitation_reynolds))
@@ -152,9 +152,9 @@ contains
             a = theta - found%tilt(pad)
             along = [cos(a), -sin(a)]
             outward = [sin(a), cos(a)]
-            pivot = (b%journal_radius + b%assembled_clearance + p%pivot_distance(pad) + found%pivot_deflection(pad)) &
-               & *[sin(theta), cos(theta)]
-            centre = pivot - (b%journal_radius + b%machined_clearance + p%pivot_distance(pad))*outward
+            pivot = (b%journal_radius + b%assembled_clearance(pad) + p%pivot_distance(pad) &
+               & + found%pivot_deflection(pad))*[sin(theta), cos(theta)]
+            centre = pivot - (b%journal_radius + b%machined_clearance(pad) + p%pivot_distance(pad))*outward
             e = found%rotor - centre
             call solver%evaluate_pad(pad, film_motion([dot_product(e, along), dot_product(e, outward)]), &
                & film_oil(b%viscosity), inputs%highest_speed(), .false., r)
@@ -162,7 +162,7 @@ contains
             weight = p%mass(pad)*9.81_wp
             ! moments about the pivot over its distance; forces along the pad's radius
             call expect_close(r%force(1) + weight*(3e-3_wp*sin(a) - p%centre_radial(pad)*cos(a)) &
-               & /(b%journal_radius + b%machined_clearance + p%pivot_distance(pad)), 0.0_wp, 1e-6_wp*load, &
+               & /(b%journal_radius + b%machined_clearance(pad) + p%pivot_distance(pad)), 0.0_wp, 1e-6_wp*load, &
                & 'moments on pad '//to_text(pad)//', '//motion)
             call expect_close(-r%force(2) - weight*sin(a), found%pivot_load(pad), 1e-6_wp*load, &
                & 'contact of pad '//to_text(pad)//', '//motion)

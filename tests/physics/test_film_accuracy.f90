@@ -309,7 +309,7 @@ contains
       real(wp) :: force(2)
       real(wp) :: phi(n, 1), arc(n), z(n/5), width(n/5), p(n/5, n, 1), rows(n)
       call field_points(state, phi(:, 1), arc, z, width)
-      call film%field([motion], [paper_oil], shaft_speed, phi, z, p)
+      call film%field([motion], [paper_oil], shaft_speed, phi, spread(z, 2, 1), p)
       rows = matmul(width, p(:, :, 1))*arc
       force = -state%gap%pad_radius()*[dot_product(rows, sin(phi(:, 1))), dot_product(rows, cos(phi(:, 1)))]
    end function field_force

@@ -46,8 +46,8 @@ contains
       inputs%machine%unbalances(1)%station = 6
       associate (b => inputs%machine%bearings(2))
          b%friction%model = 'none'
-         b%bearing%assembled_clearance = 100e-6_wp
-         b%bearing%machined_clearance = 125e-6_wp
+         b%bearing%assembled_clearance(:) = 100e-6_wp
+         b%bearing%machined_clearance(:) = 125e-6_wp
          allocate (b%support)
          b%support%mass = 400
          b%support%stiffness = [1.5e9_wp, 8e8_wp]

@@ -106,12 +106,12 @@ contains
       logical :: ok
       inputs = symmetric_rotor('bengisu_akay', 4100.0_wp, 0.02_wp)
       inputs%machine%bearings(2)%friction%model = 'lugre'
-      inputs%machine%bearings(2)%bearing%assembled_clearance = 85e-6_wp
+      inputs%machine%bearings(2)%bearing%assembled_clearance(:) = 85e-6_wp
       call add_bearing(inputs, 'middle', 5)
       inputs%machine%bearings(3)%friction%model = 'none'
       inputs%machine%bearings(3)%pads%motion = 'tilting_only'
-      inputs%machine%bearings(3)%bearing%assembled_clearance = 200e-6_wp
-      inputs%machine%bearings(3)%bearing%machined_clearance = 250e-6_wp
+      inputs%machine%bearings(3)%bearing%assembled_clearance(:) = 200e-6_wp
+      inputs%machine%bearings(3)%bearing%machined_clearance(:) = 250e-6_wp
       call stand(inputs, model, found)
       y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
       allocate (rates(model%n), matrix(model%n, model%n), up(model%n), down(model%n))
@@ -217,8 +217,8 @@ contains
       inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
       inputs%machine%discs(1)%station = 6
       call add_bearing(inputs, 'third', 4)
-      inputs%machine%bearings(3)%bearing%assembled_clearance = 200e-6_wp
-      inputs%machine%bearings(3)%bearing%machined_clearance = 250e-6_wp
+      inputs%machine%bearings(3)%bearing%assembled_clearance(:) = 200e-6_wp
+      inputs%machine%bearings(3)%bearing%machined_clearance(:) = 250e-6_wp
       call analyse(inputs, 'as it is', found, static)
       call analyse(reordered(inputs), 'bearings in another order, with other names', other)
       call expect_same(found, other, 'order')

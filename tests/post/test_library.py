@@ -18,10 +18,10 @@ BENGISU = "&friction model='bengisu_akay', critical_velocity=1e-3 /"
 def integrals(case, film):
     """Force of the field, (pad, 2), by the trapezoidal rule."""
     bearing = case.input["bearing"]
-    radius = bearing["journal_radius"] + bearing["machined_clearance"]
-    line = np.trapezoid(film.pressure, film.z, axis=2)
+    radius = bearing["journal_radius"] + np.array(bearing["machined_clearance"])
+    line = np.trapezoid(film.pressure, film.z[:, None], axis=2)
     parts = [np.trapezoid(line * f(film.phi), film.phi, axis=1) for f in (np.sin, np.cos)]
-    return -radius * np.array(parts).T
+    return -(radius * np.array(parts)).T
 
 
 @pytest.mark.parametrize("case_name", [*CASES, "fixed", "equilibrium"])
@@ -86,7 +86,7 @@ def test_edges_have_the_pressures_of_the_input(run):
     ratio, arc = case.input["pads"]["pivot_ratio"], np.radians(case.input["pads"]["arc_deg"])
     np.testing.assert_allclose(film.phi[:, -1], ratio * arc)
     np.testing.assert_allclose(film.phi[:, 0], ratio * arc - arc)
-    np.testing.assert_allclose(film.z[[0, -1]], [-0.05, 0.05])
+    np.testing.assert_allclose(film.z[:, [0, -1]], [[-0.05, 0.05]] * len(film.z))
     np.testing.assert_allclose(film.pressure, film.pressure[:, :, ::-1], rtol=1e-12)
 
 

@@ -25,7 +25,7 @@ def test_the_pressure_over_the_unrolled_pad(run):
     # the highest contour surrounds the highest point
     k = np.unravel_index(film.pressure[1].argmax(), film.pressure[1].shape)
     top = ax.collections[0].get_paths()[-1]
-    assert top.contains_point((np.degrees(film.phi[1, k[0]]), 1e3 * film.z[k[1]]))
+    assert top.contains_point((np.degrees(film.phi[1, k[0]]), 1e3 * film.z[1, k[1]]))
     # the journal's surface moves from the leading edge, at the right, to the trailing edge
     places = {each.get_text(): each.get_position()[0] for each in ax.texts}
     assert places["trailing edge"] < 0.5 < places["leading edge"]

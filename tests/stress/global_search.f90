@@ -125,9 +125,11 @@ contains
       do i = 1, size(like)
          like(i) = 0
          do s = 1, size(first)
-            associate (p => inputs%pads, n => first(s))
+            associate (b => inputs%bearing, p => inputs%pads, n => first(s))
                if (abs(p%arc_deg(i) - p%arc_deg(n)) + abs(p%pivot_ratio(i) - p%pivot_ratio(n)) &
-                  & + abs(p%pivot_distance(i) - p%pivot_distance(n)) <= 0) like(i) = s
+                  & + abs(p%pivot_distance(i) - p%pivot_distance(n)) &
+                  & + abs(b%machined_clearance(i) - b%machined_clearance(n)) &
+                  & + abs(b%axial_length(i) - b%axial_length(n)) <= 0) like(i) = s
             end associate
          end do
          if (like(i) > 0) cycle
@@ -135,6 +137,8 @@ contains
          like(i) = size(first)
       end do
       shapes = inputs
+      shapes%bearing%machined_clearance = inputs%bearing%machined_clearance(first)
+      shapes%bearing%axial_length = inputs%bearing%axial_length(first)
       shapes%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg(first)
       shapes%pads%arc_deg = inputs%pads%arc_deg(first)
       shapes%pads%pivot_ratio = inputs%pads%pivot_ratio(first)
@@ -301,7 +305,7 @@ contains
       logical :: ok
       allocate (tried(model%n, 0), found(model%n, 0), y_best(model%n))
       call random_seed(put=spread(20260101, 1, 64))
-      reach = 2*1.0_wp*max(model%inputs%bearing%assembled_clearance, model%inputs%bearing%machined_clearance)
+      reach = 2*maxval([model%inputs%clearance(), model%inputs%bearing%machined_clearance])
       count = 0
       rank = 0
       best%name = 'none'
@@ -330,7 +334,7 @@ contains
          print '(a, 1x, a, i0, a, i0)', path, 'none 0 of ', size(tried, 2)
       else
          print '(a, 1x, a, 1x, i0, a, i0, *(1x, es12.5))', path, best%name, size(found, 2), ' of ', size(tried, 2), &
-            & best%eigenvalue, y_best(:2)/model%inputs%bearing%assembled_clearance, &
+            & best%eigenvalue, y_best(:2)/model%inputs%clearance(), &
             & y_best(model%layout%bearings(1)%before([(row, row=1, model%layout%pads)]) + at_tilt)
       end if
    end subroutine search_plane
@@ -348,7 +352,7 @@ contains
       integer :: k, i
       unit = model%scale
       associate (of => model%layout%bearings(1))
-         if (of%radial) unit(of%before([(i, i=1, of%pads)]) + at_deflection) = model%inputs%bearing%assembled_clearance
+         if (of%radial) unit(of%before([(i, i=1, of%pads)]) + at_deflection) = model%inputs%clearance()
       end associate
       known = .false.
       do k = 1, size(list, 2)
@@ -393,7 +397,7 @@ contains
          end do
          if (norm2(force) < 1e-4_wp*reference) exit
          step = solve_2x2(slope, -force)
-         length = norm2(step)/(0.15_wp*model%inputs%bearing%assembled_clearance)
+         length = norm2(step)/(0.15_wp*model%inputs%clearance())
          if (.not. length > 0) exit
          place = place + step/max(1.0_wp, length)
       end do
@@ -473,7 +477,7 @@ contains
       integer :: iteration, cut, pivots(size(step)), info
       x = model%layout%positions()
       unit = model%scale(x)
-      unit(3:) = merge(unit(3:), model%inputs%bearing%assembled_clearance, &
+      unit(3:) = merge(unit(3:), model%inputs%clearance(), &
          & .not. model%layout%bearings(1)%radial .or. mod([(info, info=1, size(unit) - 2)], 2) == 1)
       do iteration = 1, 60
          call model%evaluate(0.0_wp, y, .true., ok)

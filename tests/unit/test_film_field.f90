@@ -48,7 +48,7 @@ contains
       type(film_motion), intent(in) :: motion
       real(wp), allocatable :: p(:, :), all(:, :, :)
       allocate (all(across, along, 1))
-      call solver%field([motion], [paper_oil], speed, angles(), places(), all)
+      call solver%field([motion], [paper_oil], speed, angles(), spread(places(), 2, 1), all)
       p = all(:, :, 1)
    end function field_of
 
@@ -107,7 +107,8 @@ contains
       class(film_solver_type), intent(inout) :: solver
       real(wp) :: p(3, 3, 1), phi(3, 1)
       phi(:, 1) = [-theta_2, 0.1_wp, theta_1]
-      call solver%field([film_motion([-20*um, 40*um])], [paper_oil], 0.0_wp, phi, [0.0_wp, length/3, length/2], p)
+      call solver%field([film_motion([-20*um, 40*um])], [paper_oil], 0.0_wp, phi, &
+         & reshape([0.0_wp, length/3, length/2], [3, 1]), p)
       unevenness = maxval(abs(p/3e5_wp - 1))
    end function unevenness
 
@@ -122,7 +123,7 @@ contains
       x = [0.0_wp, 1e-4_wp, 0.01_wp, 0.2_wp]*arc
       phi(:, 1) = theta_1 - x
       solver = new_fourier_film([offset_pad([rise, 0.0_wp, 0.0_wp])], 24, 16, gumbel=.false.)
-      call solver%field([film_motion([0.0_wp, 0.0_wp])], [paper_oil], 0.0_wp, phi, z, p)
+      call solver%field([film_motion([0.0_wp, 0.0_wp])], [paper_oil], 0.0_wp, phi, spread(z, 2, 1), p)
       do i = 1, 4
          exact = rise*plate(z, x(i))
          do k = 1, 5
@@ -151,7 +152,7 @@ contains
       phi(:, 1) = reshape(angles(), [along])
       phi(:, 2) = -phi(along:1:-1, 1)
       solver = new_direct_film(films, 24, 8, 80, 8, cavitation_reynolds)
-      call solver%field([whole, whole], [paper_oil, paper_oil], speed, phi, places(), p)
+      call solver%field([whole, whole], [paper_oil, paper_oil], speed, phi, spread(places(), 2, 2), p)
       call expect(maxval(abs(p(:, :, 1) - p(:, :, 2))) > 0.01_wp*maxval(p), 'two pads, two fields')
       alone = new_direct_film(films(:1), 24, 8, 80, 8, cavitation_reynolds)
       call expect_close(maxval(abs(p(:, :, 1) - field_of(alone, whole))), 0.0_wp, 0.0_wp, 'the first pad''s own')

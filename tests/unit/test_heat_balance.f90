@@ -81,6 +81,8 @@ contains
       real(wp), parameter :: shares(6) = [1e-3_wp, 9.99e-3_wp, 1.001e-2_wp, 0.3_wp, 3.0_wp, 30.0_wp]
       inputs = four_pads()
       inputs%pads%pivot_angle_deg = [-90.0_wp]
+      inputs%bearing%machined_clearance = inputs%bearing%machined_clearance(:1)
+      inputs%bearing%axial_length = inputs%bearing%axial_length(:1)
       inputs%oil%shaft_temperature = 75
       do i = 1, size(shares)
          loss = pad_loss(couette=1500.0_wp, pressure=120.0_wp, inlet=6e-5_wp, outlet=4e-5_wp)

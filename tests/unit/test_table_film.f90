@@ -385,6 +385,7 @@ contains
    !> what lies between linear interpolation over 1/16 of T and a parabola, 1e-3.
    subroutine pressures()
       integer, parameter :: n = 400
+      real(wp), parameter :: middle(1, 1) = 0
       type(table_film_type) :: film
       type(fourier_film_type) :: fine
       type(pad_gap_type) :: gap
@@ -404,9 +405,9 @@ contains
                & clearance*speed*[between(-0.5_wp, 0.5_wp), between(-0.2_wp, 0.2_wp)])
             call film%evaluate([motion], [paper_oil], speed, .false., found)
             call film%take_pressures([motion], [paper_oil], speed, found)
-            call fine%field([motion], [paper_oil], speed, phi, [0.0_wp], along)
+            call fine%field([motion], [paper_oil], speed, phi, middle, along)
             call fine%field([film_motion(motion%position, clearance*speed*[0.0_wp, 0.25_wp])], [paper_oil], 0.0_wp, &
-               & phi, [0.0_wp], squeezed_film)
+               & phi, middle, squeezed_film)
             if (supply < 0) along = max(0.0_wp, along)
             associate (highest => max(gap%supply_pressure, maxval(along)), lowest => min(0.0_wp, minval(along)), &
                & scale => maxval(squeezed_film))

@@ -7,6 +7,7 @@ import numpy as np
 
 from tiltpad.calculate.signals import last_revolutions
 from tiltpad.files.archive import RunError
+from tiltpad.files.namelist import of_pads
 from tiltpad.files.read import Run
 
 #: Journal orbit, pad tilts and friction moments.
@@ -17,8 +18,7 @@ STEADY = 0.05
 
 def characteristic_scale(run: Run, name: str) -> float:
     """Bearing clearance for journal positions, clearance over pad radius for tilts; 0 for others."""
-    bearing = run.input["bearing"]
-    radius = bearing["journal_radius"] + bearing["machined_clearance"]
+    radius = run.input["bearing"]["journal_radius"] + min(of_pads(run.input, "bearing%machined_clearance"))
     return {"journal": run.clearance, "pad": run.clearance / radius}.get(name.split("_")[0], 0.0)
 
 

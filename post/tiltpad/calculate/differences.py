@@ -7,7 +7,10 @@ from tiltpad.files import namelist, units
 #: Variables without influence on the results: inputs that differ in them alone count as the same.
 IGNORED = ("case%title", "output%checkpoint_seconds")
 #: How the names of variables begin that have a value for each pad.
-PER_PAD = ("pads%", "start%pad_", "start%pivot_")
+PER_PAD = (
+    *("pads%", "start%pad_", "start%pivot_"),
+    *("bearing%machined_clearance", "bearing%assembled_clearance", "bearing%axial_length"),
+)
 #: Names of friction models as they are written in pictures.
 WORDS = {"none": "no friction", "bengisu_akay": "Bengisu-Akay", "lugre": "LuGre"}
 

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tiltpad.calculate import library
+from tiltpad.files import namelist
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 
@@ -39,13 +40,13 @@ class Surfaces(NamedTuple):
 
 
 def of_pads(case: Case, name: str) -> np.ndarray:
-    """A variable of the pads, (pad,)."""
-    return np.atleast_1d(np.asarray(case["pads"][name], dtype=float))
+    """A variable with a value for each pad, as "pads%arc_deg" or "bearing%axial_length", (pad,)."""
+    return np.array(namelist.of_pads(case, name), dtype=float)
 
 
 def centred(case: Case) -> State:
     """The journal in the middle of the bearing, pads without tilt and pivot deflection."""
-    none = np.zeros(len(of_pads(case, "pivot_angle_deg")))
+    none = np.zeros(len(of_pads(case, "pads%pivot_angle_deg")))
     return State(None, np.zeros(2), none, none)
 
 
@@ -76,15 +77,16 @@ def samples(run: Run, part: slice) -> list[State]:
 
 def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:
     """The surfaces of the pads from the trailing to the leading edge, and the film on them."""
-    bearing, pivot = case["bearing"], np.radians(of_pads(case, "pivot_angle_deg"))
-    arc, ratio = np.radians(of_pads(case, "arc_deg")), of_pads(case, "pivot_ratio")
-    machined, back = bearing["machined_clearance"], of_pads(case, "pivot_distance")
+    radius, pivot = case["bearing"]["journal_radius"], np.radians(of_pads(case, "pads%pivot_angle_deg"))
+    arc, ratio = np.radians(of_pads(case, "pads%arc_deg")), of_pads(case, "pads%pivot_ratio")
+    assembled, machined = (of_pads(case, f"bearing%{name}_clearance") for name in ("assembled", "machined"))
+    back = of_pads(case, "pads%pivot_distance")
     phi = np.linspace(-(1 - ratio) * arc, ratio * arc, points).T
     # the journal from the pivot, in the pad's own directions (docs/theory/film.md)
-    own, reach = pivot - state.tilt, bearing["journal_radius"] + back + state.pivot_deflection
-    y = state.journal[0] - (reach + bearing["assembled_clearance"]) * np.sin(pivot)
-    z = state.journal[1] - (reach + bearing["assembled_clearance"]) * np.cos(pivot)
+    own, reach = pivot - state.tilt, radius + assembled + back + state.pivot_deflection
+    y = state.journal[0] - reach * np.sin(pivot)
+    z = state.journal[1] - reach * np.cos(pivot)
     along = y * np.cos(own) - z * np.sin(own)
-    outward = y * np.sin(own) + z * np.cos(own) + bearing["journal_radius"] + machined + back
-    thickness = machined - along[:, None] * np.sin(phi) - outward[:, None] * np.cos(phi)
+    outward = y * np.sin(own) + z * np.cos(own) + radius + machined + back
+    thickness = machined[:, None] - along[:, None] * np.sin(phi) - outward[:, None] * np.cos(phi)
     return Surfaces(own[:, None] + phi, thickness, pivot)

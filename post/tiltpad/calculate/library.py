@@ -46,7 +46,7 @@ class Pressure(NamedTuple):
         time                  s; None for the equilibrium
         pressure              (pad, phi, z), Pa
         phi                   angle from the pivot, (pad, phi), rad, from the trailing to the leading edge
-        z                     axial position from the middle plane, (z,), m
+        z                     axial position from the middle plane, (pad, z), m
         force                 on the journal along y' and z' of each pad, (pad, 2), N
         max_pressure          maximum pressure at the solver's own points, (pad,), Pa
         min_film_thickness    (pad,), m
@@ -128,7 +128,7 @@ def pressure(
         shares(along, 0, outside[0]),
         shares(across, -1, outside[1]),
     )
-    return Pressure(at, field.T, phi.T, z, force.T, max_pressure, min_film_thickness)
+    return Pressure(at, field.T, phi.T, z.T, force.T, max_pressure, min_film_thickness)
 
 
 def losses(run: Run, last: float = 1) -> Losses:

@@ -68,9 +68,10 @@ class Drawing:
     """Journal and pads on axes, which can be moved."""
 
     def __init__(self, ax: Axes, case: Case, state: State):
-        self.case, self.scale = case, CLEARANCE / case["bearing"]["assembled_clearance"]
+        self.assembled = geometry.of_pads(case, "bearing%assembled_clearance")
+        self.case, self.scale = case, CLEARANCE / self.assembled.min()
         fixed = case["pads"]["motion"] == "fixed"
-        count = len(geometry.of_pads(case, "pivot_angle_deg"))
+        count = len(geometry.of_pads(case, "pads%pivot_angle_deg"))
         self.middles = [np.zeros((1, 2))] * count
         look = {"closed": True, "facecolor": "0.82", "edgecolor": "0.25", "linewidth": 0.8}
         self.pads = [ax.add_patch(Polygon(np.zeros((3, 2)), **look)) for _ in range(count)]
@@ -100,7 +101,7 @@ class Drawing:
             self.middles[k] = np.clip((inner + outer) / 2, -FAR, FAR)
             self.numbers[k].set_position(self.middles[k][len(inner) // 2])
         for k, pivot in enumerate(self.pivots):
-            away = 1 + CLEARANCE + BACK + 0.045 + self.scale * state.pivot_deflection[k]
+            away = 1 + BACK + 0.045 + self.scale * (self.assembled[k] + state.pivot_deflection[k])
             pivot.center = polar(away, np.degrees(found.pivot[k]))
 
 
@@ -111,7 +112,7 @@ def mark_angles(ax: Axes, case: Case) -> None:
     for end, name in (((0.45, 0), "$z$"), ((0, 0.45), "$y$")):
         ax.annotate("", end, (0, 0), arrowprops=axis, zorder=3)
         ax.text(*(1.2 * np.array(end)), name, **NOTE, zorder=3)
-    for angle in geometry.of_pads(case, "pivot_angle_deg"):
+    for angle in geometry.of_pads(case, "pads%pivot_angle_deg"):
         ends = np.array([polar(edge, angle), polar(edge + 0.08, angle)]).T
         ax.plot(*ends, color="0.25", linewidth=0.8)
         ax.text(*polar(edge + 0.2, angle), f"{angle:g}°", **NOTE)
@@ -122,7 +123,7 @@ def mark_angles(ax: Axes, case: Case) -> None:
 
 def mark_edges(ax: Axes, drawing: Drawing) -> None:
     """Which edges of the first pad are the leading and the trailing one, where its angle leaves room."""
-    if geometry.of_pads(drawing.case, "arc_deg")[0] < ROOM:
+    if geometry.of_pads(drawing.case, "pads%arc_deg")[0] < ROOM:
         return
     for inside, name in ((drawing.middles[0][-5], "leading edge"), (drawing.middles[0][4], "trailing edge")):
         out = 1.32 * inside
@@ -161,23 +162,27 @@ def figures_of(case: Case, state: State) -> str:
     """Sizes of the bearing, a line each, and what the picture enlarges."""
     own, pads = case["bearing"], case["pads"]
     first, last = (case["operation"][name] for name in ("speed_rpm", "final_speed_rpm"))
-    assembled, machined = own["assembled_clearance"], own["machined_clearance"]
-    fixed, count = pads["motion"] == "fixed", len(geometry.of_pads(case, "arc_deg"))
-    arc, ratio = (f"{'/'.join(f'{each:g}' for each in np.unique(geometry.of_pads(case, name)))}"
-                  for name in ("arc_deg", "pivot_ratio"))  # fmt: skip
+    assembled, machined, length, arc, ratio = (
+        geometry.of_pads(case, name)
+        for name in (
+            *("bearing%assembled_clearance", "bearing%machined_clearance", "bearing%axial_length"),
+            *("pads%arc_deg", "pads%pivot_ratio"),
+        )
+    )
+    fixed, count = pads["motion"] == "fixed", len(arc)
     # the surface is where 1 + CLEARANCE is, not 1 + the true ratio
-    times = CLEARANCE * own["journal_radius"] / assembled
+    times = CLEARANCE * own["journal_radius"] / assembled.min()
     where = "the journal in the middle, pads without tilt"
     if state.time is not None or state.journal.any():
         where = "the equilibrium" if state.time is None else f"{state.time:g} s"
     lines = [
-        f"{count} pad{'s' * (count > 1)}, {MOTIONS[pads['motion']]}, arc {arc}°",
-        f"{'anchored' if fixed else 'pivot'} at {ratio} of the arc from the leading edge",
+        f"{count} pad{'s' * (count > 1)}, {MOTIONS[pads['motion']]}, arc {different(arc)}°",
+        f"{'anchored' if fixed else 'pivot'} at {different(ratio)} of the arc from the leading edge",
         f"speed {first:g} rpm" if first == last else f"speed {first:g} to {last:g} rpm",
-        f"journal radius {1e3 * own['journal_radius']:g} mm, length {1e3 * own['axial_length']:g} mm",
-        f"bearing clearance $c_r$ = {digits(1e6 * assembled)} µm",
-        f"pad clearance $c_m$ = {digits(1e6 * machined)} µm",
-        f"preload $1 - c_r/c_m$ = {digits(1 - assembled / machined, 3)}",
+        f"journal radius {1e3 * own['journal_radius']:g} mm, length {different(1e3 * length)} mm",
+        f"bearing clearance $c_r$ = {different(1e6 * assembled, 4)} µm",
+        f"pad clearance $c_m$ = {different(1e6 * machined, 4)} µm",
+        f"preload $1 - c_r/c_m$ = {different(1 - assembled / machined, 3)}",
         "",
         f"Clearances are {times:.0f} times larger than the journal",
         f"has them. Shown: {where}.",
@@ -187,6 +192,12 @@ def figures_of(case: Case, state: State) -> str:
         "oil enters a pad at its larger angle (leading edge).",
     ]
     return "\n".join(lines)
+
+
+def different(values: np.ndarray, places: int | None = None) -> str:
+    """The values that pads have, with as many digits: "80/90"."""
+    shown = (f"{each:g}" if places is None else digits(each, places) for each in np.unique(values).tolist())
+    return "/".join(dict.fromkeys(shown))
 
 
 def movie(run: Run, path: str | Path, last: float | None = None) -> None:

@@ -45,9 +45,10 @@ def pressure(
             used.append(ax)
         for ax in axes[len(own[i]) :]:
             ax.remove()
+    alike = all(np.ptp(each, axis=0).max() == 0 for each in (films[0].phi, films[0].z))
     for ax in used:
         # labels of inner axes repeat those of the outer ones
-        ax.label_outer() if len(runs) == 1 and len(pads) % columns == 0 else None
+        ax.label_outer() if len(runs) == 1 and len(pads) % columns == 0 and alike else None
     fig.colorbar(
         used[0].collections[0], ax=used, label=SHOWN["pressure"].label, aspect=14 * rows, fraction=0.06
     )
@@ -76,7 +77,9 @@ def film(
             lower.plot(x, SHOWN["pressure"].factor * around.pressure[k - 1, :, 0], **line)
     for k in (k for k in pads if len(bearings(runs)) == 1):
         place = {"xycoords": ("data", "axes fraction"), "ha": "center", "fontsize": "small", "color": "0.3"}
-        upper.annotate(f"pad {k}", (geometry.of_pads(runs[0].input, "pivot_angle_deg")[k - 1], 1.03), **place)
+        upper.annotate(
+            f"pad {k}", (geometry.of_pads(runs[0].input, "pads%pivot_angle_deg")[k - 1], 1.03), **place
+        )
     upper.set(ylabel="film thickness (µm)")
     upper.set_ylim(bottom=0)
     lower.set(

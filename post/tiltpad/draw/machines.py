@@ -118,7 +118,8 @@ def draw_disc(ax: Axes, x: np.ndarray, disc: Mapping[str, Any]) -> float:
 
 def draw_bearing(ax: Axes, x: np.ndarray, bearing: Mapping[str, Any], reach: float, support: bool) -> None:
     """The pads above and below the journal, the name, and what it stands on: ground, or a spring."""
-    at, radius, length = station(x, bearing), float(bearing["journal_radius"]), float(bearing["axial_length"])
+    at, radius = station(x, bearing), float(bearing["journal_radius"])
+    length = float(np.max(bearing["axial_length"]))
     thick = 0.09 * reach
     for low in (radius, -radius - thick):
         look = {"facecolor": "0.55", "edgecolor": "0.2", "linewidth": 0.7, "zorder": 4}

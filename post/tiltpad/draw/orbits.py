@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from typing import Any
 
 import matplotlib.pyplot as plt
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from tiltpad.draw import layout, plots
+from tiltpad.files.namelist import of_pads
 from tiltpad.files.read import Run
 
 #: What makes another bearing in a picture of its clearance.
@@ -91,9 +91,7 @@ def bearings(runs: Sequence[Run]) -> list[list[int]]:
     found: dict[Any, list[int]] = {}
     for i, run in enumerate(runs):
         key = tuple(
-            tuple(np.atleast_1d(run.input[group][name]).tolist())
-            for group, names in GEOMETRY.items()
-            for name in names
+            of_pads(run.input, f"{group}%{name}") for group, names in GEOMETRY.items() for name in names
         )
         found.setdefault((run.input["pads"]["motion"] == "fixed", *key), []).append(i)
     return list(found.values())

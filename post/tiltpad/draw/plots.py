@@ -16,7 +16,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.patches import Arc, Circle, FancyArrowPatch
 from matplotlib.ticker import MaxNLocator
 
-from tiltpad.calculate import behaviour, library, pivots, signals, spectra
+from tiltpad.calculate import behaviour, geometry, library, pivots, signals, spectra
 from tiltpad.files.read import Run, needs_run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
@@ -104,18 +104,23 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
     Fixed pads leave the journal the room within their bores, which is drawn instead of the circle.
     With `marks`, pads that carry no load are pale, and words say so, or that they flutter or rub.
     """
-    radius = reach = SHOWN["journal_y"].factor * run.clearance
-    bore = SHOWN["journal_y"].factor * run.input["bearing"]["machined_clearance"]
+    factor = SHOWN["journal_y"].factor
+    radius = reach = factor * run.clearance
+    assembled, machined = (
+        factor * geometry.of_pads(run.input, f"bearing%{name}_clearance")
+        for name in ("assembled", "machined")
+    )
     tilting = run.input["pads"]["motion"] != "fixed"
     if tilting:
         ax.add_patch(Circle((0, 0), radius, fill=False, linewidth=0.8, color="0.3"))
     note = {"ha": "center", "fontsize": "small", "color": "0.3"}
-    arc, ratio = (np.atleast_1d(run.input["pads"][name]) for name in ("arc_deg", "pivot_ratio"))
+    arc, ratio = (geometry.of_pads(run.input, f"pads%{name}") for name in ("arc_deg", "pivot_ratio"))
     found = behaviour.marks(run) if marks else {}
     for pad, angle in enumerate(np.degrees(run.pivot_angle)):
         mark = found.get(pad + 1, "")
         ends = {"theta1": angle - (1 - ratio[pad]) * arc[pad], "theta2": angle + ratio[pad] * arc[pad]}
-        middle, inner = ((0.0, 0.0), radius) if tilting else (polar(radius - bore, angle), bore)
+        inner = assembled[pad] if tilting else machined[pad]
+        middle = polar(assembled[pad] - inner, angle)
         if not tilting:
             ax.add_patch(Arc(middle, 2 * inner, 2 * inner, **ends, linewidth=0.8, color="0.3"))
             corners = [np.add(middle, polar(inner, end)) for end in ends.values()]
@@ -397,7 +402,7 @@ def pressure(
     column, film, shown = signals.pad_column(run, pad), film or library.pressure(run, time), SHOWN["pressure"]
     field = shown.factor * film.pressure[column].T
     levels = MaxNLocator(12).tick_values(field.min(), max(field.max(), field.min() + 1e-6))
-    x, y = SHOWN["phi"].factor * film.phi[column], SHOWN["axial"].factor * film.z
+    x, y = SHOWN["phi"].factor * film.phi[column], SHOWN["axial"].factor * film.z[column]
     filled = ax.contourf(x, y, field, **{"levels": levels, **contours})
     if "levels" not in contours:
         ax.figure.colorbar(filled, ax=ax, label=shown.label)

@@ -37,12 +37,14 @@ LEAST_MASS = 1e-6
 OPERATION = ("operation%speed_rpm", "operation%final_speed_rpm", "operation%duration")
 ONE_NUMBER = (
     *OPERATION,
-    *("bearing%journal_radius", "bearing%machined_clearance", "bearing%assembled_clearance"),
-    *("bearing%axial_length", "rotor%mass", "rotor%gravity"),
+    *("bearing%journal_radius", "rotor%mass", "rotor%gravity"),
     *("pivot%socket_radius", "pivot%radius_difference"),
     *("friction%stribeck_velocity", "friction%decay", "friction%critical_velocity"),
 )
-NUMBERS = ("pads%pivot_angle_deg", "pads%arc_deg", "pads%pivot_ratio", "pads%pivot_distance")
+NUMBERS = (
+    *("pads%pivot_angle_deg", "pads%arc_deg", "pads%pivot_ratio", "pads%pivot_distance"),
+    *("bearing%machined_clearance", "bearing%assembled_clearance", "bearing%axial_length"),
+)
 TEXTS = ("friction%model", "pads%motion")
 
 
@@ -54,9 +56,23 @@ def resolved(text: str) -> dict[str, dict[str, Any]]:
         return groups
     for names, kinds in ((ONE_NUMBER, int | float), (NUMBERS, int | float | tuple), (TEXTS, str)):
         needs_variables(groups, names, kinds)
-    if len({count(groups["pads"][name.split("%")[1]]) for name in NUMBERS}) > 1:
+    # in older files clearances and length are one number for all pads
+    own = [name for name in NUMBERS if name.startswith("pads%") or isinstance(variable(groups, name), tuple)]
+    if len({count(variable(groups, name)) for name in own}) > 1:
         raise ValueError("the pads' values are not equally many")
     return groups
+
+
+def variable(groups: Mapping[str, Any], name: str) -> Any:
+    """The value of "group%name"."""
+    group, _, own = name.partition("%")
+    return groups[group][own]
+
+
+def of_pads(groups: Mapping[str, Any], name: str) -> tuple[float, ...]:
+    """The value of "group%name" of each pad."""
+    value = variable(groups, name)
+    return value if isinstance(value, tuple) else (value,) * count(groups["pads"]["pivot_angle_deg"])
 
 
 def needs_variables(groups: Mapping[str, Any], names: Sequence[str], kinds: Any) -> None:
@@ -103,7 +119,7 @@ def count(value: Any) -> int:
 
 
 def parse(text: str) -> dict[str, dict[str, Any]]:
-    """Groups of the namelist text: {"bearing": {"assembled_clearance": 8e-5, ...}, ...}.
+    """Groups of the namelist text: {"bearing": {"journal_radius": 0.0499, ...}, ...}.
 
     Excitations are a list, and in a machine all that are there several times: {"bearing": [{"name": "left",
     ...}, ...]}.

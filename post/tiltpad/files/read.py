@@ -154,7 +154,7 @@ class Run(Archive):
 
     @cached_property
     def input(self) -> dict[str, dict[str, Any]]:
-        """The resolved namelist: {"bearing": {"assembled_clearance": 8e-5, ...}, ...}."""
+        """The resolved namelist: {"bearing": {"journal_radius": 0.0499, ...}, ...}."""
         with reading(self.path, "attribute 'input'"):
             return namelist.resolved(self.attributes["input"])
 
@@ -165,9 +165,9 @@ class Run(Archive):
 
     @property
     def clearance(self) -> float:
-        """Bearing clearance c_r, m."""
+        """Bearing clearance c_r, m; of pads that differ the smallest."""
         self.needs_one_bearing("clearance")
-        return self.input["bearing"]["assembled_clearance"]
+        return min(namelist.of_pads(self.input, "bearing%assembled_clearance"))
 
     @property
     def pads(self) -> int:
@@ -366,7 +366,7 @@ class Bearing(Run):
 
     @cached_property
     def input(self) -> dict[str, dict[str, Any]]:
-        """The resolved namelist of the bearing: {"bearing": {"assembled_clearance": 8e-5, ...}, ...}."""
+        """The resolved namelist of the bearing: {"bearing": {"journal_radius": 0.0499, ...}, ...}."""
         with reading(self.path, f"attribute 'input' of {self.group}"):
             return namelist.resolved(self.attributes["input"])
 

@@ -148,16 +148,17 @@ contains
       end associate
    end subroutine evaluate_pad
 
-   !> Pressure of every pad's film, Pa, (axial position, angle, pad), as `field_of_pad`, at angles (angle, pad).
+   !> Pressure of every pad's film, Pa, (axial position, angle, pad), as `field_of_pad`, at angles (angle, pad) and
+   !> axial positions (axial position, pad).
    subroutine field(self, motion, oil, speed, phi, z, pressure)
       class(film_solver_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
       type(film_oil), intent(in) :: oil(:)
-      real(wp), intent(in) :: speed, phi(:, :), z(:)
+      real(wp), intent(in) :: speed, phi(:, :), z(:, :)
       real(wp), intent(out) :: pressure(:, :, :)
       integer :: i
       do i = 1, size(motion)
-         call self%field_of_pad(i, motion(i), oil(i), speed, phi(:, i), z, pressure(:, :, i))
+         call self%field_of_pad(i, motion(i), oil(i), speed, phi(:, i), z(:, i), pressure(:, :, i))
       end do
    end subroutine field
 
