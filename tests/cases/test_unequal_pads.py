@@ -23,7 +23,7 @@ SAID = {
     "list": ("bearing%assembled_clearance=80e-6,80e-6,80e-6", "bearing%axial_length=3*0.06"),
     "elements": ("bearing%machined_clearance=90e-6,3e-4,3e-4", "bearing%machined_clearance(1)=3*120e-6"),
 }
-#: Units of the unknowns, journal and tilts; where their search begins, and within which bounds films are open.
+#: Units of the unknowns, journal and tilts; where their search begins, and bounds that keep films open.
 UNITS = np.array([1e-5, 1e-5, 1e-3, 1e-3, 1e-3])
 FIRST, OPEN = [-3, 0, 0.5, 0.3, 0], ([-6, -3, -1, -1, -1], [0, 3, 2, 2, 2])
 GRIDS = ((48, 8), (96, 16))
