@@ -424,6 +424,7 @@ docs: run $(addprefix $(B)/tests/,test_film_accuracy test_fixed_pads test_losses
 	$(venv_python) docs/api.py > build/api.md && mv build/api.md docs/
 	$(venv_python) docs/gallery.py $(B)/bin/tiltpad build/gallery
 	$(venv_python) docs/examples.py $(B)/bin/tiltpad build/examples
+	$(venv_python) docs/rig.py $(B)/bin/tiltpad
 	@mkdir -p docs/images
 	cp build/run/*.png docs/images/
 	$(venv_python) docs/model_picture.py docs/images/model.png
