@@ -7,6 +7,7 @@ program tiltpad
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag, read_study
    use namelist_writer, only: namelist_of, reference_text
+   use number_columns, only: read_excitation_tables
    use files, only: real_path
    use processes, only: write_output
    use build_info, only: program_version, program_commit
@@ -79,7 +80,7 @@ contains
       type(study_type) :: study
       type(case_type) :: inputs
       type(run_tag) :: tag
-      character(len=:), allocatable :: output, text
+      character(len=:), allocatable :: output
       type(record_type) :: results
       type(error_type), allocatable :: failures(:)
       logical :: whole_study
@@ -101,12 +102,7 @@ contains
          call put(to_text(study%runs)//new_line('a'), error)
          return
       case ('check')
-         if (whole_study) then
-            call study%resolved(text, error)
-         else
-            call study%checked(max(1, given%run), text, error)
-         end if
-         if (.not. allocated(error)) call put(text, error)
+         call print_case(study, whole_study, given%run, error)
          return
       case default
          call choose_output(given, study%given, output, error)
@@ -133,6 +129,26 @@ contains
       if (.not. allocated(error) .or. .not. study%given) return
       if (error%status == numerics_error) error%message = error%message//computed_in//output
    end subroutine treat_case
+
+   !> Prints the case of a study, or of one run (0: the first), whose tables of excitations are read as a run reads
+   !> them.
+   subroutine print_case(study, whole_study, run, error)
+      type(study_type), intent(in) :: study
+      logical, intent(in) :: whole_study
+      integer, intent(in) :: run
+      type(error_type), allocatable, intent(out) :: error
+      type(case_type) :: inputs
+      character(len=:), allocatable :: text
+      call study%inputs(max(1, run), inputs, error)
+      if (.not. allocated(error)) call read_excitation_tables(inputs, error)
+      if (allocated(error)) return
+      if (whole_study) then
+         call study%resolved(text, error)
+      else
+         call study%checked(max(1, run), text, error)
+      end if
+      if (.not. allocated(error)) call put(text, error)
+   end subroutine print_case
 
    !> Refuses options that the case is not for.
    subroutine check_use(given, study, error)

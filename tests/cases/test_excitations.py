@@ -73,13 +73,15 @@ def test_a_table_is_what_it_samples(run, tmp_path):
         (None, "no such file"),
     ],
 )
-def test_bad_tables_are_refused_by_one_line(run, tmp_path, content, words):
+def test_bad_tables_are_refused_by_one_line_and_by_check(run, tmp_path, content, words):
     if content is not None:
         (tmp_path / "force.csv").write_text(content, newline="")
     done = run(STILL + f"&excitation kind='table', file='{tmp_path}/force.csv' /\n", status=1)
     assert "excitation(1)%file" in done.stderr
     assert words in done.stderr
     assert not (tmp_path / "case.h5").exists()
+    case = (tmp_path / "case.nml").read_text()
+    assert run(case, status=1, more=("--check",)).stderr == done.stderr
 
 
 def test_an_orbit_has_the_period_of_its_excitation(run, tmp_path):

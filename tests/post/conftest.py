@@ -30,6 +30,8 @@ CASES = {
     "sor": "&operation duration=0.02 / &pads pivot_angle_deg=-45,225,45,135 / &film solver='sor' /",
     "flooded": "&operation duration=0.02 / &bearing supply_pressure=3e5, ambient_pressure=1e5 / "
     "&pads pivot_angle_deg=-45,225,45,135, pivot_ratio=0.5,0.6,0.5,0.5, motion='tilting_only' /",
+    "excited": "&operation duration=0.06 / &friction model='lugre' / "
+    "&excitation amplitude=100, frequency_hz=80 / &excitation kind='step', amplitude=200, start=0.01 /",
     "runup": "&operation speed_rpm=1500, final_speed_rpm=6500, duration=0.1 / &friction model='lugre' /",
     "fixed": "&operation duration=0.06 / &pads motion='fixed' /",
     "equilibrium": "&case task='equilibrium' /",

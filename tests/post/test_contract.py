@@ -32,6 +32,11 @@ ASPERITIES = {
     "summary/pad_asperity_share": (("pad",), "1"),
     "summary/pad_asperity_time": (("pad",), "s"),
 }
+EXCITATION = {
+    "excitation": (("excitation",), "1"),
+    "excitation_y": (("time", "excitation"), "N"),
+    "excitation_z": (("time", "excitation"), "N"),
+}
 CONSTANT = {"pad": (("pad",), "1"), "pivot_angle": (("pad",), "rad")}
 EQUILIBRIUM = {
     "equilibrium/journal_y": ((), "m"),
@@ -102,7 +107,10 @@ ABSENT = {
     "runup": set(SPECTRUM) | set(PERIODIC),
     "equilibrium": set(SERIES) | set(SPECTRUM) | set(ASPERITIES) | set(PERIODIC),
     "periodic": set(),
+    "excited": set(PERIODIC),
 }
+ABSENT |= {name: absent | set(EXCITATION) for name, absent in ABSENT.items() if name != "excited"}
+EVERYTHING = SERIES | EXCITATION | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES | PERIODIC
 
 
 @pytest.fixture(params=ABSENT)
@@ -117,15 +125,13 @@ def file(result, case_name):
 
 
 def test_every_dataset_is_there_and_no_other_case_s(file, case_name):
-    everything = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES | PERIODIC
-    there = {name for name in everything if name in file}
-    assert there == set(everything) - ABSENT[case_name]
+    there = {name for name in EVERYTHING if name in file}
+    assert there == set(EVERYTHING) - ABSENT[case_name]
 
 
 def test_dimensions_units_and_meaning(file, case_name):
-    expected = SERIES | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES | PERIODIC
-    for name in set(expected) - ABSENT[case_name]:
-        dimensions, units = expected[name]
+    for name in set(EVERYTHING) - ABSENT[case_name]:
+        dimensions, units = EVERYTHING[name]
         dataset = file[name]
         assert dataset.dtype == np.float64, name
         assert dataset.attrs["units"] == units, name
@@ -145,6 +151,16 @@ def test_pads_and_samples(file, case_name):
     np.testing.assert_allclose(np.degrees(file["pivot_angle"]), [-45, 225, 45, 135][:pads], rtol=1e-14)
     for name in set(SERIES) - ABSENT[case_name]:
         assert np.isfinite(file[name][()]).all(), name
+
+
+def test_excitations_are_those_of_the_case(result):
+    """A vibration along y, and a step from its start on; they are numbered in the order of the case."""
+    with h5py.File(result("excited"), "r") as file:
+        time = file["time"][:]
+        expected = np.column_stack([100 * np.cos(2 * np.pi * 80 * time), 200.0 * (time >= 0.01)])
+        np.testing.assert_array_equal(file["excitation"], [1, 2])
+        np.testing.assert_allclose(file["excitation_y"], expected, atol=1e-9)
+        np.testing.assert_allclose(file["excitation_z"], 0, atol=1e-9)
 
 
 def test_attributes(file, case_name):
