@@ -3,7 +3,7 @@
 import os
 
 from figures import compared
-from films import CHECK, exponent
+from films import CHECK, UNEQUAL, exponent
 from peers import DIFFERENCED, OWN, SCALAR, SCALED, SCIPY, TILTPAD
 from production import CHECKPOINTS, COLLECT, LONG, SHORT, START, STUDY
 from runner import Row
@@ -129,16 +129,20 @@ def pads(rows: list[Row]) -> str:
     for row in rows:
         side = 1e6 * row.march_seconds / row.rhs if row.rhs else None
         times = short(side), short(side / int(row.setting) if side else None)
-        counts = row.setting, short(row.wall_seconds), row.steps, row.rhs
-        lines.append((*counts, *times, f"{row.memory_mb:.0f}", row.note))
+        name = row.setting + (f", {UNEQUAL}" if row.group == UNEQUAL else "")
+        counts = name, short(row.wall_seconds), row.steps, row.rhs
+        tables = row.film_cells, short(1e3 * row.building_seconds), f"{row.memory_mb:.0f}"
+        lines.append((*counts, *times, *tables, row.note))
     return table(
-        "pads | wall s | steps | right-hand sides | us per right-hand side | us per pad | MB | ", lines
+        "pads | wall s | steps | right-hand sides | us per right-hand side | us per pad | cells "
+        "| building ms | MB | ",
+        lines,
     )
 
 
 def pads_words(rows: list[Row]) -> str:
     """The exponent."""
-    good = [row for row in rows if row.rhs]
+    good = [row for row in rows if row.rhs and row.group != UNEQUAL]
     if len(good) < 2:
         return ""
     power = exponent([int(row.setting) for row in good], [row.march_seconds / row.rhs for row in good])

@@ -5,7 +5,7 @@ from pathlib import Path
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
-from films import CHECK
+from films import CHECK, UNEQUAL
 from matplotlib.axes import Axes
 from peers import OCTAVE, OWN, SCALED, SCIPY, SHORT, TILTPAD
 from runner import Row
@@ -120,14 +120,26 @@ def films(rows: list[Row]) -> None:
 def pads(rows: list[Row]) -> None:
     """Time of a right-hand side over the number of pads."""
     _, ax = plt.subplots(figsize=(COLUMN, 2.6))
-    counts = np.array([int(row.setting) for row in rows if row.rhs])
-    times = np.array([1e6 * row.march_seconds / row.rhs for row in rows if row.rhs])
+    counts, times = times_of([row for row in rows if row.rhs and row.group != UNEQUAL])
     ax.plot(counts, times, "o-", markersize=4, label="measured")
+    ax.plot(
+        *times_of([row for row in rows if row.rhs and row.group == UNEQUAL]),
+        "s:",
+        markersize=4,
+        label=UNEQUAL,
+    )
     ax.plot(counts, times[-1] * counts / counts[-1], label="linear", **TARGET)
     ax.set(xscale="log", yscale="log", xlabel="pads", ylabel="march time, us a right-hand side")
     ax.set_xticks(counts, map(str, counts), minor=False)
     ax.set_xticks([], minor=True)
     ax.legend()
+
+
+def times_of(rows: list[Row]) -> tuple[np.ndarray, np.ndarray]:
+    """Pads, and the time of a right-hand side, us."""
+    return np.array([int(row.setting) for row in rows]), np.array(
+        [1e6 * row.march_seconds / row.rhs for row in rows]
+    )
 
 
 def peers(rows: list[Row]) -> None:

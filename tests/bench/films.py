@@ -6,8 +6,9 @@ import numpy as np
 from runner import Row, Runner
 from settings import FILM_CASES, FILM_CHECKS, FILM_REFERENCE, FILM_SOLVERS, MAIN, PAD_COUNTS, Case
 
-#: Group of the runs that check films alone.
+#: Group of the runs that check films alone; of bearings whose pads all differ.
 CHECK = "check"
+UNEQUAL = "each its own"
 
 
 def films(runner: Runner) -> Iterator[Row]:
@@ -24,11 +25,23 @@ def films(runner: Runner) -> Iterator[Row]:
 
 
 def pads(runner: Runner) -> Iterator[Row]:
-    """The same pad several times."""
-    for count in PAD_COUNTS:
-        row, path = runner.run(ring(count), "pads", str(count))
-        path.unlink(missing_ok=True)
-        yield row
+    """The same pad several times, and as many pads of which no two are alike."""
+    for group in ("pads", UNEQUAL):
+        for count in PAD_COUNTS:
+            row, path = runner.run(
+                ring(count), group, str(count), differing(count) if group == UNEQUAL else ()
+            )
+            path.unlink(missing_ok=True)
+            yield row
+
+
+def differing(count: int) -> tuple[str, ...]:
+    """Clearances of pads that are a micrometre apart from one to the next, at most 8 in all."""
+    steps = [8 * k / count for k in range(count)]
+    return tuple(
+        f"bearing%{name}={','.join(f'{each + step:.6g}e-6' for step in steps)}"
+        for name, each in (("assembled_clearance", 60), ("machined_clearance", 100))
+    )
 
 
 def ring(count: int) -> Case:

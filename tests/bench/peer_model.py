@@ -31,8 +31,9 @@ def compliance(pivot: dict) -> float:
 def contact_table(pivot: dict, cells: int = 4000) -> tuple[float, np.ndarray]:
     """Fang's law (11)-(18): spacing of the pivot deflections, and the force at each; forces up to some 100
     kN."""
-    outer = pivot["socket_radius"]
-    inner = outer - pivot["radius_difference"]
+    outer = float(np.max(pivot["socket_radius"]))
+    difference = float(np.max(pivot["radius_difference"]))
+    inner = outer - difference
     k = compliance(pivot)
     a = outer * np.geomspace(1e-4, 1, 20001)
     n = 0.5 - 0.24 * np.exp(-15.08 * (1 - a / outer))
@@ -42,7 +43,7 @@ def contact_table(pivot: dict, cells: int = 4000) -> tuple[float, np.ndarray]:
     room = 4 * b * inner * outer * k * (n + 0.5) * (n + 1) - a**3 * np.pi * 3.8304 * b * k / (np.pi * outer)
     grows = room > 0.01 * room.max()
     grows &= np.cumprod(grows).astype(bool) | (a < 0.3 * outer)
-    force = a**3 * np.pi * g * pivot["radius_difference"] / np.where(grows, room, 1.0)
+    force = a**3 * np.pi * g * difference / np.where(grows, room, 1.0)
     pivot_deflection = pivot["deflection_factor"] * k * b * (n + 1) * force / (np.pi * a)
     a, force, pivot_deflection = a[grows], force[grows], pivot_deflection[grows]
     most = min(pivot_deflection[-1], 4e-5)
@@ -173,9 +174,9 @@ class Bearing:
         self.speed = case["operation"]["speed_rpm"] * np.pi / 30
         self.rotor = float(rotor["mass"]), float(rotor["unbalance"]), float(rotor["gravity"])
         self.contact = contact_table(case["pivot"])
-        ball = case["pivot"]["socket_radius"] - case["pivot"]["radius_difference"]
+        ball = float(np.max(case["pivot"]["socket_radius"]) - np.max(case["pivot"]["radius_difference"]))
         stiffness = float(law["bristle_stiffness"])
-        coefficients = law["static_coefficient"], law["dynamic_coefficient"]
+        coefficients = (float(np.max(law[f"{name}_coefficient"])) for name in ("static", "dynamic"))
         damping = float(np.sqrt(stiffness / law["characteristic_load"]))
         self.friction = ball, *coefficients, law["stribeck_velocity"], stiffness, damping
         self.fields = np.zeros((self.count, COLUMNS + 2, ROWS + 2))

@@ -149,7 +149,7 @@ def case(run: tiltpad.Run) -> str:
         "trailing": bearing.geometry[:, 5], "length": np.max(inputs["axial_length"]),
         "machined": np.max(inputs["machined_clearance"]), "radius": bearing.geometry[0, 0],
         "inner": inputs["journal_radius"], "viscosity": inputs["viscosity"], "speed": bearing.speed,
-        "outer": pivot["socket_radius"], "difference": pivot["radius_difference"],
+        "outer": np.max(pivot["socket_radius"]), "difference": np.max(pivot["radius_difference"]),
         "compliance": compliance(pivot), "factor": pivot["deflection_factor"],
         "relative": settings.PEER_RELATIVE, "absolute": settings.PEER_ABSOLUTE,
     }  # fmt: skip
