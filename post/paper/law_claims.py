@@ -7,7 +7,15 @@ import tiltpad
 
 from paper.judging import Claims, Verdict, above, below, growth, larger, smaller
 from paper.laws import FANG_DIFFERENCES, fang_force
-from paper.measures import height, peak_to_peak, rms_deviation, size, sticking, stribeck_curve
+from paper.measures import (
+    height,
+    peak_to_peak,
+    rms_deviation,
+    size,
+    static_coefficient,
+    sticking,
+    stribeck_curve,
+)
 from paper.runs import Runs
 from paper.settings import DIFFERENCES, ON_CURVE, RESOLUTION, STICKS, STIFFNESSES, VELOCITIES
 
@@ -30,7 +38,7 @@ def one_stribeck_curve(runs: Runs) -> Verdict:
     law = bengisu.input["friction"]
     velocity = np.geomspace(law["critical_velocity"], 1e-2, 1000)
     gap = np.abs(stribeck_curve(bengisu, velocity) - stribeck_curve(lugre, velocity)).max()
-    return below(float(gap) / law["static_coefficient"], ON_CURVE)
+    return below(float(gap) / static_coefficient(bengisu), ON_CURVE)
 
 
 # ---- parameters of the friction models -------------------------------------------------------------------

@@ -36,13 +36,17 @@ def sticking(run: Run) -> float:
     return tiltpad.stick_fraction(run, PAD, LAST) / harmonic
 
 
+def static_coefficient(run: Run) -> float:
+    """f_s, of all pivots alike."""
+    return float(np.max(run.input["friction"]["static_coefficient"]))
+
+
 def breakaway(run: Run) -> float:
     """Largest part of the static friction that either pad's pivot uses; a pivot that stays below 1 never
     slides.
     """
-    law = run.input["friction"]
     parts = [tiltpad.friction_coefficient(run, pad, LAST)[1] for pad in (1, 2)]
-    return float(np.nanmax(np.abs(parts)) / law["static_coefficient"])
+    return float(np.nanmax(np.abs(parts)) / static_coefficient(run))
 
 
 def distance(run: Run, other: Run, part: slice | None = None) -> float:
@@ -73,7 +77,7 @@ def acceleration(run: Run) -> float:
 def stribeck_curve(run: Run, velocity: np.ndarray) -> np.ndarray:
     """Friction coefficient of the steady law at sliding velocities: (22), or (25)."""
     law, speed = run.input["friction"], np.abs(velocity)
-    static, dynamic = law["static_coefficient"], law["dynamic_coefficient"]
+    static, dynamic = (np.max(law[name]) for name in ("static_coefficient", "dynamic_coefficient"))
     if law["model"] == "lugre":
         curve = dynamic + (static - dynamic) * np.exp(
             -((speed / law["stribeck_velocity"]) ** law["stribeck_exponent"])
@@ -89,7 +93,7 @@ def off_curve(run: Run) -> float:
     """Maximum distance of the friction coefficient of the first pad from the steady law, over f_s."""
     velocity, coefficient = tiltpad.friction_coefficient(run, PAD, LAST)
     gap = np.abs(coefficient - stribeck_curve(run, velocity)).max()
-    return float(gap) / run.input["friction"]["static_coefficient"]
+    return float(gap) / static_coefficient(run)
 
 
 def loop_width(run: Run) -> float:
@@ -110,7 +114,7 @@ def loop_width(run: Run) -> float:
         falling = np.interp(levels, speed[: slow[0] + 1][::-1], share[: slow[0] + 1][::-1])
         rising = np.interp(levels, speed[slow[-1] :], share[slow[-1] :])
         widest = max(widest, float(np.abs(rising - falling).max()))
-    return widest / run.input["friction"]["static_coefficient"]
+    return widest / static_coefficient(run)
 
 
 def speed_window(run: Run, rpm: float, turns: float) -> slice:

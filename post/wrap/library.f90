@@ -8,6 +8,7 @@ module tiltpad_library
    use text, only: to_text
    use case_inputs, only: case_type
    use case_namelist, only: case_from_text
+   use number_columns, only: read_tables
    use factories, only: make_law, make_friction
    use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
@@ -114,9 +115,10 @@ contains
       call tell(error, status, message)
    end subroutine power_losses
 
-   !> Contact of a pivot at pivot deflections, m; all zero where these are not positive.
-   subroutine contact(text, name, pivot_deflection, force, slope, radius, exponent, peak_pressure, status, message, n)
-      integer(c_int), intent(in) :: n
+   !> Contact of the pivot of a pad at pivot deflections, m; all zero where these are not positive.
+   subroutine contact(text, name, pad, pivot_deflection, force, slope, radius, exponent, peak_pressure, status, &
+      message, n)
+      integer(c_int), intent(in) :: pad, n
       character(len=*), intent(in) :: text, name
       real(c_double), intent(in) :: pivot_deflection(n)
       !> N; N/m; projected radius of the contact, m; exponent and peak, Pa, of the pressure (11).
@@ -125,7 +127,7 @@ contains
       character(len=2000), intent(out) :: message
       type(error_type), allocatable :: error
       type(contact_point) :: points(n)
-      call find_contacts(text, name, pivot_deflection, points, error)
+      call find_contacts(text, name, pad, pivot_deflection, points, error)
       force = points%force
       slope = points%stiffness
       radius = points%radius
@@ -135,8 +137,8 @@ contains
    end subroutine contact
 
    !> Contact pressure (11), Pa, at pivot deflections, m, and projected distances r from the axis, m, one each.
-   subroutine contact_pressure(text, name, pivot_deflection, r, pressure, status, message, n)
-      integer(c_int), intent(in) :: n
+   subroutine contact_pressure(text, name, pad, pivot_deflection, r, pressure, status, message, n)
+      integer(c_int), intent(in) :: pad, n
       character(len=*), intent(in) :: text, name
       real(c_double), intent(in) :: pivot_deflection(n), r(n)
       real(c_double), intent(out) :: pressure(n)
@@ -145,7 +147,7 @@ contains
       type(error_type), allocatable :: error
       type(contact_point) :: points(n)
       integer :: i
-      call find_contacts(text, name, pivot_deflection, points, error)
+      call find_contacts(text, name, pad, pivot_deflection, points, error)
       do i = 1, n
          pressure(i) = points(i)%pressure(r(i))
       end do
@@ -154,8 +156,8 @@ contains
 
    !> Friction force, N, and rate of the bristle deflection, m/s, at sliding velocities, m/s, bristle deflections, m
    !> (LuGre), and normal forces, N.
-   subroutine friction_force(text, name, velocity, deflection, normal, force, rate, status, message, n)
-      integer(c_int), intent(in) :: n
+   subroutine friction_force(text, name, pad, velocity, deflection, normal, force, rate, status, message, n)
+      integer(c_int), intent(in) :: pad, n
       character(len=*), intent(in) :: text, name
       real(c_double), intent(in) :: velocity(n), deflection(n), normal(n)
       real(c_double), intent(out) :: force(n), rate(n)
@@ -166,9 +168,9 @@ contains
       class(friction_law), allocatable :: law
       type(friction_response) :: response
       integer :: i
-      call case_from_text(text, name, inputs, error)
+      call read_pad(text, name, pad, inputs, error)
       if (.not. allocated(error)) then
-         call make_friction(inputs, law)
+         call make_friction(inputs, pad, law)
          do i = 1, n
             call law%evaluate(velocity(i), deflection(i), normal(i), response)
             force(i) = response%force
@@ -187,6 +189,7 @@ contains
       type(machine_model), intent(out) :: model
       type(error_type), allocatable, intent(out) :: error
       call case_from_text(text, name, inputs, error)
+      if (.not. allocated(error)) call read_tables(inputs, error)
       if (allocated(error)) return
       if (inputs%pad_count() /= size(viscosity)) then
          call raise(error, input_error, name//': '//to_text(inputs%pad_count()) &
@@ -199,21 +202,35 @@ contains
    end subroutine read_bearing
 
    !> The contact at each pivot deflection, m; that of no force where it is not positive.
-   subroutine find_contacts(text, name, pivot_deflection, points, error)
+   subroutine find_contacts(text, name, pad, pivot_deflection, points, error)
       character(len=*), intent(in) :: text, name
+      integer, intent(in) :: pad
       real(c_double), intent(in) :: pivot_deflection(:)
       type(contact_point), intent(out) :: points(:)
       type(error_type), allocatable, intent(out) :: error
       type(case_type) :: inputs
       class(contact_law_type), allocatable :: law
       integer :: i
-      call case_from_text(text, name, inputs, error)
+      call read_pad(text, name, pad, inputs, error)
       if (allocated(error)) return
-      call make_law(inputs, law)
+      call make_law(inputs, pad, law)
       do i = 1, size(points)
          if (pivot_deflection(i) > 0) points(i) = law%at(pivot_deflection(i))
       end do
    end subroutine find_contacts
+
+   !> The case of a namelist text, which has to have this pad.
+   subroutine read_pad(text, name, pad, inputs, error)
+      character(len=*), intent(in) :: text, name
+      integer, intent(in) :: pad
+      type(case_type), intent(out) :: inputs
+      type(error_type), allocatable, intent(out) :: error
+      call case_from_text(text, name, inputs, error)
+      if (.not. allocated(error)) call read_tables(inputs, error)
+      if (allocated(error)) return
+      if (pad < 1 .or. pad > inputs%pad_count()) call raise(error, input_error, name//': no pad '//to_text(pad) &
+         & //', of '//to_text(inputs%pad_count()))
+   end subroutine read_pad
 
    !> An error as status and message, or neither.
    subroutine tell(error, status, message)

@@ -11,7 +11,7 @@ module run_case
    use hdf5_file, only: hdf5_type
    use restart, only: restart_type, read_result, open_result, refuse_other_case
    use rotor_file, only: read_rotor
-   use number_columns, only: read_excitation_tables
+   use number_columns, only: read_tables
    use files, only: is_regular
    use processes, only: can_have
    use working_file, only: clear_leftovers
@@ -58,7 +58,7 @@ contains
       if (allocated(error)) return
       call begin_run(run, inputs, path, tag, verified_states, quiet)
       if (inputs%is_machine()) call read_rotor(run%inputs%machine, error)
-      if (.not. allocated(error)) call read_excitation_tables(run%inputs, error)
+      if (.not. allocated(error)) call read_tables(run%inputs, error)
       if (allocated(error)) return
       complete = .false.
       if (run%file%filed) call open_file(run, go_on, overwrite, complete, error)

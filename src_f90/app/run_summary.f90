@@ -21,6 +21,8 @@ module run_summary
 
    !> Reynolds number of a film above which it may be turbulent: published limits lie from here to 1500.
    real(wp), parameter :: laminar = 500
+   !> s.
+   real(wp), parameter :: thousand_hours = 3.6e6_wp
 
 contains
 
@@ -198,6 +200,7 @@ contains
       after = ''
       associate (lowest => pad_figures(file, 'pad_tilt_min'), highest => pad_figures(file, 'pad_tilt_max'), &
             & contact => pad_figures(file, 'pad_contact_force'), work => pad_figures(file, 'pad_friction_work'), &
+            & worn => pad_figures(file, 'pad_wear_rate'), deep => pad_figures(file, 'pad_wear_depth_rate'), &
             & film => pad_figures(file, 'pad_min_film_thickness'), pressure => pad_figures(file, 'pad_max_pressure'))
          do i = 1, size(film)
             if (inputs%tilting()) then
@@ -205,6 +208,8 @@ contains
                after = ', mean contact '//fixed_text(contact(i), 1)//' N'
                if (has_figure(file, 'pad_friction_work')) after = after//', friction work ' &
                   & //fixed_text(1e3_wp*work(i), 3)//' mJ'
+               if (has_figure(file, 'pad_wear_rate')) after = after//', wear ' &
+                  & //fixed_text(1e9_wp*thousand_hours*worn(i), 2)//' mm^3'//depth_text(deep(i))//' in 1000 h'
             end if
             print '(a)', '  pad '//to_text(i)//': '//before//'minimum film thickness '//micro(film(i)) &
                & //' um, maximum pressure '//mega(pressure(i))//' MPa'//after
@@ -214,6 +219,14 @@ contains
       call file%get_text('diagnosis', diagnosis)
       call print_indented(diagnosis)
    end subroutine print_march
+
+   !> Depth worn off at this rate, m/s, " and 2.68 um"; empty where it is not known.
+   function depth_text(rate) result(text)
+      real(wp), intent(in) :: rate
+      character(len=:), allocatable :: text
+      text = ''
+      if (.not. ieee_is_nan(rate)) text = ' and '//fixed_text(1e6_wp*thousand_hours*rate, 2)//' um'
+   end function depth_text
 
    !> Prints lines behind two blanks; nothing of an empty text.
    subroutine print_indented(lines)

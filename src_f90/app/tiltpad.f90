@@ -7,7 +7,7 @@ program tiltpad
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag, read_study
    use namelist_writer, only: namelist_of, reference_text
-   use number_columns, only: read_excitation_tables
+   use number_columns, only: read_tables
    use files, only: real_path
    use processes, only: write_output
    use build_info, only: program_version, program_commit
@@ -140,7 +140,7 @@ contains
       type(case_type) :: inputs
       character(len=:), allocatable :: text
       call study%inputs(max(1, run), inputs, error)
-      if (.not. allocated(error)) call read_excitation_tables(inputs, error)
+      if (.not. allocated(error)) call read_tables(inputs, error)
       if (allocated(error)) return
       if (whole_study) then
          call study%resolved(text, error)

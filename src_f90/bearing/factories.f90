@@ -13,6 +13,7 @@ module factories
    use film_losses, only: film_losses_type, new_film_losses
    use sor_film, only: new_sor_film, sor_options
    use contact_law, only: contact_law_type, make_contact_law
+   use measured_contact, only: new_measured_contact
    use contact_table, only: contact_table_type, new_contact_table, new_untabulated_contact
    use friction, only: friction_law, bengisu_akay_friction, lugre_friction, default_bristle_damping, &
       & never_sticks
@@ -169,43 +170,51 @@ contains
       end associate
    end function new_gaps
 
-   !> The contact law of the pivots.
-   subroutine make_law(inputs, law)
+   !> The contact law of a pad's pivot.
+   subroutine make_law(inputs, pad, law)
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: pad
       class(contact_law_type), allocatable, intent(out) :: law
       associate (v => inputs%pivot)
-         call make_contact_law(v%law, v%socket_radius, v%radius_difference, v%young_modulus, &
+         if (v%law == 'table') then
+            allocate (law, source=new_measured_contact(v%points, v%socket_radius(pad), v%radius_difference(pad)))
+            return
+         end if
+         call make_contact_law(v%law, v%socket_radius(pad), v%radius_difference(pad), v%young_modulus, &
             & v%poisson_ratio, v%deflection_factor, law)
       end associate
    end subroutine make_law
 
-   !> The contact of the pivots, with a table for a motion: a task without one looks up too seldom.
-   subroutine make_contact(inputs, contact)
+   !> The contact of a pad's pivot, with a table for a motion: a task without one looks up too seldom.
+   subroutine make_contact(inputs, pad, contact)
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: pad
       type(contact_table_type), intent(out) :: contact
       class(contact_law_type), allocatable :: law
-      call make_law(inputs, law)
-      if (inputs%moves()) then
+      call make_law(inputs, pad, law)
+      ! points are looked up as quickly, and a table would round where their cubics meet
+      if (inputs%moves() .and. inputs%pivot%law /= 'table') then
          contact = new_contact_table(law)
       else
          contact = new_untabulated_contact(law)
       end if
    end subroutine make_contact
 
-   !> The friction law of the pivots.
-   subroutine make_friction(inputs, law)
+   !> The friction law of a pad's pivot.
+   subroutine make_friction(inputs, pad, law)
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: pad
       class(friction_law), allocatable, intent(out) :: law
       real(wp) :: damping
       associate (f => inputs%friction)
          select case (f%model)
          case ('bengisu_akay')
-            law = bengisu_akay_friction(.false., f%static_coefficient, f%dynamic_coefficient, &
+            law = bengisu_akay_friction(.false., f%static_coefficient(pad), f%dynamic_coefficient(pad), &
                & f%critical_velocity, f%decay)
          case ('lugre')
             damping = f%bristle_damping
             if (.not. is_set(damping)) damping = default_bristle_damping(f%bristle_stiffness, f%characteristic_load)
-            law = lugre_friction(.true., f%static_coefficient, f%dynamic_coefficient, never_sticks, &
+            law = lugre_friction(.true., f%static_coefficient(pad), f%dynamic_coefficient(pad), never_sticks, &
                & f%stribeck_velocity, f%stribeck_exponent, f%bristle_stiffness, damping, f%viscous_coefficient)
          case default
             law = friction_law()
@@ -242,7 +251,7 @@ contains
             position%centre_distance = b%journal_radius + b%machined_clearance(i) + p%pivot_distance(i)
             pad%directions = pad%gap%directions()
             pad%largest_tilt = 0.5_wp*p%arc_deg(i)*degree
-            pad%ball_radius = v%socket_radius - v%radius_difference
+            pad%ball_radius = v%socket_radius(i) - v%radius_difference(i)
             pad%tilts = inputs%tilting()
             pad%radial = inputs%tilting_radial()
             if (.not. pad%tilts) cycle

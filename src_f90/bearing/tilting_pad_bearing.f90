@@ -7,12 +7,12 @@ module tilting_pad_bearing
    use case_inputs, only: case_type
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_not_converged
    use asperity_contact, only: asperity_contact_type, asperity_load
-   use contact_table, only: contact_table_type
    use friction, only: friction_law
    use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, pad_frame, frame_of, motion_of, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
-   use factories, only: make_film, make_contact, make_friction, new_asperities, new_pads, march_films, static_films
+   use factories, only: make_film, new_asperities, new_pads, march_films, static_films
+   use pad_pivots, only: pad_pivot, make_contacts, make_frictions
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
@@ -32,12 +32,11 @@ module tilting_pad_bearing
 
    type :: tilting_pad_bearing_type
       type(tilting_pad_type), allocatable :: pads(:)
+      type(pad_pivot), allocatable :: pivots(:)
       !> Of each pad rates of tilt rate and pivot deflection rate per moment and force, (2, 2, pad).
       real(wp), allocatable :: per_mass(:, :, :)
-      class(friction_law), allocatable :: friction
       type(asperity_contact_type) :: asperities
       class(film_solver_type), allocatable :: film
-      type(contact_table_type) :: contact
       !> The loads of each pad in the state evaluated last; their derivatives where they were taken last.
       type(pad_loads), allocatable :: loads(:)
       type(pad_derivatives), allocatable :: derivatives(:)
@@ -87,10 +86,11 @@ contains
       type(case_type), intent(in) :: inputs
       integer, intent(in), optional :: accuracy
       type(tilting_pad_bearing_type) :: bearing
+      allocate (bearing%pivots(inputs%pad_count()))
       call bearing%set_parts(inputs)
       if (present(accuracy)) bearing%accuracy = accuracy
       call make_film(inputs, bearing%accuracy, bearing%film)
-      call make_contact(inputs, bearing%contact)
+      call make_contacts(inputs, bearing%pivots)
       associate (n => inputs%pad_count())
          allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
             & bearing%asperity(n), bearing%film_motion(n), bearing%oil(n), bearing%response(n))
@@ -105,7 +105,7 @@ contains
       self%pads = new_pads(inputs)
       self%per_mass = reshape([(self%pads(i)%inverse_masses(), i=1, size(self%pads))], [2, 2, size(self%pads)])
       self%clearance = inputs%clearance()
-      call make_friction(inputs, self%friction)
+      call make_frictions(inputs, self%pivots)
       self%asperities = new_asperities(inputs)
    end subroutine set_parts
 
@@ -120,7 +120,7 @@ contains
       call self%set_parts(inputs)
       if (anew) call self%film%forget()
       if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, inputs)
-      if (pivots_differ) call make_contact(inputs, self%contact)
+      if (pivots_differ) call make_contacts(inputs, self%pivots)
    end subroutine adopt
 
    !> Has films of a march solved where they are asked for, closely, from here on.
@@ -227,9 +227,10 @@ contains
       type(asperity_load), intent(in) :: asperity
       type(pad_loads), intent(inout) :: loads
       if (self%rubs) then
-         call self%pads(pad)%loads(frame, state, film_force, asperity, self%contact, self%friction, loads)
+         call self%pads(pad)%loads(frame, state, film_force, asperity, self%pivots(pad)%contact, &
+            & self%pivots(pad)%friction, loads)
       else
-         call self%pads(pad)%loads(frame, state, film_force, asperity, self%contact, no_friction, loads)
+         call self%pads(pad)%loads(frame, state, film_force, asperity, self%pivots(pad)%contact, no_friction, loads)
       end if
    end subroutine set_loads
 
@@ -318,7 +319,7 @@ contains
    !> True where no friction puts switching points into the motion.
    pure logical function smooth(self)
       class(tilting_pad_bearing_type), intent(in) :: self
-      smooth = .not. self%rubs .or. same_type_as(self%friction, no_friction)
+      smooth = .not. self%rubs .or. same_type_as(self%pivots(1)%friction, no_friction)
    end function smooth
 
    !> False where a film of the state evaluated last, solved by iteration, did not converge.

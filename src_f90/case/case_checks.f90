@@ -122,12 +122,16 @@ contains
    subroutine check_friction(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
+      integer :: i
       associate (f => inputs%friction)
-         if (.not. (f%dynamic_coefficient <= f%static_coefficient)) call refuse('friction%dynamic_coefficient = ' &
-            & //to_text(f%dynamic_coefficient)//': must not exceed friction%static_coefficient = ' &
-            & //to_text(f%static_coefficient), error)
-         call require(f%model /= 'lugre' .or. f%dynamic_coefficient > 0, &
-            & 'friction%dynamic_coefficient = 0: must be > 0 for model = ''lugre''', error)
+         do i = 1, inputs%pad_count()
+            if (.not. (f%dynamic_coefficient(i) <= f%static_coefficient(i))) call refuse( &
+               & 'friction%dynamic_coefficient = '//to_text(f%dynamic_coefficient(i)) &
+               & //': must not exceed friction%static_coefficient = '//to_text(f%static_coefficient(i)) &
+               & //' (pad '//to_text(i)//')', error)
+            call require(f%model /= 'lugre' .or. f%dynamic_coefficient(i) > 0, 'friction%dynamic_coefficient = 0: ' &
+               & //'must be > 0 for model = ''lugre'' (pad '//to_text(i)//')', error)
+         end do
          call require(inputs%tilting() .or. f%model == 'none', 'friction%model = '''//f%model//''': must be ''none'' ' &
             & //'for pads%motion = ''fixed'', whose pads have no pivots', error)
       end associate
@@ -136,12 +140,20 @@ contains
    subroutine check_pivot(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
+      integer :: i
       associate (v => inputs%pivot)
-         if (.not. (v%radius_difference <= 0.5_wp*v%socket_radius)) call refuse('pivot%radius_difference = ' &
-            & //to_text(v%radius_difference)//': must be at most half of pivot%socket_radius = ' &
-            & //to_text(v%socket_radius), error)
-         call require(v%law /= 'hertz' .or. v%radius_difference > 0, &
-            & 'pivot%radius_difference = 0: must be > 0 for law = ''hertz''', error)
+         call require(v%law /= 'table' .or. v%file /= '', 'pivot%file = '''': must name a CSV file for ' &
+            & //'law = ''table''', error)
+         call require(v%law == 'table' .or. v%file == '', 'pivot%file = '''//v%file &
+            & //''': needs pivot%law = ''table''', error)
+         do i = 1, inputs%pad_count()
+            if (.not. (v%radius_difference(i) <= 0.5_wp*v%socket_radius(i))) call refuse( &
+               & 'pivot%radius_difference = '//to_text(v%radius_difference(i)) &
+               & //': must be at most half of pivot%socket_radius = '//to_text(v%socket_radius(i)) &
+               & //' (pad '//to_text(i)//')', error)
+            call require(v%law /= 'hertz' .or. v%radius_difference(i) > 0, 'pivot%radius_difference = 0: must be > 0 ' &
+               & //'for law = ''hertz'' (pad '//to_text(i)//')', error)
+         end do
       end associate
    end subroutine check_pivot
 

@@ -94,15 +94,22 @@ module case_groups
 
    type :: pivot_type
       character(len=:), allocatable :: law
-      real(wp) :: socket_radius = 13e-3_wp, radius_difference = 15e-6_wp
+      !> One value a pad.
+      real(wp), allocatable :: socket_radius(:), radius_difference(:)
       !> Of ball and socket.
       real(wp) :: young_modulus(2) = 2.1e11_wp, poisson_ratio(2) = 0.3_wp
       real(wp) :: deflection_factor = 4
+      !> CSV file of a measured law, and what was read from it: pivot deflections, m, and forces, N, (2, point).
+      character(len=:), allocatable :: file
+      real(wp), allocatable :: points(:, :)
+      !> Archard's, m^3/(N m); 0: the wear is not asked for.
+      real(wp) :: wear_coefficient = 0
    end type pivot_type
 
    type :: friction_type
       character(len=:), allocatable :: model
-      real(wp) :: static_coefficient = 0.1_wp, dynamic_coefficient = 0.05_wp
+      !> One value a pad.
+      real(wp), allocatable :: static_coefficient(:), dynamic_coefficient(:)
       real(wp) :: critical_velocity = 1e-5_wp, decay = 1000
       real(wp) :: stribeck_velocity = 1e-3_wp, stribeck_exponent = 1
       !> Bristle damping unset: eq (28).

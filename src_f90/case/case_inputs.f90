@@ -82,7 +82,12 @@ contains
       inputs%pads%thickness = [unset, unset]
       inputs%pads%motion = 'tilting_radial'
       inputs%pivot%law = 'fang'
+      inputs%pivot%file = ''
+      inputs%pivot%socket_radius = [13e-3_wp, 13e-3_wp]
+      inputs%pivot%radius_difference = [15e-6_wp, 15e-6_wp]
       inputs%friction%model = 'none'
+      inputs%friction%static_coefficient = [0.1_wp, 0.1_wp]
+      inputs%friction%dynamic_coefficient = [0.05_wp, 0.05_wp]
       inputs%asperity%model = 'greenwood_tripp'
       inputs%start%from = 'equilibrium'
       inputs%start%file = ''

@@ -20,7 +20,14 @@ contains
       character(len=:), allocatable :: lines
       integer :: i
       lines = ''
+      if (allocated(inputs%pivot%points)) lines = line('pivot%file', mark([inputs%pivot%points], 0_i8))
       if (inputs%is_machine()) then
+         do i = 1, size(inputs%machine%bearings)
+            associate (own => inputs%machine%bearings(i))
+               if (allocated(own%pivot%points)) lines = lines//line('pivot:'//own%name//'%file', &
+                  & mark([own%pivot%points], 0_i8))
+            end associate
+         end do
          if (allocated(inputs%machine%given)) then
             associate (g => inputs%machine%given)
                lines = line('rotor%file', mark([g%total_mass, g%weighed], mark([g%mass], mark([g%damping], &

@@ -115,8 +115,12 @@ contains
       associate (load => model%point%load)
          if (norm2(load) > 0) then
             journal%position = fractions(k)*model%inputs%clearance()*load/norm2(load)
-            if (model%layout%bearings(1)%radial) pads%pivot_deflection = &
-               & model%bearings(1)%contact%law%pivot_deflection(norm2(load)/size(pads))
+            if (model%layout%bearings(1)%radial) then
+               do i = 1, size(pads)
+                  pads(i)%pivot_deflection = model%bearings(1)%pivots(i)%contact%law%pivot_deflection(norm2(load) &
+                     & /size(pads))
+               end do
+            end if
          end if
          if (.not. model%layout%bearings(1)%tilting) journal%position = journal%position + middle_of_bores(model)
          do i = 1, size(pads)

@@ -116,14 +116,18 @@ contains
       type(pivot_type), intent(inout) :: pivot
       type(variable_table_type), intent(inout) :: v
       call v%group('pivot', 'Ball-and-socket contact')
-      call v%word(pivot%law, 'law', 'fang hertz', 'fang: conformal contact (11)-(18); hertz: law of Hertz')
-      call v%number(pivot%socket_radius, 'socket_radius', 1e-5_wp, 10.0_wp, 'm', 'radius R_2 of the socket')
-      call v%number(pivot%radius_difference, 'radius_difference', 0.0_wp, 1.0_wp, 'm', &
+      call v%word(pivot%law, 'law', 'fang hertz table', 'fang: conformal contact (11)-(18); hertz: law of Hertz; ' &
+         & //'table: as measured, by pivot%file')
+      call v%word(pivot%file, 'file', '', 'table: the CSV file whose columns are deflection (m) and force (N)')
+      call v%each(pivot%socket_radius, 'pads', 'socket_radius', 1e-5_wp, 10.0_wp, 'm', 'radius R_2 of the socket')
+      call v%each(pivot%radius_difference, 'pads', 'radius_difference', 0.0_wp, 1.0_wp, 'm', &
          & 'dR = R_2 - R_1, R_1 being the radius of the ball')
       call v%numbers(pivot%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'values of ball and socket')
       call v%numbers(pivot%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'values of ball and socket')
       call v%number(pivot%deflection_factor, 'deflection_factor', 0.1_wp, 100.0_wp, '1', &
          & 'factor of eq (13): 4 as printed; 2 pi agrees with Hertz''s law')
+      call v%number(pivot%wear_coefficient, 'wear_coefficient', 0.0_wp, 1e-6_wp, 'm^3/(N m)', &
+         & 'worn volume over pivot load and distance slid (Archard), for pad_wear_rate; 0: no figures of the wear')
    end subroutine list_pivot
 
    !> Friction in the pivots of a bearing.
@@ -133,9 +137,9 @@ contains
       call v%group('friction', 'Friction in the pivots')
       call v%word(friction%model, 'model', 'none bengisu_akay lugre', &
          & 'none; bengisu_akay: eq (22); lugre: eqs (23)-(25)')
-      call v%number(friction%static_coefficient, 'static_coefficient', 1e-6_wp, 10.0_wp, '1', &
+      call v%each(friction%static_coefficient, 'pads', 'static_coefficient', 1e-6_wp, 10.0_wp, '1', &
          & 'static friction coefficient f_s')
-      call v%number(friction%dynamic_coefficient, 'dynamic_coefficient', 0.0_wp, 10.0_wp, '1', &
+      call v%each(friction%dynamic_coefficient, 'pads', 'dynamic_coefficient', 0.0_wp, 10.0_wp, '1', &
          & 'dynamic friction coefficient f_d <= f_s')
       call v%number(friction%critical_velocity, 'critical_velocity', 1e-12_wp, 10.0_wp, 'm/s', &
          & 'Bengisu-Akay: critical velocity v_c')

@@ -3,15 +3,17 @@ module number_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use text, only: to_text, lower_case, shortened
-   use errors, only: error_type, raise, add_context, input_error
+   use errors, only: error_type, raise, refuse, add_context, input_error
+   use case_groups, only: pivot_type
    use case_inputs, only: case_type
+   use machine_names, only: of_bearing
    use csv_line, only: cell_type, next_cell, content
    use text_scanner, only: control_character
    use input_file, only: read_input
    use assignments, only: read_number
    implicit none (type, external)
    private
-   public :: read_excitation_tables
+   public :: read_tables
 
    !> Longest file, bytes.
    integer, parameter :: longest_file = 100000000
@@ -19,8 +21,56 @@ module number_columns
 
 contains
 
+   !> Reads the tables of a case's excitations and pivots.
+   subroutine read_tables(inputs, error)
+      type(case_type), intent(inout) :: inputs
+      type(error_type), allocatable, intent(out) :: error
+      integer :: b
+      call read_excitations(inputs, error)
+      if (.not. inputs%is_machine()) then
+         if (.not. allocated(error)) call read_pivots('pivot%file', inputs%pivot, error)
+         return
+      end if
+      do b = 1, size(inputs%machine%bearings)
+         if (allocated(error)) return
+         associate (own => inputs%machine%bearings(b))
+            call read_pivots('pivot'//of_bearing(own%name)//'%file', own%pivot, error)
+         end associate
+      end do
+   end subroutine read_tables
+
+   !> The measured law of the pivots of a bearing, whose file a variable names: deflection and force rise from row to
+   !> row. A first row of zeros says nothing.
+   subroutine read_pivots(variable, pivot, error)
+      character(len=*), intent(in) :: variable
+      type(pivot_type), intent(inout) :: pivot
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=10), parameter :: names(2) = [character(len=10) :: 'deflection', 'force']
+      real(wp), allocatable :: numbers(:, :)
+      real(wp) :: before(2)
+      integer :: i, k, first
+      if (pivot%law /= 'table') return
+      call read_columns(pivot%file, names, numbers, error)
+      if (.not. allocated(error)) then
+         first = merge(2, 1, all(abs(numbers(:, 1)) <= 0))
+         before = 0
+         do k = first, size(numbers, 2)
+            do i = 1, 2
+               if (.not. numbers(i, k) > before(i)) call refuse(pivot%file//' line '//to_text(k + 1)//': ' &
+                  & //trim(names(i))//' = '//to_text(numbers(i, k))//': must be above '//to_text(before(i)) &
+                  & //trim(merge(repeat(' ', 25), ', that of the line before', k == first)), error)
+            end do
+            before = numbers(:, k)
+         end do
+         pivot%points = numbers(:, first:)
+         if (size(pivot%points, 2) < 2) call refuse(pivot%file//': has one point of force over deflection; it needs ' &
+            & //'two or more above 0', error)
+      end if
+      call add_context(error, variable)
+   end subroutine read_pivots
+
    !> Reads the tables of a case's excitations.
-   subroutine read_excitation_tables(inputs, error)
+   subroutine read_excitations(inputs, error)
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
       real(wp), allocatable :: numbers(:, :)
@@ -44,7 +94,7 @@ contains
             if (allocated(error)) return
          end associate
       end do
-   end subroutine read_excitation_tables
+   end subroutine read_excitations
 
    !> Numbers of a file, (column, row), two rows at least. Its columns must have these names in this order.
    subroutine read_columns(file, names, numbers, error)

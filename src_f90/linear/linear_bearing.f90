@@ -164,8 +164,8 @@ contains
       integer :: b
       if (.not. any(model%layout%bearings%tilting)) then
          pivots = [character(len=pivot_name) :: 'locked']
-      else if (.not. any([(model%layout%bearings(b)%tilting .and. model%bearings(b)%friction%static_coefficient > 0, &
-         & b=1, size(model%bearings))])) then
+      else if (.not. any([(model%layout%bearings(b)%tilting .and. &
+         & model%bearings(b)%pivots(1)%friction%static_coefficient > 0, b=1, size(model%bearings))])) then
          pivots = [character(len=pivot_name) :: 'free', 'locked']
       else
          pivots = [character(len=pivot_name) :: 'free', 'stuck', 'locked']

@@ -52,19 +52,19 @@ contains
       real(wp), intent(in) :: speed
       type(pad_state) :: pads(layout%pads)
       integer :: i
-      associate (b => inputs%bearing, friction => bearing%friction)
+      associate (b => inputs%bearing)
          do i = 1, size(pads)
             pads(i)%tilt = b%assembled_clearance(i)/((b%journal_radius + b%machined_clearance(i)) &
                & *inputs%pads%arc_deg(i)*degree)
-            pads(i)%tilt_rate = min(pads(i)%tilt*speed, sticking_scale*friction%sticking_velocity &
+            pads(i)%tilt_rate = min(pads(i)%tilt*speed, sticking_scale*bearing%pivots(i)%friction%sticking_velocity &
                & /bearing%pads(i)%ball_radius)
             if (layout%radial) then
                pads(i)%pivot_deflection = 1e-3_wp*b%assembled_clearance(i)
                if (force > 0) pads(i)%pivot_deflection = max(pads(i)%pivot_deflection, &
-                  & bearing%contact%law%pivot_deflection(force))
+                  & bearing%pivots(i)%contact%law%pivot_deflection(force))
                pads(i)%pivot_deflection_rate = pads(i)%pivot_deflection*speed
             end if
-            if (layout%bristles) pads(i)%deflection = friction%static_coefficient &
+            if (layout%bristles) pads(i)%deflection = bearing%pivots(i)%friction%static_coefficient &
                & /inputs%friction%bristle_stiffness
          end do
       end associate

@@ -71,7 +71,7 @@ contains
          own = inputs%of_bearing(b)
          model%bearings(b) = new_tilting_pad_bearing(own, accuracy)
          pads(b) = pads_layout(own%pad_count(), own%tilting(), own%tilting_radial(), &
-            & model%bearings(b)%friction%has_bristle)
+            & model%bearings(b)%pivots(1)%friction%has_bristle)
          model%oil = [model%oil, spread(film_oil(reference_viscosity(own)), 1, own%pad_count())]
       end do
       model%layout = new_state_layout(model%rotor%states, pads)
@@ -323,7 +323,7 @@ contains
       do b = 1, size(self%bearings)
          associate (of => self%layout%bearings(b), bearing => self%bearings(b))
             if (.not. of%tilting) cycle
-            velocity = bearing%friction%switching_points()
+            velocity = bearing%pivots(1)%friction%switching_points()
             state = [state, ((of%before(i) + at_tilt_rate, j=1, size(velocity)), i=1, of%pads)]
             value = [value, (velocity/bearing%pads(i)%ball_radius, i=1, of%pads)]
          end associate

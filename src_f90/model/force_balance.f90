@@ -104,7 +104,7 @@ contains
          associate (bearing => model%bearings(b))
             do i = 1, size(bearing%pads)
                tilt = model%layout%bearings(b)%first_position(i)
-               call bearing%friction%evaluate(0.0_wp, 0.0_wp, bearing%loads(i)%contact, friction)
+               call bearing%pivots(i)%friction%evaluate(0.0_wp, 0.0_wp, bearing%loads(i)%contact, friction)
                associate (square => bearing%pads(i)%ball_radius**2)
                   over_positions(tilt, tilt) = over_positions(tilt, tilt) &
                      & - square*friction%force_deflection*friction%rate_velocity

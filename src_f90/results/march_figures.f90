@@ -8,6 +8,7 @@ module march_figures
    use loops, only: path_integral, harmonic, slow_share
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
    use revolution_figures, only: put_revolutions
+   use wear_figures, only: put_wear
    use record, only: record_type
    use bearing_file, only: bearing_file_type
    use summary_group, only: put_figure, run_extremes_type
@@ -57,6 +58,7 @@ contains
       call put_harmonics(file, inputs, int(revolutions + rounding))
       if (inputs%tilting() .and. inputs%friction%model /= 'none') call put_friction(file, inputs, time(1, :), &
          & (angle(1, n) - angle(1, 1))/(2*pi))
+      if (inputs%tilting() .and. inputs%pivot%wear_coefficient > 0) call put_wear(file, inputs, time(1, :))
       n = file%last_revolutions(inputs%output%spectrum_revolutions)
       call put_revolutions(file, inputs, n, inputs%output%spectrum_revolutions)
    end subroutine put_march_figures
@@ -194,7 +196,7 @@ contains
          end if
          do i = 1, size(work)
             work(i) = path_integral(tilt(i, :), moment(i, :))
-            stuck(i) = slow_share(time, (pivot%socket_radius - pivot%radius_difference)*rate(i, :), slow)
+            stuck(i) = slow_share(time, (pivot%socket_radius(i) - pivot%radius_difference(i))*rate(i, :), slow)
          end do
       end associate
       call put_figure(file, 'friction_work', sum(work)/revolutions, 'J', &

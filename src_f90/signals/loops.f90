@@ -4,7 +4,7 @@ module loops
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: path_integral, harmonic, slow_share, periodicity, new_periodicity
+   public :: path_integral, integral_over_way, harmonic, slow_share, periodicity, new_periodicity
 
    !> Compares each revolution of sampled signals with the one before.
    type :: periodicity
@@ -29,6 +29,14 @@ contains
       n = size(x)
       path_integral = 0.5_wp*sum((x(2:) - x(:n - 1))*(y(2:) + y(:n - 1)))
    end function path_integral
+
+   !> Integral of y over the way that x goes to and fro, by the trapezoidal rule.
+   pure real(wp) function integral_over_way(x, y)
+      real(wp), intent(in) :: x(:), y(:)
+      integer :: n
+      n = size(x)
+      integral_over_way = 0.5_wp*sum(abs(x(2:) - x(:n - 1))*(y(2:) + y(:n - 1)))
+   end function integral_over_way
 
    !> The part of values that turns with the order: amplitude times exp(i phase). The values are the real part of it
    !> times exp(i order angle), their mean and others. The rising angles, rad, are whole turns of the order.

@@ -119,3 +119,116 @@ def test_load_shares_are_those_of_another_balance(tiltpad, tmp_path, low):
     if low:
         # of equal pads the middle one carries 1750 N
         assert shares[1] == pytest.approx(1527, abs=2)
+
+
+#: Two pivots that differ; their pads slide nearly all the time.
+PIVOTS = """&operation duration=0.1 /
+&pivot socket_radius=13e-3,15e-3, radius_difference=15e-6,30e-6, wear_coefficient=1e-15 /
+&friction model='bengisu_akay', static_coefficient=0.01,0.02, dynamic_coefficient=0.01,0.02,
+  critical_velocity=1e-6 /
+"""
+
+
+@pytest.fixture(scope="module")
+def pivots(tiltpad, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("pivots")
+    (folder / "case.nml").write_text(PIVOTS)
+    said = tiltpad("case.nml", cwd=folder, status=0).stdout
+    with package.read(folder / "case.h5") as run:
+        yield run, said
+
+
+@pytest.mark.parametrize("pad", [1, 2])
+def test_each_pivot_has_its_own_contact_and_friction(pivots, pad):
+    """The contact table is within 1e-6 of the law; friction is its coefficient wherever the pivot slides."""
+    run, _ = pivots
+    load = package.pivot_load(run.pivot_deflection[:, pad - 1], run, pad)
+    np.testing.assert_allclose(run.pivot_load[:, pad - 1], load, rtol=1e-6)
+    velocity, coefficient = package.friction_coefficient(run, pad, last=5)
+    slides = np.abs(velocity) > 1e-6
+    assert slides.mean() > 0.5
+    np.testing.assert_allclose(np.abs(coefficient[slides]), 0.01 * pad, rtol=1e-9)
+
+
+def test_wear_follows_from_the_friction_work(pivots):
+    """Where the coefficient of friction is constant, Archard's law is the friction work over it; pivots that
+    creep below the critical velocity do less work, and wear hardly at all.
+    """
+    run, said = pivots
+    expected = 1e-15 * run["summary/pad_friction_power"] / np.array([0.01, 0.02])
+    np.testing.assert_allclose(run["summary/pad_wear_rate"], expected, rtol=1e-3)
+    contact = [package.contact(run.pivot_deflection[-361:, k].mean(), run, k + 1).radius for k in range(2)]
+    depth = run["summary/pad_wear_rate"] / (np.pi * np.array(contact) ** 2)
+    # the radius follows from the mean load, not from the mean deflection
+    np.testing.assert_allclose(run["summary/pad_wear_depth_rate"], depth, rtol=1e-2)
+    worn = 3.6e6 * 1e9 * run["summary/pad_wear_rate"][0]
+    assert f"wear {worn:.2f} mm^3 and" in said
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ("pivot%socket_radius=1e-2,1e-2,1e-2", "pivot%socket_radius"),
+        ("bearing%axial_length=0.1,-0.1", "bearing%axial_length = 0.1, -0.1: must be 1e-5 to 100"),
+        ("bearing%machined_clearance=1e-4,0", "bearing%machined_clearance = 1e-4, 0: must be 1e-9 to 0.1"),
+        (
+            "bearing%assembled_clearance=8e-5,3e-4",
+            "at most twice bearing%machined_clearance = 1e-4 (both in m; pad 2)",
+        ),
+        ("friction%static_coefficient=0.1,0.01", "(pad 2)"),
+        ("pivot%wear_coefficient=-1e-15", "pivot%wear_coefficient"),
+    ],
+)
+def test_a_wrong_value_of_a_pad_is_one_line(tiltpad, tmp_path, setting, words):
+    (tmp_path / "case.nml").write_text("&case /\n")
+    assert words in tiltpad("case.nml", overrides=(setting,), cwd=tmp_path, status=1).stderr
+
+
+#: Tables of a pivot that are refused, and what is said.
+TABLES = {
+    "falls": (
+        "deflection,force\n1e-6,100\n2e-6,90\n",
+        "line 3: force = 90: must be above 100, that of the line before",
+    ),
+    "twice": ("deflection,force\n1e-6,100\n1e-6,200\n", "line 3: deflection = 1e-6: must be above 1e-6"),
+    "below zero": ("deflection,force\n-1e-6,100\n1e-6,200\n", "line 2: deflection = -1e-6: must be above 0"),
+    "one": ("deflection,force\n0,0\n1e-6,200\n", "has one point of force over deflection"),
+    "empty": ("", "it needs a line of names, deflection, force"),
+    "text": ("deflection,force\n1e-6,many\n", "line 2: force = many: must be a finite number"),
+    "nan": ("deflection,force\n1e-6,nan\n", "line 2: force = nan: must be a finite number"),
+    "columns": ("force,deflection\n1,2\n", "line 1: force,deflection: must name the columns"),
+    "short": ("deflection,force\n1e-6\n", "line 2: force = "),
+}
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_a_bad_table_of_a_pivot_is_one_line(tiltpad, tmp_path, name):
+    text, words = TABLES[name]
+    (tmp_path / "pivot.csv").write_text(text)
+    (tmp_path / "case.nml").write_text("&pivot law='table', file='pivot.csv' /\n")
+    said = tiltpad("case.nml", cwd=tmp_path, status=1).stderr
+    assert "pivot%file: pivot.csv" in said
+    assert words in said
+
+
+def test_a_table_of_the_law_is_the_law(tiltpad, tmp_path):
+    """With 200 points in a decade, byte order mark and row of zeros: the equilibrium is within 1e-6."""
+    depth = np.geomspace(1e-8, 1e-4, 801)
+    rows = [
+        f"{one!r},{two!r}"
+        for one, two in zip(depth.tolist(), package.pivot_load(depth).tolist(), strict=True)
+    ]
+    (tmp_path / "pivot.csv").write_text(
+        "\ufeff" + "\r\n".join(["deflection,force", "0,0", *rows]), encoding="utf-8"
+    )
+    (tmp_path / "case.nml").write_text("&case task='equilibrium' /\n")
+    own = ("pivot%law=table", "pivot%file=pivot.csv")
+    tiltpad("case.nml", "-q", cwd=tmp_path, status=0)
+    tiltpad("case.nml", "-q", "-o", "table.h5", overrides=own, cwd=tmp_path, status=0)
+    with package.read(tmp_path / "case.h5") as one, package.read(tmp_path / "table.h5") as other:
+        first, second = one.equilibrium, other.equilibrium
+        np.testing.assert_allclose(second["pivot_deflection"], first["pivot_deflection"], rtol=1e-6)
+        np.testing.assert_allclose(second["pivot_load"], first["pivot_load"], rtol=1e-6)
+    assert (
+        "needs pivot%law = 'table'" in tiltpad("case.nml", overrides=own[1:], cwd=tmp_path, status=1).stderr
+    )

@@ -56,7 +56,11 @@ DRAWN = ("coefficients", "periodic")
 #: A branch needs a parameter that suits its case; none is drawn.
 OF_TASK = (*DRAWN, "branch")
 OF_MARCH = ("operation%final_speed_rpm", "output%start_time", "integration%stop_when_periodic")
-SPECIAL = {"case%task", *(key for group in (*TOGETHER, ALONE, INSTEAD, START, OIL) for key in group)}
+SPECIAL = {
+    "case%task",
+    "pivot%file",
+    *(key for group in (*TOGETHER, ALONE, INSTEAD, START, OIL) for key in group),
+}
 #: Circumferential times squared axial cells of all pads.
 MOST_IN_BLOCKS = 2e8
 TITLE = "abc ABC 0123  ''\"\"/!&=,*()%;:\t\\#$\u00e4\u20ac\U0001d70b"
@@ -243,20 +247,28 @@ def pressures(dice: Random, _pads: int):
     return (middle,), (high,), (low,), (solver.encode(),), (cavitation.encode(),)
 
 
-def pivot(dice: Random, _pads: int):
-    """Contact law and radii."""
+def pivot(dice: Random, pads: int):
+    """Contact law; radii of all pivots, or of each."""
     law = dice.choice(("fang", "hertz"))
-    socket = log_between(dice, 1e-5, 2)
-    difference = dice.choice((0.499 * socket, log_between(dice, 1e-9 * socket, 0.499 * socket)))
-    return (law.encode(),), (socket,), (dice.choice((0.0, difference)) if law == "fang" else difference,)
+
+    def pad() -> tuple[float, float]:
+        socket = log_between(dice, 1e-5, 2)
+        difference = dice.choice((0.499 * socket, log_between(dice, 1e-9 * socket, 0.499 * socket)))
+        return socket, dice.choice((0.0, difference)) if law == "fang" else difference
+
+    return (law.encode(),), *zip(*(pad() for _ in range(dice.choice((1, pads)))), strict=True)
 
 
-def friction(dice: Random, _pads: int):
-    """Friction model and coefficients."""
+def friction(dice: Random, pads: int):
+    """Friction model; coefficients of all pivots, or of each."""
     model = dice.choice(("none", "bengisu_akay", "lugre"))
-    static = log_between(dice, 1e-6, 10)
-    dynamic = dice.choice((static, static * (1 - dice.random())))
-    return (model.encode(),), (static,), (0.0 if model != "lugre" and dice.random() < 0.3 else dynamic,)
+
+    def pad() -> tuple[float, float]:
+        static = log_between(dice, 1e-6, 10)
+        dynamic = dice.choice((static, static * (1 - dice.random())))
+        return static, 0.0 if model != "lugre" and dice.random() < 0.3 else dynamic
+
+    return (model.encode(),), *zip(*(pad() for _ in range(dice.choice((1, pads)))), strict=True)
 
 
 def pads(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:

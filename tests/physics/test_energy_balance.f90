@@ -212,7 +212,7 @@ contains
       if (depth <= 0) return
       do k = 1, n
          s = real(k, wp)/n
-         call bearing%bearings(1)%contact%lookup(s**2*depth, force, stiffness)
+         call bearing%bearings(1)%pivots(1)%contact%lookup(s**2*depth, force, stiffness)
          stored = stored + force*2*s*depth/n*merge(1.0_wp, merge(4.0_wp, 2.0_wp, mod(k, 2) == 1), k == n)/3
       end do
    end function stored

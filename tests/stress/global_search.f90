@@ -285,7 +285,7 @@ contains
             end if
             do k = 1, 2
                if (contact(k) > 0) piece%pivot_deflection(k) &
-                  & = model%bearings(1)%contact%law%pivot_deflection(contact(k))
+                  & = model%bearings(1)%pivots(k)%contact%law%pivot_deflection(contact(k))
             end do
             piece%way = pad%position%pivot_radius + piece%pivot_deflection - r
          end if

@@ -60,7 +60,7 @@ contains
       call expect_list(s%pads%centre_radial, [-10.1e-3_wp, -10.1e-3_wp], 'Table 1: C_eta')
       call expect_list([s%rotor%mass, s%rotor%unbalance, s%rotor%gravity, s%unbalance()], &
          & [2000.0_wp, 0.01_wp, 9.81_wp, 0.01_wp], 'Table 1: rotor')
-      call expect_list([s%pivot%socket_radius, s%pivot%radius_difference, s%pivot%deflection_factor], &
+      call expect_list([s%pivot%socket_radius(1), s%pivot%radius_difference(1), s%pivot%deflection_factor], &
          & [13e-3_wp, 15e-6_wp, 4.0_wp], 'Table 2: pivot')
       call expect_list([s%pivot%young_modulus, s%pivot%poisson_ratio], [2.1e11_wp, 2.1e11_wp, 0.3_wp, 0.3_wp], &
          & 'Table 2: steel')

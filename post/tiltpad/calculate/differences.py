@@ -10,6 +10,8 @@ IGNORED = ("case%title", "output%checkpoint_seconds")
 PER_PAD = (
     *("pads%", "start%pad_", "start%pivot_"),
     *("bearing%machined_clearance", "bearing%assembled_clearance", "bearing%axial_length"),
+    *("pivot%socket_radius", "pivot%radius_difference"),
+    *("friction%static_coefficient", "friction%dynamic_coefficient"),
 )
 #: Names of friction models as they are written in pictures.
 WORDS = {"none": "no friction", "bengisu_akay": "Bengisu-Akay", "lugre": "LuGre"}

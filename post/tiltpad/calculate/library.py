@@ -205,25 +205,25 @@ def shares(points: int | np.ndarray, first: float, outside: str) -> np.ndarray:
     return given
 
 
-def contact(pivot_deflection: float | np.ndarray, case: Run | str = PAPER) -> Contact:
-    """Contact of a pivot at pivot deflections, m; it is zero where these are not positive."""
-    return Contact(*elementwise("contact", case, pivot_deflection))
+def contact(pivot_deflection: float | np.ndarray, case: Run | str = PAPER, pad: int = 1) -> Contact:
+    """Contact of a pad's pivot at pivot deflections, m; it is zero where these are not positive."""
+    return Contact(*elementwise("contact", case, pad, pivot_deflection))
 
 
-def pivot_load(pivot_deflection: float | np.ndarray, case: Run | str = PAPER) -> np.ndarray:
-    """Normal force, N, of a pivot at pivot deflections, m."""
-    return contact(pivot_deflection, case).force
+def pivot_load(pivot_deflection: float | np.ndarray, case: Run | str = PAPER, pad: int = 1) -> np.ndarray:
+    """Normal force, N, of a pad's pivot at pivot deflections, m."""
+    return contact(pivot_deflection, case, pad).force
 
 
 def contact_pressure(
-    pivot_deflection: float | np.ndarray, r: float | np.ndarray, case: Run | str = PAPER
+    pivot_deflection: float | np.ndarray, r: float | np.ndarray, case: Run | str = PAPER, pad: int = 1
 ) -> np.ndarray:
     """Contact pressure (11), Pa, at pivot deflections, m, and distances r from the contact's axis, m.
 
     The two broadcast. r is projected along the axis, as the radius of the contact is; beyond it the pressure
     is zero.
     """
-    return elementwise("contact_pressure", case, pivot_deflection, r)[0]
+    return elementwise("contact_pressure", case, pad, pivot_deflection, r)[0]
 
 
 def friction_force(
@@ -231,27 +231,28 @@ def friction_force(
     normal_force: float | np.ndarray,
     deflection: float | np.ndarray = 0.0,
     case: Run | str = PAPER,
+    pad: int = 1,
 ) -> np.ndarray:
     """Friction force, N, at sliding velocities, m/s, normal forces, N, and bristle deflections, m (LuGre).
 
     The arguments broadcast. Times the ball's radius it is the moment on the pad, eq (20).
     """
-    return elementwise("friction_force", case, velocity, deflection, normal_force)[0]
+    return elementwise("friction_force", case, pad, velocity, deflection, normal_force)[0]
 
 
 def bristle_rate(
-    velocity: float | np.ndarray, deflection: float | np.ndarray, case: Run | str = PAPER
+    velocity: float | np.ndarray, deflection: float | np.ndarray, case: Run | str = PAPER, pad: int = 1
 ) -> np.ndarray:
     """Rate of the bristle deflection, m/s, eq (24); zero if the friction has no bristles."""
-    return elementwise("friction_force", case, velocity, deflection, 0.0)[1]
+    return elementwise("friction_force", case, pad, velocity, deflection, 0.0)[1]
 
 
-def elementwise(name: str, case: Run | str, *arguments: float | np.ndarray) -> list[np.ndarray]:
-    """The results of a routine that takes arrays of one length, in the common shape of the arguments."""
+def elementwise(name: str, case: Run | str, pad: int, *arguments: float | np.ndarray) -> list[np.ndarray]:
+    """The results of a routine that takes a pad and arrays of one length, in the arguments' common shape."""
     arrays = np.broadcast_arrays(*(np.asarray(each, dtype=float) for each in arguments))
     if not arrays[0].size:
         raise ValueError(f"{name}: empty arrays")
-    results = called(name, case, *(each.ravel() for each in arrays))
+    results = called(name, case, pad, *(each.ravel() for each in arrays))
     return [each.reshape(arrays[0].shape) for each in results]
 
 

@@ -6,14 +6,19 @@ Without friction in the case all but `sliding_velocity` raise NotInRunError.
 
 import numpy as np
 
-from tiltpad.calculate.signals import last_revolutions, lasted, needs_revolutions, series, turned
+from tiltpad.calculate.signals import last_revolutions, lasted, needs_revolutions, pad_column, series, turned
 from tiltpad.files.archive import NotInRunError
+from tiltpad.files.namelist import of_pads
 from tiltpad.files.read import Run
 
 
-def ball_radius(run: Run) -> float:
-    """R1, m: socket radius less the radius difference."""
-    return run.input["pivot"]["socket_radius"] - run.input["pivot"]["radius_difference"]
+def ball_radius(run: Run, pad: int = 1) -> float:
+    """R1 of a pad's pivot, m: socket radius less the radius difference."""
+    radius, difference = (
+        of_pads(run.input, f"pivot%{name}") for name in ("socket_radius", "radius_difference")
+    )
+    column = pad_column(run, pad)
+    return radius[column] - difference[column]
 
 
 def friction_model(run: Run) -> str:
@@ -61,7 +66,7 @@ def friction_power(run: Run, pad: int = 1, last: float = 1) -> float:
 
 def sliding_velocity(run: Run, pad: int = 1, last: float = 1) -> np.ndarray:
     """Velocity of the ball's surface in the socket, eq (21): R1 times the tilt rate, (time,), m/s."""
-    return ball_radius(run) * series(run, "pad_tilt_rate", last_revolutions(run, last), pad)
+    return ball_radius(run, pad) * series(run, "pad_tilt_rate", last_revolutions(run, last), pad)
 
 
 def friction_coefficient(run: Run, pad: int = 1, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
@@ -71,7 +76,7 @@ def friction_coefficient(run: Run, pad: int = 1, last: float = 1) -> tuple[np.nd
     the pivot carries no load.
     """
     moment, part = hysteresis(run, pad, last)[1], last_revolutions(run, last)
-    limit = ball_radius(run) * series(run, "pivot_load", part, pad)
+    limit = ball_radius(run, pad) * series(run, "pivot_load", part, pad)
     coefficient = np.divide(moment, limit, out=np.full_like(moment, np.nan), where=limit > 0)
     return sliding_velocity(run, pad, last), coefficient
 

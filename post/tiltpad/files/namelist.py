@@ -38,12 +38,12 @@ OPERATION = ("operation%speed_rpm", "operation%final_speed_rpm", "operation%dura
 ONE_NUMBER = (
     *OPERATION,
     *("bearing%journal_radius", "rotor%mass", "rotor%gravity"),
-    *("pivot%socket_radius", "pivot%radius_difference"),
     *("friction%stribeck_velocity", "friction%decay", "friction%critical_velocity"),
 )
 NUMBERS = (
     *("pads%pivot_angle_deg", "pads%arc_deg", "pads%pivot_ratio", "pads%pivot_distance"),
     *("bearing%machined_clearance", "bearing%assembled_clearance", "bearing%axial_length"),
+    *("pivot%socket_radius", "pivot%radius_difference"),
 )
 TEXTS = ("friction%model", "pads%motion")
 
@@ -56,7 +56,7 @@ def resolved(text: str) -> dict[str, dict[str, Any]]:
         return groups
     for names, kinds in ((ONE_NUMBER, int | float), (NUMBERS, int | float | tuple), (TEXTS, str)):
         needs_variables(groups, names, kinds)
-    # in older files clearances and length are one number for all pads
+    # in older files those of bearing and pivot are one number for all pads
     own = [name for name in NUMBERS if name.startswith("pads%") or isinstance(variable(groups, name), tuple)]
     if len({count(variable(groups, name)) for name in own}) > 1:
         raise ValueError("the pads' values are not equally many")

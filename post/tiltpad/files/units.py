@@ -100,7 +100,7 @@ UNITS = {
     **dict.fromkeys(("young_modulus", "elastic_modulus"), "Pa"),
     **dict.fromkeys(("radius_difference", "socket_radius", "journal_radius", "axial_length"), "m"),
     **dict.fromkeys(("machined_clearance", "assembled_clearance", "pivot_distance"), "m"),
-    **{"roughness": "m"},
+    **{"roughness": "m", "wear_coefficient": "m³/(N m)"},
     **{"centre_tangential": "m", "centre_radial": "m", "density": "kg/m³", "thickness": "m"},
     **{"journal": "m", "journal_velocity": "m/s", "pad_tilt": "rad", "pad_tilt_rate": "rad/s"},
     **{"pivot_deflection": "m", "pivot_deflection_rate": "m/s"},
