@@ -1,9 +1,9 @@
 !> Reads an HDF5 file in a child process first: if it is damaged, the library may crash or run for ever.
 module guarded_open
-   use hdf5, only: h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f
    use kinds, only: wp
    use hdf5_base, only: start_hdf5
    use hdf5_file, only: hdf5_type
+   use hdf5_members, only: member_type, list_members
    use hdf5_series, only: hdf5_series_type
    use record, only: record_type
    use record_reader, only: read_record
@@ -15,7 +15,6 @@ module guarded_open
 
    !> Seconds of time, and of the processor's time, after which the reading is given up, and megabytes that it may take.
    integer, parameter :: seconds = 60, work = 3, room = 300
-   integer, parameter :: longest_name = 200
 
 contains
 
@@ -75,16 +74,13 @@ contains
       character(len=*), intent(in) :: group
       type(hdf5_series_type) :: data
       real(wp), allocatable :: values(:, :)
-      character(len=longest_name) :: name
+      type(member_type), allocatable :: members(:)
       character(len=:), allocatable :: path
-      integer :: count, i, kind, status
-      call h5gn_members_f(file%id, group, count, status)
-      if (status < 0) return
-      do i = 0, count - 1
-         call h5gget_obj_info_idx_f(file%id, group, i, name, kind, status)
-         if (status < 0) cycle
-         path = group//trim(name)
-         if (kind == h5g_group_f) then
+      integer :: i, status
+      call list_members(file%id, group, members, status)
+      do i = 1, size(members)
+         path = group//trim(members(i)%name)
+         if (members(i)%is_group) then
             if (group == '/') call read_group(file, path//'/')
          else
             call data%open(file, path)

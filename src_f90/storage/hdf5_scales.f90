@@ -1,11 +1,12 @@
 !> Which dimension scales datasets have, and what a file contains.
 module hdf5_scales
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_funptr, c_int, c_int64_t, c_loc, c_null_ptr, c_ptr
-   use hdf5, only: hid_t, hsize_t, size_t, h5gn_members_f, h5gget_obj_info_idx_f, h5g_group_f, h5g_dataset_f, &
-      & h5dopen_f, h5dclose_f, h5dget_space_f, h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sclose_f, &
-      & h5s_unlimited_f, h5aexists_f, h5dget_type_f, h5tget_class_f, h5tclose_f, h5t_string_f
+   use hdf5, only: hid_t, hsize_t, size_t, h5dopen_f, h5dclose_f, h5dget_space_f, h5sget_simple_extent_ndims_f, &
+      & h5sget_simple_extent_dims_f, h5sclose_f, h5s_unlimited_f, h5aexists_f, h5dget_type_f, h5tget_class_f, &
+      & h5tclose_f, h5t_string_f
    use h5ds, only: h5dsis_scale_f, h5dsget_scale_name_f
    use hdf5_file, only: hdf5_type
+   use hdf5_members, only: member_type, list_members
    implicit none (type, external)
    private
    public :: item_type, list_items, scales_of, read_about, scale_name, scale_count
@@ -78,24 +79,20 @@ contains
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
       type(item_type), allocatable, intent(out) :: found(:)
-      character(len=longest_name) :: name
-      integer :: count, i, kind, status
-      count = 0
+      type(member_type), allocatable :: members(:)
+      integer :: i, status
+      allocate (members(0))
       if (.not. allocated(file%failure)) then
-         call h5gn_members_f(file%id, group, count, status)
+         call list_members(file%id, group, members, status)
          call file%check_read(status, 'list the datasets of '//group)
-         if (status < 0) count = 0
       end if
-      allocate (found(count))
-      do i = 1, count
+      allocate (found(size(members)))
+      do i = 1, size(members)
          allocate (found(i)%extents(0))
-         found(i)%path = ''
-         call h5gget_obj_info_idx_f(file%id, group, i - 1, name, kind, status)
-         if (status < 0) cycle
-         found(i)%path = trim(name)
-         if (group /= '/') found(i)%path = group//'/'//trim(name)
-         found(i)%is_group = kind == h5g_group_f
-         found(i)%is_dataset = kind == h5g_dataset_f
+         found(i)%path = trim(members(i)%name)
+         if (group /= '/') found(i)%path = group//'/'//found(i)%path
+         found(i)%is_group = members(i)%is_group
+         found(i)%is_dataset = members(i)%is_dataset
          if (found(i)%is_dataset) call measure(file, found(i))
       end do
    end subroutine list_group
