@@ -10,10 +10,9 @@ import numpy as np
 from tiltpad.calculate import estimation
 from tiltpad.calculate.estimation import NoInfluenceError, Parameter
 from tiltpad.calculate.measured import Measured
-from tiltpad.files import units
+from tiltpad.files import namelist, units
 from tiltpad.files.archive import RunError
 from tiltpad.fitted_model import Bounds, Case, FittedModel, Values
-from tiltpad.sampling import VARIABLE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -200,7 +199,7 @@ def variables(free: Free) -> Bounds:
     for names, bounds in free.items():
         own = (names,) if isinstance(names, str) else tuple(names)
         for name in own:
-            if not isinstance(name, str) or not VARIABLE.fullmatch(name):
+            if not isinstance(name, str) or not namelist.VARIABLE.fullmatch(name):
                 raise ValueError(f"free: {name!r}: must be a variable, group%name or group%name(element)")
         try:
             low, high = (float(each) for each in bounds)

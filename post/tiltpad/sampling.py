@@ -2,7 +2,6 @@
 
 import math
 import os
-import re
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -26,8 +25,6 @@ SALTELLI = "saltelli"
 METHODS = ("sobol", "lhs", "halton", SALTELLI)
 #: Most runs of a study.
 MOST = 1_000_000
-#: Name of a variable as the program knows it.
-VARIABLE = re.compile(r"[a-z]\w*%[a-z]\w*(\(\d+\))?", re.ASCII | re.IGNORECASE)
 #: Half a step of Sobol's points, which have 30 bits: 0 and 1, where a normal value is infinite, stay away.
 HALF_STEP = 2.0**-31
 
@@ -125,7 +122,7 @@ def distribution(name: str, given: Any) -> Any:
     """A distribution of scipy.stats; ValueError with the variable where there is none."""
     from scipy import stats
 
-    if not isinstance(name, str) or not VARIABLE.fullmatch(name):
+    if not isinstance(name, str) or not namelist.VARIABLE.fullmatch(name):
         raise ValueError(f"{name!r}: must be a variable, group%name or group%name(element)")
     if callable(getattr(given, "ppf", None)):
         return given

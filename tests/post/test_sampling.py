@@ -77,6 +77,37 @@ def test_a_table_is_a_study_with_its_inputs_as_coordinates(tmp_path):
             assert len(set(data.equilibrium_journal_y.values)) == 4
 
 
+MACHINE = """&case task='equilibrium' /
+&operation speed_rpm=3000 /
+&output keep='summary' /
+&shaft length=2*0.05, 4*0.25, 2*0.05, diameter=2*0.0998, 4*0.2, 2*0.0998 /
+&disc station=5, mass=800, polar_inertia=60, diametral_inertia=35 /
+&bearing name='left', station=2 /
+&bearing name='right', station=8 /
+"""
+
+
+def test_groups_of_a_machine_are_sampled(tmp_path):
+    """Those of a bearing by its name, discs by their numbers; each bearing has its own sensitivities."""
+    (tmp_path / "machine.nml").write_text(MACHINE)
+    variables = {
+        "pads:left%arc_deg(1)": ("uniform", 58.0, 62.0),
+        "pivot:right%radius_difference": ("uniform", 30e-6, 40e-6),
+        "disc(1)%mass": ("normal", 800.0, 1.0),
+    }
+    path = tiltpad.sample(tmp_path / "machine.nml", variables, 16, file=tmp_path / "members.csv")
+    _, values = table(path)
+    with tiltpad.run(tmp_path / "machine.nml", sweep={"file": str(path)}) as study:
+        assert study.done.all()
+        for k, name in enumerate(("pads_left_arc_deg_1", "pivot_right_radius_difference", "disc_1_mass")):
+            np.testing.assert_array_equal(study[name], values[:, k])
+        most = {}
+        for bearing, own in study.bearings.items():
+            found = tiltpad.sensitivity(own, "equilibrium_journal_y")
+            most[bearing] = found.inputs[int(np.argmax(found.first))]
+    assert most == {"left": "pads_left_arc_deg_1", "right": "pivot_right_radius_difference"}
+
+
 NORMAL = ("normal", 2000.0, 10.0)
 WRONG = {
     "no variables": ({}, {}, "variables = {}: must be distributions by name"),

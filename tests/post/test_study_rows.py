@@ -16,6 +16,14 @@ WARM = (
     "at_temperature=40, 100, density=860, specific_heat=1951.8, conductivity=0.13, supply_temperature=40 /"
 )
 SHORT = "&operation duration=0.06 / &output samples_per_revolution=60, keep='all' /"
+MACHINE = """&shaft length=2*0.05, 4*0.25, 2*0.05, diameter=2*0.0998, 4*0.2, 2*0.0998 /
+&disc station=5, mass=800, polar_inertia=60, diametral_inertia=35 /
+&unbalance station=5, moment=0.01 /
+&bearing name='left', station=2 /
+&bearing name='right', station=8 /
+&sweep unbalance(1)%moment = 0.01, 0.02
+pads:left%arc_deg(1) = 60, 65 /
+"""
 #: Cases in which runs have other columns and labels than others, and one fails.
 CASES = {
     "marches": f"{SHORT} &sweep friction%model = 'none', lugre\noperation%speed_rpm = 1500, 6500 /",
@@ -31,6 +39,9 @@ CASES = {
     "pads%motion = tilting_only, tilting_radial /",
     "orbits": "&case task='periodic' / &output samples_per_revolution=60 / "
     "&sweep rotor%unbalance = 0.01, 0.02 /",
+    "machines that march": "&operation speed_rpm=3000, duration=0.06 / "
+    f"&output samples_per_revolution=60, keep='all' / {MACHINE}",
+    "coefficients of machines": f"&case task='coefficients' / &output keep='all' / {MACHINE}",
     "last revolutions": "&output keep='last_revolutions' spectrum_revolutions=8 samples_per_revolution=60 / "
     "&sweep operation%duration = 0.005, 0.05, 0.15 /",
 }
@@ -47,22 +58,32 @@ def studies(request, tiltpad, tmp_path_factory):
         yield rows, files
 
 
-def test_columns_are_those_of_the_files(studies):
+def pairs(studies):
+    """Both studies and their names, and of machines both of each bearing and what the file has in its group."""
     rows, files = studies
-    assert len(rows.names()) > 20
-    assert rows.names() == files.names()
-    for name in rows.names():
-        assert rows.scales(name) == files.scales(name), name
-        assert rows.about(name, "units") == files.about(name, "units"), name
-        assert rows.about(name, "long_name") == files.about(name, "long_name"), name
-        own, other = (each.file[name].attrs.get("coordinates") for each in (rows, files))
-        assert own == other, name
+    assert list(rows.bearings) == list(files.bearings)
+    found = [(rows, files, rows.names(), files.names())]
+    for own, other in zip(rows.bearings.values(), files.bearings.values(), strict=True):
+        found.append((own, other, *(sorted(each.file[each.group]) for each in (own, other))))
+    return found
+
+
+def test_columns_are_those_of_the_files(studies):
+    for rows, files, names, others in pairs(studies):
+        assert len(names) > 20
+        assert names == others
+        for name in names:
+            assert rows.scales(name) == files.scales(name), name
+            assert rows.about(name, "units") == files.about(name, "units"), name
+            assert rows.about(name, "long_name") == files.about(name, "long_name"), name
+            own, other = (each.own(name).attrs.get("coordinates") for each in (rows, files))
+            assert own == other, name
 
 
 def test_values_are_those_of_the_files_to_the_last_bit(studies):
-    rows, files = studies
-    for name in rows.names():
-        np.testing.assert_array_equal(rows[name], files[name], err_msg=name)
+    for rows, files, names, _ in pairs(studies):
+        for name in names:
+            np.testing.assert_array_equal(rows[name], files[name], err_msg=name)
 
 
 def test_attributes_are_those_of_the_collected_study(studies):

@@ -12,6 +12,8 @@ from tiltpad.files import namelist, units
 
 #: A text without quotes.
 WORD = re.compile(r"[a-z_]\w*", re.ASCII | re.IGNORECASE)
+#: What stands between a group that a machine has several times, and its number or the name of its bearing.
+NUMBER_OR_NAME = re.compile(r"[:( )]")
 
 
 class Parameter(NamedTuple):
@@ -47,7 +49,9 @@ def differing(inputs: Sequence[dict[str, dict[str, Any]]]) -> list[dict[str, Any
     names = [name for name in dict.fromkeys(name for each in flat for name in each) if name != "case%task"]
     if all(follows(each) for each in flat):
         names.remove("operation%final_speed_rpm")
-    pads = [namelist.count(each["pads%pivot_angle_deg"]) for each in flat]
+    # machines have pads of each bearing
+    angles = [each.get("pads%pivot_angle_deg") for each in flat]
+    pads = [0 if each is None else namelist.count(each) for each in angles]
     found: list[dict[str, Any]] = [{"pads": count} if len(set(pads)) > 1 else {} for count in pads]
     for name in names:
         values = [each.get(name) for each in flat]
@@ -85,8 +89,11 @@ def parameters(runs: Sequence[dict[str, Any] | None], taken: Collection[str] = (
     found = []
     for variable in variables:
         values = [None if each is None else each.get(variable) for each in runs]
-        name, (words, unit) = short_name(variable), units.named(variable.partition("(")[0])
         group, _, rest = variable.rpartition("%")
+        kind = NUMBER_OR_NAME.split(group)[0]
+        name, (words, unit) = short_name(variable), units.named(f"{kind}%{rest.partition('(')[0]}")
+        if kind != group:
+            words += f" ({group})"
         if short[name] > 1 or name in taken:
             name, words = f"{group}_{name}", f"{words} ({group})"
         if "(" in rest:
@@ -101,8 +108,10 @@ def parameters(runs: Sequence[dict[str, Any] | None], taken: Collection[str] = (
 
 
 def short_name(variable: str) -> str:
-    """speed_rpm of operation%speed_rpm, arc_deg_1 of pads%arc_deg(1)."""
-    return variable.rpartition("%")[2].replace("(", "_").rstrip(")")
+    """speed_rpm of operation%speed_rpm, arc_deg_1 of pads%arc_deg(1), disc_2_mass of disc(2)%mass."""
+    group, _, name = variable.rpartition("%")
+    several = f"{NUMBER_OR_NAME.sub('_', group).rstrip('_')}_" if NUMBER_OR_NAME.search(group) else ""
+    return several + name.replace("(", "_").rstrip(")")
 
 
 def number(value: Any) -> float:

@@ -1,7 +1,7 @@
 """Runs of a study: how a run ended, the figures in its file, Poincare points."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -10,6 +10,7 @@ import numpy as np
 
 from tiltpad.calculate import signals
 from tiltpad.collect.parameters import varied_values
+from tiltpad.files import namelist
 from tiltpad.files.archive import NotInRunError, RunError, damaged, reading
 from tiltpad.files.read import TEXTS, Run, read
 from tiltpad.files.study import POINTS, REVOLUTIONS
@@ -18,13 +19,12 @@ from tiltpad.files.study import POINTS, REVOLUTIONS
 DONE, UNENDED = 0, (-1, 4)
 #: Most runs of a study.
 MOST = 1_000_000
-#: Names as the program writes them: of a varied variable, and of a dataset.
-VARIABLE = re.compile(r"[a-z]\w*%[a-z]\w*(\(\d+\))?", re.ASCII)
+#: Name of a dataset as the program writes it.
 DATASET = re.compile(r"[a-z]\w*", re.ASCII)
 #: Groups of a run's file that are columns of a study, and what stands before the names in them.
 GROUPS = {
     **dict.fromkeys(("summary", "by_revolution", "coefficients", "modes", "statistics"), ""),
-    **{group: f"{group}_" for group in ("equilibrium", "periodic")},
+    **{group: f"{group}_" for group in ("equilibrium", "periodic", "response", "synchronous")},
 }
 #: Groups that a run has not which was not done, and the figures in them that it has.
 OF_MOTION = ("summary", "by_revolution")
@@ -44,7 +44,8 @@ class StudyRun(NamedTuple):
         input             resolved namelist, empty where the file cannot be read
         origin            version, title and input text
         values            its columns of the study, with their dimensions less the run
-        found             of those that are datasets of its file: their names there, and these dimensions
+        found             of those that are datasets of its file: their names there, and these dimensions;
+                          of a bearing of a machine both stand in its group
         labels            values of its dimensions
     """
 
@@ -94,18 +95,20 @@ def measured(path: Path, run: Run) -> StudyRun:
     values: dict[str, Any] = {"complete": float(complete)}
     if "resumes" in attributes:
         values["resumes"] = float(attributes["resumes"])
-    own = {name: (*each, run[each[0]]) for name, each in columns(run, complete and status == DONE).items()}
+    there = columns(run, complete and status == DONE)
+    own = {name: (*each, value(run, each[0])) for name, each in there.items()}
     # what is not a number anywhere is nothing that the run has
     found = {name: (path, over) for name, (path, over, numbers) in own.items() if not np.isnan(numbers).all()}
     values |= {name: own[name][2] for name in found}
-    if complete and status == DONE and "by_revolution" not in run:
+    if complete and status == DONE and "by_revolution" not in run and not run.bearings:
         # the file is of an earlier version
         with suppress(NotInRunError):
             points = signals.poincare(run, REVOLUTIONS, states=tuple(POINTS.values()))
             values |= {name: points[state] for name, state in POINTS.items() if state in points}
             values |= ends_of_revolutions(run, len(points["time"]))
-    count = len(values.get("poincare_y", ()))
     known = dict.fromkeys(each for _, dimensions in found.values() for each in dimensions)
+    groups = [each.group for each in run.bearings.values()] or [""]
+    counts = {group: len(values.get(f"{group}poincare_y", ())) for group in groups}
     return StudyRun(
         path,
         number,
@@ -118,7 +121,8 @@ def measured(path: Path, run: Run) -> StudyRun:
         {name: attributes[name] for name in ("version", "title", "input")},
         values,
         found,
-        {name: run[name].tolist() for name in (*known, "pad")} | {"revolution": range(1 - count, 1)},
+        {name: value(run, name).tolist() for name in (*known, *(f"{group}pad" for group in groups))}
+        | {f"{group}revolution": range(1 - count, 1) for group, count in counts.items()},
     )
 
 
@@ -133,7 +137,7 @@ def place(attributes: dict[str, Any]) -> tuple[int | None, int | None, dict[str,
     if not 1 <= number <= runs <= MOST:
         raise ValueError(f"run {number} of {runs}")
     varied = varied_values(attributes.get("sweep", ""))
-    if strange := [name for name in varied if not VARIABLE.fullmatch(name)]:
+    if strange := [name for name in varied if not namelist.VARIABLE.fullmatch(name)]:
         raise ValueError(f"{strange[0]!r} is no variable")
     marks = tuple(f"{attributes.get('study_marks', '')}".split())
     return number, runs, varied, marks if len(marks) == len(("before", "own", "all")) else None
@@ -143,11 +147,24 @@ def columns(run: Run, done: bool) -> dict[str, tuple[str, tuple[str, ...]]]:
     """Names and dimensions of the datasets that are columns of a study, by the columns' names.
 
     What pads have a value of is called so, where it is not already; of a run that was not done only what
-    it had before.
+    it had before. Those of a bearing of a machine are in its group.
     """
+    found = own_columns(run, run.names, done)
+    for bearing in run.bearings.values():
+        own = set(bearing.own_names())
+        for name, (path, dimensions) in own_columns(bearing, bearing.own_names, done).items():
+            over = tuple(f"{bearing.group}{each}" if each in own else each for each in dimensions)
+            found[bearing.group + name] = bearing.group + path, over
+    return found
+
+
+def own_columns(
+    run: Run, names: Callable[[str], list[str]], done: bool
+) -> dict[str, tuple[str, tuple[str, ...]]]:
+    """The columns of a run, or of a bearing of a machine, that has datasets of these names in its groups."""
     found: dict[str, tuple[str, tuple[str, ...]]] = {}
     for group, before in GROUPS.items():
-        for own in run.names(group) if group in run else ():
+        for own in names(group) if group in run else ():
             if not DATASET.fullmatch(own) or f"{group}/{own}" in TEXTS:
                 continue
             dimensions = run.scales(f"{group}/{own}")
@@ -155,6 +172,20 @@ def columns(run: Run, done: bool) -> dict[str, tuple[str, tuple[str, ...]]]:
             if dimensions is not None and (done or group not in OF_MOTION or own.startswith(OF_ANY)):
                 found[f"{pads}{before}{own}"] = f"{group}/{own}", dimensions
     return found
+
+
+def part(run: Run, name: str) -> tuple[Run, str]:
+    """The run, or its bearing, of which a dataset of the file is a result, and what it is called there."""
+    for bearing in run.bearings.values():
+        if name.startswith(bearing.group):
+            return bearing, name.removeprefix(bearing.group)
+    return run, name
+
+
+def value(run: Run, name: str) -> Any:
+    """The values of a dataset of the file, also of one in the group of a bearing."""
+    own, name = part(run, name)
+    return own[name]
 
 
 def ends_of_revolutions(run: Run, count: int) -> dict[str, Any]:

@@ -11,8 +11,9 @@ import h5py
 import numpy as np
 
 from tiltpad.collect.parameters import differing, parameters
-from tiltpad.collect.runs import StudyRun, planned
-from tiltpad.files.archive import FORMAT_VERSION, RunError, plain
+from tiltpad.collect.runs import StudyRun, part, planned
+from tiltpad.files.archive import FORMAT_VERSION, MACHINE_VERSION, RunError, plain
+from tiltpad.files.namelist import is_machine
 from tiltpad.files.read import read
 from tiltpad.files.study import RUN
 from tiltpad.files.writing import hdf5
@@ -77,7 +78,7 @@ def fill(file: h5py.File, runs: Sequence[StudyRun], missing: Sequence[int], fold
     titles = {each.origin["title"] for each in readable}
     file.attrs.update(
         {
-            "format_version": FORMAT_VERSION,
+            "format_version": MACHINE_VERSION if is_machine(first.input) else FORMAT_VERSION,
             "program": "tiltpad",
             "version": first.origin["version"],
             "created": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -111,7 +112,9 @@ def described(runs: Sequence[StudyRun]) -> dict[str, Column]:
         if new:
             with warnings.catch_warnings(action="ignore"), read(each.path) as run:
                 for name, (path, dimensions) in new.items():
-                    found[name] = Column(dimensions, run.about(path, "units"), run.about(path, "long_name"))
+                    own, there = part(run, path)
+                    texts = (own.about(there, kind) for kind in ("units", "long_name"))
+                    found[name] = Column(dimensions, *texts)
     return found
 
 
@@ -134,7 +137,8 @@ def scales(
         else:
             file[name] = np.array(own)
         file[name].make_scale(name)
-        file[name].attrs.update({"units": "1", "long_name": COUNTED.get(name) or meaning(runs, name)})
+        counted = COUNTED.get(name.rpartition("/")[2])
+        file[name].attrs.update({"units": "1", "long_name": counted or meaning(runs, name)})
     return {name: {label: k for k, label in enumerate(own)} for name, own in found.items()}
 
 
@@ -154,7 +158,8 @@ def meaning(runs: Sequence[StudyRun], dimension: str) -> str:
     """What a dimension is, from the file of a run that has it."""
     path = next(each.path for each in runs if dimension in each.labels)
     with warnings.catch_warnings(action="ignore"), read(path) as run:
-        return run.about(dimension, "long_name")
+        own, name = part(run, dimension)
+        return own.about(name, "long_name")
 
 
 def placed(

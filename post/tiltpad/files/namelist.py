@@ -24,6 +24,8 @@ LARGEST = 1e30
 #: The program writes some thousand characters.
 LONGEST = 1 << 20
 
+#: Name of a variable: group%name, or of an element; a machine has groups with numbers or names of bearings.
+VARIABLE = re.compile(r"[a-z]\w*(:\w+|\(\d+\))?%[a-z]\w*(\(\d+\))?", re.ASCII | re.IGNORECASE)
 #: Groups that a machine has several times: those of its bearings, and what stands on its shaft.
 OF_BEARINGS = ("bearing", "oil", "pads", "pivot", "friction", "asperity", "film")
 SEVERAL = (*OF_BEARINGS, "disc", "unbalance", "load", "support", "excitation")
