@@ -71,11 +71,7 @@ def main() -> None:
     print()
     entry("tiltpad.figures", figures.study)
     section("tiltpad.diagrams", diagrams, [diagrams.diagram])
-    section(
-        "tiltpad.behaviour",
-        behaviour,
-        [behaviour.remarks, behaviour.marks],
-    )
+    section("tiltpad.behaviour", behaviour, [behaviour.marks])
     section(
         "tiltpad.summary",
         summary,

@@ -145,6 +145,15 @@ def tell(result: object) -> None:
         raise RunError(f"standard output cannot be written: {error.strerror}") from error
 
 
+def tell_remarks(sources: Sequence[Run | Study]) -> None:
+    """Prints the remarks on results, with the names of their files where there are several."""
+    for each in sources:
+        if isinstance(each, Run):
+            name = f"{each.path}: " * (len({one.path for one in sources}) > 1)
+            for line in each.remarks:
+                tell(f"{name}remark: {line}")
+
+
 def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
     """Does the work and gives the exit status; errors and warnings are a line each."""
     try:
@@ -229,10 +238,12 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         of_study = options.plot in SAMPLES
         either = options.plot in (BRANCH, *OF_EITHER)
         opened: Callable[[str], Run | Study] = read_study if of_study else read_either if either else read
+        sources: list[Run | Study] = []
         runs: list[Run | Study] = []
         for path in options.files:
             source = opened(path)
             stack.enter_context(source)
+            sources.append(source)
             runs += bearings_of(source, options)
         stack.enter_context(mpl.style.context(plots.STYLE))
         if options.pad is not None and not (either or of_study):
@@ -248,6 +259,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
         stack.callback(plots.plt.close, figure)
         save(figure, output, form)
+        tell_remarks(sources)
 
 
 def bearings_of(source: Run | Study, options: argparse.Namespace) -> list[Run | Study]:
@@ -298,6 +310,7 @@ def write_table(options: argparse.Namespace, output: Path) -> None:
             write_critical_speeds(found, output)
         else:
             write_coefficients(own, output, pivot=options.pivot, where=where)
+        tell_remarks([source])
 
 
 def draw_scheme(options: argparse.Namespace, output: Path, form: str) -> None:
@@ -324,6 +337,7 @@ def draw_movie(options: argparse.Namespace, output: Path, form: str) -> None:
 
     with read(one_file(options)) as run:
         bearing.movie(one_bearing(run, options), output, options.last)
+        tell_remarks([run])
 
 
 def one_file(options: argparse.Namespace) -> Path:
@@ -365,7 +379,8 @@ def write_report(path: str, output: Path, operating: tuple[float, float] | None 
         if operating is not None and not isinstance(found, Study):
             raise ValueError("--operating: for the critical speeds of a study")
         page = study_report(found, operating) if isinstance(found, Study) else report(found)
-    write(output, page)
+        write(output, page)
+        tell_remarks([found])
 
 
 def needs_suffix(output: Path, allowed: Sequence[str]) -> str:

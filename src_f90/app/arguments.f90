@@ -11,7 +11,7 @@ module arguments
    !> Longest override, and how many there may be.
    integer, parameter :: longest = 4096, most = 1000
    character(len=*), parameter :: options = '--output --overwrite --resume --set --check --verify --jobs --run ' &
-      & //'--block --count --quiet --reference --version --help'
+      & //'--block --count --quiet --yes --reference --version --help'
 
    type :: arguments_type
       !> 'run', 'check', 'count', 'help', 'version' or 'reference'.
@@ -28,6 +28,8 @@ module arguments
       !> States whose films are solved closely after a run; 0: none.
       integer :: verify = 0
       logical :: quiet = .false., overwrite = .false.
+      !> Whether a study may be large, without being asked for on a terminal.
+      logical :: yes = .false.
    end type arguments_type
 
 contains
@@ -62,6 +64,8 @@ contains
             given%quiet = .true.
          case ('--overwrite')
             given%overwrite = .true.
+         case ('--yes')
+            given%yes = .true.
          case ('--output', '-o', '--resume', '--set', '--verify', '--run', '--block', '--jobs')
             if (i == command_argument_count()) then
                call raise(error, input_error, word//': a value must follow; see tiltpad --help')
@@ -229,6 +233,7 @@ contains
          & '  --jobs N                performs N runs of a study at a time; default: one for each processor', &
          & '  --run K                 performs (with --check: prints) only run K of a study', &
          & '  --count                 prints the number of runs of the case; 1 without a group &sweep', &
+         & '  --yes                   performs a study of more than a gigabyte, which a terminal refuses without it', &
          & '  --quiet                 prints errors only', &
          & '  --reference             prints the input reference (Markdown)', &
          & '  --version, --help       prints the version, or this help', &

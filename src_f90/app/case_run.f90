@@ -14,6 +14,8 @@ module case_run
    use march_figures, only: put_progress, put_march_figures
    use station_figures, only: put_station_figures
    use run_statistics, only: run_statistics_type
+   use result_remarks, only: remarks_on_run, put_remarks, new_lines
+   use run_summary, only: print_remarks
    use clock, only: wall_clock
    implicit none (type, external)
    private
@@ -34,6 +36,8 @@ module case_run
       logical :: computed = .false.
       type(run_file_type) :: file
       type(machine_model) :: model
+      !> Remarks that were printed last, a line each.
+      character(len=:), allocatable :: remarks
       !> Of all samples of each bearing.
       type(run_extremes_type), allocatable :: extremes(:)
       !> Simulated time reached, s.
@@ -48,6 +52,7 @@ module case_run
       procedure :: bearing
       procedure :: statistics
       procedure :: note_figures
+      procedure :: note_remarks
       procedure :: wants_checkpoint
       procedure :: checkpoint
       procedure :: stop_here
@@ -69,6 +74,7 @@ contains
       run%verified_states = verified_states
       run%quiet = quiet
       run%file%filed = path /= ''
+      run%remarks = ''
       allocate (run%extremes(inputs%bearing_count()))
       run%started = wall_clock()
       run%last_checkpoint = run%started
@@ -98,6 +104,20 @@ contains
       end associate
    end subroutine note_figures
 
+   !> Writes the remarks on the run so far, and prints those that were not if they are to be `shown`. A run of a study
+   !> that has no file has none.
+   subroutine note_remarks(self, shown)
+      class(case_run_type), intent(inout) :: self
+      logical, intent(in) :: shown
+      character(len=:), allocatable :: all
+      if (.not. self%file%filed) return
+      all = remarks_on_run(self%inputs, self%file)
+      call put_remarks(self%file, all)
+      if (self%quiet .or. .not. shown) return
+      call print_remarks(new_lines(all, self%remarks))
+      self%remarks = all
+   end subroutine note_remarks
+
    !> True where it is time for a checkpoint; `now` is the clock, s.
    pure logical function wants_checkpoint(self, now)
       class(case_run_type), intent(in) :: self
@@ -116,6 +136,7 @@ contains
       real(wp) :: started
       started = wall_clock()
       call self%note_figures()
+      call self%note_remarks(shown=.false.)
       call self%file%checkpoint(t, self%statistics(), running, '', error, y)
       self%last_checkpoint = wall_clock()
       self%checkpoints = self%checkpoints + self%last_checkpoint - started
@@ -129,6 +150,7 @@ contains
       real(wp), intent(in), optional :: y(:)
       type(error_type), allocatable :: file_error
       call self%note_figures()
+      call self%note_remarks(shown=.false.)
       call self%file%checkpoint(t, self%statistics(), stopped, error%message, file_error, y)
       if (allocated(file_error)) call move_alloc(file_error, error)
    end subroutine stop_here

@@ -83,7 +83,7 @@ contains
       call put_thresholds(run%file, found)
       if (run%quiet) return
       call print_coefficients(found, run%inputs)
-      if (run%inputs%is_machine()) call print_response(found, response)
+      if (run%inputs%is_machine()) call print_response(found, response, run%inputs)
    end subroutine write_coefficients
 
    subroutine print_coefficients(found, inputs)
@@ -93,7 +93,7 @@ contains
       if (inputs%thermal%model /= 'none') print '(a)', 'stiffness and damping at the viscosities of this equilibrium:'
       associate (ratios => inputs%coefficients%frequency_ratio)
          do i = 1, size(found%bearings)
-            print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//':'
+            print '(a)', pivots_of(found, i, inputs)//':'
             do b = 1, size(found%stiffness, 5)
                if (inputs%is_machine()) print '(a)', '  bearing '''//inputs%machine%bearings(b)%name//''':'
                do k = 1, min(most, size(ratios))
@@ -106,15 +106,16 @@ contains
                & //' whirl frequencies more, in the file'
             call print_modes(found%modes(i))
             if (allocated(found%thresholds)) call print_threshold(found%thresholds(i), found%sought_up_to, &
-               & inputs%operation%speed_rpm, any(found%modes(i)%eigenvalue%re > 0))
+               & inputs%operation%speed_rpm)
          end do
       end associate
    end subroutine print_coefficients
 
    !> Where the least damped mode on synchronously reduced coefficients differs from the one with the pads' own
    !> equations: in its sign, or by more than a tenth of the logarithmic decrement. The largest whirl of the stations.
-   subroutine print_response(found, response)
+   subroutine print_response(found, response, inputs)
       type(bearing_coefficients_type), intent(in) :: found
+      type(case_type), intent(in) :: inputs
       type(rotor_response_type), intent(in) :: response
       real(wp), parameter :: differs = 0.1_wp
       real(wp), allocatable :: amplitude(:)
@@ -123,14 +124,14 @@ contains
          associate (exact => found%modes(i), reduced => response%synchronous(i))
             associate (k => minloc(abs(reduced%eigenvalue - exact%eigenvalue(1)), dim=1))
                if (abs(reduced%log_decrement(k) - exact%log_decrement(1)) > differs*abs(exact%log_decrement(1))) then
-                  print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//': synchronously reduced coefficients ' &
+                  print '(a)', pivots_of(found, i, inputs)//': synchronously reduced coefficients ' &
                      & //'would give mode 1 a logarithmic decrement of '//fixed_text(reduced%log_decrement(k), 4) &
                      & //', and not '//fixed_text(exact%log_decrement(1), 4)
                end if
             end associate
          end associate
          amplitude = maxval(abs(response%unbalance(:, :, i)), 1)
-         print '(a)', 'pivots '//trim(found%bearings(i)%pivot)//': linear response to the unbalance, largest at ' &
+         print '(a)', pivots_of(found, i, inputs)//': linear response to the unbalance, largest at ' &
             & //'station '//to_text(maxloc(amplitude, dim=1))//': '//fixed_text(1e6_wp*maxval(amplitude), 3)//' um'
       end do
    end subroutine print_response
@@ -169,20 +170,32 @@ contains
       end do
    end subroutine print_kind
 
-   !> Where stability is lost, or, where it is lost already, what the next crossing is.
-   subroutine print_threshold(threshold, sought_up_to, speed, unstable)
+   !> Where an eigenvalue crosses the axis next.
+   subroutine print_threshold(threshold, sought_up_to, speed)
       real(wp), intent(in) :: threshold, sought_up_to, speed
-      logical, intent(in) :: unstable
-      character(len=:), allocatable :: start
-      start = '  stable'
-      if (unstable) start = '  unstable'
       if (ieee_is_nan(threshold)) then
-         print '(a)', start//' from '//to_text(speed)//' rpm up to '//fixed_text(sought_up_to, 2)//' rpm'
+         print '(a)', '  no eigenvalue crosses the axis from '//to_text(speed)//' rpm up to ' &
+            & //fixed_text(sought_up_to, 2)//' rpm'
       else
-         print '(a)', start//' at '//to_text(speed)//' rpm; an eigenvalue crosses the axis at ' &
+         print '(a)', '  threshold speed: above '//to_text(speed)//' rpm an eigenvalue crosses the axis at ' &
             & //fixed_text(threshold, 2)//' rpm'
       end if
    end subroutine print_threshold
+
+   !> "pivots stuck"; "coefficients" where no bearing has pivots.
+   function pivots_of(found, i, inputs) result(title)
+      type(bearing_coefficients_type), intent(in) :: found
+      integer, intent(in) :: i
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: title
+      type(case_type) :: own
+      integer :: b
+      title = 'coefficients'
+      do b = 1, inputs%bearing_count()
+         own = inputs%of_bearing(b)
+         if (own%tilting()) title = 'pivots '//trim(found%bearings(i)%pivot)
+      end do
+   end function pivots_of
 
    !> The four elements, in millions.
    function of_journal(matrix) result(text)

@@ -17,7 +17,7 @@ module equilibrium_notes
 
 contains
 
-   !> Writes an equilibrium with its losses and flows, and gives the films of the run its viscosities.
+   !> Writes an equilibrium with its losses, flows and remarks, and gives the films of the run its viscosities.
    subroutine note_equilibrium(run, static)
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
@@ -28,18 +28,20 @@ contains
       if (.not. run%inputs%is_machine()) then
          call note_bearing(run, run%model, static, 1, 'equilibrium: ')
          call put_stability(run%file, static)
+         call run%note_remarks(shown=.true.)
          return
       end if
       call put_stability(run%file, static)
       loads = bearing_loads(run%model, static%rotor)
       call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads)
       if (.not. run%quiet) call print_shaft(run%file)
-      if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static)
+      if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static, run%inputs)
       do b = 1, size(loads, 2)
          call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, &
             & bearing_title(run%inputs, b, loads(:, b)))
          call note_misalignment(run, static, b)
       end do
+      call run%note_remarks(shown=.true.)
    end subroutine note_equilibrium
 
    !> What the slope of the shaft in bearing b of a machine does to its films, which leave it out.

@@ -23,7 +23,8 @@ module run_case
    use branch_task, only: run_branch
    use march_task, only: run_march
    use verification, only: check_verification, verify_films
-   use run_summary, only: print_notes, print_march, print_stations, print_cost, bearing_title
+   use case_remarks, only: remarks_on_case
+   use run_summary, only: print_remarks, print_size, print_march, print_stations, print_cost, bearing_title
    implicit none (type, external)
    private
    public :: run_task, way_out, computed_in
@@ -64,7 +65,11 @@ contains
       if (run%file%filed) call open_file(run, go_on, overwrite, complete, error)
       if (allocated(error)) return
       if (.not. complete .or. run%verified_states > 0) then
-         if (.not. quiet) call print_notes(inputs)
+         if (.not. quiet) then
+            run%remarks = remarks_on_case(inputs)
+            call print_remarks(run%remarks)
+            call print_size(inputs)
+         end if
          run%model = new_machine_model(run%inputs)
       end if
       if (.not. complete) then
@@ -217,11 +222,11 @@ contains
       ended = .not. allocated(error)
       if (.not. ended) ended = error%status == numerics_error .and. run%computed
       if (ended) call run%note_figures()
+      if (.not. allocated(error) .and. .not. run%quiet .and. run%file%samples > 0 &
+         & .and. run%inputs%about%task /= 'branch') call print_bearings(run)
+      if (ended) call run%note_remarks(shown=.true.)
       if (.not. allocated(error)) then
-         if (.not. run%quiet .and. run%file%samples > 0) then
-            if (run%inputs%about%task /= 'branch') call print_bearings(run)
-            call print_cost(run%statistics())
-         end if
+         if (.not. run%quiet .and. run%file%samples > 0) call print_cost(run%statistics())
          call run%file%finish(run%reached, run%statistics(), 0, '', file_error)
          if (.not. allocated(file_error) .and. .not. run%quiet) print '(a)', 'written: '//run%path
       else if (error%status == numerics_error .and. (run%computed .or. run%tag%number > 0)) then

@@ -13,6 +13,7 @@ module run_start
    use heat_balance_equations, only: has_warm_oil
    use equilibrium_notes, only: note_equilibrium
    use last_state, only: read_last_state
+   use summary_group, only: put_figure
    use bearing_file, only: bearing_file_type
    use machine_results, only: put_machine
    use march_results, only: put_excitations, put_viscosity, put_viscosity_history
@@ -95,8 +96,8 @@ contains
             rotor = 0
             if (from == 'file') call start_from_file(run, rotor, pads, error)
             if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, .false., error, equilibrium_state)
-            if (from == 'partial') call start_partially(run, rotor, pads, error)
             if (.not. allocated(error)) call create_file(run, error)
+            if (from == 'partial' .and. .not. allocated(error)) call start_partially(run, rotor, pads, error)
             if (allocated(error)) return
             call note_oil(run)
          end if
@@ -213,7 +214,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_type) :: static
       logical, allocatable :: held(:)
-      integer :: i
       call find_partial_equilibrium(run%model, static, held, error, stop_requested)
       call say_nothing_computed(error)
       if (allocated(error)) return
@@ -221,10 +221,8 @@ contains
       pads%tilt = static%tilt
       pads%pivot_deflection = static%pivot_deflection
       run%model%oil%viscosity = static%viscosity
-      do i = 1, size(held)
-         if (held(i) .and. .not. run%quiet) print '(a)', 'pad '//to_text(i)//' has no equilibrium: it starts ' &
-            & //'without tilt on its pivot'
-      end do
+      call put_figure(run%file, 'pad_without_equilibrium', merge(1.0_wp, 0.0_wp, held), '1', &
+         & '1 where it has no equilibrium: the march starts without tilt')
    end subroutine start_partially
 
    !> Adds the values of the group, which are for a rigid journal.

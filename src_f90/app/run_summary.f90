@@ -5,9 +5,9 @@ module run_summary
    use text, only: to_text, fixed_text, list_text
    use case_inputs, only: case_type
    use result_size, only: size_note
-   use checked_case, only: notes
+   use case_remarks, only: behind
    use heat_balance, only: oil_temperatures_type
-   use bearing_numbers, only: load, specific_load, sommerfeld_number
+   use bearing_numbers, only: load, specific_load, sommerfeld_number, of_supply
    use static_model, only: equilibrium_type
    use heat_balance_equations, only: static_figures_type
    use record, only: record_type
@@ -15,12 +15,10 @@ module run_summary
    use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
-   public :: print_notes, print_shaft, print_stations, print_start, print_equilibrium, stability_text, bearing_title, &
-      & print_misalignment, print_figures, print_temperatures
+   public :: print_remarks, print_size, print_shaft, print_stations, print_start, print_equilibrium, stability_text, &
+      & bearing_title, print_misalignment, print_figures, print_temperatures
    public :: print_march, print_cost
 
-   !> Reynolds number of a film above which it may be turbulent: published limits lie from here to 1500.
-   real(wp), parameter :: laminar = 500
    !> s.
    real(wp), parameter :: thousand_hours = 3.6e6_wp
 
@@ -67,12 +65,17 @@ contains
          & //micro(y(of_y))//' um peak to peak, and at station '//to_text(of_z)//' along z, '//micro(z(of_z))//' um'
    end subroutine print_stations
 
-   !> What is unusual about a case.
-   subroutine print_notes(inputs)
+   !> Remarks, a line each.
+   subroutine print_remarks(lines)
+      character(len=*), intent(in) :: lines
+      write (*, '(a)', advance='no') behind('remark: ', lines)
+   end subroutine print_remarks
+
+   !> That the results of a case are large.
+   subroutine print_size(inputs)
       type(case_type), intent(in) :: inputs
-      write (*, '(a)', advance='no') notes(inputs, '')
       if (size_note(inputs, 1) /= '') print '(a)', size_note(inputs, 1)
-   end subroutine print_notes
+   end subroutine print_size
 
    !> Where a march starts that does not start at the equilibrium itself: displacements of the journals, which stand
    !> first, m, and tilts of the pads of all bearings, rad.
@@ -104,7 +107,7 @@ contains
       character(len=:), allocatable :: pivot, stability
       integer :: i
       stability = ''
-      if (alone) stability = ', '//stability_text(static)
+      if (alone) stability = '; '//stability_text(static, inputs)
       print '(a)', title//'journal y '//micro(static%rotor(1))//', z '//micro(static%rotor(2))//' um'//stability
       do i = 1, size(static%tilt)
          pivot = ''
@@ -122,12 +125,25 @@ contains
          & //'change by '//fixed_text(100*misalignment, 1)//' % of the minimum thickness, which is left out'
    end subroutine print_misalignment
 
-   !> "stable (eigenvalue -69.5 1/s at 64.9 Hz)".
-   function stability_text(static) result(text)
+   !> "the journal is stable, the pads are unstable: oscillatory instability, eigenvalue 69.4 1/s at 37.0 Hz".
+   function stability_text(static, inputs) result(text)
       type(equilibrium_type), intent(in) :: static
+      type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: text
-      text = static%stability%name//' (eigenvalue '//fixed_text(static%stability%eigenvalue%re, 1)//' 1/s at ' &
-         & //fixed_text(static%stability%eigenvalue%im/(2*pi), 1)//' Hz)'
+      associate (found => static%stability)
+         text = trim(merge('the shaft is  ', 'the journal is', inputs%is_machine()))//verdict(found%rotor_grows)
+         if (inputs%tilting()) text = text//', the pads are'//verdict(found%pads_grow)
+         text = text//': '
+         if (found%name /= 'stable') text = text//found%name//', '
+         text = text//'eigenvalue '//fixed_text(found%eigenvalue%re, 1)//' 1/s at ' &
+            & //fixed_text(found%eigenvalue%im/(2*pi), 1)//' Hz'
+      end associate
+   contains
+      function verdict(grows)
+         logical, intent(in) :: grows
+         character(len=:), allocatable :: verdict
+         verdict = trim(merge(' unstable', ' stable  ', grows))
+      end function verdict
    end function stability_text
 
    !> Where the journal lies at the equilibrium, loads, losses and flows.
@@ -139,7 +155,7 @@ contains
       of_load = ''
       if (load(inputs) > 0) of_load = ', attitude angle '//fixed_text(figures%attitude_angle/degree, 2) &
          & //' deg, specific load '//mega(specific_load(inputs))//' MPa, Sommerfeld number ' &
-         & //fixed_text(sommerfeld_number(inputs), 4)
+         & //fixed_text(sommerfeld_number(inputs), 4)//' ('//of_supply(inputs)//')'
       print '(a)', '  eccentricity ratio '//fixed_text(figures%eccentricity_ratio, 4)//of_load
       do i = 1, size(figures%pads)
          associate (pad => figures%pads(i))
@@ -153,11 +169,6 @@ contains
          print '(a)', '  all pads: loss '//fixed_text(sum(pads%power()), 1)//' W, oil in '//micro(sum(pads%inlet)) &
             & //', at the sides '//micro(sum(pads%side))//' ml/s'//warmer(figures%rise_fresh, ', oil warmer by ', &
             & 'fresh at every pad')//warmer(figures%rise_side, ' to ', 'fresh for the sides alone')
-      end associate
-      associate (fastest => maxloc(figures%reynolds_number, dim=1))
-         if (figures%reynolds_number(fastest) > laminar) print '(a)', '  the film of pad '//to_text(fastest) &
-            & //' may be turbulent: its Reynolds number is above '//to_text(nint(laminar))//'; these films are ' &
-            & //'laminar, turbulent ones lose more power'
       end associate
 
    contains
@@ -186,12 +197,12 @@ contains
          & //' C'
    end subroutine print_temperatures
 
-   !> Figures of a bearing in the last revolution (or in what there is), behind this title, and what is unusual.
+   !> Figures of a bearing in the last revolution (or in what there is), behind this title.
    subroutine print_march(title, file, inputs)
       character(len=*), intent(in) :: title
       class(record_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: before, after, diagnosis
+      character(len=:), allocatable :: before, after
       integer :: i
       print '(a)', title//'journal y '//micro(figure(file, 'journal_y_min'))//' to ' &
          & //micro(figure(file, 'journal_y_max'))//', z '//micro(figure(file, 'journal_z_min'))//' to ' &
@@ -215,9 +226,6 @@ contains
                & //' um, maximum pressure '//mega(pressure(i))//' MPa'//after
          end do
       end associate
-      call print_asperities(file)
-      call file%get_text('diagnosis', diagnosis)
-      call print_indented(diagnosis)
    end subroutine print_march
 
    !> Depth worn off at this rate, m/s, " and 2.68 um"; empty where it is not known.
@@ -227,18 +235,6 @@ contains
       text = ''
       if (.not. ieee_is_nan(rate)) text = ' and '//fixed_text(1e6_wp*thousand_hours*rate, 2)//' um'
    end function depth_text
-
-   !> Prints lines behind two blanks; nothing of an empty text.
-   subroutine print_indented(lines)
-      character(len=*), intent(in) :: lines
-      integer :: first, length
-      first = 1
-      do while (first <= len(lines))
-         length = index(lines(first:)//achar(10), achar(10)) - 1
-         print '(a)', '  '//lines(first:first + length - 1)
-         first = first + length + 1
-      end do
-   end subroutine print_indented
 
    !> What a run cost.
    subroutine print_cost(statistics)
@@ -263,23 +259,6 @@ contains
          duration = fixed_text(statistics%seconds(name), 2)
       end function duration
    end subroutine print_cost
-
-   !> Which pads touched the journal in the whole run, how hard and how long.
-   subroutine print_asperities(file)
-      class(record_type), intent(inout) :: file
-      character(len=:), allocatable :: of_load
-      integer :: i
-      associate (force => pad_figures(file, 'pad_asperity_force'), share => pad_figures(file, 'pad_asperity_share'), &
-            & time => pad_figures(file, 'pad_asperity_time'))
-         do i = 1, size(force)
-            if (.not. force(i) > 0) cycle
-            of_load = ''
-            if (share(i) > 0) of_load = ', '//fixed_text(100*share(i), 2)//' % of the load'
-            print '(a)', '  pad '//to_text(i)//' touched the journal for '//fixed_text(1e3_wp*time(i), 3) &
-               & //' ms of the run; its asperities bore up to '//fixed_text(force(i), 1)//' N'//of_load
-         end do
-      end associate
-   end subroutine print_asperities
 
    !> Metres as micrometres, radians as milliradians, pascals as megapascals.
    function micro(x)

@@ -3,7 +3,7 @@ program tiltpad
    use, intrinsic :: iso_c_binding, only: c_int
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use text, only: printable, to_text
-   use errors, only: error_type, raise, require, input_error, numerics_error, system_error
+   use errors, only: error_type, raise, require, add_context, input_error, numerics_error, system_error
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag, read_study
    use namelist_writer, only: namelist_of, reference_text
@@ -18,7 +18,7 @@ program tiltpad
    use record, only: record_type
    use study_folder, only: result_path, prepare_folder, check_neighbours
    use study_runs, only: check_runs
-   use whole_study, only: perform_study, mark_study
+   use whole_study, only: perform_study, mark_study, refuse_large
    implicit none (type, external)
 
    interface
@@ -161,6 +161,9 @@ contains
          & //given%case_file//' go on when it is run again', error)
       call require(given%run <= study%runs, '--run '//to_text(given%run)//': must be 1 to '//to_text(study%runs) &
          & //', the runs of '//given%case_file, error)
+      if (allocated(error) .or. given%task /= 'run' .or. given%run > 0 .or. .not. study%given .or. given%yes) return
+      call refuse_large(study, given%share, error)
+      call add_context(error, given%case_file)
    end subroutine check_use
 
    !> The result file, as given, or named like the case; for a study without .h5: so its folder is called.

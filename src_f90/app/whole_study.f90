@@ -1,14 +1,14 @@
 !> A whole study: its file, with a row for each run, and where runs have files of their own the folder of these.
 module whole_study
    use kinds, only: wp
-   use errors, only: error_type
+   use errors, only: error_type, raise, input_error
    use case_inputs, only: case_type
-   use result_size, only: size_note
+   use result_size, only: size_note, is_huge
    use assignments, only: assignment_type, target_text
    use parameter_study, only: study_type, run_tag
    use namelist_writer, only: namelist_of
    use files, only: is_regular
-   use processes, only: processors
+   use processes, only: processors, is_terminal
    use working_file, only: clear_leftovers
    use record, only: record_type
    use study_child, only: study_runner_type
@@ -22,7 +22,7 @@ module whole_study
    use stop_signals, only: stop_requested
    implicit none (type, external)
    private
-   public :: perform_study, mark_study
+   public :: perform_study, mark_study, refuse_large
 
    !> Performs a run of a study as a run of its own, or what is left of it.
    type, extends(study_runner_type) :: case_runner_type
@@ -34,6 +34,23 @@ module whole_study
    end type case_runner_type
 
 contains
+
+   !> Refuses the runs of a study that write more than a gigabyte together, where someone sits at a terminal.
+   subroutine refuse_large(study, share, error)
+      type(study_type), intent(in) :: study
+      type(block_type), intent(in) :: share
+      type(error_type), allocatable, intent(out) :: error
+      type(case_type) :: first
+      character(len=:), allocatable :: note
+      integer :: runs
+      if (.not. is_terminal()) return
+      runs = share%last(study%runs) - share%first(study%runs) + 1
+      call study%inputs(1, first, error)
+      if (allocated(error) .or. runs < 1) return
+      if (.not. is_huge(first, runs)) return
+      note = size_note(first, runs)
+      call raise(error, input_error, note(7:)//'; --yes performs them all the same')
+   end subroutine refuse_large
 
    !> Performs the runs of a block of a checked and marked study into its file, or of the whole study into `output`.h5,
    !> and where they keep samples into files in the folder `output`; those that have their rows are not run again.

@@ -26,6 +26,9 @@ module bearing_losses
       real(wp) :: journal_drag = 0, pad_drag = 0
       !> Flow in at the leading edge, out at the trailing edge and out at both sides, m^3/s.
       real(wp) :: inlet = 0, outlet = 0, side = 0
+      !> What the film takes up at the reformation boundary beyond what reaches it, m^3/s: inlet + reformation =
+      !> outlet + side.
+      real(wp) :: reformation = 0
       !> Over the arc, m.
       real(wp) :: mean_film_thickness = 0
    contains
@@ -106,6 +109,7 @@ contains
       loss%inlet = film%inlet
       loss%outlet = film%outlet
       loss%side = film%side
+      loss%reformation = film%unfed
       if (abs(speed) > 0) then
          loss%journal_drag = (film%couette + film%wedge)/speed
          loss%pad_drag = (film%couette - film%wedge)/speed*pad%gap%pad_radius()/pad%gap%journal_radius

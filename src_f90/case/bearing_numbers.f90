@@ -1,12 +1,13 @@
 !> What a bearing engineer calculates from a case before any run.
 module bearing_numbers
    use kinds, only: wp
+   use text, only: to_text, fixed_text
    use case_inputs, only: case_type
    use oil_properties, only: reference_viscosity
    use operating_point, only: operating_point_type
    implicit none (type, external)
    private
-   public :: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
+   public :: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number, of_supply
    public :: eccentricity_ratio, attitude_angle
 
 contains
@@ -53,6 +54,15 @@ contains
       sommerfeld_number = reference_viscosity(inputs)*inputs%operation%speed_rpm/60/specific_load(inputs) &
          & /clearance_ratio(inputs)**2
    end function sommerfeld_number
+
+   !> Which viscosity the Sommerfeld number has: "28.1 mPa s of the supply at 45 C".
+   pure function of_supply(inputs) result(words)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: words
+      words = fixed_text(1e3_wp*reference_viscosity(inputs), 2)//' mPa s'
+      if (inputs%oil%law /= 'constant') words = words//' of the supply at '//to_text(inputs%oil%supply_temperature) &
+         & //' C'
+   end function of_supply
 
    !> Distance of the journal, at (y, z), m, from the middle over c_r.
    pure real(wp) function eccentricity_ratio(inputs, journal)

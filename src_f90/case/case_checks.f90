@@ -3,7 +3,7 @@ module case_checks
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: clearance_range, is_set
+   use case_groups, only: clearance_range, is_set, in_metres
    use case_inputs, only: case_type
    use excitation_checks, only: check_excitations
    use machine_checks, only: check_machine
@@ -86,7 +86,8 @@ contains
             if (.not. (ratio >= clearance_range(1) .and. ratio <= clearance_range(2))) call refuse( &
                & 'bearing%machined_clearance = '//to_text(b%machined_clearance(i))//': must be ' &
                & //to_text(clearance_range(1))//' to '//to_text(clearance_range(2))//' of bearing%journal_radius = ' &
-               & //to_text(b%journal_radius)//pad, error)
+               & //to_text(b%journal_radius)//pad//in_metres(b%machined_clearance(i), &
+               & clearance_range(1)*b%journal_radius, clearance_range(2)*b%journal_radius), error)
             if (.not. (b%assembled_clearance(i) <= 2*b%machined_clearance(i))) call refuse( &
                & 'bearing%assembled_clearance = '//to_text(b%assembled_clearance(i)) &
                & //': must be at most twice bearing%machined_clearance = '//to_text(b%machined_clearance(i)) &
@@ -94,7 +95,8 @@ contains
             ratio = b%axial_length(i)/b%journal_radius
             if (.not. (ratio >= 0.02_wp .and. ratio <= 50)) call refuse('bearing%axial_length = ' &
                & //to_text(b%axial_length(i))//': must be 0.02 to 50 times bearing%journal_radius = ' &
-               & //to_text(b%journal_radius)//pad, error)
+               & //to_text(b%journal_radius)//pad//in_metres(b%axial_length(i), 0.02_wp*b%journal_radius, &
+               & 50*b%journal_radius), error)
          end do
          if (.not. (b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
             & .or. inputs%film%cavitation == 'none')) call refuse('bearing%cavitation_pressure = ' &
@@ -236,32 +238,19 @@ contains
       end associate
    end subroutine require_room
 
-   !> What some tasks cannot do: but for a march and an equilibrium the speed is constant; where nothing moves, no start
-   !> can be given.
+   !> What some tasks cannot do: but for a march and an equilibrium the speed is constant.
    subroutine check_tasks(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      character(len=:), allocatable :: without, also
-      associate (c => inputs%coefficients, o => inputs%operation, s => inputs%start, task => inputs%about%task)
+      character(len=:), allocatable :: also
+      associate (c => inputs%coefficients, o => inputs%operation, task => inputs%about%task)
          if (task == 'march' .or. task == 'equilibrium') return
          also = ''
          if (task == 'coefficients') also = '; a study varies the speed'
          if (.not. inputs%is_steady()) call refuse('operation%final_speed_rpm = '//to_text(o%final_speed_rpm) &
             & //': must be operation%speed_rpm = '//to_text(o%speed_rpm)//' with case%task = '''//task//'''' &
             & //also, error)
-         without = ': has no effect with case%task = '''//task//''''
-         if (inputs%seeks_orbits()) then
-            if (inputs%output%start_time > 0) call refuse('output%start_time = ' &
-               & //to_text(inputs%output%start_time)//without, error)
-            if (inputs%integration%stop_when_periodic > 0) call refuse( &
-               & 'integration%stop_when_periodic = '//to_text(inputs%integration%stop_when_periodic) &
-               & //without, error)
-            return
-         end if
-         if (task == 'branch') without = ': has no effect on a branch of equilibria'
-         call require(s%from == 'equilibrium', 'start%from = '''//s%from//''''//without, error)
-         if (inputs%is_disturbed()) call refuse('start%journal = '//to_text(s%journal(1)) &
-            & //', ...: a disturbance'//without, error)
+         if (task /= 'coefficients') return
          if (c%threshold_up_to_rpm > 0 .and. c%threshold_up_to_rpm <= o%speed_rpm) call refuse( &
             & 'coefficients%threshold_up_to_rpm = '//to_text(c%threshold_up_to_rpm) &
             & //': must be 0 or above operation%speed_rpm = '//to_text(o%speed_rpm) &
@@ -269,7 +258,7 @@ contains
       end associate
    end subroutine check_tasks
 
-   !> A branch needs a parameter, its last value and a step; `case_parameter` checks what they mean.
+   !> A branch needs a parameter; `case_parameter` checks what it, its last value and its step mean.
    subroutine check_branch(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
@@ -277,9 +266,7 @@ contains
       associate (b => inputs%branch)
          call require(b%parameter /= '', 'branch%parameter = '''': must name a number of the input, such as ' &
             & //'''operation%speed_rpm''', error)
-         call require(is_set(b%last), 'branch%last: must be given, the last value of '//b%parameter, error)
-         call require(is_set(b%step), 'branch%step: must be given, the first change of '//b%parameter, error)
-         if (b%max_step > 0 .and. b%max_step < abs(b%step)) call refuse('branch%max_step = ' &
+         if (is_set(b%step) .and. b%max_step > 0 .and. b%max_step < abs(b%step)) call refuse('branch%max_step = ' &
             & //to_text(b%max_step)//': must be 0 or at least the size of branch%step = '//to_text(b%step), error)
          call require(b%switch .or. b%of == 'periodic', 'branch%switch = .false.: has no effect on a branch of ' &
             & //'equilibria', error)

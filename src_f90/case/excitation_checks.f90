@@ -95,9 +95,9 @@ contains
       if (size(inputs%excitations) == 0) return
       call require(inputs%about%task /= 'branch', 'excitation: has no effect with case%task = ''branch''; a study ' &
          & //'varies a number of the input', error)
-      if (inputs%integration%stop_when_periodic > 0) call refuse('integration%stop_when_periodic = ' &
-         & //to_text(inputs%integration%stop_when_periodic)//': must be 0 with excitations; the task periodic finds ' &
-         & //'the orbit under them', error)
+      if (inputs%about%task == 'march' .and. inputs%integration%stop_when_periodic > 0) call refuse( &
+         & 'integration%stop_when_periodic = '//to_text(inputs%integration%stop_when_periodic) &
+         & //': must be 0 with excitations; the task periodic finds the orbit under them', error)
       do i = 1, size(inputs%excitations)
          call check_values(inputs%excitations(i), name_of(i), error)
          call check_times(inputs, inputs%excitations(i), name_of(i), error)

@@ -6,10 +6,10 @@ module result_size
    implicit none (type, external)
    private
    public :: sample_interval, sample_count, figure_samples, result_bytes, memory_bytes, memory_advice, bytes_text, &
-      & size_note
+      & size_note, is_huge
 
    !> From this number of bytes on, the size is printed before a run.
-   real(wp), parameter :: large = 100e6_wp
+   real(wp), parameter :: large = 100e6_wp, huge_size = 1e9_wp
    !> Bytes of a value, and of a file without samples.
    real(wp), parameter :: of_value = 8, of_frame = 1e5_wp
    !> Bytes of memory of a run but its figures; the examples take 3 to 6 MB, with other libraries more.
@@ -128,6 +128,13 @@ contains
          text = to_text(0.1_wp*anint(bytes/1e8_wp))//' GB'
       end if
    end function bytes_text
+
+   !> Whether this many results of the case have more than a gigabyte together.
+   pure logical function is_huge(inputs, results)
+      type(case_type), intent(in) :: inputs
+      integer, intent(in) :: results
+      is_huge = results*result_bytes(inputs) > huge_size
+   end function is_huge
 
    !> A note where this many results of the case are large together; else empty.
    function size_note(inputs, results) result(note)

@@ -6,7 +6,7 @@ module equilibrium_refusal
    use force_balance, only: masses, force_derivatives, find_vibrations
    implicit none (type, external)
    private
-   public :: search_traces, note_divergence, refusal
+   public :: search_traces, note_divergence, refusal, listed
 
    !> What the searches left behind.
    type :: search_traces
@@ -98,33 +98,36 @@ contains
       else if (allocated(traces%without_equilibrium)) then
          cause = listed(traces%without_equilibrium) &
             & //trim(merge(' has ', ' have', count(traces%without_equilibrium) == 1)) &
-            & //' no equilibrium (unloaded)'//help(traces)
+            & //' no equilibrium (unloaded)'//help(model, traces)
       else if (pads == 2) then
          cause = 'two pads that push the journal away; try another angle between them (pads%pivot_angle_deg) ' &
             & //'or another pads%pivot_ratio'
       else if (traces%divergence > 0) then
-         cause = 'the motion leaves every equilibrium that was found'//help(traces)
+         cause = 'the motion leaves every equilibrium that was found'//help(model, traces)
       else if (any_held(traces)) then
-         cause = listed(traces%held)//' (unloaded) did not come to equilibrium'//help(traces)
+         cause = listed(traces%held)//' (unloaded) did not come to equilibrium'//help(model, traces)
       else
          cause = 'the search did not end; try another load or clearance'
-         if (model%layout%bearings(1)%tilting) cause = cause//', or'//other_start(traces)
+         if (model%layout%bearings(1)%tilting) cause = cause//', or'//other_start(model, traces)
       end if
    end function cause
 
    !> What helps pads that no film holds.
-   function help(traces)
+   function help(model, traces)
+      type(machine_model), intent(in) :: model
       type(search_traces), intent(in) :: traces
       character(len=:), allocatable :: help
-      help = '; try more preload, or'//other_start(traces)
+      help = '; try more preload, or'//other_start(model, traces)
    end function help
 
    !> Where a march can start without an equilibrium.
-   function other_start(traces)
+   function other_start(model, traces)
+      type(machine_model), intent(in) :: model
       type(search_traces), intent(in) :: traces
       character(len=:), allocatable :: other_start
-      other_start = ' (but not in a machine) a march from another start (start%from = ''' &
-         & //merge('partial', 'centred', allocated(traces%held))//''')'
+      other_start = ' (but not in a machine) a march from another start ('
+      if (model%inputs%about%task /= 'march') other_start = other_start//'case%task = ''march'', '
+      other_start = other_start//'start%from = '''//merge('partial', 'centred', allocated(traces%held))//''')'
    end function other_start
 
    !> Whether pads are held in a partial equilibrium.

@@ -6,7 +6,7 @@ module assigned_values
    use text, only: to_text, lower_case, shortened, replaced, whole_number, is_utf8
    use errors, only: error_type, raise, input_error
    use assignments, only: assignment_type, token_type, assignment_text, study_group, is_special, read_number
-   use case_groups, only: unset
+   use case_groups, only: unset, in_metres
    use variable_table, only: variable_type
    use variable_names, only: meant_word
    implicit none (type, external)
@@ -54,6 +54,11 @@ contains
       real(wp) :: x
       integer :: i, repeat
       allocate (values(0))
+      if (v%most == 1 .and. is_number_with_comma(a)) then
+         call refuse_values(a, 'takes one value; a decimal has a point ('//a%values(1)%text//'.'//a%values(2)%text &
+            & //'), and thousands have no comma ('//a%values(1)%text//a%values(2)%text//')', error)
+         return
+      end if
       do i = 1, size(a%values)
          call read_real(a, a%values(i), v, x, repeat, error)
          if (allocated(error)) return
@@ -69,6 +74,17 @@ contains
       end do
    end subroutine read_reals
 
+   !> Whether two values are digits, the second with 0 before others or three of them: 9,000 or 0,019.
+   pure logical function is_number_with_comma(a) result(is)
+      type(assignment_type), intent(in) :: a
+      is = size(a%values) == 2
+      if (.not. is) return
+      associate (first => a%values(1)%text, second => a%values(2)%text)
+         is = first /= '' .and. len(second) > 1 .and. verify(first//second, '0123456789') == 0
+         if (is) is = len(second) == 3 .or. second(1:1) == '0'
+      end associate
+   end function is_number_with_comma
+
    !> One value of an assignment and how often it stands there: `repeat*value`. Of what a case may leave out and what is
    !> never below 0, the value -1 says that it is not set.
    subroutine read_real(a, token, v, x, repeat, error)
@@ -78,7 +94,7 @@ contains
       real(wp), intent(out) :: x
       integer, intent(out) :: repeat
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: digits
+      character(len=:), allocatable :: digits, reason
       integer :: star
       logical :: repeat_ok, ok
       digits = lower_case(token%text)
@@ -92,20 +108,22 @@ contains
       end if
       x = 0
       if (.not. token%quoted .and. is_special(digits)) then
-         call refuse_values(a, 'must be finite, '//v%range_text(), error)
+         call refuse_values(a, 'must be finite, '//v%allowed(), error)
          return
       end if
       call read_number(digits, x, ok)
       if (index(token%text, ':') > 0 .and. .not. token%quoted) then
-         call refuse_values(a, 'must be a number, '//v%range_text()//several_runs(a), error)
+         call refuse_values(a, 'must be a number, '//v%allowed()//several_runs(a), error)
       else if (.not. repeat_ok .or. token%quoted .or. .not. ok) then
-         call refuse_values(a, 'must be a number, '//v%range_text(), error)
+         call refuse_values(a, 'must be a number, '//v%allowed(), error)
       else if (.not. ieee_is_finite(x)) then
-         call refuse_values(a, 'must be finite, '//v%range_text(), error)
+         call refuse_values(a, 'must be finite, '//v%allowed(), error)
       else if (v%may_be_unset .and. v%low >= 0 .and. abs(x + 1) <= 0) then
          x = unset
       else if (x < v%low .or. x > v%high) then
-         call refuse_values(a, 'must be '//v%range_text(), error)
+         reason = 'must be '//v%allowed()
+         if (v%unit == 'm') reason = reason//in_metres(x, v%low, v%high)
+         call refuse_values(a, reason, error)
       end if
    end subroutine read_real
 

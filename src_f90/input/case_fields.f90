@@ -240,9 +240,10 @@ contains
          & //'element where there are several, ''rotor%static_load(1)''; of values of the pads all without one. ' &
          & //'Numbers of rotor, operation, bearing, oil, pads, pivot, friction and asperity')
       call v%number(inputs%branch%last, 'last', -1e15_wp, 1e15_wp, '', &
-         & 'its value where the branch ends; it also ends where it comes back to the first value')
+         & 'its value where the branch ends, twice the first one if left out; it also ends where it comes back to ' &
+         & //'the first value')
       call v%number(inputs%branch%step, 'step', -1e15_wp, 1e15_wp, '', &
-         & 'its first change; later steps are as long as the iteration allows')
+         & 'its first change, a twentieth of the way if left out; later steps are as long as the iteration allows')
       call v%number(inputs%branch%max_step, 'max_step', 0.0_wp, 1e15_wp, '', &
          & 'its largest change from point to point; 0: ten times the first')
       call v%whole(inputs%branch%max_points, 'max_points', 2.0_wp, 1e5_wp, 'maximum number of points of a branch')

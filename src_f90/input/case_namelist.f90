@@ -1,8 +1,8 @@
 !> Case from namelist text. Each value is checked where it is read, so that the message can say where it stands.
 module case_namelist
    use kinds, only: wp
-   use text, only: to_text, shortened
-   use errors, only: error_type, raise, require, add_context, input_error
+   use text, only: to_text
+   use errors, only: error_type, raise, add_context, input_error
    use case_groups, only: max_pads
    use machine_groups, only: most_sections
    use case_inputs, only: case_type
@@ -10,14 +10,14 @@ module case_namelist
    use case_completion, only: leave_out, complete_case
    use variable_table, only: variable_type, variable_table_type
    use case_fields, only: list_variables, list_all_variables, put_variables
-   use case_parameter, only: check_branch_parameter
+   use case_parameter, only: complete_branch, check_branch_parameter
    use assignments, only: namelist_type, assignment_type, study_group
    use assigned_values, only: read_word, read_reals, refuse_values
    use machine_names, only: kind_of, bearing_of, may_have_bearing
    use machine_structure, only: make_several, give_to_bearings
    use variable_names, only: group_names, names_in, meant_variable, meant_group
    use namelist_text, only: parse_namelist
-   use namelist_writer, only: lines_of
+   use paper_values, only: note_values_of_paper
    implicit none (type, external)
    private
    public :: case_from_text, case_from_namelist, fill_case
@@ -48,11 +48,13 @@ contains
       type(namelist_type), intent(in) :: parsed
       type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      call fill_case(parsed, inputs, error)
+      type(namelist_type) :: given
+      call fill_case(parsed, inputs, error, given)
       if (allocated(error)) return
       call complete_case(inputs, error)
+      if (.not. allocated(error)) call complete_branch(inputs)
+      if (.not. allocated(error)) call note_values_of_paper(given%assignments, inputs)
       if (.not. allocated(error)) call check_case(inputs, error)
-      if (.not. allocated(error)) call refuse_idle_groups(parsed, inputs, error)
       if (.not. allocated(error)) call check_branch_parameter(inputs, error)
       call add_context(error, parsed%file)
    end subroutine case_from_namelist
@@ -133,33 +135,6 @@ contains
             & taken(:, merge(1, 2, parsed%assignments(k)%of_all)), error)
       end do
    end subroutine fill_variable
-
-   !> Refuses values in the group of a task that this case's task has no use for.
-   subroutine refuse_idle_groups(parsed, inputs, error)
-      type(namelist_type), intent(in) :: parsed
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      type(variable_table_type) :: table, defaults
-      character(len=:), allocatable :: tasks, given
-      integer :: i
-      ! most cases have none of these groups, and a study has many cases
-      if (.not. any([(index(' coefficients periodic branch ', ' '//parsed%assignments(i)%group//' ') > 0, &
-         & i=1, size(parsed%assignments))])) return
-      call list_variables(inputs, table)
-      call list_variables(case_type(), defaults)
-      do i = 1, table%count
-         associate (v => table%variables(i), task => inputs%about%task)
-            tasks = ''
-            if (v%group == 'coefficients' .and. task /= v%group) tasks = '''coefficients'''
-            if (v%group == 'periodic' .and. .not. inputs%seeks_orbits()) tasks = '''periodic'', or ''branch'' of orbits'
-            if (v%group == 'branch' .and. task /= v%group) tasks = '''branch'''
-            if (tasks == '') cycle
-            given = lines_of(v, '')
-            call require(given == lines_of(defaults%variables(defaults%find(v%group, v%name)), ''), v%group//'%' &
-               & //shortened(given(3:len(given) - 1))//': has no effect but with case%task = '//tasks, error)
-         end associate
-      end do
-   end subroutine refuse_idle_groups
 
    !> Where in the table the variable of each assignment is. Refuses a group or variable that there is not.
    subroutine find_variables(parsed, table, inputs, at, error)

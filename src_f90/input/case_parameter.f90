@@ -14,12 +14,14 @@ module case_parameter
    use machine_names, only: kind_of
    implicit none (type, external)
    private
-   public :: case_parameter_type, find_parameter, check_branch_parameter
+   public :: case_parameter_type, find_parameter, complete_branch, check_branch_parameter
 
    !> The groups whose numbers describe the bearing; and the one number of operation that does.
    character(len=*), parameter :: groups = ' rotor operation bearing oil pads pivot friction asperity shaft disc ' &
       & //'unbalance load support '
    character(len=*), parameter :: speed = 'speed_rpm'
+   !> First steps from one end of a branch to the other where the step is left out.
+   integer, parameter :: first_steps = 20
 
    type :: case_parameter_type
       !> Group, name, and element; 0: all elements have the value.
@@ -131,6 +133,24 @@ contains
       end if
    end subroutine set
 
+   !> Where the end of a branch is left out, twice its first value; where its step is, a part of the way.
+   subroutine complete_branch(inputs)
+      type(case_type), intent(inout) :: inputs
+      type(case_parameter_type) :: parameter
+      type(error_type), allocatable :: error
+      real(wp) :: first
+      if (inputs%about%task /= 'branch') return
+      associate (b => inputs%branch)
+         if (is_set(b%last) .and. is_set(b%step)) return
+         call find_parameter(inputs, b%parameter, parameter, error)
+         if (allocated(error)) return
+         first = parameter%value(inputs)
+         ! from 0 there is no telling where to
+         if (.not. is_set(b%last) .and. abs(first) > 0) b%last = min(max(2*first, parameter%low), parameter%high)
+         if (is_set(b%last) .and. .not. is_set(b%step)) b%step = (b%last - first)/first_steps
+      end associate
+   end subroutine complete_branch
+
    !> Refuses a branch over what is no number of the input, to where it may not go, or that starts the wrong way.
    subroutine check_branch_parameter(inputs, error)
       type(case_type), intent(in) :: inputs
@@ -151,6 +171,9 @@ contains
             call raise(error, input_error, 'branch%parameter = '''//b%parameter &
                & //''': has no effect on equilibria, which are without friction and unbalance')
          end if
+         call require(is_set(b%last), 'branch%last: must be given, as twice '//b%parameter//' = '//to_text(first) &
+            & //' is no other value', error)
+         if (allocated(error)) return
          call require(b%last >= parameter%low .and. b%last <= parameter%high, 'branch%last = '//to_text(b%last) &
             & //': must be '//parameter%range//', as '//b%parameter, error)
          call require(abs(b%last - first) > 0, 'branch%last = '//to_text(b%last)//': is the value of '//b%parameter &

@@ -1,11 +1,12 @@
 !> What --check prints: the resolved case, where each value comes from, and what follows from the values.
 module checked_case
    use kinds, only: wp
-   use text, only: to_text, fixed_text
+   use text, only: to_text
    use errors, only: error_type
    use case_groups, only: is_set
    use case_inputs, only: case_type
-   use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
+   use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number, &
+      & of_supply
    use result_size, only: result_bytes, sample_count
    use oil_properties, only: viscosity, kinematic_points
    use case_completion, only: complete_case
@@ -15,15 +16,11 @@ module checked_case
    use assignments, only: namelist_type
    use case_namelist, only: fill_case
    use namelist_writer, only: lines_of, group_start
+   use case_remarks, only: remarks_on_case, behind, newline
    implicit none (type, external)
    private
-   public :: marked_text, derived_text, notes
+   public :: marked_text, derived_text
 
-   character(len=*), parameter :: newline = achar(10)
-   !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
-   real(wp), parameter :: compared_up_to = 35
-   !> Radius of a journal, m, beyond which inches may be meant.
-   real(wp), parameter :: largest_usual = 1
    !> Temperatures of warm oil, C.
    real(wp), parameter :: warm(3) = [60.0_wp, 80.0_wp, 100.0_wp]
 
@@ -90,7 +87,7 @@ contains
       end if
       if (result_bytes(inputs) > 0) text = text//said('result', 0.1_wp*anint(result_bytes(inputs)/1e5_wp), &
          & 'MB, '//to_text(sample_count(inputs))//' samples')
-      text = text//notes(inputs, '! ')
+      text = text//behind('! remark: ', remarks_on_case(inputs))
    end function derived_text
 
    !> What follows for a bearing and its oil, whatever its load.
@@ -124,7 +121,7 @@ contains
       text = text//said('load', load(inputs), 'N, weight and static load') &
          & //said('specific load', specific_load(inputs), 'Pa, W/(L D)')
       if (load(inputs) > 0) text = text//said('Sommerfeld number', sommerfeld_number(inputs), &
-         & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start')
+         & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start, mu '//of_supply(inputs))
    end function derived_of_load
 
    !> A value of each pad, one line where all are equal.
@@ -151,46 +148,4 @@ contains
       padded = name
       line = '!   '//padded//' '//to_text(value)//'  '//meaning//newline
    end function said
-
-   !> What is allowed and seldom meant, a line each behind `mark`; of a machine for each of its bearings.
-   function notes(inputs, mark) result(text)
-      type(case_type), intent(in) :: inputs
-      character(len=*), intent(in) :: mark
-      character(len=:), allocatable :: text
-      integer :: b
-      text = ''
-      do b = 1, inputs%bearing_count()
-         if (inputs%is_machine()) then
-            text = text//notes_of_bearing(inputs%of_bearing(b), mark//'note: bearing ''' &
-               & //inputs%machine%bearings(b)%name//''': ')
-         else
-            text = text//notes_of_bearing(inputs, mark//'note: ')
-         end if
-      end do
-   end function notes
-
-   function notes_of_bearing(inputs, mark) result(text)
-      type(case_type), intent(in) :: inputs
-      character(len=*), intent(in) :: mark
-      character(len=:), allocatable :: text
-      text = ''
-      ! as large as a journal in inches
-      if (inputs%bearing%journal_radius > largest_usual) call note('bearing%journal_radius = ' &
-         & //to_text(inputs%bearing%journal_radius)//': all lengths are in metres; an inch is 0.0254')
-      if (any(preload(inputs) < 0)) call note('negative preload '//to_text(minval(preload(inputs))) &
-         & //': the bore of the pads is ' &
-         & //'tighter than the clearance at the pivots; such a pad touches the journal at its edges first')
-      associate (surface => inputs%highest_speed()*inputs%bearing%journal_radius)
-         if (inputs%thermal%model /= 'none' .and. surface > compared_up_to) call note('surface speed ' &
-            & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad ' &
-            & //'shows trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)')
-      end associate
-      if (size(inputs%excitations) > 0 .and. .not. inputs%moves()) call note('excitation: has no effect with ' &
-         & //'case%task = '''//inputs%about%task//''', where no force changes with time')
-   contains
-      subroutine note(line)
-         character(len=*), intent(in) :: line
-         text = text//mark//line//newline
-      end subroutine note
-   end function notes_of_bearing
 end module checked_case

@@ -228,6 +228,8 @@ contains
       allowed = name_characters
       if (new%group == study_group) allowed = name_characters//'%:()'
       call scan%skip_blank('')
+      call require(index(found, '(0)') == 0, new%origin//': '//new%group//'%'//shortened(found) &
+         & //': elements count from 1', error)
       call require(ok .and. len(new%name) > 0 .and. verify(new%name, allowed) == 0 .and. scan%peek() == '=', &
          & new%origin//': '''//shortened(found)//''' in group &'//new%group//': expected name = value', error)
       call require(len(new%name) <= longest_name, new%origin//': unknown variable '//new%group//'%' &

@@ -17,6 +17,19 @@ module variable_names
       & 'film%solver=modal', 'fourier', &
       & '--member', '--run'], [2, 6])
 
+   !> Names as data sheets and other programs have them, each with what is meant, in pairs.
+   character(len=*), parameter :: common_names(2, 10) = reshape([character(len=47) :: &
+      & 'radial_clearance', 'bearing%assembled_clearance', &
+      & 'bearing_clearance', 'bearing%assembled_clearance', &
+      & 'diametral_clearance', 'bearing%assembled_clearance, half of it', &
+      & 'pad_clearance', 'bearing%machined_clearance', &
+      & 'diameter', 'bearing%journal_radius, half of it', &
+      & 'journal_diameter', 'bearing%journal_radius, half of it', &
+      & 'shaft_diameter', 'bearing%journal_radius, half of it', &
+      & 'width', 'bearing%axial_length', &
+      & 'length', 'bearing%axial_length', &
+      & 'load', 'rotor%static_load along y and z, or rotor%mass'], [2, 10])
+
 contains
 
    !> The groups, each with a blank before it.
@@ -60,9 +73,12 @@ contains
    function meant_variable(group, name) result(text)
       character(len=*), intent(in) :: group, name
       character(len=:), allocatable :: text, own, other
-      integer :: own_score, other_score
+      integer :: own_score, other_score, k
       text = new_name(group//'%'//name)
       if (text /= '') return
+      k = findloc(common_names(1, :), name, dim=1)
+      if (k > 0) text = ' (did you mean '//trim(common_names(2, k))//'?)'
+      if (k > 0) return
       call find_similar(name, names_in(group), own, own_score)
       ! a machine has many names several times
       call find_similar(name, names_in('', rigid=.true.), other, other_score)

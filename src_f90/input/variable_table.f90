@@ -34,6 +34,7 @@ module variable_table
       integer :: most = 1
    contains
       procedure :: range_text
+      procedure :: allowed
    end type variable_type
 
    type :: variable_table_type
@@ -237,6 +238,14 @@ contains
       self%variables(self%at)%any_length = .false.
       self%variables(self%at)%each = things
    end subroutine each
+
+   !> The same with the unit: "1e-4 to 10 m".
+   pure function allowed(self) result(string)
+      class(variable_type), intent(in) :: self
+      character(len=:), allocatable :: string
+      string = self%range_text()
+      if (self%unit /= '1' .and. self%unit /= '') string = string//' '//self%unit
+   end function allowed
 
    !> The allowed numbers: "0 to 1".
    pure function range_text(self) result(string)

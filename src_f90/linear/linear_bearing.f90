@@ -7,7 +7,7 @@ module linear_bearing
    use linear_algebra, only: zgesv
    use errors, only: error_type, raise, numerics_error
    use equations_of_motion, only: machine_model
-   use mode_names, only: mode_name, mode_name_length
+   use mode_names, only: mode_name, mode_name_length, position_lengths
    use force_balance, only: force_derivatives, bearing_derivatives, add_sticking, masses, find_vibrations
    implicit none (type, external)
    private
@@ -89,32 +89,21 @@ contains
                      if (.not. ok) exit each_bearing
                   end do
                end do each_bearing
-               if (ok) call find_modes(found%with_rotor(i), given%cross_stiffness, lengths(model), found%modes(i), ok)
+               if (ok) call find_modes(found%with_rotor(i), given%cross_stiffness, position_lengths(model), &
+                  & found%modes(i), ok)
                if (.not. ok) then
                   call raise(error, numerics_error, 'the linear equations of the pads with '//found%bearings(i)%pivot &
                      & //' pivots are singular')
                   return
                end if
                associate (modes => found%modes(i))
-                  modes%name = [(mode_name(model, modes%shape(:, k), lengths(model), modes%eigenvalue(k)%im > 0), &
-                     & k=1, size(modes%eigenvalue))]
+                  modes%name = [(mode_name(model, modes%shape(:, k), position_lengths(model), &
+                     & modes%eigenvalue(k)%im > 0), k=1, size(modes%eigenvalue))]
                end associate
             end do
          end associate
       end associate
    end subroutine find_coefficients
-
-   !> What stands for 1 rad of a tilt: the distance from the pivot to the centre of the pad's arc, m; of a rotor's
-   !> coordinate that is no displacement, how far it moves a station; 1 for others.
-   pure function lengths(model)
-      type(machine_model), intent(in) :: model
-      real(wp), allocatable :: lengths(:)
-      allocate (lengths(model%layout%n_positions()), source=1.0_wp)
-      associate (n => 2*size(model%bearings), m => model%rotor%positions)
-         lengths(n + 1:m) = minval(model%bearings%clearance)/model%scale(n + 1:m)
-      end associate
-      lengths(model%layout%tilts()) = model%tilt_lengths()
-   end function lengths
 
    !> The bearings of a model without friction in equilibrium in the state y, alone and with the rotor, for each way
    !> that the pivots of its case may behave. `ok` is false where the films have no derivatives.

@@ -7,6 +7,7 @@ module force_balance
    use friction, only: friction_response
    use tilting_pad_bearing, only: tilting_pad_bearing_type
    use equations_of_motion, only: machine_model
+   use mode_names, only: mode_name, is_of_rotor, position_lengths
    implicit none (type, external)
    private
    public :: forces, force_derivatives, bearing_derivatives, pad_derivatives, masses, add_sticking
@@ -19,6 +20,8 @@ module force_balance
       !> 'stable'; 'oscillatory instability': vibrations grow; 'static instability': it is left without vibration, and
       !> no motion dwells there.
       character(len=:), allocatable :: name
+      !> Whether motions of journal or shaft grow, and motions of pads alone.
+      logical :: rotor_grows = .false., pads_grow = .false.
    end type stability_type
 
    !> Growth in a radian of the shaft that counts as none: films without any stiffness leave eigenvalues of rounding.
@@ -151,6 +154,20 @@ contains
       call force_derivatives(model, stiffness, damping)
       call find_vibrations(masses(model), stiffness, damping, values, ok)
       if (ok) stability = stability_of(values, no_growth*model%point%speed(0.0_wp))
+      if (ok .and. stability%name /= 'stable') call find_what_grows()
+   contains
+      subroutine find_what_grows()
+         complex(wp) :: shapes(size(stiffness, 1), size(values))
+         logical :: of_rotor(size(values)), found
+         integer :: k
+         call find_vibrations(masses(model), stiffness, damping, values, found, shapes)
+         if (.not. found) return
+         of_rotor = [(is_of_rotor(mode_name(model, shapes(:, k), position_lengths(model), .false.)), k=1, size(values))]
+         associate (grows => values%re > no_growth*model%point%speed(0.0_wp))
+            stability%rotor_grows = any(grows .and. of_rotor)
+            stability%pads_grow = any(grows .and. .not. of_rotor)
+         end associate
+      end subroutine find_what_grows
    end subroutine stability_at
 
    !> What eigenvalues, 1/s, say, with a growth, 1/s, that counts as none.

@@ -4,7 +4,7 @@ module equilibrium_results
    use record, only: record_type
    use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
-   use bearing_numbers, only: load, specific_load, sommerfeld_number
+   use bearing_numbers, only: load, specific_load, sommerfeld_number, of_supply
    use static_model, only: equilibrium_type
    use heat_balance_equations, only: static_figures_type
    use summary_group, only: put_figure
@@ -70,7 +70,8 @@ contains
       if (load(inputs) > 0) then
          call number('attitude_angle', figures%attitude_angle, 'rad', &
             & 'angle from the load to the journal displacement, in the sense of rotation')
-         call number('sommerfeld_number', sommerfeld_number(inputs), '1', 'mu N L D/W (R_J/c_r)^2')
+         call number('sommerfeld_number', sommerfeld_number(inputs), '1', &
+            & 'mu N L D/W (R_J/c_r)^2, mu '//of_supply(inputs))
       end if
       associate (pads => figures%pads)
          call list('load', pads%load, 'N', 'force of film and asperities on the journal')
@@ -87,6 +88,8 @@ contains
          call list('inlet_flow', pads%inlet, 'm^3/s', 'flow in at the leading edge')
          call list('outlet_flow', pads%outlet, 'm^3/s', 'flow out at the trailing edge')
          call list('side_flow', pads%side, 'm^3/s', 'flow out at both sides')
+         call list('reformation_flow', pads%reformation, 'm^3/s', &
+            & 'flow that the film takes up at the reformation boundary beyond what reaches it')
          call list('temperature_rise', figures%temperature_rise, 'K', &
             & 'warming of the oil from leading to trailing edge')
          call list('reynolds_number', figures%reynolds_number, '1', 'rho U h/mu with the mean film thickness')

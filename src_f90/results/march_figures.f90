@@ -3,7 +3,6 @@
 module march_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi, degree
-   use text, only: to_text, fixed_text
    use case_inputs, only: case_type
    use loops, only: path_integral, harmonic, slow_share
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
@@ -14,7 +13,7 @@ module march_figures
    use summary_group, only: put_figure, run_extremes_type
    implicit none (type, external)
    private
-   public :: put_progress, put_march_figures, pad_diagnosis
+   public :: put_progress, put_march_figures
 
    !> Part of a revolution that a whole one may lack by rounding.
    real(wp), parameter :: rounding = 1e-9_wp
@@ -210,8 +209,8 @@ contains
       call put_figure(file, 'pad_stick_fraction', stuck, '1', 'share of time that the pivot sticks')
    end subroutine put_friction
 
-   !> Lift-off, flutter and rubbing of the pads and whirl of the journal in the last revolutions, and what is to be said
-   !> of them: attribute `diagnosis`, a line each. Fixed pads can only rub.
+   !> Lift-off, flutter and rubbing of the pads and whirl of the journal in the last revolutions. Fixed pads can only
+   !> rub.
    subroutine put_last_revolutions(file, inputs, whole)
       type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
@@ -220,14 +219,12 @@ contains
       type(pad_behaviour_type) :: found(inputs%pad_count())
       real(wp), allocatable, dimension(:, :) :: angle, contact, tilt, asperity, y, z
       real(wp) :: revolutions, order, amplitude
-      character(len=:), allocatable :: said
       logical :: whirls, steady
       integer :: n
       n = file%last_revolutions(max(1, min(inputs%output%spectrum_revolutions, whole)))
       steady = inputs%is_steady()
       call file%last_samples('shaft_angle', n, angle)
       revolutions = (angle(1, n) - angle(1, 1))/(2*pi)
-      said = ''
       if (file%has('asperity_force')) then
          call file%last_samples('asperity_force', n, asperity)
          found%rubbing = count(asperity > 0, dim=2)/real(n, wp)
@@ -254,12 +251,6 @@ contains
       call put_figure(file, 'whirl_amplitude', amplitude, 'm', 'its amplitude')
       call put_figure(file, 'whirls', merge(1.0_wp, 0.0_wp, whirls), '1', &
          & '1 where the journal whirls at this order')
-      if (whirls) call say('the journal whirls at '//fixed_text(order, 3)//' of the shaft speed, amplitude ' &
-         & //fixed_text(1e6_wp*amplitude, 3)//' um')
-      do n = 1, size(found)
-         if (pad_diagnosis(found(n)) /= '') call say('pad '//to_text(n)//' '//pad_diagnosis(found(n)))
-      end do
-      call file%put_text('diagnosis', said)
    contains
       !> A series but its last sample, which begins the next revolution, at equal steps of the shaft angle.
       subroutine take(name, values)
@@ -274,12 +265,6 @@ contains
          end if
          if (n > 2) values = values(:, :n - 1)
       end subroutine take
-
-      subroutine say(line)
-         character(len=*), intent(in) :: line
-         if (said /= '') said = said//achar(10)
-         said = said//line
-      end subroutine say
    end subroutine put_last_revolutions
 
    !> An order, or no number where it is not known.
@@ -300,28 +285,4 @@ contains
       call put_figure(file, 'pad_order_amplitude', found%amplitude, 'rad', 'amplitude at this order')
       call put_figure(file, 'pad_flutters', merge(1.0_wp, 0.0_wp, found%flutters), '1', '1 where it flutters')
    end subroutine put_behaviour
-
-   !> "carries no load (mean 12 N); it flutters at 0.48 of the shaft speed, ..."; empty for a pad like others.
-   function pad_diagnosis(pad) result(words)
-      type(pad_behaviour_type), intent(in) :: pad
-      character(len=:), allocatable :: words
-      words = ''
-      if (pad%unloaded) call say('carries no load (mean '//fixed_text(pad%load, 1)//' N)')
-      if (pad%lifted > 0) call say('is lifted off its pivot '//percent(pad%lifted))
-      if (pad%flutters) call say('flutters at '//fixed_text(pad%order, 3)//' of the shaft speed, amplitude of the ' &
-         & //'tilt '//fixed_text(1e3_wp*pad%amplitude, 4)//' mrad')
-      if (pad%rubbing > 0) call say('rubs on the journal '//percent(pad%rubbing))
-   contains
-      subroutine say(what)
-         character(len=*), intent(in) :: what
-         if (words /= '') words = words//'; it '
-         words = words//what
-      end subroutine say
-
-      function percent(share)
-         real(wp), intent(in) :: share
-         character(len=:), allocatable :: percent
-         percent = fixed_text(100*share, 1)//' % of the time'
-      end function percent
-   end function pad_diagnosis
 end module march_figures

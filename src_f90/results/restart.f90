@@ -61,7 +61,7 @@ contains
       type(restart_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       type(hdf5_type) :: file
-      character(len=:), allocatable :: input, task
+      character(len=:), allocatable :: input, task, of_paper
       integer :: complete
       task = ''
       call open_result(path, file, error, found%older)
@@ -76,6 +76,7 @@ contains
       call file%get_text('input', input)
       found%files = ''
       if (file%has_attribute(marks_name)) call file%get_text(marks_name, found%files)
+      if (file%has_attribute('of_paper')) call file%get_text('of_paper', of_paper)
       found%checkpoint = file%has('checkpoint/time')
       if (file%has('summary/'//states_figure)) found%verified_states = file%get_real('summary/'//states_figure)
       found%reason = ''
@@ -90,6 +91,7 @@ contains
          error%status = system_error
          call add_context(error, path//': its input cannot be read')
       end if
+      call move_alloc(of_paper, found%inputs%about%of_paper)
       found%complete = complete == 1
    end subroutine read_result
 

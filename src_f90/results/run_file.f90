@@ -82,6 +82,7 @@ contains
       call self%put_text('title', inputs%about%title)
       call self%put_text('task', inputs%about%task)
       call self%put_text('input', input)
+      if (allocated(inputs%about%of_paper)) call self%put_text('of_paper', inputs%about%of_paper)
       call put_bearings(self, inputs)
       if (inputs%about%task /= 'branch') call put_figure(self, 'speed', inputs%operation%speed_rpm*pi/30, 'rad/s', &
          & 'shaft speed at the end')

@@ -6,7 +6,7 @@ module pad_behaviour
    use spectra, only: hann_amplitude
    implicit none (type, external)
    private
-   public :: pad_behaviour_type, behaviour_of, whirl_of, dominant, evenly
+   public :: pad_behaviour_type, behaviour_of, whirl_of, dominant, evenly, smallest_share
 
    type :: pad_behaviour_type
       !> Mean pivot load of the pivot, N; shares of the time in which it carries nothing, and in which the film is so

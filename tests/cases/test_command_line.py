@@ -121,19 +121,19 @@ def test_check_marks_what_is_not_given(tiltpad, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("case", "note"),
+    ("case", "remark"),
     [
-        ("&bearing preload=-0.2 /", "note: negative preload -0.2:"),
+        ("&bearing preload=-0.2 /", "remark: negative preload -0.2:"),
         (
             "&bearing journal_radius=2.5, assembled_clearance=4e-3, preload=0 /",
-            "note: bearing%journal_radius = 2.5:",
+            "remark: bearing%journal_radius = 2.5:",
         ),
     ],
 )
-def test_check_notes_what_is_seldom_meant(tiltpad, tmp_path, case, note):
+def test_check_remarks_what_is_seldom_meant(tiltpad, tmp_path, case, remark):
     (tmp_path / "case.nml").write_text(f"{case}\n&case task='equilibrium' /")
-    assert f"\n! {note}" in check(tiltpad, tmp_path, "case.nml")
-    assert tiltpad("case.nml", cwd=tmp_path).stdout.startswith(note)
+    assert f"\n! {remark}" in check(tiltpad, tmp_path, "case.nml")
+    assert tiltpad("case.nml", cwd=tmp_path).stdout.startswith(remark)
 
 
 def test_byte_order_mark(tiltpad, tmp_path):

@@ -52,8 +52,8 @@ def case_value(text, group, name):
 
 
 def plain(text):
-    """A resolved case without the marks of --check."""
-    return re.sub(r" +! (default|derived)$", "", text, flags=re.M)
+    """A resolved case without the marks of --check, and without what the case does not give."""
+    return re.sub(r" +! (default|derived)$|^! remark: not given, .*\n", "", text, flags=re.M)
 
 
 def speed(path):
@@ -359,7 +359,7 @@ def test_a_bad_cell_is_named_and_nothing_runs(tiltpad, tabled):
     folder = tabled(TABLE + "fast,none\n")
     _, errors = result(tiltpad("cases/case.nml", cwd=folder), status=1)
     where = "cases/members.csv line 4, run 3: operation%speed_rpm = 'fast'"
-    assert errors == [f"{where}: must be a number, 0.001 to 1e6"]
+    assert errors == [f"{where}: must be a number, 0.001 to 1e6 rpm"]
     assert files(folder) == ["cases"]
 
 
@@ -695,3 +695,15 @@ def test_members_leave_nothing_in_memory(program, tiltpad, tmp_path):
         command = [sys.executable, "-S", "-c", MEMORY, program, "--check", "case.nml"]
         most[runs] = int(subprocess.run(command, cwd=tmp_path, capture_output=True, check=True).stdout)
     assert most[5000] - most[1] < 5000
+
+
+def test_a_terminal_asks_for_yes_before_a_gigabyte(program, tmp_path):
+    """200 runs of 18 MB are refused there before anything is written."""
+    (tmp_path / "large.nml").write_text("&sweep rotor%mass = 1001:1200:1 /")
+    said, status = on_a_terminal(program, ["large.nml"], tmp_path, dict(os.environ))
+    assert status == 1
+    assert said.startswith(
+        "tiltpad: error: large.nml: about 3.6 GB of results, 78001 samples in each of 200 files"
+    )
+    assert said.rstrip().endswith("--yes performs them all the same")
+    assert [each.name for each in tmp_path.iterdir()] == ["large.nml"]

@@ -177,7 +177,7 @@ def extremes(dice: Random, program: Path, folder: Path, variables, corpus):
     inputs = cases.draw(dice, variables)
     while len(inputs.get("pads%mass", ())) > 4:
         inputs = cases.draw(dice, variables)
-    # what belongs to a task of its own is refused without it
+    # what belongs to a task of its own has no effect without it
     apart = ("pads", *cases.OF_TASK)
     inputs = {key: value for key, value in inputs.items() if variables[key].group not in cases.OF_TASK}
     # there is no other result to start from

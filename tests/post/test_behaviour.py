@@ -7,8 +7,10 @@ import tiltpad
 from result_files import replace_series
 from tiltpad import behaviour, command, summary
 
-SAID = """pad 2 carries no load (mean 5.0 N); it is lifted off its pivot 75.0 % of the time
-pad 4 rubs on the journal 20.0 % of the time"""
+SAID = [
+    "pad 2 carries no load (mean 5.0 N); it is lifted off its pivot 75.0 % of the time",
+    "pad 4 rubs on the journal 20.0 % of the time",
+]
 
 
 @pytest.fixture(scope="module")
@@ -28,29 +30,32 @@ def made(result, tmp_path_factory):
         replace_series(file, lambda name, each: series.get(name, np.repeat(each[:1], len(turns), axis=0)))
         for name, values in figures.items():
             file[f"summary/{name}"][...] = values
-        file.attrs["diagnosis"] = SAID
+        file.pop("summary/remarks", None)
+        remarks = file.create_dataset("summary/remarks", data=np.array(SAID, dtype="S"))
+        remarks.make_scale("summary/remarks")
     return path
 
 
-def test_words_and_marks(made, opened):
-    first, second = behaviour.remarks(opened(made))
-    assert first == f"P{SAID.splitlines()[0][1:]}."
-    assert second == "Pad 4 rubs on the journal 20.0 % of the time."
+def test_remarks_and_marks(made, opened):
+    assert opened(made).remarks == SAID
+    assert f"remark: {SAID[1]}" in repr(opened(made))
+    assert f"remark: {SAID[1]}" in opened(made)._repr_html_()
     assert behaviour.marks(opened(made)) == {2: "no load\nflutters", 4: "rubs"}
 
 
 def test_nothing_to_say_of_loaded_pads(run):
     for case_name in ("lugre", "runup", "equilibrium"):
-        assert behaviour.remarks(run(case_name)) == []
+        assert run(case_name).remarks == []
         assert behaviour.marks(run(case_name)) == {}
 
 
-def test_report_and_picture(made, opened, tmp_path, quick_pictures):
+def test_report_and_picture(made, opened, tmp_path, quick_pictures, capsys):
     figures = {each.name: each.value for each in summary.pads(opened(made))}
     assert list(figures["summary/pad_lifted"]) == [0, 0.75, 0, 0]
     assert command.report([str(made), "-o", str(tmp_path / "page.html")]) == 0
+    assert capsys.readouterr().out.splitlines() == [f"remark: {each}" for each in SAID]
     page = (tmp_path / "page.html").read_text()
-    assert "<p>Pad 2 carries no load (mean 5.0 N)" in page
+    assert "<p class=warning>Pad 2 carries no load (mean 5.0 N)" in page
     assert "<p class=warning>Pad 4 rubs on the journal 20.0 % of the time.</p>" in page
     ax = tiltpad.plots.clearance(opened(made))
     assert {text.get_text() for text in ax.texts} >= {"no load\nflutters", "rubs"}
@@ -63,11 +68,10 @@ def test_the_program_says_the_same(tiltpad, tmp_path, root, opened):
     done = tiltpad(root / "input/examples/four_pads.nml", "--set", "operation%duration=1", cwd=tmp_path)
     run = opened(tmp_path / "four_pads.h5")
     assert list(run["summary/pad_unloaded"]) == [0, 0, 1, 1]
-    said = [line for line in done.stdout.splitlines() if "no load" in line]
+    told = [line.removeprefix("remark: ") for line in done.stdout.splitlines() if line.startswith("remark: ")]
+    assert told == run.remarks
+    said = [line for line in told if "no load (" in line]
     assert len(said) == 2
-    assert [f"{line.strip().capitalize()}." for line in said] == [
-        f"{line.capitalize()}" for line in behaviour.remarks(run)
-    ]
     for line, pad in zip(said, (2, 3), strict=True):
         assert f"is lifted off its pivot {100 * run['summary/pad_lifted'][pad]:.1f} % of the time" in line
         assert ("flutters" in line) == run["summary/pad_flutters"][pad]

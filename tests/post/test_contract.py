@@ -61,6 +61,7 @@ EQUILIBRIUM = {
     "equilibrium/inlet_flow": (("pad",), "m^3/s"),
     "equilibrium/outlet_flow": (("pad",), "m^3/s"),
     "equilibrium/side_flow": (("pad",), "m^3/s"),
+    "equilibrium/reformation_flow": (("pad",), "m^3/s"),
     "equilibrium/temperature_rise": (("pad",), "K"),
     "equilibrium/reynolds_number": (("pad",), "1"),
     "equilibrium/total_power_loss": ((), "W"),

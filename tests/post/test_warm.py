@@ -110,7 +110,7 @@ def test_the_summary_says_it(folder, march, tiltpad):
     assert f"shaft at {e['shaft_temperature']:.1f} C" in said
     assert "above 35 m/s" not in said
     check = tiltpad("--check", folder / "warm.nml", "--set", "operation%speed_rpm=8000").stdout
-    assert "note: surface speed 41.8 m/s: above 35 m/s" in check
+    assert "remark: surface speed 41.8 m/s: above 35 m/s" in check
 
 
 def test_a_study_has_them(study):

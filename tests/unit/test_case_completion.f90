@@ -7,7 +7,8 @@ program test_case_completion
    use input_cases, only: case_of, expect_refused
    use case_completion, only: annular_sector_type, new_annular_sector
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
-   use checked_case, only: derived_text, notes
+   use checked_case, only: derived_text
+   use case_remarks, only: remarks_on_case
    use result_size, only: sample_count, result_bytes, bytes_text, size_note
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -149,11 +150,11 @@ contains
       call expect_close(maxval(preload(s)), 0.3_wp, 1e-15_wp, 'and comes back')
       s = case_of('&bearing preload = 0 /')
       call expect_close(s%bearing%machined_clearance(1), 80e-6_wp, 0.0_wp, 'none')
-      call expect(notes(s, '') == '', 'without a note')
+      call expect(remarks_on_case(s) == '', 'without a remark')
       s = case_of('&bearing preload = -1 /')
       call expect_close(s%bearing%machined_clearance(1), 40e-6_wp, 0.0_wp, 'the most negative')
-      call expect(index(notes(s, ''), 'note: negative preload -1') == 1, 'has a note')
-      call expect(index(derived_text(s), 'note: negative preload') > 0, 'that --check shows')
+      call expect(index(remarks_on_case(s), 'negative preload -1') == 1, 'has a remark')
+      call expect(index(derived_text(s), '! remark: negative preload') > 0, 'that --check shows')
       s = case_of('&case /')
       call expect_close(maxval(preload(s)), 0.2_wp, 1e-15_wp, 'the paper''s')
    end subroutine preloads

@@ -29,9 +29,45 @@ program test_case_namelist
    if (runs('lists')) call lists()
    if (runs('awkward_titles')) call awkward_titles()
    if (runs('refused_values')) call refused_values()
+   if (runs('hints')) call hints()
+   if (runs('branches')) call branches()
    call report()
 
 contains
+
+   !> Where a branch ends and with which step it starts where the case leaves it out: twice the first value, a twentieth
+   !> of the way.
+   subroutine branches()
+      character(len=*), parameter :: over = '&case task = ''branch'' / &branch parameter = '
+      type(case_type) :: s
+      s = case_of(over//'''operation%speed_rpm'' /')
+      call expect_list([s%branch%last, s%branch%step], [13000.0_wp, 325.0_wp], 'speed')
+      s = case_of(over//'''rotor%mass'', last = 1000 /')
+      call expect_list([s%branch%last, s%branch%step], [1000.0_wp, -50.0_wp], 'downwards')
+      s = case_of(over//'''rotor%mass'', step = 7 /')
+      call expect_list([s%branch%last, s%branch%step], [4000.0_wp, 7.0_wp], 'with a step')
+      s = case_of(over//'''pivot%poisson_ratio(1)'' /')
+      call expect_list([s%branch%last, s%branch%step], [0.5_wp, 0.01_wp], 'up to what is allowed')
+      call expect_refused(over//'''rotor%static_load(1)'' /', 'branch%last: must be given, as twice')
+      call expect_refused(over//'''rotor%mas'' /', 'did you mean mass')
+   end subroutine branches
+
+   !> What a refusal says of units, of names as data sheets have them, and of commas in numbers.
+   subroutine hints()
+      call expect_refused('&bearing journal_radius = 50.8 /', 'must be 1e-4 to 10 m; 0.0508?')
+      call expect_refused('&bearing axial_length = 60 /', '(both in m; pad 1); 0.06?')
+      call expect_refused('&bearing assembled_clearance = 0.076, preload = 0.3 /', &
+         & 'bearing%assembled_clearance = 0.076: must be at most 0.1 of bearing%journal_radius = 0.0499 (both in m; ' &
+         & //'pad 1); 7.6e-5?')
+      call expect_refused('&bearing machined_clearance = 0.1 /', '(both in m; pad 1); 1e-4?')
+      call expect_refused('&bearing radial_clearance = 1e-4 /', '(did you mean bearing%assembled_clearance?)')
+      call expect_refused('&bearing diameter = 0.1 /', '(did you mean bearing%journal_radius, half of it?)')
+      call expect_refused('&pads arc_deg(0) = 60 /', 'pads%arc_deg(0): elements count from 1')
+      call expect_refused('&operation speed_rpm = 9,000 /', 'a decimal has a point (9.000), and thousands have no ' &
+         & //'comma (9000)')
+      call expect_refused('&bearing viscosity = 0,019 /', 'a decimal has a point (0.019)')
+      call expect_refused('&operation speed_rpm = 3000, 5000 /', 'for one run of each value: sweep%operation%speed_rpm')
+   end subroutine hints
 
    subroutine expect_list(found, expected, what)
       real(wp), intent(in) :: found(:), expected(:)
@@ -236,7 +272,7 @@ contains
       end do
       call expect_refused('&rotor mass = 1 2/', &
          & 'takes one value; for one run of each value: sweep%rotor%mass = 1, 2')
-      call expect_refused('&rotor mass = 1:2:1/', 'must be a number, 1e-6 to 1e9; for one run of each value: ' &
+      call expect_refused('&rotor mass = 1:2:1/', 'must be a number, 1e-6 to 1e9 kg; for one run of each value: ' &
          & //'sweep%rotor%mass = 1:2:1')
       call expect_refused('&friction model = lugree/', '''lugre'' (did you mean lugre?)')
       call expect_refused('&rotor mass = nan/', 'must be finite')

@@ -276,8 +276,9 @@ contains
       call expect_refused('&a x=1'//newline//'X=2/', 'line 2: a%x is given twice, first at case.nml line 1')
       call expect_refused('&a x(1)=1 x(01)=2/', 'given twice')
       call refuse_each([character(len=14) :: '&a x=/', '&a x= y=1/', '&a x=,1/', '&a x=1,,2/'], 'a value is missing')
-      call refuse_each([character(len=14) :: '&a x/', '&a =1/', '&a x: 1/', '&a x()=1/', '&a x(0)=1/', '&a x(-1)=1/', &
+      call refuse_each([character(len=14) :: '&a x/', '&a =1/', '&a x: 1/', '&a x()=1/', '&a x(-1)=1/', &
          & '&a x(1:2)=1/', '&a x(a)=1/', '&a x(1=1/', '&a x(99999)=1/', '&a b%c=1/'], 'expected name = value')
+      call expect_refused('&a x(0)=1/', 'a%x(0): elements count from 1')
       call refuse_each([character(len=12) :: 'x=1 &a /', '&a / x=1', '{"a": {}}'], 'outside a group')
       call expect_refused('& x=1 /', 'group')
       call expect_refused('&a x == 1 /', 'a%x')

@@ -6,7 +6,7 @@ program test_spectra
    use spectra, only: one_sided_amplitude
    use loops, only: path_integral, harmonic, slow_share, periodicity, new_periodicity
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, dominant, evenly
-   use march_figures, only: pad_diagnosis
+   use result_remarks, only: pad_diagnosis
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
    !> Transforms of a few hundred samples of order one: log2(n) roundings each, with room.

@@ -1,15 +1,9 @@
-"""What each pad does at the end of a run, by its file: it carries no load, lifts off, flutters or rubs."""
+"""What each pad does at the end of a run, by its file: it carries no load, flutters or rubs."""
 
 from tiltpad.files.read import Run
 
 #: Words for a picture, and the figures of the pads that tell them.
 MARKS = {"no load": "pad_unloaded", "flutters": "pad_flutters", "rubs": "pad_rubbing"}
-
-
-def remarks(run: Run) -> list[str]:
-    """A sentence on a journal that whirls, and on each pad that is idle, lifts off, flutters or rubs."""
-    lines = f"{run.attributes.get('diagnosis', '')}".splitlines()
-    return [f"{line[0].upper()}{line[1:]}." for line in lines if line]
 
 
 def marks(run: Run) -> dict[int, str]:

@@ -5,11 +5,11 @@ from functools import partial
 
 import numpy as np
 
-from tiltpad.calculate import behaviour, summary
+from tiltpad.calculate import summary
 from tiltpad.calculate.stations import attached, positions, station_modes
 from tiltpad.draw import figures
 from tiltpad.draw.machines import in_words, machine
-from tiltpad.draw.page import paragraph, picture, row, table
+from tiltpad.draw.page import picture, row, table
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.units import SHOWN, Shown, described, digits, fitted, numbers
@@ -27,16 +27,6 @@ STATIONS = {
     "summary/station_y_amplitude": "1x amplitude y",
     "summary/station_z_amplitude": "1x amplitude z",
 }
-
-
-def remarks(run: Run) -> str:
-    """What is said of each bearing, those that rub as warnings."""
-    said = [
-        f"Bearing {name}: {each[0].lower()}{each[1:]}"
-        for name, own in run.bearings.items()
-        for each in behaviour.remarks(own)
-    ]
-    return "".join(paragraph(each, warning="rubs" in each) for each in said)
 
 
 def rotor_figures(run: Run) -> str:
@@ -98,7 +88,7 @@ def mode_table(run: Run) -> str:
     notes: list[str] = []
     for number, pivot in enumerate(str(each) for each in run["pivot"]):
         found = station_modes(run, pivot)
-        for k in np.flatnonzero(found.frequency > 0):
+        for k in np.flatnonzero((found.frequency > 0) | (found.damping_ratio < 0)):
             values = (SHOWN["damping_ratio"].factor * found.damping_ratio[k], found.log_decrement[k])
             sense = in_words(found.whirl[k])
             rows.append((f"{pivot}, {sense}", f"{found.frequency[k]:.5g}", *map(digits, values)))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tiltpad.calculate import behaviour, signals, summary
+from tiltpad.calculate import signals, summary
 from tiltpad.calculate.coefficients import coefficients
 from tiltpad.calculate.library import MissingLibraryError
 from tiltpad.calculate.modes import modes, of_journal
@@ -30,7 +30,8 @@ def report(run: Run) -> str:
         f"<p class=origin>{escape(origin(run))}</p>",
         incomplete(run),
         orbit_stability(run),
-        remarks(run),
+        section("Remarks", remarks(run)),
+        paragraph(peaks(run)),
         section("Key figures", key_figures(run)),
         section("Pads", pad_figures(run)),
         section("Films, solved closely", verification(run)),
@@ -49,7 +50,7 @@ def of_machine(run: Run) -> Iterable[str]:
     yield f"<p class=origin>{escape(origin(run))}</p>"
     yield incomplete(run)
     yield orbit_stability(run)
-    yield machine_report.remarks(run)
+    yield section("Remarks", remarks(run))
     yield section("Rotor", machine_report.rotor_figures(run))
     yield section("Bearings", machine_report.bearing_figures(run))
     yield section("Stations", machine_report.station_figures(run))
@@ -84,9 +85,8 @@ def orbit_stability(run: Run) -> str:
 
 
 def remarks(run: Run) -> str:
-    """Whirl, unloaded, lifted, fluttering and rubbing pads, and the peaks of a run-up, in words."""
-    said = [paragraph(each, warning="rubs" in each) for each in behaviour.remarks(run)]
-    return "".join(said) + paragraph(peaks(run))
+    """What is unusual, or leaves the range of the model."""
+    return "".join(paragraph(f"{each[0].upper()}{each[1:]}.", warning=True) for each in run.remarks)
 
 
 def peaks(run: Run) -> str:
@@ -157,7 +157,7 @@ def coefficient_table(run: Run) -> str:
         for ratio, *both in zip(found.frequency_ratio, found.stiffness, found.damping, strict=True):
             named = zip(("stiffness", "damping"), both, strict=True)
             values = [digits(SHOWN[name].factor * each) for name, matrix in named for each in matrix.ravel()]
-            rows.append((f"{pivot}, {ratio:g}", *values))
+            rows.append((f"{of_pivots(run, pivot)}, {ratio:g}", *values))
     heads = [
         f"{letter} {element} ({SHOWN[name].unit})"
         for letter, name in (("K", "stiffness"), ("C", "damping"))
@@ -180,7 +180,7 @@ def mode_table(run: Run) -> str:
         journal = of_journal(found.name)
         rows += [
             (
-                f"{pivot}",
+                of_pivots(run, pivot),
                 f"{name}",
                 f"{hertz:.5g}",
                 digits(SHOWN["damping_ratio"].factor * ratio),
@@ -193,9 +193,9 @@ def mode_table(run: Run) -> str:
         for who, kind in (("The journal is", journal), ("The pads are", ~journal & (found.name != ""))):
             if kind.any():
                 how = "unstable" if (found.damping_ratio[kind] < 0).any() else "stable"
-                verdicts.append(f"{who} {how} with {pivot} pivots.")
+                verdicts.append(f"{who} {how}, pivots {of_pivots(run, pivot)}.")
         if np.isfinite(found.threshold_rpm):
-            thresholds.append(f"{pivot} pivots: {found.threshold_rpm:.1f} rpm")
+            thresholds.append(f"pivots {of_pivots(run, pivot)}: {found.threshold_rpm:.1f} rpm")
     note = f"<p>Threshold speed of stability: {'; '.join(thresholds)}.</p>" if thresholds else ""
     head = ("pivots", "mode", "frequency (Hz)", "damping ratio (%)", "logarithmic decrement")
     return (
@@ -203,6 +203,11 @@ def mode_table(run: Run) -> str:
         + f"<p>{' '.join(verdicts)} Modes without vibration that decay are not listed.</p>"
         + note
     )
+
+
+def of_pivots(run: Run, pivot: str) -> str:
+    """What the pivots do in coefficients and modes; fixed pads have none."""
+    return "none" if run.input["pads"]["motion"] == "fixed" else pivot
 
 
 def pictures(run: Run) -> Iterable[str]:

@@ -13,7 +13,8 @@ def html_of(archive: Archive, heading: str) -> str:
     groups = [
         name for name in archive.names() if name in archive.GROUPS and name not in ("checkpoint", "runs")
     ]
-    parts = [f"<p><b>{escape(heading)}</b></p>", table(archive, "", single)]
+    remarks = [f"<p>remark: {escape(each)}</p>" for each in getattr(archive, "remarks", [])]
+    parts = [f"<p><b>{escape(heading)}</b></p>", *remarks, table(archive, "", single)]
     for group in groups:
         own = table(archive, group, archive.names(group))
         parts.append(f"<details><summary>{escape(group)}</summary>{own}</details>")

@@ -20,8 +20,8 @@ from tiltpad.files.writing import replacing
 
 #: Datasets over which the others are drawn and integrated; they must be finite.
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
-#: Tables of texts.
-TEXTS = ("modes/name",)
+#: Datasets of texts that are no scale of others.
+TEXTS = ("modes/name", "summary/remarks")
 #: Groups of a file, and the tasks that write them.
 TASKS = {"coefficients": "coefficients", "modes": "coefficients", "periodic": "periodic"}
 #: How names begin that are of a machine as a whole, and what a result of one bearing has not.
@@ -59,6 +59,7 @@ class Run(Archive):
         run.title, run.complete, ...         attributes of the file; run.attributes has all of them
         run.input["bearing"]                 resolved namelist, a dictionary a group
         run.bearings["left"].journal_y       of a machine: what it has of one of its bearings
+        run.remarks                          what is unusual, or leaves the range of the model: texts
 
     The input of a machine has lists of the groups that are there several times: run.input["disc"][0]["mass"].
     """
@@ -81,6 +82,7 @@ class Run(Archive):
 
     def __repr__(self) -> str:
         lines = [f"<tiltpad run {self.path!r}: {self.title or 'no title'}", f"  {self.in_words()}"]
+        lines += [f"  remark: {each}" for each in self.remarks]
         single = [name for name in self.names() if name not in self.GROUPS]
         lines += textwrap.wrap(", ".join(single), 100, initial_indent="  ", subsequent_indent="    ")
         for group in (name for name in self.names() if name in self.GROUPS and name != "checkpoint"):
@@ -162,6 +164,11 @@ class Run(Archive):
     def bearings(self) -> "Bearings":
         """The bearings of a machine by their names, each as the run of one bearing; else empty."""
         return Bearings(self)
+
+    @property
+    def remarks(self) -> list[str]:
+        """What is unusual, or leaves the range of the model; of a machine behind the name of the bearing."""
+        return list(self["summary/remarks"]) if "summary/remarks" in self else []
 
     @property
     def clearance(self) -> float:
@@ -369,6 +376,13 @@ class Bearing(Run):
         """The resolved namelist of the bearing: {"bearing": {"journal_radius": 0.0499, ...}, ...}."""
         with reading(self.path, f"attribute 'input' of {self.group}"):
             return namelist.resolved(self.attributes["input"])
+
+    @property
+    def remarks(self) -> list[str]:
+        """Those on the bearing."""
+        before = f"bearing '{self.group.split('/')[1]}': "
+        every = self.machine.remarks
+        return [each.removeprefix(before) for each in every if each.startswith(before)]
 
     def own_names(self, group: str = "") -> list[str]:
         """Names of what is in its group of the file, or in a group there."""

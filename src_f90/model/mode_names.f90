@@ -5,7 +5,7 @@ module mode_names
    use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
-   public :: mode_name_length, mode_name, is_of_rotor, at_stations
+   public :: mode_name_length, mode_name, is_of_rotor, at_stations, position_lengths
 
    integer, parameter :: mode_name_length = 100
    !> Pads that tilt follow the journal, so that their tilts are as large as its displacement in its own modes, and many
@@ -57,6 +57,18 @@ contains
          end if
       end associate
    end function mode_name
+
+   !> What stands for 1 rad of a tilt: the distance from the pivot to the centre of the pad's arc, m; of a rotor's
+   !> coordinate that is no displacement, how far it moves a station; 1 for others.
+   pure function position_lengths(model) result(lengths)
+      type(machine_model), intent(in) :: model
+      real(wp), allocatable :: lengths(:)
+      allocate (lengths(model%layout%n_positions()), source=1.0_wp)
+      associate (n => 2*size(model%bearings), m => model%rotor%positions)
+         lengths(n + 1:m) = minval(model%bearings%clearance)/model%scale(n + 1:m)
+      end associate
+      lengths(model%layout%tilts()) = model%tilt_lengths()
+   end function position_lengths
 
    !> Whether a mode of this name is one of the rotor, and not of pads.
    elemental logical function is_of_rotor(name)

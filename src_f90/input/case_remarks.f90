@@ -1,0 +1,196 @@
+!> Remarks on a case: what is allowed and seldom meant, what the model is not made for, and what has no effect. A line
+!> each; --check shows them, and a run puts them on its list.
+module case_remarks
+   use kinds, only: wp, degree
+   use text, only: to_text, fixed_text
+   use case_inputs, only: case_type
+   use bearing_numbers, only: preload, load, specific_load
+   use operating_point, only: operating_point_type
+   use variable_table, only: variable_table_type
+   use case_fields, only: list_variables
+   use namelist_writer, only: lines_of
+   implicit none (type, external)
+   private
+   public :: remarks_on_case, remarks_on_load, of_bearing_named, behind, newline
+
+   character(len=*), parameter :: newline = achar(10)
+   !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
+   real(wp), parameter :: compared_up_to = 35
+   !> Radius of a journal, m, beyond which inches may be meant, and temperature of a supply, C, beyond which kelvin may.
+   real(wp), parameter :: largest_usual = 1, warmest_supply = 150
+   !> Specific load, Pa, that few bearings have.
+   real(wp), parameter :: highest_usual_load = 5e6_wp
+   !> From the edge of a fixed pad on this angle, deg, carries little.
+   real(wp), parameter :: beside_edge = 15
+
+contains
+
+   !> All of a case; of a machine those of each of its bearings, whose loads are not known yet.
+   function remarks_on_case(inputs) result(lines)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: lines
+      integer :: b
+      lines = ''
+      do b = 1, inputs%bearing_count()
+         lines = lines//behind(of_bearing_named(inputs, b), on_bearing(inputs%of_bearing(b)))
+      end do
+      if (.not. inputs%is_machine()) lines = lines//on_rigid_journal(inputs)//remarks_on_load(inputs)
+      if (allocated(inputs%about%of_paper)) lines = lines//'not given, and so as in the paper''s bearing: ' &
+         & //inputs%about%of_paper//newline
+      lines = lines//on_idle_groups(inputs)
+   end function remarks_on_case
+
+   !> What stands before a remark on a bearing of a machine; empty where there is one bearing.
+   function of_bearing_named(inputs, b) result(prefix)
+      type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
+      character(len=:), allocatable :: prefix
+      prefix = ''
+      if (inputs%is_machine()) prefix = 'bearing '''//inputs%machine%bearings(b)%name//''': '
+   end function of_bearing_named
+
+   !> Lines, each behind a prefix.
+   pure function behind(prefix, lines) result(prefixed)
+      character(len=*), intent(in) :: prefix, lines
+      character(len=:), allocatable :: prefixed
+      integer :: first, length
+      prefixed = ''
+      first = 1
+      do while (first <= len(lines))
+         length = index(lines(first:), newline)
+         prefixed = prefixed//prefix//lines(first:first + length - 1)
+         first = first + length
+      end do
+   end function behind
+
+   !> What does not depend on the load.
+   function on_bearing(inputs) result(lines)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: lines
+      lines = ''
+      associate (b => inputs%bearing, t => inputs%oil%supply_temperature)
+         if (b%journal_radius > largest_usual) lines = lines//'bearing%journal_radius = '//to_text(b%journal_radius) &
+            & //': all lengths are in metres; an inch is 0.0254'//newline
+         if (t > warmest_supply) lines = lines//'oil%supply_temperature = '//to_text(t)//': temperatures are in ' &
+            & //'degrees Celsius; '//to_text(t)//' K are '//fixed_text(t - 273.15_wp, 2)//' C'//newline
+      end associate
+      if (any(preload(inputs) < 0)) lines = lines//'negative preload '//to_text(minval(preload(inputs))) &
+         & //': the bore of the pads ' &
+         & //'is tighter than the clearance at the pivots; such a pad touches the journal at its edges first'//newline
+      if (.not. inputs%tilting() .and. any(abs(preload(inputs)) > 0)) lines = lines//'each lobe has a centre of its ' &
+         & //'own: eccentricity ratio and attitude angle are about the centre of the bearing and over its ' &
+         & //'clearance, so that they differ from those of a cylindrical bore'//newline
+      associate (surface => inputs%highest_speed()*inputs%bearing%journal_radius)
+         if (inputs%thermal%model /= 'none' .and. surface > compared_up_to) lines = lines//'surface speed ' &
+            & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad ' &
+            & //'shows trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)'//newline
+      end associate
+   end function on_bearing
+
+   !> What depends on the load of a bearing, its case having one.
+   function remarks_on_load(inputs) result(lines)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: lines
+      lines = ''
+      if (.not. load(inputs) > 0) return
+      if (specific_load(inputs) > highest_usual_load) lines = lines//'specific load ' &
+         & //fixed_text(1e-6_wp*specific_load(inputs), 2)//' MPa: above '//to_text(1e-6_wp*highest_usual_load) &
+         & //' MPa, where pads bend under their pressure, which the model leaves out; most bearings carry 1 to 3 MPa' &
+         & //newline
+      if (inputs%tilting()) return
+      associate (at => direction_of_load(inputs))
+         if (carries_at(inputs, at)) return
+         lines = lines//'the load points to '//fixed_text(at, 1)//' deg, to the end of a fixed pad or between two, ' &
+            & //'where little oil film carries; turn the pads (pads%pivot_angle_deg) for a groove out of the load' &
+            & //newline
+      end associate
+   end function remarks_on_load
+
+   !> The angle to which the load points, deg, counted as that of a pivot.
+   real(wp) function direction_of_load(inputs) result(at)
+      type(case_type), intent(in) :: inputs
+      type(operating_point_type) :: point
+      point = operating_point_type(inputs)
+      at = atan2(point%load(1), point%load(2))/degree
+   end function direction_of_load
+
+   !> Whether a fixed pad reaches past this angle, deg, on either side.
+   pure logical function carries_at(inputs, at)
+      type(case_type), intent(in) :: inputs
+      real(wp), intent(in) :: at
+      real(wp) :: from_trailing(size(inputs%pads%arc_deg))
+      associate (p => inputs%pads)
+         from_trailing = modulo(at - p%pivot_angle_deg + (1 - p%pivot_ratio)*p%arc_deg, 360.0_wp)
+         carries_at = any(from_trailing >= beside_edge .and. p%arc_deg - from_trailing >= beside_edge)
+      end associate
+   end function carries_at
+
+   !> What concerns the mass of a rigid journal and what moves it.
+   function on_rigid_journal(inputs) result(lines)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: lines
+      lines = ''
+      associate (eccentricity => inputs%unbalance()/inputs%rotor%mass, c => inputs%clearance())
+         if (inputs%moves() .and. eccentricity > c) lines = lines//'mass eccentricity ' &
+            & //to_text(1e6_wp*eccentricity)//' um (unbalance over rotor%mass): more than the bearing clearance of ' &
+            & //to_text(1e6_wp*c)//' um; the unbalance is in kg m'//newline
+      end associate
+   end function on_rigid_journal
+
+   !> Groups that the task of a case does not use, and what they say.
+   function on_idle_groups(inputs) result(lines)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: lines
+      type(variable_table_type) :: table, defaults
+      character(len=:), allocatable :: group, names
+      integer :: i
+      lines = ''
+      if (size(inputs%excitations) > 0 .and. .not. inputs%moves()) lines = 'excitation: has no effect with ' &
+         & //'case%task = '''//inputs%about%task//''', where no force changes with time'//newline
+      call list_variables(inputs, table)
+      call list_variables(case_type(), defaults)
+      group = ''
+      names = ''
+      do i = 1, table%count
+         associate (v => table%variables(i))
+            if (v%group /= group) call say()
+            if (.not. is_idle(inputs, v%group, v%name)) cycle
+            ! where each pad has a value of its own, the default has as many as the paper's bearing has pads
+            if (v%each /= '') then
+               if (all(abs(v%values) <= 0)) cycle
+            else
+               if (lines_of(v, '') == lines_of(defaults%variables(defaults%find(v%group, v%name)), '')) cycle
+            end if
+            group = v%group
+            names = names//', '//v%name
+         end associate
+      end do
+      call say()
+   contains
+      !> The line of the group before.
+      subroutine say()
+         if (names == '') return
+         lines = lines//group//' ('//names(3:)//'): has no effect with case%task = '''//inputs%about%task//''''//newline
+         names = ''
+      end subroutine say
+   end function on_idle_groups
+
+   !> Whether a variable has no effect with the task of a case.
+   pure logical function is_idle(inputs, group, name)
+      type(case_type), intent(in) :: inputs
+      character(len=*), intent(in) :: group, name
+      select case (group)
+      case ('coefficients', 'branch')
+         is_idle = inputs%about%task /= group
+      case ('periodic')
+         is_idle = .not. inputs%seeks_orbits()
+      case ('start')
+         is_idle = .not. inputs%moves()
+      case ('integration', 'output')
+         is_idle = inputs%about%task /= 'march' .and. any(name == [character(len=18) :: 'stop_when_periodic', &
+            & 'start_time'])
+      case default
+         is_idle = .false.
+      end select
+   end function is_idle
+end module case_remarks

@@ -1,0 +1,225 @@
+!> The remarks on a run: one list, of its case, its equilibrium and its motion, by the figures in its file. The file has
+!> it as `summary/remarks`; console, report, plots and Python repeat it.
+module result_remarks
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use kinds, only: wp, degree
+   use text, only: to_text, fixed_text
+   use case_inputs, only: case_type
+   use case_remarks, only: remarks_on_case, remarks_on_load, of_bearing_named, behind, newline
+   use equilibrium_refusal, only: listed
+   use pad_behaviour, only: pad_behaviour_type, smallest_share
+   use record, only: record_type
+   use record_file, only: lines
+   use run_file, only: run_file_type
+   use bearing_file, only: bearing_file_type, new_bearing_file
+   use summary_group, only: figure, pad_figures
+   implicit none (type, external)
+   private
+   public :: remarks_on_run, put_remarks, new_lines, pad_diagnosis
+
+   character(len=*), parameter :: name = 'summary/remarks'
+   !> Reynolds number of a film above which it may be turbulent: published limits lie from here to 1500.
+   real(wp), parameter :: laminar_up_to = 500
+   !> Warming of oil, K, across which one viscosity does not hold, and temperature of white metal, C, near its limit.
+   real(wp), parameter :: largest_rise = 50, warm_metal = 120
+   !> Films thinner than this number of roughnesses touch; part of the minimum thickness that a slope may change.
+   real(wp), parameter :: roughnesses = 3, visible_slope = 0.2_wp
+   !> Part of a pad's inflow that may be missing in its balance.
+   real(wp), parameter :: visible_flow = 0.02_wp
+
+contains
+
+   !> All remarks on a run so far, a line each.
+   function remarks_on_run(inputs, file) result(all)
+      type(case_type), intent(in) :: inputs
+      class(run_file_type), intent(inout), target :: file
+      character(len=:), allocatable :: all, own
+      type(bearing_file_type) :: part
+      type(case_type) :: alone
+      real(wp) :: loads(2, inputs%bearing_count())
+      integer :: b
+      all = remarks_on_case(inputs)
+      call file%get_list('equilibrium/bearing_load_y', loads(1, :))
+      call file%get_list('equilibrium/bearing_load_z', loads(2, :))
+      do b = 1, inputs%bearing_count()
+         part = new_bearing_file(file, inputs, b)
+         own = ''
+         if (inputs%is_machine()) then
+            alone = inputs%of_bearing(b, loads(:, b))
+            if (part%has('equilibrium/journal_y')) own = remarks_on_load(alone)
+         else
+            alone = inputs
+         end if
+         if (part%has('equilibrium/journal_y')) own = own//on_equilibrium(alone, part)
+         all = all//behind(of_bearing_named(inputs, b), own//on_motion(alone, part))
+      end do
+      if (.not. file%has('periodic/closed')) return
+      if (.not. file%get_real('periodic/closed') > 0) all = all//'Newton''s method does not close the orbit: it is ' &
+         & //'that of the march, whose displacements change by '//to_text(file%get_real('periodic/change')) &
+         & //' of their characteristic scales in a period'//newline
+   end function remarks_on_run
+
+   !> Writes the list; a list that was there is replaced.
+   subroutine put_remarks(file, all)
+      class(record_type), intent(inout) :: file
+      character(len=*), intent(in) :: all
+      if (all /= '') then
+         call file%put_labels(name, lines(all), 'remarks: what is unusual, or leaves the range of the model')
+      else if (file%has(name)) then
+         call file%delete(name)
+      end if
+   end subroutine put_remarks
+
+   !> The lines of a list that are not in another.
+   function new_lines(all, known) result(fresh)
+      character(len=*), intent(in) :: all, known
+      character(len=:), allocatable :: fresh
+      integer :: first, length
+      fresh = ''
+      first = 1
+      do while (first <= len(all))
+         length = index(all(first:), newline)
+         associate (line => all(first:first + length - 1))
+            if (index(newline//known, newline//line) == 0) fresh = fresh//line
+         end associate
+         first = first + length
+      end do
+   end function new_lines
+
+   !> On the equilibrium of a bearing, whose case has its load.
+   function on_equilibrium(inputs, file) result(said)
+      type(case_type), intent(in) :: inputs
+      type(bearing_file_type), intent(inout) :: file
+      character(len=:), allocatable :: said
+      real(wp), dimension(inputs%pad_count()) :: film, reynolds, hottest, depth, load, inlet, taken
+      real(wp) :: rise
+      integer :: i
+      said = ''
+      rise = file%get_real('equilibrium/temperature_rise_fresh')
+      associate (roughness => inputs%asperity%roughness, p => inputs%pads)
+         call file%get_list('equilibrium/min_film_thickness', film)
+         if (inputs%asperity%model /= 'none' .and. any(film < roughnesses*roughness)) said = said//'at the ' &
+            & //'equilibrium the film of '//listed(film < roughnesses*roughness)//' is '//micro(minval(film)) &
+            & //' um thin: less than '//to_text(roughnesses)//' times asperity%roughness = ' &
+            & //to_text(1e6_wp*roughness)//' um, so that surfaces touch'//newline
+         depth = file%get_real('equilibrium/journal_y')*sin(p%pivot_angle_deg*degree) &
+            & + file%get_real('equilibrium/journal_z')*cos(p%pivot_angle_deg*degree) &
+            & - inputs%bearing%assembled_clearance
+         if (inputs%tilting() .and. any(depth > 0)) said = said//'eccentricity ratio ' &
+            & //fixed_text(file%get_real('equilibrium/eccentricity_ratio'), 3)//': at '//listed(depth > 0)//' the ' &
+            & //'journal lies '//micro(maxval(depth))//' um deeper than the clearance; ' &
+            & //'are load (N), viscosity (Pa s) and clearance (m) as meant?'//newline
+         if (ieee_is_nan(rise)) rise = 0
+         if (inputs%thermal%model == 'none' .and. rise > largest_rise) said = said//'the oil warms by ' &
+            & //fixed_text(rise, 1)//' K although every pad draws fresh oil: its viscosity is not that of the case ' &
+            & //'in all films; thermal%model = ''pad'' with an oil (oil%grade) finds temperatures and viscosities' &
+            & //newline
+         if (file%has('equilibrium/maximum_temperature')) then
+            call file%get_list('equilibrium/maximum_temperature', hottest)
+            if (any(hottest > warm_metal)) said = said//listed(hottest > warm_metal)//': up to ' &
+               & //fixed_text(maxval(hottest), 1)//' C; white metal is near its limit from about ' &
+               & //to_text(warm_metal)//' C on'//newline
+         end if
+         call file%get_list('equilibrium/inlet_flow', inlet)
+         call file%get_list('equilibrium/reformation_flow', taken)
+         do i = 1, size(taken)
+            if (ieee_is_nan(inlet(i))) cycle
+            if (abs(taken(i)) > visible_flow*abs(inlet(i))) said = said//'pad '//to_text(i)//': '//micro(inlet(i)) &
+               & //' ml/s enter, and '//micro(inlet(i) + taken(i))//' leave: at the reformation boundary behind the ' &
+               & //'cavitated part the film takes up '//micro(taken(i))//' ml/s beyond what reaches it, as ' &
+               & //'Reynolds'' condition does not conserve oil there'//newline
+         end do
+         call file%get_list('equilibrium/reynolds_number', reynolds)
+         if (any(reynolds > laminar_up_to)) said = said//'Reynolds number of the film of ' &
+            & //listed(reynolds > laminar_up_to)//': '//to_text(nint(maxval(reynolds)))//'; above ' &
+            & //to_text(laminar_up_to)//' films may be turbulent, and turbulent ones lose more power'//newline
+         if (inputs%tilting()) then
+            call file%get_list('equilibrium/pivot_load', load)
+            if (sum(load) > 0 .and. any(load < smallest_share*sum(load))) said = said//'at the equilibrium ' &
+               & //listed(load < smallest_share*sum(load))//trim(merge(' carries', ' carry  ', &
+               & count(load < smallest_share*sum(load)) == 1))//' no load; unloaded pads may flutter'//newline
+         end if
+      end associate
+      if (figure(file, 'misalignment') > visible_slope) said = said//'the slope of the shaft changes the film by ' &
+         & //fixed_text(100*figure(file, 'misalignment'), 0)//' % of its minimum thickness from the middle of the ' &
+         & //'bearing to its end, which is left out'//newline
+   end function on_equilibrium
+
+   !> On the motion: contact in the whole run, and lift-off, flutter, rubbing and whirl in the last revolutions.
+   function on_motion(inputs, file) result(said)
+      type(case_type), intent(in) :: inputs
+      type(bearing_file_type), intent(inout) :: file
+      character(len=:), allocatable :: said, diagnosis
+      type(pad_behaviour_type) :: pads(inputs%pad_count())
+      integer :: i
+      said = ''
+      associate (held => pad_figures(file, 'pad_without_equilibrium'))
+         if (any(held > 0)) said = said//listed(held > 0)//': without equilibrium; the march starts without tilt' &
+            & //newline
+      end associate
+      if (figure(file, 'whirls') > 0) said = said//'the journal whirls at ' &
+         & //fixed_text(figure(file, 'whirl_order'), 3)//' of the shaft speed, amplitude ' &
+         & //micro(figure(file, 'whirl_amplitude'))//' um'//newline
+      pads%load = pad_figures(file, 'pad_load')
+      pads%unloaded = pad_figures(file, 'pad_unloaded') > 0
+      pads%lifted = pad_figures(file, 'pad_lifted')
+      pads%flutters = pad_figures(file, 'pad_flutters') > 0
+      pads%order = pad_figures(file, 'pad_order')
+      pads%amplitude = pad_figures(file, 'pad_order_amplitude')
+      pads%rubbing = pad_figures(file, 'pad_rubbing')
+      do i = 1, size(pads)
+         diagnosis = pad_diagnosis(pads(i))
+         if (diagnosis /= '') said = said//'pad '//to_text(i)//' '//diagnosis//newline
+      end do
+      said = said//on_contact(file)
+   end function on_motion
+
+   !> Which pads touched the journal in the whole run, how hard and how long.
+   function on_contact(file) result(said)
+      type(bearing_file_type), intent(inout) :: file
+      character(len=:), allocatable :: said, of_load
+      integer :: i
+      said = ''
+      associate (force => pad_figures(file, 'pad_asperity_force'), share => pad_figures(file, 'pad_asperity_share'), &
+            & time => pad_figures(file, 'pad_asperity_time'))
+         do i = 1, size(force)
+            if (.not. force(i) > 0) cycle
+            of_load = ''
+            if (share(i) > 0) of_load = ', '//fixed_text(100*share(i), 2)//' % of the load'
+            said = said//'pad '//to_text(i)//' touched the journal for '//fixed_text(1e3_wp*time(i), 3) &
+               & //' ms of the run; its asperities bore up to '//fixed_text(force(i), 1)//' N'//of_load//newline
+         end do
+      end associate
+   end function on_contact
+
+   !> "carries no load (mean 12 N); it flutters at 0.48 of the shaft speed, ..."; empty for a pad like others.
+   function pad_diagnosis(pad) result(words)
+      type(pad_behaviour_type), intent(in) :: pad
+      character(len=:), allocatable :: words
+      words = ''
+      if (pad%unloaded) call say('carries no load (mean '//fixed_text(pad%load, 1)//' N)')
+      if (pad%lifted > 0) call say('is lifted off its pivot '//percent(pad%lifted))
+      if (pad%flutters) call say('flutters at '//fixed_text(pad%order, 3)//' of the shaft speed, amplitude of the ' &
+         & //'tilt '//fixed_text(1e3_wp*pad%amplitude, 4)//' mrad')
+      if (pad%rubbing > 0) call say('rubs on the journal '//percent(pad%rubbing))
+   contains
+      subroutine say(what)
+         character(len=*), intent(in) :: what
+         if (words /= '') words = words//'; it '
+         words = words//what
+      end subroutine say
+
+      function percent(share)
+         real(wp), intent(in) :: share
+         character(len=:), allocatable :: percent
+         percent = fixed_text(100*share, 1)//' % of the time'
+      end function percent
+   end function pad_diagnosis
+
+   !> Metres as micrometres.
+   function micro(x)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: micro
+      micro = fixed_text(1e6_wp*x, 3)
+   end function micro
+end module result_remarks

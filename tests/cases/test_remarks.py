@@ -1,0 +1,93 @@
+"""Remarks on runs: beside the figures on the console, in the file, and on the list of Python."""
+
+import h5py
+import pytest
+
+#: A plain bearing whose groove can be turned, warm oil, and remarks by what a case adds to the paper's.
+BORE = ("bearing%preload=0", "pads%motion=fixed", "pads%arc_deg=360", "rotor%mass=500")
+WARM = ("thermal%model=pad", "oil%grade=46")
+REMARKS = {
+    "none": ((), []),
+    "groove": ((*BORE, "pads%pivot_angle_deg=90"), ["the load points to -90.0 deg", "ml/s enter"]),
+    "groove away": ((*BORE, "pads%pivot_angle_deg=-90"), ["ml/s enter"]),
+    "units": (
+        ("bearing%viscosity=19e-6",),
+        [
+            "film of pads 1, 2 is",
+            "eccentricity ratio 1.531: at pads 1, 2",
+            "the oil warms by",
+            "Reynolds number",
+        ],
+    ),
+    "loaded": (("rotor%mass=6000",), ["specific load 5.90 MPa"]),
+    "unloaded": (
+        ("pads%pivot_angle_deg=-90,0,90,180", "pads%arc_deg=70", "bearing%preload=0"),
+        ["at the equilibrium pads 2, 3, 4 carry no load"],
+    ),
+    "fast": ((*WARM, "operation%speed_rpm=8000"), ["surface speed 41.8 m/s"]),
+}
+
+
+def lines(text):
+    return [line.removeprefix("remark: ") for line in text.splitlines() if line.startswith("remark: ")]
+
+
+def listed(path):
+    with h5py.File(path) as file:
+        return [each.decode() for each in file["summary/remarks"]] if "remarks" in file["summary"] else []
+
+
+@pytest.fixture
+def run(tiltpad, tmp_path):
+    """run(settings, task): what is printed of the paper's bearing with these settings; writes here.h5."""
+    (tmp_path / "case.nml").write_text("&case /")
+
+    def made(settings, task="equilibrium", status=0):
+        given = (f"case%task={task}", *settings)
+        output = ("--output", "here.h5", "--overwrite")
+        return tiltpad("case.nml", *output, cwd=tmp_path, overrides=given, status=status).stdout
+
+    return made
+
+
+@pytest.mark.parametrize("name", REMARKS)
+def test_remarks(run, tmp_path, name):
+    settings, expected = REMARKS[name]
+    said = lines(run(settings))
+    assert len(said) == len(expected)
+    assert all(words in line for words, line in zip(expected, said, strict=True))
+    assert listed(tmp_path / "here.h5") == said
+
+
+def test_a_film_that_re_forms_says_what_its_balance_lacks(run, tmp_path):
+    """A full bore under load, whose film cavitates in the middle of its arc."""
+    said = lines(run((*BORE[:3], "pads%pivot_angle_deg=-90")))
+    with h5py.File(tmp_path / "here.h5") as file:
+        enters, taken, leaves, beside = (
+            file[f"equilibrium/{name}_flow"][0] for name in ("inlet", "reformation", "outlet", "side")
+        )
+    assert enters + taken == pytest.approx(leaves + beside, rel=1e-9)
+    assert taken > 0.1 * enters
+    assert [f"takes up {1e6 * taken:.3f} ml/s beyond" in line for line in said] == [True]
+
+
+def test_a_march_adds_those_of_its_motion(run, tmp_path, tiltpad):
+    """Pads that start without equilibrium, and what the case leaves to the paper's bearing."""
+    four = (
+        "pads%pivot_angle_deg=-90,0,90,180",
+        "pads%arc_deg=70",
+        "bearing%preload=0",
+        "bearing%axial_length=0.11",
+    )
+    short = ("start%from=partial", "operation%duration=0.02", "output%checkpoint_seconds=0")
+    said = lines(run((*four, *short), "march"))
+    assert said == listed(tmp_path / "here.h5")
+    assert said[0].startswith("not given, and so as in the paper's bearing: rotor%mass = 2000 kg")
+    assert any("without equilibrium; the march starts without tilt" in line for line in said)
+
+
+def test_the_sommerfeld_number_says_its_viscosity(run, tmp_path):
+    assert "(19.00 mPa s)" in run(())
+    assert "mPa s of the supply at 40 C)" in run(WARM)
+    with h5py.File(tmp_path / "here.h5") as file:
+        assert "of the supply at 40 C" in file["equilibrium/sommerfeld_number"].attrs["long_name"]

@@ -1,0 +1,104 @@
+!> Remarks on cases: what is seldom meant, what the paper's bearing lends a case, and groups of other tasks.
+program test_case_remarks
+   use text, only: replaced
+   use input_cases, only: case_of
+   use case_remarks, only: remarks_on_case, behind
+   use check, only: runs, expect, report
+   implicit none (type, external)
+   character(len=*), parameter :: own = '&bearing journal_radius = 0.05 /'
+
+   if (runs('units')) call units()
+   if (runs('loads')) call loads()
+   if (runs('lent_values')) call lent_values()
+   if (runs('idle_groups')) call idle_groups()
+   if (runs('lines')) call expect(behind('- ', 'a'//achar(10)//'b'//achar(10)) == '- a'//achar(10)//'- b'//achar(10), &
+      & 'a mark before each line')
+   call report()
+
+contains
+
+   !> A case has one remark with these words, or with none no remark.
+   subroutine expect_remark(text, words)
+      character(len=*), intent(in) :: text, words
+      character(len=:), allocatable :: all
+      all = remarks_on_case(case_of(text))
+      if (words == '') then
+         call expect(all == '', text//': '//all)
+      else
+         call expect(index(all, words) > 0 .and. index(all, achar(10)) == len(all), text//': '//all)
+      end if
+   end subroutine expect_remark
+
+   subroutine units()
+      call expect_remark('&case /', '')
+      call expect_remark('&oil grade = 46, supply_temperature = 150 /', '')
+      call expect_remark('&oil grade = 46, supply_temperature = 160 /', 'degrees Celsius; 160 K are -113.15 C')
+      ! 80 um of 2000 kg are 0.16 kg m
+      call expect_remark('&rotor unbalance = 0.159 /', '')
+      call expect_remark('&rotor unbalance = 0.161 /', 'mass eccentricity 80.5 um')
+      call expect_remark('&rotor unbalance = 0.161 / &case task = equilibrium /', '')
+   end subroutine units
+
+   !> Of a bearing of 9.98e-3 m^2, whose fixed pads end at the load or carry it.
+   subroutine loads()
+      character(len=*), parameter :: bore = '&bearing preload = 0 / &pads motion = ''fixed'', pivot_angle_deg = '
+      call expect_remark('&rotor mass = 5080 /', '')
+      call expect_remark('&rotor mass = 5090 /', 'specific load 5.00 MPa')
+      call expect_remark(bore//'-90, arc_deg = 360 /', '')
+      call expect_remark(bore//'90, arc_deg = 360 /', 'the load points to -90.0 deg')
+      call expect_remark(bore//'104, arc_deg = 360 /', 'the load points to -90.0 deg')
+      call expect_remark(bore//'106, arc_deg = 360 /', '')
+      call expect_remark(bore//'0, 180, arc_deg = 170 /', 'the load points to -90.0 deg')
+      call expect_remark(bore//'0, 180, arc_deg = 170 / &rotor gravity = 0, static_load = 0, 1e4 /', '')
+      ! pads that tilt may have the load between them
+      call expect_remark('&pads pivot_angle_deg = 0, 180, arc_deg = 100 /', '')
+      call expect_remark('&pads motion = ''fixed'', pivot_angle_deg = -90, 90, arc_deg = 160 /', &
+         & 'each lobe has a centre')
+   end subroutine loads
+
+   !> What another bearing than the paper's does not give.
+   subroutine lent_values()
+      character(len=*), parameter :: begin = 'not given, and so as in the paper''s bearing: ', &
+         & rest = '&rotor mass = 100, unbalance = 0 / &operation speed_rpm = 3000 / &pads pivot_angle_deg = 0, 180, ' &
+         & //'arc_deg = 80 / &bearing journal_radius = 0.05, axial_length = 0.05, preload = 0, '
+      call expect_remark(own, begin//'rotor%mass = 2000 kg, rotor%unbalance = 0.01 kg m, operation%speed_rpm = ' &
+         & //'6500 rpm, bearing%machined_clearance = 1e-4 m, bearing%assembled_clearance = 8e-5 m, ' &
+         & //'bearing%axial_length = 0.1 m, bearing%viscosity = 0.019 Pa s, pads%pivot_angle_deg = -45, 225 deg, ' &
+         & //'pads%arc_deg = 69.3 deg')
+      call expect_remark(rest//'assembled_clearance = 6e-5 /', begin//'bearing%viscosity = 0.019 Pa s'//achar(10))
+      call expect_remark(rest//'viscosity = 0.019 /', begin//'bearing%assembled_clearance = 8e-5 m'//achar(10))
+      call expect_remark(rest//'assembled_clearance = 6e-5, viscosity = 0.019 /', '')
+      call expect_remark(rest//'assembled_clearance = 6e-5 / &oil grade = 32 /', '')
+      ! equilibria know no unbalance
+      call expect_remark(replaced(rest, ', unbalance = 0', '')//'assembled_clearance = 6e-5, viscosity = 0.019 / ' &
+         & //'&case task = ''coefficients'' /', '')
+      call expect_remark('&pivot socket_radius = 0.02 /', '')
+   end subroutine lent_values
+
+   subroutine idle_groups()
+      character(len=*), parameter :: several = '&coefficients frequency_ratio = 0.5, threshold_up_to_rpm = 9000 / ' &
+         & //'&periodic revolutions = 2 / &branch step = 3 / &integration stop_when_periodic = 1e-3 / ' &
+         & //'&output start_time = 1 / &start journal = 0, 1e-6, pad_tilt = 1e-4 /'
+      call expect_idle(several, 'march', [character(len=60) :: 'coefficients (frequency_ratio, threshold_up_to_rpm)', &
+         & 'periodic (revolutions)', 'branch (step)'])
+      call expect_idle(several, 'coefficients', [character(len=60) :: 'start (journal, pad_tilt)', &
+         & 'integration (stop_when_periodic)', 'output (start_time)', 'periodic (revolutions)', 'branch (step)'])
+      call expect_idle(several, 'periodic', [character(len=60) :: 'integration (stop_when_periodic)', &
+         & 'output (start_time)', 'coefficients (frequency_ratio, threshold_up_to_rpm)', 'branch (step)'])
+      call expect_idle('&start from = ''partial'' /', 'equilibrium', [character(len=60) :: 'start (from)'])
+      ! what has its default says nothing
+      call expect_remark('&periodic revolutions = 1 / &start pad_tilt = 0 /', '')
+   end subroutine idle_groups
+
+   subroutine expect_idle(text, task, idle)
+      character(len=*), intent(in) :: text, task, idle(:)
+      character(len=:), allocatable :: lines, all
+      integer :: i
+      lines = ''
+      do i = 1, size(idle)
+         lines = lines//trim(idle(i))//': has no effect with case%task = '''//task//''''//achar(10)
+      end do
+      all = remarks_on_case(case_of('&case task = '''//task//''' / '//text))
+      call expect(all == lines, task//': '//all)
+   end subroutine expect_idle
+end program test_case_remarks
