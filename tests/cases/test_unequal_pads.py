@@ -232,3 +232,14 @@ def test_a_table_of_the_law_is_the_law(tiltpad, tmp_path):
     assert (
         "needs pivot%law = 'table'" in tiltpad("case.nml", overrides=own[1:], cwd=tmp_path, status=1).stderr
     )
+
+
+def test_a_changed_table_of_a_pivot_is_noticed(tiltpad, tmp_path):
+    """A result does not go on with another pivot."""
+    (tmp_path / "pivot.csv").write_text("deflection,force\n1e-6,900\n1e-5,30000\n")
+    (tmp_path / "case.nml").write_text("&operation duration=0.01 /\n&pivot law='table', file='pivot.csv' /\n")
+    tiltpad("case.nml", "-q", cwd=tmp_path, status=0)
+    tiltpad("--resume", "case.h5", "--verify", "1", cwd=tmp_path, status=0)
+    (tmp_path / "pivot.csv").write_text("deflection,force\n1e-6,900\n1e-5,30001\n")
+    said = tiltpad("--resume", "case.h5", "--verify", "1", cwd=tmp_path, status=3).stderr
+    assert "the file that pivot%file names has changed since" in said
