@@ -6,6 +6,9 @@ module excitations
    private
    public :: excitation_type, make_excitations
 
+   !> Kinds as numbers.
+   integer, parameter :: vibration = 1, step = 2, ramp = 3, table = 4
+
    type :: excitation_type
       !> Of the shaft of a machine; 0 where a rigid journal is excited.
       integer :: station = 0
@@ -21,7 +24,13 @@ module excitations
       !> CSV file of a table, and what was read from it: times after the start, s, rising, and forces along y and z, N.
       character(len=:), allocatable :: file
       real(wp), allocatable :: time(:), table(:, :)
+      !> By prepare, as a march evaluates the force at each step: its kind, whether it turns with the phase, its
+      !> direction, and that a quarter turn of the phase later.
+      integer, private :: law = 0
+      logical, private :: rotates = .false.
+      real(wp), private :: along(2) = 0, across(2) = 0
    contains
+      procedure :: prepare
       procedure :: force
       procedure :: force_rate
       procedure :: next_switch
@@ -46,12 +55,32 @@ contains
       end do
    end subroutine make_excitations
 
+   !> Finds what its force needs and what follows from its variables.
+   elemental subroutine prepare(self)
+      class(excitation_type), intent(inout) :: self
+      real(wp) :: towards
+      select case (self%kind)
+      case ('step')
+         self%law = step
+      case ('ramp')
+         self%law = ramp
+      case ('table')
+         self%law = table
+      case default
+         self%law = vibration
+      end select
+      towards = self%direction_deg*degree
+      self%rotates = self%rotating /= 'no'
+      self%along = [cos(towards), sin(towards)]
+      self%across = merge(1, -1, self%rotating == 'forward')*[-sin(towards), cos(towards)]
+   end subroutine prepare
+
    !> Whether it acts at time t, s.
    pure logical function acts(self, t)
       class(excitation_type), intent(in) :: self
       real(wp), intent(in) :: t
       acts = t >= self%start
-      if (is_set(self%end) .and. self%kind /= 'ramp') acts = acts .and. t < self%end
+      if (is_set(self%end) .and. self%law /= ramp) acts = acts .and. t < self%end
    end function acts
 
    !> Its phase at time t, rad, where the shaft has turned by an angle, rad, since the start of the excitation; and the
@@ -67,7 +96,8 @@ contains
          rate = self%frequency_ratio*speed
       else
          slope = 0
-         if (self%kind == 'chirp') slope = (self%final_frequency_hz - self%frequency_hz)/(self%end - self%start)
+         if (is_set(self%final_frequency_hz)) slope = (self%final_frequency_hz - self%frequency_hz) &
+            & /(self%end - self%start)
          angle = 2*pi*(self%frequency_hz + 0.5_wp*slope*after)*after
          rate = 2*pi*(self%frequency_hz + slope*after)
       end if
@@ -79,16 +109,9 @@ contains
    pure function direction(self, angle)
       class(excitation_type), intent(in) :: self
       real(wp), intent(in) :: angle
-      real(wp) :: direction(2), towards
-      towards = self%direction_deg*degree
-      select case (self%rotating)
-      case ('forward')
-         direction = [cos(towards + angle), sin(towards + angle)]
-      case ('backward')
-         direction = [cos(towards - angle), sin(towards - angle)]
-      case default
-         direction = cos(angle)*[cos(towards), sin(towards)]
-      end select
+      real(wp) :: direction(2)
+      direction = cos(angle)*self%along
+      if (self%rotates) direction = direction + sin(angle)*self%across
    end function direction
 
    !> Between which rows of its table a time after its start, s, lies: the number of the first; 0 outside.
@@ -119,14 +142,14 @@ contains
       integer :: k
       force = 0
       if (.not. self%acts(t)) return
-      select case (self%kind)
-      case ('table')
+      select case (self%law)
+      case (table)
          k = self%interval(t - self%start)
          if (k > 0) force = self%table(:, k) + (t - self%start - self%time(k))*slope(self, k)
-      case ('step')
-         force = self%amplitude*self%direction(0.0_wp)
-      case ('ramp')
-         force = self%amplitude*min(1.0_wp, (t - self%start)/(self%end - self%start))*self%direction(0.0_wp)
+      case (step)
+         force = self%amplitude*self%along
+      case (ramp)
+         force = self%amplitude*min(1.0_wp, (t - self%start)/(self%end - self%start))*self%along
       case default
          call self%phase(t, turned, 0.0_wp, angle, rate)
          force = self%amplitude*self%direction(angle)
@@ -141,14 +164,14 @@ contains
       integer :: k
       force_rate = 0
       if (.not. self%acts(t)) return
-      select case (self%kind)
-      case ('table')
+      select case (self%law)
+      case (table)
          k = self%interval(t - self%start)
          if (k > 0) force_rate = slope(self, k)
-      case ('step')
+      case (step)
          force_rate = 0
-      case ('ramp')
-         if (t < self%end) force_rate = self%amplitude/(self%end - self%start)*self%direction(0.0_wp)
+      case (ramp)
+         if (t < self%end) force_rate = self%amplitude/(self%end - self%start)*self%along
       case default
          call self%phase(t, turned, speed, angle, rate)
          force_rate = self%amplitude*rate*self%direction(angle + 0.5_wp*pi)
@@ -171,9 +194,9 @@ contains
       real(wp), intent(inout) :: next
       logical, intent(inout) :: jumps
       integer :: k
-      call take_earlier(self%start, self%kind /= 'ramp' .and. self%kind /= 'table', t, next, jumps)
-      if (is_set(self%end)) call take_earlier(self%end, self%kind /= 'ramp', t, next, jumps)
-      if (self%kind /= 'table') return
+      call take_earlier(self%start, self%law < ramp, t, next, jumps)
+      if (is_set(self%end)) call take_earlier(self%end, self%law /= ramp, t, next, jumps)
+      if (self%law /= table) return
       do k = 1, size(self%time)
          call take_earlier(self%start + self%time(k), k == 1 .or. k == size(self%time), t, next, jumps)
       end do

@@ -22,6 +22,7 @@ module operating_point
    contains
       procedure :: speed
       procedure :: shaft_angle
+      procedure :: excitation_force
       procedure :: excitation_forces
       procedure :: excitation_rates
       procedure :: next_switch
@@ -44,7 +45,9 @@ contains
          point%load = r%static_load - [r%mass*r%gravity, 0.0_wp]
       end associate
       point%unbalance = inputs%unbalance()
-      if (size(inputs%excitations) > 0) point%excitations = inputs%excitations
+      if (size(inputs%excitations) == 0) return
+      point%excitations = inputs%excitations
+      call point%excitations%prepare()
    end function point_of_case
 
    !> Shaft speed at time t, rad/s.
@@ -60,6 +63,20 @@ contains
       real(wp), intent(in) :: t
       shaft_angle = (self%speed_rpm*rpm + 0.5_wp*self%acceleration*t)*t
    end function shaft_angle
+
+   !> The sum of the forces of the excitations along y and z at time t, N.
+   pure function excitation_force(self, t) result(force)
+      class(operating_point_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp) :: force(2)
+      integer :: i
+      force = 0
+      do i = 1, excitation_count(self)
+         associate (x => self%excitations(i))
+            force = force + x%force(t, self%shaft_angle(t) - self%shaft_angle(x%start))
+         end associate
+      end do
+   end function excitation_force
 
    !> The forces of the excitations along y and z at time t, N, (2, excitation).
    pure function excitation_forces(self, t) result(forces)

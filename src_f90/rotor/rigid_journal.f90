@@ -78,7 +78,7 @@ contains
       speed = point%speed(t)
       direction = [cos(phase), sin(phase)]
       force = point%load + point%unbalance*(speed**2*direction + point%acceleration*[direction(2), -direction(1)])
-      if (allocated(point%excitations)) force = force + sum(point%excitation_forces(t), dim=2)
+      if (allocated(point%excitations)) force = force + point%excitation_force(t)
    end function force
 
    !> The unbalance turns, and excitations change.
