@@ -199,6 +199,15 @@ what is made.
 |---|---|---|---|---|
 {heat}
 
+Bearings with temperatures along and across their films (`thermal%model = 'film'`, default stations and layers), against
+an independent program that finds film, energy and conduction in the pad by finite volumes (120 x 24 and 240 x 48 in
+each film, extrapolated). The first is Fillon's with pads that hardly weigh anything; the second has five pads, D = 101.6 mm,
+L = 50.8 mm, 10 kN between two of them and VG 32; the third is that of the paper with VG 46.
+
+| bearing | quantity | here | reference | difference |
+|---|---|---|---|---|
+{fields}
+
 What vibration changes at the end of a run-up of the paper's pads with VG 46, 3000 to 6500 rpm in 2 s with 10 ml in
 each groove, of which the temperatures know nothing: the mean over the last two revolutions against a run-up without
 unbalance, for each pad. The last column is the oil's warming from the leading to the trailing edge, if all heat

@@ -40,6 +40,37 @@ RUN_UP = (
     *("case%task=march", "operation%speed_rpm=3000", "operation%final_speed_rpm=6500"),
     *("operation%duration=2", "output%start_time=1.97", "thermal%march=groove", "oil%groove_volume=1e-5"),
 )
+#: Cases with temperatures along and across films, and what an independent program has of them: thinnest film,
+#: um; highest and shaft temperature, C; loss, W; K_yy, MN/m; C_yy, MN s/m.
+FIELDS = {
+    "Fillon, 4000 rpm": (
+        FILLON.replace("'pad'", "'film'").replace("arc_deg", "pivot_distance = 20e-3, arc_deg"),
+        ("pads%mass=1e-3", "pads%inertia=1e-6", "pads%centre_radial=-0.01"),
+        (31.20765, 68.40364, 54.26248, 2164.421, 353.4343, 0.6087114),
+    ),
+    "five pads, 9000 rpm": (
+        """&rotor  mass = 1000, gravity = 10, unbalance = 0 /
+&operation  speed_rpm = 9000 /
+&bearing  journal_radius = 50.8e-3, axial_length = 50.8e-3, machined_clearance = 108.5714e-6
+  assembled_clearance = 76e-6 /
+&oil  kinematic_viscosity = 32e-6, 5.362e-6, density_at_15 = 870, density_slope = -0.64 /
+&thermal  model = 'film' /
+&pads  pivot_angle_deg = -54, 18, 90, 162, 234, arc_deg = 60, pivot_distance = 14e-3, motion = 'tilting_only'
+  mass = 0.33856, inertia = 0.00013605, centre_radial = -9.3406e-3 /
+""",
+        (),
+        (27.10105, 95.05194, 58.98248, 6078.02, 510.8134, 0.3927633),
+    ),
+    "the paper's pads, 6500 rpm": (
+        """&asperity  model = 'none' /
+&oil  kinematic_viscosity = 46e-6, 6.8e-6, density_at_15 = 870, density_slope = -0.64 /
+&thermal  model = 'film' /
+&pads  motion = 'tilting_only' /
+""",
+        (),
+        (35.95983, 85.03676, 56.42648, 5260.808, 563.0279, 0.9732254),
+    ),
+}
 #: Viscosities, mPa s, of an oil of 46 and 6.8 mm2/s.
 WALTHER = {40: 39.284, 60: 17.348, 80: 9.197, 100: 5.546}
 
@@ -81,6 +112,30 @@ def warm_bearings(program, folder):
         yield compared("journal z, um", 1e6 * e["journal_z"], -7)
         yield compared("K_yz, MN/m", 1e-6 * at.stiffness[0, 0, 1], 61)
         yield compared("K_zy, MN/m", 1e-6 * at.stiffness[0, 1, 0], 61)
+
+
+def fields(program, folder):
+    """Rows of bearings with temperatures along and across their films against an independent program."""
+    for name, (text, changes, references) in FIELDS.items():
+        case = Path(folder) / "film.nml"
+        case.write_text(text)
+        with run(program, case, folder, "case%task=coefficients", *changes) as found:
+            e, at = found.equilibrium, tiltpad.coefficients(found, "free")
+            here = {
+                "thinnest film, um": 1e6 * e["min_film_thickness"].min(),
+                "maximum temperature, C": e["maximum_temperature"].max(),
+                "shaft, C": float(e["shaft_temperature"]),
+                "loss, W": float(e["total_power_loss"]),
+                "K_yy, MN/m": 1e-6 * at.stiffness[0, 0, 0],
+                "C_yy, MN s/m": 1e-6 * at.damping[0, 0, 0],
+            }
+        for (quantity, value), reference in zip(here.items(), references, strict=True):
+            part = (
+                f"{value - reference:+.2f} K"
+                if quantity.endswith("C")
+                else f"{100 * (value / reference - 1):+.2f} %"
+            )
+            yield row(name, quantity, f"{value:.5g}", f"{reference:.5g}", part)
 
 
 def measured(program, folder):
@@ -168,4 +223,4 @@ def vibration(program, folder):
         yield row(unbalance, f"{1e6 * size:.1f}", f"{size / clearance:.2f}", *(cells if unbalance else "---"))
 
 
-TABLES = (walther, warm_bearings, measured, heat, vibration)
+TABLES = (walther, warm_bearings, measured, heat, fields, vibration)

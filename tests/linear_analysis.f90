@@ -30,7 +30,7 @@ contains
       model = new_machine_model(inputs)
       call find_equilibrium(model, own, error)
       if (.not. allocated(error)) then
-         model%oil%viscosity = own%viscosity
+         model%oil = own%oil
          call make_fine(model, converged)
          call settle_equilibrium(converged, own, state, error)
       end if

@@ -6,7 +6,8 @@ module equilibrium_notes
    use heat_balance_equations, only: static_figures_type, find_static_figures
    use bearings_alone, only: bearing_alone, part_of, bearing_loads
    use bearing_file, only: bearing_file_type
-   use equilibrium_results, only: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures
+   use equilibrium_results, only: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, &
+      & put_film_temperatures
    use machine_results, only: put_machine_equilibrium
    use case_run, only: case_run_type
    use run_summary, only: print_shaft, print_equilibrium, stability_text, print_figures, print_temperatures, &
@@ -23,7 +24,7 @@ contains
       type(equilibrium_type), intent(in) :: static
       real(wp), allocatable :: loads(:, :)
       integer :: b
-      run%model%oil%viscosity = static%viscosity
+      run%model%oil = static%oil
       run%computed = .true.
       if (.not. run%inputs%is_machine()) then
          call note_bearing(run, run%model, static, 1, 'equilibrium: ')
@@ -75,11 +76,12 @@ contains
          call put_equilibrium(file, static, inputs%tilting(), inputs%tilting_radial())
          call find_static_figures(model, static, figures)
          call put_figures(file, inputs, figures)
-         if (allocated(figures%oil)) call put_temperatures(file, figures%oil, static%viscosity)
+         if (allocated(figures%oil)) call put_temperatures(file, figures%oil, static%oil%viscosity)
+         if (allocated(static%films)) call put_film_temperatures(file, static%films)
          if (run%quiet) return
          call print_equilibrium(title, static, inputs, .not. run%inputs%is_machine())
          call print_figures(inputs, figures)
-         if (allocated(figures%oil)) call print_temperatures(figures%oil, static%viscosity)
+         if (allocated(figures%oil)) call print_temperatures(figures%oil, static%oil%viscosity)
       end associate
    end subroutine note_bearing
 end module equilibrium_notes

@@ -151,7 +151,7 @@ contains
          call find_equilibrium(run%model, static, error, stop_requested)
       end if
       if (.not. allocated(error)) then
-         run%model%oil%viscosity = static%viscosity
+         run%model%oil = static%oil
          y = run%model%static_state(static%rotor, static%tilt, static%pivot_deflection)
          call let_grooves_warm(run, y, error)
          if (present(equilibrium_state)) equilibrium_state = y
@@ -220,7 +220,7 @@ contains
       rotor(:size(static%rotor)) = static%rotor
       pads%tilt = static%tilt
       pads%pivot_deflection = static%pivot_deflection
-      run%model%oil%viscosity = static%viscosity
+      run%model%oil = static%oil
       call put_figure(run%file, 'pad_without_equilibrium', merge(1.0_wp, 0.0_wp, held), '1', &
          & '1 where it has no equilibrium: the march starts without tilt')
    end subroutine start_partially

@@ -3,8 +3,8 @@ module linear_algebra
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv, zgesv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, solve_2x2, simd_width, &
-      & padded, apply
+   public :: dgesv, dgbsv, zgesv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, solve_2x2, &
+      & simd_width, padded, apply
 
    !> Rows are filled up to a multiple of this, so that loops over them have no remainder.
    integer, parameter :: simd_width = 8
@@ -17,6 +17,15 @@ module linear_algebra
          real(wp), intent(inout) :: a(lda, *), b(ldb, *)
          integer, intent(out) :: ipiv(*), info
       end subroutine dgesv
+
+      !> The same of a band matrix with kl diagonals below and ku above its own: a(kl + ku + 1 + i - j, j) is its
+      !> element (i, j).
+      subroutine dgbsv(n, kl, ku, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         integer, intent(in) :: n, kl, ku, nrhs, lda, ldb
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out) :: ipiv(*), info
+      end subroutine dgbsv
 
       !> The same of complex numbers.
       subroutine zgesv(n, nrhs, a, lda, ipiv, b, ldb, info)

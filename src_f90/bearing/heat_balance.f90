@@ -15,7 +15,7 @@ module heat_balance
    use bearing_losses, only: pad_loss
    implicit none (type, external)
    private
-   public :: heat_balance_type, oil_temperatures_type, new_heat_balance
+   public :: heat_balance_type, oil_temperatures_type, groove_type, new_heat_balance, new_grooves
 
    !> Of the oil, C.
    type :: oil_temperatures_type
@@ -25,10 +25,17 @@ module heat_balance
       real(wp) :: shaft = 0, drain = 0
    end type oil_temperatures_type
 
+   !> The groove before a pad: the pad upstream, at the next larger angle; which share of the oil that leaves it may
+   !> come across.
+   type :: groove_type
+      integer :: upstream = 0
+      real(wp) :: carry_over = 0
+   end type groove_type
+
    type :: heat_balance_type
       private
       type(oil_type) :: oil
-      !> Of each pad the one upstream, at the next larger angle; which share of the oil that leaves it may come across.
+      !> Before each pad (groove_type).
       integer, allocatable :: upstream(:)
       real(wp), allocatable :: carry_over(:)
       !> m.
@@ -66,32 +73,40 @@ contains
    !> For the bearing and the oil of a case.
    pure type(heat_balance_type) function new_heat_balance(inputs) result(self)
       type(case_type), intent(in) :: inputs
-      real(wp) :: turn, nearest, gap
-      integer :: i, k
+      type(groove_type) :: grooves(inputs%pad_count())
       self%oil = inputs%oil
       self%journal_radius = inputs%bearing%journal_radius
       self%arc = inputs%pads%arc_deg*degree*inputs%bearing%journal_radius
       self%section = inputs%bearing%machined_clearance*inputs%bearing%axial_length
-      allocate (self%upstream(inputs%pad_count()), source=0)
-      allocate (self%carry_over(inputs%pad_count()), source=0.0_wp)
+      grooves = new_grooves(inputs)
+      self%upstream = grooves%upstream
+      self%carry_over = grooves%carry_over
+   end function new_heat_balance
+
+   !> The grooves of the bearing of a case.
+   pure function new_grooves(inputs) result(grooves)
+      type(case_type), intent(in) :: inputs
+      type(groove_type) :: grooves(inputs%pad_count())
+      real(wp) :: turn, nearest, gap
+      integer :: i, k
       associate (p => inputs%pads)
-         do i = 1, size(self%upstream)
+         do i = 1, size(grooves)
             nearest = huge(nearest)
-            do k = 1, size(self%upstream)
+            do k = 1, size(grooves)
                turn = modulo(p%pivot_angle_deg(k) - p%pivot_angle_deg(i), 360.0_wp)
                ! a pad alone is upstream of itself
                if (k == i) turn = 360
                if (turn >= nearest) cycle
                nearest = turn
-               self%upstream(i) = k
+               grooves(i)%upstream = k
             end do
-            associate (up => self%upstream(i))
+            associate (up => grooves(i)%upstream)
                gap = nearest - p%pivot_ratio(i)*p%arc_deg(i) - (1 - p%pivot_ratio(up))*p%arc_deg(up)
             end associate
-            if (gap <= inputs%oil%widest_gap_deg) self%carry_over(i) = inputs%oil%carry_over
+            if (gap <= inputs%oil%widest_gap_deg) grooves(i)%carry_over = inputs%oil%carry_over
          end do
       end associate
-   end function new_heat_balance
+   end function new_grooves
 
    !> The temperatures with these losses and flows, of films with these viscosities, Pa s, at a speed, rad/s. `ok` is
    !> false where neither flow nor shaft carries the heat off.

@@ -36,6 +36,7 @@ contains
       end if
       call check_output(inputs, error)
       call check_tasks(inputs, error)
+      call check_film_temperatures(inputs, error)
       call check_branch(inputs, error)
       call check_excitations(inputs, error)
    end subroutine check_case
@@ -257,6 +258,21 @@ contains
             & //', where the search starts', error)
       end associate
    end subroutine check_tasks
+
+   !> Temperatures along and across films are for what stands still, of one bearing.
+   subroutine check_film_temperatures(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      if (inputs%thermal%model /= 'film') return
+      call require(.not. inputs%is_machine(), 'thermal%model = ''film'': is for one bearing; machines take ''pad''', &
+         & error)
+      associate (task => inputs%about%task)
+         call require(task == 'equilibrium' .or. task == 'coefficients', 'thermal%model = ''film'': is for case%task ' &
+            & //'= ''equilibrium'' or ''coefficients''; '''//task//''' takes ''pad''', error)
+      end associate
+      call require(.not. inputs%coefficients%threshold_up_to_rpm > 0, 'coefficients%threshold_up_to_rpm = ' &
+         & //to_text(inputs%coefficients%threshold_up_to_rpm)//': needs thermal%model = ''pad'' or ''none''', error)
+   end subroutine check_film_temperatures
 
    !> A branch needs a parameter; `case_parameter` checks what it, its last value and its step mean.
    subroutine check_branch(inputs, error)

@@ -171,7 +171,11 @@ contains
             call require_range('centre_radial', p%centre_radial(i), centre_range, error)
          end if
          p%density(i) = unset
-         p%thickness(i) = unset
+         if (inputs%thermal%model == 'film') then
+            call fill(p%thickness(i), p%pivot_distance(i))
+         else
+            p%thickness(i) = unset
+         end if
       end associate
    end subroutine set_pad
 
@@ -185,7 +189,8 @@ contains
             call raise(error, input_error, 'pads%density = '//to_text(p%density(i))//': pads%mass = ' &
                & //to_text(p%mass(i))//' is given too; give one of them (pad '//to_text(i)//')')
          else if (is_set(p%thickness(i)) .and. is_set(p%mass(i)) .and. is_set(p%inertia(i)) &
-            & .and. is_set(p%centre_tangential(i)) .and. is_set(p%centre_radial(i))) then
+            & .and. is_set(p%centre_tangential(i)) .and. is_set(p%centre_radial(i)) &
+            & .and. inputs%thermal%model /= 'film') then
             call raise(error, input_error, 'pads%thickness = '//to_text(p%thickness(i))//': has no effect where ' &
                & //'mass, inertia, centre_tangential and centre_radial are given (pad '//to_text(i)//')')
          end if

@@ -77,12 +77,16 @@ module case_groups
       real(wp) :: shaft_nusselt = 3, shaft_temperature = unset
       !> Oil between two pads, m^3.
       real(wp) :: groove_volume = 0
+      !> Film coefficient at back and ends of the pads, W/(m^2 K); temperature there (unset: that of the supply).
+      real(wp) :: back_coefficient = 100, back_temperature = unset
    end type oil_type
 
    !> The heat balance.
    type :: thermal_type
       character(len=:), allocatable :: model
       character(len=:), allocatable :: march
+      !> Stations along the arc, and layers across the film, of its temperatures.
+      integer :: stations = 40, layers = 12
    end type thermal_type
 
    !> One value a pad.
@@ -92,6 +96,8 @@ module case_groups
       !> What the four above follow from where they are left out; unset in a complete case. Fixed pads may leave out
       !> all six: then they stay unset.
       real(wp), allocatable :: density(:), thickness(:)
+      !> W/(m K); it counts, with the thickness, where films have temperatures.
+      real(wp), allocatable :: conductivity(:)
       character(len=:), allocatable :: motion
    end type pads_type
 

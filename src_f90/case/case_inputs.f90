@@ -80,6 +80,7 @@ contains
       inputs%pads%centre_radial = [-10.1e-3_wp, -10.1e-3_wp]
       inputs%pads%density = [unset, unset]
       inputs%pads%thickness = [unset, unset]
+      inputs%pads%conductivity = [50.0_wp, 50.0_wp]
       inputs%pads%motion = 'tilting_radial'
       inputs%pivot%law = 'fang'
       inputs%pivot%file = ''

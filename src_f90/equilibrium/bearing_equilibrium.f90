@@ -54,7 +54,7 @@ contains
          if (.not. allocated(error)) then
             call make_static(warm, warm%point%cavitation, static)
             y = static%static_state(found%rotor, found%tilt, found%pivot_deflection)
-            call solve_thermal_equilibrium(static, y, found%residual, error, give_up)
+            call solve_thermal_equilibrium(static, y, found%residual, error, give_up, films=found%films)
          end if
          if (allocated(error)) then
             if (error%status == stopped) return

@@ -41,7 +41,7 @@ contains
          part%pivot_load = found%pivot_load(pads)
          part%min_film_thickness = found%min_film_thickness(pads)
          part%max_pressure = found%max_pressure(pads)
-         part%viscosity = found%viscosity(pads)
+         part%oil = found%oil(pads)
       end associate
    end function part_of
 

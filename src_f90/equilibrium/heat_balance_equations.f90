@@ -322,10 +322,8 @@ contains
       figures%attitude_angle = attitude_angle(model%inputs, static%rotor)
       call find_losses(model, model%static_state(static%rotor, static%tilt, static%pivot_deflection), balance)
       figures%pads = balance%losses
-      associate (surface_speed => model%point%speed(0.0_wp)*model%inputs%bearing%journal_radius)
-         figures%reynolds_number = figures%pads%reynolds_number(surface_speed, model%inputs%oil%density, &
-            & static%viscosity)
-      end associate
+      figures%reynolds_number = figures%pads%reynolds_number(model%point%speed(0.0_wp) &
+         & *model%inputs%bearing%journal_radius, model%inputs%oil%density, static%oil%viscosity)
       associate (pads => figures%pads, heat => model%inputs%oil%density*model%inputs%oil%specific_heat)
          ! oil that leaves at the sides is warmed half of the way
          figures%temperature_rise = rise(pads%power(), heat*(pads%inlet + pads%outlet)/2)
@@ -334,7 +332,9 @@ contains
       end associate
       if (.not. has_warm_oil(model)) return
       allocate (figures%oil)
-      call balance%bearings(1)%heat%temperatures(figures%pads, static%viscosity, model%point%speed(0.0_wp), &
+      if (allocated(static%films)) figures%oil = static%films%oil
+      if (allocated(static%films)) return
+      call balance%bearings(1)%heat%temperatures(figures%pads, static%oil%viscosity, model%point%speed(0.0_wp), &
          & figures%oil, balanced)
       if (.not. balanced) deallocate (figures%oil)
    end subroutine find_static_figures

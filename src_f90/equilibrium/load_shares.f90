@@ -199,7 +199,7 @@ contains
       if (.not. allocated(y)) call find_bearing_equilibrium(share%alone, found, error, give_up)
       if (allocated(error)) return
       share%found = found
-      share%alone%oil%viscosity = found%viscosity
+      share%alone%oil = found%oil
       call take_stiffness(share, error)
    end subroutine bear_one
 
@@ -280,7 +280,7 @@ contains
          associate (of => shares(b)%found)
             tilt = [tilt, of%tilt]
             deflection = [deflection, of%pivot_deflection]
-            model%oil(model%layout%bearings(b)%all_pads())%viscosity = of%viscosity
+            model%oil(model%layout%bearings(b)%all_pads()) = of%oil
             if (found%search == '' .or. of%search /= 'first') found%search = of%search
          end associate
       end do

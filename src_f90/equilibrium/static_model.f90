@@ -3,6 +3,8 @@
 module static_model
    use kinds, only: wp
    use case_inputs, only: case_type
+   use film_solver, only: film_oil
+   use film_network, only: warm_films_type
    use operating_point, only: operating_point_type
    use factories, only: converged_films, quick_films
    use abstract_rotor, only: journal_motion
@@ -22,8 +24,9 @@ module static_model
       real(wp), allocatable :: rotor(:), tilt(:), pivot_deflection(:), pivot_load(:)
       !> Per pad minimum film thickness, m, and maximum pressure, Pa.
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
-      !> Of the oil on every pad, Pa s.
-      real(wp), allocatable :: viscosity(:)
+      !> The oil of every pad's film; its temperatures where films have them along and across.
+      type(film_oil), allocatable :: oil(:)
+      type(warm_films_type), allocatable :: films
       !> Largest unbalanced force over the reference force (pseudo_transient).
       real(wp) :: residual = huge(1.0_wp)
       type(stability_type) :: stability
@@ -166,6 +169,6 @@ contains
       found%pivot_load = samples%pivot_load
       found%min_film_thickness = samples%min_film_thickness
       found%max_pressure = samples%max_pressure
-      found%viscosity = model%oil%viscosity
+      found%oil = model%oil
    end subroutine describe
 end module static_model

@@ -11,8 +11,11 @@ module thermal_equilibrium
    use oil_properties, only: viscosity
    use equations_of_motion, only: machine_model
    use force_balance, only: stability_at
-   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_lack, check_heat
+   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_lack, &
+      & find_temperatures, check_heat
    use static_model, only: equilibrium_type, describe, solve_equilibrium, start
+   use film_network, only: warm_films_type, new_warm_films
+   use film_equilibrium, only: solve_warm_films
    implicit none (type, external)
    private
    public :: guess_oil, guesses, solve_thermal_equilibrium, settle
@@ -52,7 +55,7 @@ contains
 
    !> Brings a state that is near equilibrium to equilibrium, as solve_equilibrium does, and the oil, where it is warm,
    !> to the temperatures of this equilibrium: the model then has its viscosities.
-   subroutine solve_thermal_equilibrium(model, y, residual, error, give_up, held, kept)
+   subroutine solve_thermal_equilibrium(model, y, residual, error, give_up, held, kept, films)
       type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
@@ -62,7 +65,10 @@ contains
       logical, intent(in), optional :: held(:)
       !> Where grooves and shaft keep their temperatures: these, of each bearing.
       type(oil_temperatures_type), intent(in), optional :: kept(:)
+      !> The films' temperatures, where the case wants them along and across.
+      type(warm_films_type), allocatable, intent(out), optional :: films
       type(state_balance_type) :: balance
+      type(oil_temperatures_type) :: oil(size(model%bearings))
       real(wp), dimension(model%layout%pads) :: last, step
       real(wp) :: inverse(size(step), size(step))
       integer :: round
@@ -90,6 +96,10 @@ contains
             & //'settle: after '//to_text(most_rounds)//' rounds its viscosity still changes by ' &
             & //to_text(100*lack)//' %')
       end associate
+      if (allocated(error) .or. .not. (present(films) .and. model%inputs%thermal%model == 'film')) return
+      call find_temperatures(model, y, balance, oil)
+      films = new_warm_films(model%inputs, oil(1)%mean)
+      call solve_warm_films(model, y, films, residual, error, give_up, held)
    end subroutine solve_thermal_equilibrium
 
    !> Brings an equilibrium that another model has found to that of this one, whose films differ a little; y is its
@@ -102,8 +112,13 @@ contains
       procedure(asked_to_stop), optional :: give_up
       logical :: ok
       y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
-      model%oil%viscosity = found%viscosity
-      call solve_thermal_equilibrium(model, y, found%residual, error, give_up)
+      model%oil = found%oil
+      if (any(model%oil%varies)) then
+         ! the temperatures of films stay what they are
+         call solve_equilibrium(model, y, found%residual, error, give_up)
+      else
+         call solve_thermal_equilibrium(model, y, found%residual, error, give_up)
+      end if
       if (allocated(error)) return
       call describe(model, y, found)
       call stability_at(model, y, found%stability, ok)

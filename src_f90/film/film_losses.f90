@@ -14,6 +14,7 @@ module film_losses
    use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok, cavitation_none, &
       & cavitation_reynolds
    use pad_gap, only: pad_gap_type, pad_directions, over_arc
+   use film_oils, only: arc_weights
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type
    use direct_film, only: is_cavitated, share_of_modes
@@ -56,6 +57,7 @@ module film_losses
    contains
       procedure :: find
       procedure, private :: full_film
+      procedure, private :: uneven_film
       procedure, private :: add_cavitation
       procedure, private :: set_heat
    end type film_losses_type
@@ -93,6 +95,10 @@ contains
       call self%whole%evaluate_pad(1, motion, oil, speed, .false., response)
       loss%status = response%status
       if (loss%status /= film_ok) return
+      if (oil%varies) then
+         call self%uneven_film(motion, oil, speed, response, loss)
+         return
+      end if
       driven%force = response%force
       call self%full_film(motion, oil, speed, driven, loss)
       if (self%condition /= cavitation_none .and. is_cavitated(self%gap%cavitation_pressure, response)) then
@@ -137,6 +143,60 @@ contains
             & *dot_product(motion%velocity, over_arc(d))
       end associate
    end subroutine full_film
+
+   !> Loss and flows of oil of uneven viscosity, all by volumes: what drives it is no longer one velocity.
+   subroutine uneven_film(self, motion, oil, speed, fourier, loss)
+      class(film_losses_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
+      real(wp), intent(in) :: speed
+      !> That of the modes.
+      type(film_response), intent(in) :: fourier
+      type(film_loss), intent(inout) :: loss
+      type(elimination_film_type) :: volumes(2)
+      type(volume_flow_type) :: whole(2), found(2)
+      type(arc_weights) :: at_edge
+      integer :: k, status
+      logical :: cavitates
+      cavitates = self%condition /= cavitation_none .and. is_cavitated(self%gap%cavitation_pressure, fourier)
+      do k = 1, 2
+         volumes(k) = new_following_grid(self%gap, motion, speed, k*(enough_rows/2))
+         call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), found(k), status)
+         loss%status = max(loss%status, status)
+      end do
+      if (.not. cavitates) found = whole
+      associate (gap => self%gap, d => self%directions, surface => speed*self%gap%journal_radius, &
+         & r => finer(found(1), found(2)))
+         at_edge = oil%weights(gap, gap%leading_angle)
+         loss%force = r%force
+         if (.not. cavitates) loss%force = fourier%force
+         loss%couette = surface**2*sliding_shear(gap, motion, oil) - r%lacking
+         loss%pressure = r%heat
+         loss%wedge = r%wedge
+         loss%inlet = surface*at_edge%sliding/2*gap%thickness(motion, d%leading(1), d%leading(2))*gap%axial_length &
+            & + r%inlet
+         loss%outlet = r%outlet
+         loss%side = r%side
+         loss%unfed = r%unfed
+      end associate
+   end subroutine uneven_film
+
+   !> Integral of f0/h over the area of a full film, N s/m, by Simpson's rule.
+   pure real(wp) function sliding_shear(gap, motion, oil)
+      type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
+      integer, parameter :: n = 1000
+      real(wp) :: phi(0:n), weight(0:n)
+      type(arc_weights) :: weights(0:n)
+      integer :: i
+      phi = [(i*gap%arc()/n - gap%trailing_angle, i=0, n)]
+      weights = oil%weights(gap, phi)
+      weight = [(2 + 2*mod(i, 2), i=0, n)]
+      weight([0, n]) = 1
+      sliding_shear = oil%viscosity*gap%pad_radius()*gap%axial_length*gap%arc()/(3*n) &
+         & *sum(weight*weights%shear/gap%thickness(motion, sin(phi), cos(phi)))
+   end function sliding_shear
 
    !> The part of w that comes from the journal's rotation, m/s.
    pure function wedge_velocity(self, motion, speed)

@@ -102,8 +102,8 @@ contains
       solved = self%counters%fourier
       associate (pad => self%tabulated(i))
          pad%found = .false.
-         if (pad%shape > 0) call pad%look_up(self%shapes(pad%shape), motion, oil, speed, self%cavitates(), &
-            & want_derivatives, self%counters, response)
+         if (pad%shape > 0 .and. .not. oil%varies) call pad%look_up(self%shapes(pad%shape), motion, oil, speed, &
+            & self%cavitates(), want_derivatives, self%counters, response)
          if (pad%found) then
             if (self%counters%fourier == solved) self%counters%looked_up = self%counters%looked_up + 1
          else

@@ -77,6 +77,10 @@ contains
          & 'temperature of the shaft; if left out, that at which it takes no heat on the whole')
       call v%number(oil%groove_volume, 'groove_volume', 0.0_wp, 1.0_wp, 'm^3', &
          & 'oil between two pads, for thermal%march = groove')
+      call v%number(oil%back_coefficient, 'back_coefficient', 0.0_wp, 1e6_wp, 'W/(m^2 K)', &
+         & 'for thermal%model = film: film coefficient at the back and both ends of the pads')
+      call v%number(oil%back_temperature, 'back_temperature', low, high, 'C', &
+         & 'likewise: temperature of the oil there; if left out, supply_temperature')
    end subroutine list_oil
 
    !> The pads of a bearing.
@@ -106,6 +110,9 @@ contains
       call v%each(pads%thickness, 'pads', 'thickness', 1e-6_wp, 1.0_wp, 'm', &
          & 'radial thickness of the pad, for mass, inertia and centre of gravity; pivot_distance where it is needed ' &
          & //'and not given')
+      call v%each(pads%conductivity, 'pads', 'conductivity', 1e-3_wp, 1e4_wp, 'W/(m K)', &
+         & 'for thermal%model = film: thermal conductivity of the pad, through the thickness pads%thickness, or else ' &
+         & //'pivot_distance')
       call v%word(pads%motion, 'motion', 'tilting_radial tilting_only fixed', &
          & 'tilting_radial: the pads tilt and move radially on their pivots; tilting_only: they only tilt; fixed: ' &
          & //'neither, lobes of a plain bearing')

@@ -142,8 +142,11 @@ contains
       type(case_type), intent(inout) :: inputs
       type(variable_table_type), intent(inout) :: v
       call v%group('thermal', 'Heat balance of the oil')
-      call v%word(inputs%thermal%model, 'model', 'none pad', &
-         & 'none: all oil has supply_temperature; pad: a temperature and a viscosity for each pad')
+      call v%word(inputs%thermal%model, 'model', 'none pad film', &
+         & 'none: all oil has supply_temperature; pad: a temperature and a viscosity for each pad; film: ' &
+         & //'temperatures along and across each film, and in the pad')
+      call v%whole(inputs%thermal%stations, 'stations', 8.0_wp, 400.0_wp, 'film: stations along the arc')
+      call v%whole(inputs%thermal%layers, 'layers', 4.0_wp, 100.0_wp, 'film: layers across the film')
       call v%word(inputs%thermal%march, 'march', 'frozen groove', &
          & 'in a march; frozen: temperatures of the equilibrium; groove: the oil between the pads warms and cools')
    end subroutine list_thermal

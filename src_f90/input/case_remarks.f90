@@ -81,7 +81,7 @@ contains
          & //'own: eccentricity ratio and attitude angle are about the centre of the bearing and over its ' &
          & //'clearance, so that they differ from those of a cylindrical bore'//newline
       associate (surface => inputs%highest_speed()*inputs%bearing%journal_radius)
-         if (inputs%thermal%model /= 'none' .and. surface > compared_up_to) lines = lines//'surface speed ' &
+         if (inputs%thermal%model == 'pad' .and. surface > compared_up_to) lines = lines//'surface speed ' &
             & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad ' &
             & //'shows trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)'//newline
       end associate

@@ -4,13 +4,15 @@ module equilibrium_results
    use record, only: record_type
    use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
+   use film_network, only: warm_films_type
+   use film_energy, only: solid_layers
    use bearing_numbers, only: load, specific_load, sommerfeld_number, of_supply
    use static_model, only: equilibrium_type
    use heat_balance_equations, only: static_figures_type
    use summary_group, only: put_figure
    implicit none (type, external)
    private
-   public :: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures
+   public :: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, put_film_temperatures
 
 contains
 
@@ -138,4 +140,22 @@ contains
          call file%put_list('equilibrium/'//name//'_temperature', values, 'degC', long_name, 'pad')
       end subroutine temperature
    end subroutine put_temperatures
+
+   !> Writes the temperatures along and across the films, and of the pads' surfaces, C.
+   subroutine put_film_temperatures(file, films)
+      class(record_type), intent(inout) :: file
+      type(warm_films_type), intent(in) :: films
+      integer :: i
+      associate (n => size(films%surfaces, 1), zeta => films%heat(1)%zeta, &
+         & film => films%fields(solid_layers + 1:, :, :))
+         call file%put_list('film_arc', [((i - 0.5_wp)/n, i=1, n)], '1', &
+            & 'place on the arc, from the leading edge (0) to the trailing edge (1)', 'film_arc')
+         call file%put_list('film_height', (zeta(:size(zeta) - 1) + zeta(2:))/2, '1', &
+            & 'height in the film, from the pad (0) to the journal (1)', 'film_height')
+         call file%put_array('equilibrium/film_temperature', [film], shape(film), 'degC', 'temperature of the oil', &
+            & 'pad film_arc film_height')
+         call file%put_table('equilibrium/surface_temperature', films%surfaces, 'degC', &
+            & 'temperature of the pad where it meets the film', 'pad film_arc')
+      end associate
+   end subroutine put_film_temperatures
 end module equilibrium_results

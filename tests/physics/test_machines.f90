@@ -312,7 +312,7 @@ contains
       call analyse(alone, 'a rigid journal', rigid, journal)
       call analyse(inputs, 'a machine', found, static)
       do i = 1, 2
-         call expect(all(abs(static%viscosity(2*i - 1:2*i)/journal%viscosity - 1) < 1e-6_wp), 'viscosities')
+         call expect(all(abs(static%oil(2*i - 1:2*i)%viscosity/journal%oil%viscosity - 1) < 1e-6_wp), 'viscosities')
          call expect_close(found%stiffness(1, 1, 1, 1, i), rigid%stiffness(1, 1, 1, 1, 1), &
             & 1e-5_wp*rigid%stiffness(1, 1, 1, 1, 1), 'stiffness')
       end do

@@ -49,7 +49,7 @@ contains
       call find_equilibrium(own, static, error)
       call expect_no_error(error, 'equilibrium')
       if (allocated(error)) return
-      own%oil%viscosity = static%viscosity
+      own%oil = static%oil
       if (present(figures)) call find_static_figures(own, static, figures)
       if (present(model)) model = own
    end subroutine solve
@@ -80,7 +80,7 @@ contains
       type(bearing_coefficients_type) :: found
       call solve(case_of('&pads motion = ''tilting_only''/ &film cavitation = ''none''/'//vg46), static, figures, &
          & model)
-      call expect(all(abs(static%viscosity - [23e-3_wp, 13.4e-3_wp]) < [0.5e-3_wp, 0.05e-3_wp]), 'viscosities')
+      call expect(all(abs(static%oil%viscosity - [23e-3_wp, 13.4e-3_wp]) < [0.5e-3_wp, 0.05e-3_wp]), 'viscosities')
       call expect_close(static%rotor(2), -7e-6_wp, 0.5e-6_wp, 'z')
       call analyse(model%inputs, 'coefficients', found, static)
       call expect_close(found%stiffness(1, 2, 1, 1, 1), 61e6_wp, 1e6_wp, 'K_yz')
@@ -98,7 +98,7 @@ contains
       inputs%thermal%model = 'none'
       call solve(inputs, cold, of_cold)
       call expect(.not. any(abs([warm%rotor - cold%rotor, warm%tilt - cold%tilt, &
-         & warm%pivot_deflection - cold%pivot_deflection, warm%viscosity - cold%viscosity]) > 0), 'state')
+         & warm%pivot_deflection - cold%pivot_deflection, warm%oil%viscosity - cold%oil%viscosity]) > 0), 'state')
       call expect(.not. any(abs(figures%pads%power() - of_cold%pads%power()) > 0), 'losses')
       call expect(allocated(figures%oil) .and. .not. allocated(of_cold%oil), 'temperatures of warm oil alone')
    end subroutine isothermal
@@ -174,13 +174,13 @@ contains
       inputs%oil%shaft_temperature = 55
       call solve(inputs, static)
       slow = after_run_up(1e-5_wp, 1e4_wp)
-      call expect(all(abs(slow/static%viscosity - 1) < 1e-4_wp), 'slow')
+      call expect(all(abs(slow/static%oil%viscosity - 1) < 1e-4_wp), 'slow')
       ! behind the other pad; the first draws fresh oil alone
-      lag = log(after_run_up(1e-5_wp, 20.0_wp)/static%viscosity)
-      longer = log(after_run_up(2e-5_wp, 20.0_wp)/static%viscosity)
+      lag = log(after_run_up(1e-5_wp, 20.0_wp)/static%oil%viscosity)
+      longer = log(after_run_up(2e-5_wp, 20.0_wp)/static%oil%viscosity)
       call expect(abs(lag(1)) < 1e-4_wp .and. lag(2) > 1e-4_wp, 'lag')
       call expect_close(longer(2)/lag(2), 2.0_wp, 0.05_wp, 'twice the oil, twice the lag')
       never = after_run_up(1.0_wp, 1e-2_wp)
-      call expect(never(2) > static%viscosity(2)*exp(lag(2)), 'never renewed')
+      call expect(never(2) > static%oil(2)%viscosity*exp(lag(2)), 'never renewed')
    end subroutine run_up
 end program test_thermal_equilibrium

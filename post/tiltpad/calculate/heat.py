@@ -22,7 +22,11 @@ class HeatBalance(NamedTuple):
 
 @of_run
 def heat_balance(run: Run) -> HeatBalance:
-    """Heat that the films make, and where it goes. Raises NotInRunError for a run without a heat balance."""
+    """Heat that the films make, and where it goes. Raises NotInRunError for a run without a heat balance.
+
+    It is for films with one temperature each; those with temperatures along and across also heat their pads.
+    """
+    run.needs_even_oil()
     inlet, outlet = (run[f"equilibrium/{name}_temperature"] for name in ("inlet", "outlet"))
     flow = (run["equilibrium/inlet_flow"] + run["equilibrium/outlet_flow"]) / 2
     oil = run.input["oil"]

@@ -156,6 +156,7 @@ def losses(run: Run, last: float = 1) -> Losses:
 
 def viscosity(run: Run, time: float | None) -> np.ndarray:
     """Viscosity of the oil on each pad at a time, s (None: equilibrium), Pa s, (pad,); 0: the input's."""
+    run.needs_even_oil()
     if time is not None and "oil/viscosity" in run:
         return np.exp([np.interp(time, run["oil/time"], pad) for pad in np.log(run["oil/viscosity"].T)])
     # of a branch `viscosity` is that of its points

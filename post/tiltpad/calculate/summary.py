@@ -42,7 +42,7 @@ def journal(run: Run) -> list[Figure]:
 def pads(run: Run) -> list[Figure]:
     """Key figures of the pads, (pad,) each, and where their heat goes."""
     found = list(figures(run, ("pad",)))
-    if "equilibrium/viscosity" in run:
+    if "equilibrium/viscosity" in run and not run.has_film_temperatures:
         heat, shown = heat_balance(run), SHOWN["power_loss"]
         found += [
             Figure(f"heat {to}", shown._replace(text=f"equilibrium: heat {to}"), values)

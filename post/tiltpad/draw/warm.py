@@ -130,7 +130,8 @@ def over_parameter(
 
 
 def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
-    """For each result its temperatures, viscosities and the heat of its pads, in a row."""
+    """For each result its temperatures, viscosities and the heat of its pads, or the temperatures
+    along their surfaces, in a row."""
     pads = layout.shown_pads(runs, pad)
     fig = plt.figure(figsize=(layout.PAGE, 0.6 + 2.4 * len(runs)))
     rows = fig.subplots(len(runs), 2, squeeze=False)
@@ -138,11 +139,16 @@ def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
     for (left, right), run, name in zip(rows, runs, names, strict=True):
         own = [k for k in pads if k <= run.pads]
         temperatures_of_pads(run, left, own)
-        heat_of_pads(run, right, own)
+        if run.has_film_temperatures:
+            surfaces_of_pads(run, right, own)
+            of_pads = [left]
+        else:
+            heat_of_pads(run, right, own)
+            of_pads = [left, right]
         viscosity = SHOWN["viscosity"].factor * run["equilibrium/viscosity"]
-        right.set_xlabel(f"viscosity below each pad ({SHOWN['viscosity'].unit})")
+        of_pads[-1].set_xlabel(f"viscosity below each pad ({SHOWN['viscosity'].unit})")
         left.set_title(layout.plain(name, int(15 * layout.COLUMN)))
-        for ax in (left, right):
+        for ax in of_pads:
             ax.set_xticks(range(len(own)), [f"pad {k}\n{viscosity[k - 1]:#.3g}" for k in own])
             ax.grid(visible=False, axis="x")
     handles, texts = rows[0, 0].get_legend_handles_labels()
@@ -168,6 +174,15 @@ def temperatures_of_pads(run: Run, ax: Axes, pads: Sequence[int]) -> Axes:
     ax.axhline(float(run["equilibrium/drain_temperature"]), **DRAIN)
     ax.margins(x=0.2, y=0.15)
     ax.set_ylabel(SHOWN["temperature"].label)
+    return ax
+
+
+def surfaces_of_pads(run: Run, ax: Axes, pads: Sequence[int]) -> Axes:
+    """For each pad the temperature of its surface along the arc."""
+    along = run["film_arc"]
+    for k in pads:
+        ax.plot(along, run["equilibrium/surface_temperature"][k - 1], color=f"C{k - 1}", label=f"pad {k}")
+    ax.set(xlabel="place on the arc, from the leading edge", ylabel=SHOWN["temperature"].label, xlim=(0, 1))
     return ax
 
 

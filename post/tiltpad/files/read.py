@@ -270,6 +270,19 @@ class Run(Archive):
         }
         return [paths[each] for each in get_close_matches(name.rpartition("/")[2], paths, 1)]
 
+    @property
+    def has_film_temperatures(self) -> bool:
+        """True where films have temperatures along and across (thermal%model = 'film')."""
+        return self.input.get("thermal", {}).get("model") == "film"
+
+    def needs_even_oil(self) -> None:
+        """Raises NotInRunError where films have temperatures along and across."""
+        if self.has_film_temperatures:
+            raise NotInRunError(
+                f"{self.path}: its films have temperatures along and across (thermal%model = 'film'); "
+                "this is known only of films with one temperature each"
+            )
+
     def is_cold(self, name: str) -> bool:
         """True for what a heat balance tells, of a run without one."""
         thermal = self.input.get("thermal", {}).get("model", "none")

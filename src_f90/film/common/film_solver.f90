@@ -3,17 +3,12 @@
 module film_solver
    use kinds, only: wp, i8
    use pad_gap, only: pad_gap_type, pad_directions, film_motion
+   use film_oils, only: film_oil
    implicit none (type, external)
    private
    public :: film_solver_type, film_motion, film_oil, film_response, film_counters
    public :: film_ok, film_closed, film_not_converged, film_not_resolved
    public :: cavitation_none, cavitation_gumbel, cavitation_reynolds
-
-   !> The oil in a pad's film.
-   type :: film_oil
-      !> Dynamic viscosity, Pa s.
-      real(wp) :: viscosity = 0
-   end type film_oil
 
    integer, parameter :: film_ok = 0, film_closed = 1, film_not_converged = 2, film_not_resolved = 3
    !> Film cavitation: none; pressures below p_cav dropped after the solution; projected in the solution.

@@ -16,6 +16,7 @@
 module fourier_field
    use kinds, only: wp, pi
    use film_solver, only: film_oil
+   use film_oils, only: arc_weights
    use fourier_pad, only: fourier_pad_type
    use fourier_passes, only: simd_width
    use sommerfeld_nodes, only: span
@@ -50,10 +51,10 @@ contains
          smooth = 0
          do i = 0, n - 1
             angle = gap%leading_angle - atan2(pad%sine(i), pad%cosine(i))
-            if (i > 0) smooth(:, i) = -narrow*pad%narrow(i)/pad%h(i)
+            if (i > 0) smooth(:, i) = -narrow*pad%narrow(i)/pad%lift(i)
             do b = 1, pad%axial%blocks
                associate (first => simd_width*b - simd_width + 1, last => simd_width*b)
-                  amplitude = pad%q(:, i, b)/pad%h(i)
+                  amplitude = pad%q(:, i, b)/pad%lift(i)
                   if (abs(rise) > 0) amplitude = amplitude - rise*even_layer(pad, i) &
                      & *exp(-sqrt(pad%axial%square(first:last))*angle)
                   do j = 1, size(z)
@@ -67,17 +68,27 @@ contains
             angle = node_position(pad, phi(j))
             i = min(max(int(angle) - 1, 0), n - 3)
             pressure(:, j) = gap%ambient_pressure + matmul(smooth(:, i:i + 3), cubic_weights(angle - i))
-            if (abs(rise) > 0) pressure(:, j) = pressure(:, j) + rise*(pad%h(n)/h)**1.5_wp &
+            if (abs(rise) > 0) pressure(:, j) = pressure(:, j) + rise*(pad%h(n)/h)**1.5_wp/pad%ease(n) &
+               & /sqrt(uneven(pad, phi(j))) &
                & *layer(position, (gap%leading_angle - phi(j))*gap%pad_radius()/gap%axial_length)
          end do
       end associate
    end function field_of_modes
 
-   !> What of the layer's amplitude is left at a node: it falls as h^(-3/2).
+   !> 12 mu f2 at an angle.
+   pure real(wp) function uneven(pad, phi)
+      type(fourier_pad_type), intent(in) :: pad
+      real(wp), intent(in) :: phi
+      type(arc_weights) :: weights
+      weights = pad%oil%weights(pad%gap, phi)
+      uneven = weights%flow
+   end function uneven
+
+   !> What of the layer's amplitude is left at a node: it falls as (h^3 12 mu f2)^(-1/2).
    pure real(wp) function even_layer(pad, i)
       type(fourier_pad_type), intent(in) :: pad
       integer, intent(in) :: i
-      even_layer = (pad%h(pad%n)/pad%h(i))**1.5_wp
+      even_layer = (pad%h(pad%n)/pad%h(i))**1.5_wp*pad%ease(i)/pad%ease(pad%n)
    end function even_layer
 
    !> Adds what the modes left out have of the layer at the leading edge to the pressure in the middle plane at the
@@ -139,21 +150,27 @@ contains
       type(fourier_pad_type), intent(in) :: pad
       type(film_oil), intent(in) :: oil
       real(wp) :: flows(2)
-      real(wp) :: falling, leading(simd_width), trailing(simd_width)
+      !> Of a layer at the edge, and of q over the pressure, with the thickness.
+      real(wp) :: falling, steeper, leading(simd_width), trailing(simd_width)
       integer :: b
       associate (n => pad%n, h => pad%h, gap => pad%gap)
          ! how fast a layer falls as the film becomes thicker
          falling = 1.5_wp*(pad%e(2)*pad%sine(n) - pad%e(1)*pad%cosine(n))/h(n)
+         steeper = falling/1.5_wp
+         if (oil%varies) then
+            steeper = steeper + pad%weights(n + 1)%flow_slopes(1)/2
+            falling = falling + pad%weights(n + 1)%flow_slopes(1)/2
+         end if
          ! a film half as thick as long has no layer at its edge
          flows(1) = pad%radius*4/pi &
             & *log(1/tan(min(pi/4, pi*h(n)*gap%machined_clearance/(2*gap%axial_length)))) - gap%axial_length*falling
          flows(2) = 0
          do b = 1, pad%axial%blocks
             leading = slope(pad%q(:, n, b), pad%q(:, n - 1, b), pad%q(:, n - 2, b), pad%a(:, n, b), &
-               & pad%a(:, n - 1, b), pad%a(:, n - 2, b))/h(n)**2 - falling/1.5_wp
+               & pad%a(:, n - 1, b), pad%a(:, n - 2, b))/(h(n)*pad%lift(n)) - steeper
             ! q = 0 at the edge itself
             trailing = -slope(pad%q(:, 0, b), pad%q(:, 1, b), pad%q(:, 2, b), pad%a(:, 1, b), pad%a(:, 1, b), &
-               & pad%a(:, 2, b))/h(0)**2
+               & pad%a(:, 2, b))/(h(0)*pad%lift(0))
             associate (c => pad%axial%c(simd_width*b - simd_width + 1:simd_width*b), &
                & even => sqrt(pad%axial%square(simd_width*b - simd_width + 1:simd_width*b)))
                flows(1) = flows(1) + sum(c*(leading - even + falling))
@@ -161,6 +178,7 @@ contains
             end associate
          end do
          flows = flows*[h(n), h(0)]**3*gap%machined_clearance**3/(12*oil%viscosity*pad%radius)
+         flows = flows/[pad%ease(n), pad%ease(0)]**2
       end associate
 
    contains

@@ -8,6 +8,9 @@
 !> smooth for a film of any film thickness ratio, and Numerov's scheme solves it to fourth order (fourier_passes). The
 !> modes left out are summed in closed form: the narrow-pad limit u = -r/(h^3 Lambda^2) and its edge layers.
 !>
+!> Where the viscosity is uneven (film_oils), with E = 12 mu f2 and a prime for d/dphi, q = H sqrt(E) u, s gains
+!> 1/sqrt(E) and what 2 f1 does to the wedge, and v gains 3/2 H H' (ln E)' + H^2 ((ln E)''/2 + (ln E)'^2/4).
+!>
 !> Guembel's condition needs the field: it is rebuilt at Gauss points across the half width, and what lies
 !> below the cavitation pressure is taken out of the force.
 module fourier_film
@@ -99,7 +102,7 @@ contains
       rise = pad%gap%supply_pressure - pad%gap%ambient_pressure
       do b = 1, pad%axial%blocks
          call solve_modes(pad%n, pad%axial%square(simd_width*b - simd_width + 1:simd_width*b), pad%base, pad%rate, &
-            & pad%load, rise*pad%h(pad%n), pad%a(:, :, b), pad%f(:, :, b), pad%q(:, :, b))
+            & pad%load, rise*pad%lift(pad%n), pad%a(:, :, b), pad%f(:, :, b), pad%q(:, :, b))
       end do
       call sum_up(pad, rise, response)
       if (pad%shares_are_stale .and. want_derivatives) call whole_shares(pad)
@@ -140,8 +143,8 @@ contains
       real(wp) :: force(2), edge(0:1), lowest, slope
       integer :: b
       associate (gap => pad%gap, n => pad%n, h => pad%h, tail => pad%axial%tail, sine => pad%sine, cosine => pad%cosine)
-         call weigh_nodes(n, pad%weight, sine, cosine, pad%narrow, tail(2), pad%point_tail(middle), along, outward, &
-            & force, p_middle)
+         call weigh_nodes(n, pad%weight, pad%ease, sine, cosine, pad%narrow, tail(2), pad%point_tail(middle), along, &
+            & outward, force, p_middle)
          do b = 1, pad%axial%blocks
             associate (first => simd_width*b - simd_width + 1, last => simd_width*b)
                call sum_modes(n, along, outward, pad%axial%c(first:last), pad%at_middle(first:last), pad%q(:, :, b), &
@@ -150,15 +153,17 @@ contains
          end do
          ! layers at the edges of the modes left out, and the supply pressure in them
          slope = pad%e(2)*sine(n) - pad%e(1)*cosine(n)
-         edge = tail(3)*[pad%narrow(0)/h(0), pad%narrow(n)/h(n)]
+         edge = tail(3)*[pad%narrow(0)/h(0), pad%narrow(n)/h(n)]*[pad%ease(0), pad%ease(n)]
          edge(1) = edge(1) + rise*(tail(1) + tail(2)*1.5_wp*slope/h(n))
+         if (pad%oil%varies) edge(1) = edge(1) + rise*tail(2)*pad%weights(n + 1)%flow_slopes(1)/2
          force = pad%d*force + edge(0)*[sine(0), cosine(0)] + edge(1)*[sine(n), cosine(n)] &
             & - tail(2)*rise*[cosine(n), -sine(n)] &
             & + gap%ambient_pressure*gap%axial_length*[cosine(0) - cosine(n), sine(n) - sine(0)]
          response%force = -pad%radius*force
-         lowest = lowest_pressure(n, pad%axial%blocks, pad%narrow, h, pad%point_tail(gauss + 1:), pad%look, pad%q)
+         lowest = lowest_pressure(n, pad%axial%blocks, pad%narrow, pad%lift, pad%point_tail(gauss + 1:), pad%look, &
+            & pad%q)
          response%min_pressure = gap%ambient_pressure + min(0.0_wp, rise, lowest)
-         p_middle = p_middle/h
+         p_middle = p_middle/pad%lift
          p_middle(0) = 0
          p_middle(n) = rise
          if (abs(rise) > 0) call add_layer_left_out(pad, rise, p_middle)
@@ -206,14 +211,14 @@ contains
       real(wp), intent(in) :: rise
       logical, intent(in) :: want_shares
       type(film_response), intent(inout) :: response
-      !> Cavitation pressure less pressure, times H, and weights of what is missing, by point and node.
+      !> Cavitation pressure less pressure, as q, and weights of what is missing, by point and node.
       real(wp), dimension(gauss, 0:pad%n) :: deficit, lost
       real(wp) :: floor, missing, p(gauss), weights(0:pad%n)
       integer :: i, b, k, l, point
       associate (n => pad%n)
          floor = pad%gap%cavitation_pressure - pad%gap%ambient_pressure
-         deficit(:, 0) = floor*pad%h(0)
-         deficit(:, n) = (floor - rise)*pad%h(n)
+         deficit(:, 0) = floor*pad%lift(0)
+         deficit(:, n) = (floor - rise)*pad%lift(n)
          do i = 1, n - 1
             p = -pad%point_tail(:gauss)*pad%narrow(i)
             do b = 1, pad%axial%blocks
@@ -221,14 +226,14 @@ contains
                   p = p + pad%across(:, simd_width*(b - 1) + k)*pad%q(k, i, b)
                end do
             end do
-            deficit(:, i) = floor*pad%h(i) - p
+            deficit(:, i) = floor*pad%lift(i) - p
          end do
          do point = 1, gauss
             call clipped_weights(n, deficit(point, :), weights)
             lost(point, :) = (pad%d*point_weights(point)*pad%gap%axial_length)*weights
          end do
          do i = 0, n
-            missing = pad%radius*dot_product(lost(:, i), deficit(:, i))
+            missing = pad%radius*dot_product(lost(:, i), deficit(:, i))*pad%ease(i)
             response%force = response%force - missing*[pad%sine(i), pad%cosine(i)]
          end do
          response%max_pressure = max(response%max_pressure, pad%gap%cavitation_pressure)

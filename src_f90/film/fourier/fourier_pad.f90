@@ -3,6 +3,7 @@
 module fourier_pad
    use kinds, only: wp
    use film_solver, only: film_motion, film_oil
+   use film_oils, only: arc_weights
    use pad_gap, only: pad_gap_type, pad_directions
    use axial_modes, only: axial_modes_type, new_axial_modes
    use clipped_quadrature, only: gregory_weights, clipped_weights
@@ -46,6 +47,11 @@ module fourier_pad
       real(wp) :: wedge, squeeze, e(2), w(2)
       !> At the nodes: H, sine and cosine of phi, s and s/H^2; 1 - d^2 v/12, d^2 H^2/12 and the scheme's load.
       real(wp), allocatable, dimension(:) :: h, sine, cosine, s, narrow, base, rate, load
+      !> Of the oil, and what its uneven viscosity makes of q and s at the nodes (fourier_film): q over pressure and the
+      !> root of 12 mu f2, upside down, with which q counts; its weights, where it varies.
+      type(film_oil) :: oil
+      real(wp), allocatable, dimension(:) :: lift, ease
+      type(arc_weights), allocatable :: weights(:)
       !> By slot, node and block: a = 1 - d^2 V/12, factors f of the elimination, q.
       real(wp), allocatable :: a(:, :, :), f(:, :, :), q(:, :, :)
       !> What q by (slot, node, block) and -s/H^2 by node count along the width: c and tail(2), less the part of the
@@ -79,7 +85,8 @@ contains
             pad%point_tail(i) = pad%axial%left_out(points(i))
          end do
          allocate (pad%weight(0:n), pad%h(0:n), pad%sine(0:n), pad%cosine(0:n), pad%s(0:n), pad%narrow(0:n), &
-            & pad%base(0:n), pad%rate(0:n), pad%load(0:n))
+            & pad%base(0:n), pad%rate(0:n), pad%load(0:n), pad%lift(0:n))
+         allocate (pad%ease(0:n), source=1.0_wp)
          allocate (pad%a(simd_width, 0:n, blocks), pad%f(simd_width, 0:n, blocks), pad%q(simd_width, 0:n, blocks))
          allocate (pad%share(simd_width, 0:n, blocks), pad%narrow_share(0:n), pad%floor_share(0:n))
       end associate
@@ -118,7 +125,38 @@ contains
       call set_nodes(pad%n, pad%d, pad%e, [pad%wedge*pad%e(2) + pad%squeeze*pad%w(1), &
          & -pad%wedge*pad%e(1) + pad%squeeze*pad%w(2)], pad%h, pad%sine, pad%cosine, pad%s, pad%narrow, pad%base, &
          & pad%rate, pad%load)
+      if (oil%varies) then
+         call set_uneven(pad, oil)
+      else if (pad%oil%varies) then
+         pad%ease(:) = 1
+      end if
+      pad%lift(:) = pad%h/pad%ease
+      pad%oil = oil
    end subroutine set_motion
+
+   !> What uneven viscosity changes at the nodes.
+   pure subroutine set_uneven(pad, oil)
+      type(fourier_pad_type), intent(inout) :: pad
+      type(film_oil), intent(in) :: oil
+      real(wp) :: unit, slope
+      integer :: i
+      pad%weights = oil%weights(pad%gap, atan2(pad%sine, pad%cosine))
+      unit = pad%d**2/12
+      do i = 0, pad%n
+         associate (w => pad%weights(i + 1), h => pad%h(i), sine => pad%sine(i), cosine => pad%cosine(i))
+            slope = pad%e(2)*sine - pad%e(1)*cosine
+            pad%base(i) = pad%base(i) - unit*h*(1.5_wp*slope*w%flow_slopes(1) &
+               & + h*(w%flow_slopes(2)/2 + w%flow_slopes(1)**2/4))
+            pad%ease(i) = 1/sqrt(w%flow)
+            pad%s(i) = pad%ease(i)*(pad%wedge*(slope*w%sliding + h*w%sliding_slopes(1)) &
+               & + pad%squeeze*(pad%w(1)*sine + pad%w(2)*cosine))
+            pad%narrow(i) = pad%s(i)/h**2
+         end associate
+      end do
+      do i = 1, pad%n - 1
+         pad%load(i) = unit*(pad%s(i - 1) + 10*pad%s(i) + pad%s(i + 1))
+      end do
+   end subroutine set_uneven
 
    !> What the scheme takes from the film at the nodes.
    pure subroutine set_nodes(n, d, e, source, h, sine, cosine, s, narrow, base, rate, load)

@@ -20,12 +20,12 @@ contains
       real(wp), intent(in) :: rise
       real(wp) :: derivatives(2, 4)
       real(wp), dimension(0:pad%n, 2) :: along, over_s, over_v, over_h2, shift
-      real(wp) :: adjoint(simd_width, 0:pad%n, 2), solved(0:pad%n), boundary(2), stretch(2)
+      real(wp) :: adjoint(simd_width, 0:pad%n, 2), solved(0:pad%n), floor_share(0:pad%n), boundary(2), stretch(2)
       integer :: i, m, b
       associate (n => pad%n, blocks => pad%axial%blocks)
          ! derivatives of the force over share q, over d^2 v/12, d^2 H^2/12 and d^2 s/12 at the nodes
-         along(:, 1) = -pad%radius*pad%d*pad%weight*pad%sine
-         along(:, 2) = -pad%radius*pad%d*pad%weight*pad%cosine
+         along(:, 1) = -pad%radius*pad%d*pad%weight*pad%ease*pad%sine
+         along(:, 2) = -pad%radius*pad%d*pad%weight*pad%ease*pad%cosine
          over_s = 0
          over_v = 0
          over_h2 = 0
@@ -44,9 +44,15 @@ contains
             end do
          end do
          call node_shifts(n, pad%d, pad%e, pad%directions, pad%h, shift, stretch)
+         floor_share = pad%floor_share
+         if (pad%oil%varies) then
+            ! as q is over the pressure
+            floor_share = floor_share*pad%lift/pad%h
+            boundary = boundary*pad%lift(n)/pad%h(n)
+         end if
          do m = 1, 2
             derivatives(m, :) = from_nodes(pad, pad%n, m, rise, pad%h, pad%s, pad%narrow, pad%narrow_share, &
-               & pad%floor_share, solved, along(:, m), along(:, 3 - m), over_s(:, m), over_v(:, m), over_h2(:, m), &
+               & floor_share, solved, along(:, m), along(:, 3 - m), over_s(:, m), over_v(:, m), over_h2(:, m), &
                & boundary(m), shift, stretch)
          end do
       end associate
@@ -96,6 +102,12 @@ contains
       by_h(n) = by_h(n) + boundary + along(n)*solved(n)/h(n) &
          & - by_slope*(pad%e(2)*pad%sine(n) - pad%e(1)*pad%cosine(n))/h(n)
       derivatives = 0
+      if (pad%oil%varies) then
+         derivatives = uneven_sum(pad, m, solved, along, over_v, by_s, by_h, by_phi, shift, stretch)
+         by_h = 0
+         by_s = 0
+         by_phi = 0
+      end if
       associate (sine => pad%sine, cosine => pad%cosine, e => pad%e, w => pad%w)
          do i = 0, n
             slope = e(2)*sine(i) - e(1)*cosine(i)
@@ -111,4 +123,46 @@ contains
       derivatives(:2) = derivatives(:2)/pad%gap%machined_clearance
       derivatives(3:) = derivatives(3:)*pad%squeeze
    end function from_nodes
+
+   !> The sum over the nodes where the viscosity is uneven: what v and s depend on besides, H' and the place itself.
+   pure function uneven_sum(pad, m, solved, along, over_v, by_s, by_h, by_phi, shift, stretch) result(derivatives)
+      type(fourier_pad_type), intent(in) :: pad
+      integer, intent(in) :: m
+      !> At the nodes, as in from_nodes; shifts and stretch.
+      real(wp), dimension(0:pad%n), intent(in) :: solved, along, over_v, by_s, by_h, by_phi
+      real(wp), intent(in) :: shift(0:pad%n, 2), stretch(2)
+      real(wp) :: derivatives(4)
+      real(wp) :: slope, bend, of_v, of_s, over_s, over_h, over_slope, over_phi, by_log_d, layer
+      integer :: i
+      derivatives = 0
+      by_log_d = 0
+      do i = 0, pad%n
+         associate (weights => pad%weights(i + 1), h => pad%h(i), sine => pad%sine(i), cosine => pad%cosine(i), &
+            & p => pad%weights(i + 1)%flow_slopes, w => pad%w)
+            slope = pad%e(2)*sine - pad%e(1)*cosine
+            bend = p(2)/2 + p(1)**2/4
+            of_v = pad%d**2/12*over_v(i)
+            over_s = by_s(i)
+            over_h = by_h(i)
+            if (i == 0 .or. i == pad%n) then
+               ! the layers of the modes left out, which are there without the ease
+               layer = -pad%axial%tail(3)*pad%radius*merge(sine, cosine, m == 1)/h**3*(pad%ease(i) - 1)
+               over_s = over_s + layer
+               over_h = over_h - 3*layer*pad%s(i)/h
+            end if
+            of_s = pad%ease(i)*over_s
+            by_log_d = by_log_d + 2*of_v*h*(1.5_wp*slope*p(1) + h*bend)
+            over_h = over_h + of_v*(1.5_wp*slope*p(1) + 2*h*bend) + of_s*pad%wedge*weights%sliding_slopes(1)
+            over_slope = of_v*1.5_wp*h*p(1) + of_s*pad%wedge*weights%sliding
+            over_phi = by_phi(i) - p(1)/2*(along(i)*(solved(i) - pad%narrow_share(i)*pad%narrow(i)) + over_s*pad%s(i)) &
+               & + of_v*h*(1.5_wp*slope*p(2) + h*(p(3) + p(1)*p(2))/2) &
+               & + of_s*(pad%wedge*(slope*weights%sliding_slopes(1) + h*weights%sliding_slopes(2)) &
+               & + pad%squeeze*(w(1)*cosine - w(2)*sine)) &
+               & + over_h*slope + over_slope*(1 - h)
+            derivatives = derivatives + [over_phi*shift(i, :) - over_h*[sine, cosine] + over_slope*[-cosine, sine], &
+               & of_s*[sine, cosine]]
+         end associate
+      end do
+      derivatives(:2) = derivatives(:2) + stretch*by_log_d
+   end function uneven_sum
 end module fourier_slopes

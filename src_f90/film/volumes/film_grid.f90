@@ -2,7 +2,9 @@
 !>
 !> With phi for X = R phi, and everything times R**2, the Reynolds equation is
 !>
-!>    d/dphi(h^3 dp/dphi) + R^2 h^3 d2p/dZ2 = R^2 (-6 mu omega R_J/R dh/dphi + 12 mu dh/dt).
+!>    d/dphi(E h^3 dp/dphi) + R^2 E h^3 d2p/dZ2 = R^2 (-6 mu omega R_J/R d(G h)/dphi + 12 mu dh/dt),
+!>
+!> with E = 12 mu f2 and G = 2 f1 of uneven viscosity (film_oils), 1 of even viscosity.
 !>
 !> Columns of cells lie along the arc from the trailing to the leading edge, rows from the middle plane to
 !> the side, ever lower, as the film cavitates first and pressure bends most beside the edges. The equation of a
@@ -12,6 +14,7 @@ module film_grid
    use kinds, only: wp
    use linear_algebra, only: solve_2x2
    use film_solver, only: film_motion, film_oil
+   use film_oils, only: arc_weights
    use pad_gap, only: pad_gap_type, pad_directions
    implicit none (type, external)
    private
@@ -39,10 +42,11 @@ module film_grid
       real(wp), allocatable :: to_middle(:)
       !> Pressure at the leading edge and at the other edges, Pa.
       real(wp) :: supply, ambient
-      !> Sine and cosine at the cell centres and at the cell faces (0:columns).
-      real(wp), allocatable :: sin_cell(:), cos_cell(:), sin_face(:), cos_face(:)
-      !> Film thickness at the same points, m.
-      real(wp), allocatable :: h_cell(:), h_face(:)
+      !> Sine, cosine and film thickness, m, at the cell centres and at the cell faces (0:columns).
+      real(wp), allocatable :: sin_cell(:), cos_cell(:), sin_face(:), cos_face(:), h_cell(:), h_face(:)
+      !> 12 mu f2, 2 f1 and f0/mu of the oil at the same points; whether any is not 1.
+      real(wp), allocatable :: flow_cell(:), sliding_cell(:), shear_cell(:), flow_face(:), sliding_face(:)
+      logical :: uneven = .false.
       !> Conductances through the faces along the arc (0:columns), and between uniform rows of a column.
       real(wp), allocatable :: along(:), beside(:)
       !> Factors of the difference of h over a cell and of dh/dt in the right-hand side.
@@ -109,6 +113,8 @@ contains
       grid%sin_face(:) = sin(line)
       grid%cos_face(:) = cos(line)
       allocate (grid%h_cell(columns), grid%beside(columns), grid%source(columns), grid%edge_source(columns))
+      allocate (grid%flow_cell(columns), grid%sliding_cell(columns), grid%shear_cell(columns), source=1.0_wp)
+      allocate (grid%flow_face(0:columns), grid%sliding_face(0:columns), source=1.0_wp)
    end function new_film_grid
 
    !> Shares of the rows' means in the value at 0 of the even polynomial, of the fourth degree, with the means of the
@@ -138,15 +144,32 @@ contains
          self%squeeze = 12*oil%viscosity*self%gap%pad_radius()**2
          self%h_cell(:) = self%gap%thickness(motion, self%sin_cell, self%cos_cell)
          self%h_face(:) = self%gap%thickness(motion, self%sin_face, self%cos_face)
-         self%along(:) = self%h_face**3/(self%d_phi**2*self%between)
-         self%beside(:) = self%width*self%h_cell**3*(self%gap%pad_radius()/self%d_z)**2
-         self%source(:) = self%wedge*(self%h_face(1:n) - self%h_face(0:n - 1)) &
+         if (oil%varies .or. self%uneven) call weigh(self, oil)
+         self%along(:) = self%flow_face*self%h_face**3/(self%d_phi**2*self%between)
+         self%beside(:) = self%flow_cell*self%width*self%h_cell**3*(self%gap%pad_radius()/self%d_z)**2
+         self%source(:) = self%wedge*(self%sliding_face(1:n)*self%h_face(1:n) &
+            & - self%sliding_face(0:n - 1)*self%h_face(0:n - 1)) &
             & - self%squeeze*self%width*(motion%velocity(1)*self%sin_cell + motion%velocity(2)*self%cos_cell)
          self%source(1) = self%source(1) - self%along(0)*self%ambient
          self%source(n) = self%source(n) - self%along(n)*self%supply
          self%edge_source(:) = -self%outward(self%rows)*self%beside*self%ambient
       end associate
    end subroutine set_motion
+
+   !> What the oil makes of the equation at the cells and faces.
+   pure subroutine weigh(grid, oil)
+      type(film_grid_type), intent(inout) :: grid
+      type(film_oil), intent(in) :: oil
+      type(arc_weights) :: at_cell(grid%columns), at_face(0:grid%columns)
+      at_cell = oil%weights(grid%gap, grid%middle(1:grid%columns))
+      at_face = oil%weights(grid%gap, atan2(grid%sin_face, grid%cos_face))
+      grid%flow_cell(:) = at_cell%flow
+      grid%sliding_cell(:) = at_cell%sliding
+      grid%shear_cell(:) = at_cell%shear
+      grid%flow_face(:) = at_face%flow
+      grid%sliding_face(:) = at_face%sliding
+      grid%uneven = oil%varies
+   end subroutine weigh
 
    !> What a row of mean height counts in the two forces, (column, force), m^2: area of two mirrored cells, in
    !> that direction.
@@ -202,8 +225,8 @@ contains
       real(wp), intent(in) :: along(0:), across(:), total(:)
       real(wp) :: derivatives(4)
       real(wp) :: over_face(0:self%columns), over_side(self%columns)
-      over_face = along*3*self%h_face**2/(self%d_phi**2*self%between)
-      over_side = across*3*self%width*(self%h_cell*(self%gap%pad_radius()/self%d_z))**2
+      over_face = along*3*self%flow_face*self%h_face**2/(self%d_phi**2*self%between)
+      over_side = across*3*self%flow_cell*self%width*(self%h_cell*(self%gap%pad_radius()/self%d_z))**2
       derivatives(1) = over_position(self%sin_face, self%sin_cell)
       derivatives(2) = over_position(self%cos_face, self%cos_cell)
       derivatives(3) = -self%squeeze*dot_product(self%width*self%sin_cell, total)
@@ -212,7 +235,8 @@ contains
       !> Derivative over e_y' (sines) or e_z' (cosines): dh = -sin(phi) de_y' - cos(phi) de_z'.
       pure real(wp) function over_position(at_face, at_cell)
          real(wp), intent(in) :: at_face(0:), at_cell(:)
-         over_position = -dot_product(self%wedge*(at_face(1:) - at_face(:self%columns - 1)), total) &
+         over_position = -dot_product(self%wedge*(self%sliding_face(1:)*at_face(1:) &
+            & - self%sliding_face(:self%columns - 1)*at_face(:self%columns - 1)), total) &
             & - dot_product(at_face, over_face) - dot_product(at_cell, over_side)
       end function over_position
    end function derivatives_of_products

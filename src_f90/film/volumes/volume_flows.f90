@@ -9,7 +9,7 @@ module volume_flows
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private
-   public :: volume_flow_type, flows_of_volumes, finer
+   public :: volume_flow_type, flows_of_volumes, finer, from_beside
 
    type :: volume_flow_type
       !> m^3/s: what pressure drives in at the leading edge, less than 0 where it drives oil out; out at the trailing
@@ -19,6 +19,8 @@ module volume_flows
       real(wp) :: unfed = 0
       !> Power that shear of sliding lacks in the cavitated part, W.
       real(wp) :: lacking = 0
+      !> Heat of the flow that pressure drives; power by which the pressure resists the journal's rotation, W.
+      real(wp) :: heat = 0, wedge = 0
       !> Force on the journal in the pad frame, N; integral of (sin phi, cos phi) over the cavitated part, m^2.
       real(wp) :: force(2) = 0, void(2) = 0
    end type volume_flow_type
@@ -51,6 +53,8 @@ contains
       finer%side = (4*fine%side - coarse%side)/3
       finer%unfed = (4*fine%unfed - coarse%unfed)/3
       finer%lacking = (4*fine%lacking - coarse%lacking)/3
+      finer%heat = (4*fine%heat - coarse%heat)/3
+      finer%wedge = (4*fine%wedge - coarse%wedge)/3
       finer%force = (4*fine%force - coarse%force)/3
       finer%void = (4*fine%void - coarse%void)/3
    end function finer
@@ -82,27 +86,61 @@ contains
                driven = unit*grid%along(n)*(grid%supply - p(k, n))
                flow%inlet = flow%inlet + both*driven
             end if
-            arriving = surface_speed*grid%h_face(i)/2 + driven
+            arriving = surface_speed*grid%sliding_face(i)*grid%h_face(i)/2 + driven
             if (.not. upstream) then
                if (filled(k, i)) flow%unfed = flow%unfed + both*(arriving - carried)
                if (.not. filled(k, i)) arriving = carried
             end if
             if (filled(k, i)) then
+               call add_power(grid, surface_speed, k, i, both*unit, pressure, filled, flow)
                if (k == grid%rows) flow%side = flow%side &
                   & + both*unit*grid%beside(i)*grid%outward(k)*(p(k, i) - grid%ambient)
             else
                carried = arriving + unit*grid%beside(i)*from_beside(grid, k, p(:, i), filled(:, i))
                area = both*gap%pad_radius()*grid%d_phi*grid%width(i)
                flow%void = flow%void + area*[grid%sin_cell(i), grid%cos_cell(i)]
-               flow%lacking = flow%lacking + area*oil%viscosity*surface_speed/grid%h_cell(i) &
-                  & *max(0.0_wp, surface_speed - (arriving + carried)/grid%h_cell(i))
+               flow%lacking = flow%lacking + area*oil%viscosity*grid%shear_cell(i)*surface_speed/grid%h_cell(i) &
+                  & *max(0.0_wp, surface_speed - (arriving + carried)/(grid%sliding_cell(i)*grid%h_cell(i)))
             end if
             upstream = filled(k, i)
          end do
-         if (upstream) carried = surface_speed*grid%h_face(0)/2 + unit*grid%along(0)*(p(k, 1) - grid%ambient)
+         if (upstream) carried = surface_speed*grid%sliding_face(0)*grid%h_face(0)/2 &
+            & + unit*grid%along(0)*(p(k, 1) - grid%ambient)
          flow%outlet = flow%outlet + both*carried
       end associate
    end subroutine add_row
+
+   !> Adds heat of the pressure's flow and the pressure's resistance to rotation in a cell of the film: of the faces
+   !> between two of them half to each.
+   pure subroutine add_power(grid, surface_speed, k, i, unit, p, filled, flow)
+      type(film_grid_type), intent(in) :: grid
+      real(wp), intent(in) :: surface_speed
+      integer, intent(in) :: k, i
+      !> Flow per unit of the grid's equations.
+      real(wp), intent(in) :: unit, p(:, :)
+      logical, intent(in) :: filled(:, :)
+      type(volume_flow_type), intent(inout) :: flow
+      real(wp) :: next, share, height
+      integer :: side, face
+      height = 2*grid%d_z*grid%height(k)
+      do side = 0, 1
+         ! downstream and upstream
+         face = i - 1 + side
+         share = 1
+         next = merge(grid%supply, grid%ambient, face > 0)
+         if (face > 0 .and. face < grid%columns) then
+            next = 0
+            if (filled(k, i - 1 + 2*side)) next = p(k, i - 1 + 2*side)
+            if (filled(k, i - 1 + 2*side)) share = 0.5_wp
+         end if
+         flow%heat = flow%heat + share*unit*grid%along(face)*(next - p(k, i))**2
+         flow%wedge = flow%wedge + share*height*surface_speed*grid%sliding_face(face)*grid%h_face(face)/2 &
+            & *(next - p(k, i))*(1 - 2*side)
+      end do
+      next = grid%ambient
+      if (k < grid%rows) next = merge(p(min(k + 1, grid%rows), i), 0.0_wp, filled(min(k + 1, grid%rows), i))
+      flow%heat = flow%heat + unit*grid%beside(i)*grid%outward(k)*(next - p(k, i))**2
+   end subroutine add_power
 
    !> What flows into a cavitated cell from the film in the rows beside it, over the conductance of uniform rows.
    pure real(wp) function from_beside(grid, k, p, filled) result(inflow)

@@ -1,0 +1,102 @@
+!> The equilibrium of a bearing with temperatures along and across its films: the bearing comes to equilibrium with the
+!> oil of some temperatures, the streams of its films there carry heat to others, until they agree (docs/theory/heat.md,
+!> *Temperature in the film*).
+module film_equilibrium
+   use kinds, only: wp
+   use text, only: to_text
+   use errors, only: error_type, raise, numerics_error, asked_to_stop
+   use anderson, only: anderson_type
+   use film_solver, only: film_motion
+   use film_streams, only: film_stream, find_stream
+   use film_profiles, only: film_profile
+   use film_network, only: warm_films_type, oil_of_field, solve_network
+   use heat_balance, only: new_grooves
+   use asperity_contact, only: asperity_load
+   use kinematics, only: pad_state, frame_of, motion_of
+   use equations_of_motion, only: machine_model
+   use static_model, only: solve_equilibrium
+   implicit none (type, external)
+   private
+   public :: solve_warm_films
+
+   !> Largest change of a temperature at the end, K; most rounds.
+   real(wp), parameter :: agreement = 1e-6_wp
+   integer, parameter :: most_rounds = 60
+   !> While temperatures change by more than this, K, only a part of their change is made.
+   real(wp), parameter :: large_change = 15, part = 0.6_wp
+
+contains
+
+   !> Brings the state y of a model of one bearing that is near equilibrium to equilibrium, and its films to their
+   !> temperatures: the model then has their oil.
+   subroutine solve_warm_films(model, y, films, residual, error, give_up, held)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      type(warm_films_type), intent(inout) :: films
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      !> Pads that are held where they are.
+      logical, intent(in), optional :: held(:)
+      type(film_profile) :: profiles(size(films%fields, 2), size(films%fields, 3))
+      type(film_stream) :: streams(size(films%fields, 3))
+      type(anderson_type) :: acceleration
+      real(wp), allocatable :: wanted(:, :, :), x(:)
+      real(wp) :: change
+      integer :: i, round
+      logical :: ok
+      allocate (wanted, mold=films%fields)
+      do round = 1, most_rounds
+         do i = 1, size(streams)
+            call oil_of_field(model%inputs%oil, films%heat(i)%zeta, films%fields(:, :, i), profiles(:, i), model%oil(i))
+         end do
+         call solve_equilibrium(model, y, residual, error, give_up, held)
+         if (allocated(error)) return
+         call find_streams(model, y, size(profiles, 1), streams, ok)
+         if (ok) call solve_network(model%inputs%oil, new_grooves(model%inputs), films, streams, profiles, &
+            & model%point%speed(0.0_wp)*model%inputs%bearing%journal_radius, wanted, ok)
+         if (.not. ok) then
+            call raise(error, numerics_error, 'the heat of the films finds no balance')
+            return
+         end if
+         change = maxval(abs(wanted - films%fields))
+         if (change <= agreement) return
+         if (change > large_change) then
+            call acceleration%forget()
+            films%fields = films%fields + part*(wanted - films%fields)
+         else
+            x = reshape(films%fields, [size(films%fields)])
+            call acceleration%advance(x, reshape(wanted, [size(wanted)]))
+            films%fields = reshape(x, shape(films%fields))
+         end if
+      end do
+      call raise(error, numerics_error, 'the temperatures of the films do not settle: after '//to_text(most_rounds) &
+         & //' rounds they still change by '//to_text(change)//' K')
+   end subroutine solve_warm_films
+
+   !> The streams of all films in the state y.
+   subroutine find_streams(model, y, stations, streams, ok)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      integer, intent(in) :: stations
+      type(film_stream), intent(out) :: streams(:)
+      logical, intent(out) :: ok
+      type(pad_state) :: pads(size(streams))
+      type(film_motion) :: motion
+      type(asperity_load) :: asperity
+      integer :: i
+      pads = model%layout%bearings(1)%pad_states(y)
+      associate (bearing => model%bearings(1), journal => model%rotor%journal(y(:model%rotor%states), 1), &
+         & speed => model%point%speed(0.0_wp))
+         do i = 1, size(streams)
+            associate (pad => bearing%pads(i))
+               motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
+               call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
+               if (asperity%touches) motion%position = asperity%film_position
+               call find_stream(pad%gap, bearing%film%condition, motion, model%oil(i), speed, stations, streams(i), ok)
+               if (.not. ok) return
+            end associate
+         end do
+      end associate
+   end subroutine find_streams
+end module film_equilibrium
