@@ -233,7 +233,7 @@ contains
          & '  --jobs N                performs N runs of a study at a time; default: one for each processor', &
          & '  --run K                 performs (with --check: prints) only run K of a study', &
          & '  --count                 prints the number of runs of the case; 1 without a group &sweep', &
-         & '  --yes                   performs a study of more than a gigabyte, which a terminal refuses without it', &
+         & '  --yes                   performs a study of more than a gigabyte from a terminal, too', &
          & '  --quiet                 prints errors only', &
          & '  --reference             prints the input reference (Markdown)', &
          & '  --version, --help       prints the version, or this help', &

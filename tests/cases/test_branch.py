@@ -94,12 +94,8 @@ def test_the_end_of_what_is_allowed_is_the_end_of_the_branch(run, tmp_path):
         ((*ORBITS, "branch%last=3000"), ("branch%last = 3000", "where the branch starts")),
         ((*ORBITS, "branch%max_step=1"), ("branch%max_step = 1", "branch%step = 50")),
         ((*ORBITS, "operation%final_speed_rpm=4000"), ("operation%final_speed_rpm", "branch")),
-        ((*SPEED, "branch%step=10"), ("branch%last", "must be given")),
-        ((*SPEED, "branch%last=4000"), ("branch%step", "must be given")),
         (("case%task='branch'",), ("branch%parameter", "must name")),
-        (("branch%last=4000",), ("branch%last", "case%task")),
         ((*EQUILIBRIA, "branch%parameter='rotor%unbalance'"), ("branch%parameter", "no effect")),
-        ((*EQUILIBRIA, "start%journal=1e-6,0"), ("start%journal", "no effect")),
     ],
 )
 def test_what_is_refused(run, tmp_path, overrides, names):
