@@ -84,7 +84,10 @@ WORDS = {
         r"film_bench|peer_model|(?:be|is) swept|'swept'|\"swept\"|did you mean|sweep=f\"|collect sweep",
     ),
     "case": (r"\b\w*scenes?(?:\b|_\w+)", ""),
-    "run (of a study)": (r"\bmembers?(?:\b|_\w+)", r"h5gn_members|--member|CFI_cdesc_t|members\.csv|src_f90/storage/"),
+    "run (of a study)": (
+        r"\bmembers?(?:\b|_\w+)",
+        r"h5gn_members|--member|CFI_cdesc_t|members\.csv|src_f90/storage/",
+    ),
     "axial Fourier expansion": (r"\bmodal(?:\b|_\w+)", r"modal[ _](?:assurance|mass|stiffness|damping)"),
     "bearing clearance c_b": (r"\bassembled clearance\b", r"bearing clearance"),
     "pad clearance c_p": (r"\bmachined clearance\b", r"pad clearance"),

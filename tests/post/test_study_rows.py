@@ -59,7 +59,7 @@ def studies(request, tiltpad, tmp_path_factory):
 
 
 def pairs(studies):
-    """Both studies and their names, and of machines both of each bearing and what the file has in its group."""
+    """Both studies and their names; of machines both of each bearing, and what the file has in its group."""
     rows, files = studies
     assert list(rows.bearings) == list(files.bearings)
     found = [(rows, files, rows.names(), files.names())]
