@@ -418,7 +418,7 @@ format: python
 	$(VENV)/bin/ruff format --config post/pyproject.toml post tests docs
 
 docs: run $(addprefix $(B)/tests/,test_film_accuracy test_fixed_pads test_losses \
-      test_rotor_matrices test_mode_selection)
+      test_rotor_matrices test_mode_selection) $(ross)/ready
 	@{ cat docs/inputs_head.md; $(B)/bin/tiltpad --reference; } > docs/inputs.md
 	$(venv_python) docs/modules.py
 	$(venv_python) docs/api.py > build/api.md && mv build/api.md docs/

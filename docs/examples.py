@@ -106,6 +106,9 @@ def machines(folder: Path) -> Iterator[str]:
         speed = 100 * round(run["parameter"][peak] / 100)
         yield f"a flat peak of {response[peak, 7]:.1f} um near {speed} rpm"
         yield f"the journal beside it moves by {response[peak, 6]:.1f} um"
+    with tiltpad.read_study(folder / "overhung_speeds.h5") as study:
+        peak = next(each for each in tiltpad.response(study, station=8).peaks if each.direction == "y")
+        yield f"its amplification factor (AF) is {peak.amplification_factor:.2f}"
     with h5py.File(folder / "level.h5") as level, h5py.File(folder / "raised.h5") as raised:
         loads = [-run["equilibrium/bearing_load_y"][:] for run in (level, raised)]
         for name, *both in zip(level["bearing"].asstr(), *loads, strict=True):

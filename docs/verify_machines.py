@@ -1,12 +1,16 @@
 """Tables of docs/verification.md about machines: elastic rotors in several bearings."""
 
 import re
+import sys
 from pathlib import Path
 
 import h5py
 import numpy as np
 from verify_film import lines
 from verify_runs import result_of, row
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests/post"))
+import ross_machine  # noqa: E402
 
 #: How many times as many random rotors as in a test.
 TIMES = 12
@@ -41,6 +45,8 @@ TEXTBOOK = {
     "5.9.2": (82.33, 86.86, 239.64, 287.25, 583.49, 806.89),
     "5.9.9": (76.19, 103.91, 565.99, 634.23, 647.75, 1174.2),
 }
+#: Speeds of the Campbell diagram, rpm, and the frequency up to which it has modes, Hz.
+SPEEDS, HIGHEST = range(1000, 10001, 1000), 1000
 PRINTED = re.compile(r"example (?P<name>\S+): *(?P<values>.*)")
 SHARES = re.compile(
     r"(?P<what>[^:]+): (?P<rotors>\d+) rotors;[^\d]+(?P<errors>.+); over the estimate(?P<ratios>.+)"
@@ -134,4 +140,27 @@ def random_rotors(program, _folder):
         yield row(found["what"], found["rotors"], *errors, *ratios)
 
 
-TABLES = (machine, whirl, textbook, random_rotors)
+def campbell_by_ross(program, folder):
+    """Rows of the modes and of the whirl of rotors over the speed, against ROSS."""
+    if not ross_machine.READY.exists():
+        sys.exit("verify.py: ROSS is not installed")
+    with ross_machine.questions() as ross:
+        for name, (discs, unbalance) in ross_machine.ROTORS.items():
+            for speed in SPEEDS:
+                groups = ross_machine.shaft(discs)
+                values, moved, matrices = ross_machine.linear(program, folder, groups, unbalance, speed)
+                found = ross_machine.by_ross(ross, discs, unbalance, speed, matrices)
+                yield row(name, speed, *beside_ross(values, moved, found))
+
+
+def beside_ross(values, moved, found):
+    """How many modes both have, the frequency of the highest, Hz, and the largest differences."""
+    theirs = found["eigenvalues"] @ [1, 1j]
+    both = [ross_machine.vibrating(each, 2 * np.pi * HIGHEST) for each in (values, theirs)]
+    modes = max(ross_machine.farthest(both[0], theirs), ross_machine.farthest(both[1], values))
+    stations = abs(ross_machine.whirl_of(found) - moved).max() / abs(moved).max()
+    counts, top = (len(each) for each in both), abs(both[0]).max() / (2 * np.pi)
+    return (*counts, f"{top:.1f}", f"{modes:.0e}", f"{stations:.0e}")
+
+
+TABLES = (machine, whirl, campbell_by_ross, textbook, random_rotors)

@@ -1,8 +1,6 @@
 """Result files that the tests share: short runs of the program, one a case."""
 
 import itertools
-import json
-import subprocess
 import sys
 import warnings
 from pathlib import Path
@@ -15,6 +13,7 @@ import pytest
 import tiltpad as package
 from matplotlib.figure import Figure
 from result_files import replace_series
+from ross_machine import READY, questions
 
 mpl.use("agg")
 #: The paper's package, post/paper, is not installed.
@@ -214,25 +213,9 @@ def runs_of(tiltpad):
 
 
 @pytest.fixture(scope="session")
-def ross(root):
+def ross():
     """ross(bearing=..., points=...): what ROSS answers to ross_program.py."""
-    python = root / "build/venv-ross/bin/python"
-    if not (root / "build/venv-ross/ready").exists():
+    if not READY.exists():
         pytest.skip("ROSS is not installed")
-
-    process = subprocess.Popen(
-        [python, root / "tests/post/ross_program.py"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-
-    def answer(**asked) -> dict[str, np.ndarray]:
-        print(json.dumps({"points": [], "speeds": []} | asked), file=process.stdin, flush=True)
-        # libraries of ROSS may print lines of their own
-        said = next((line for line in process.stdout if line.startswith("{")), None)
-        assert said, "ROSS ended without an answer"
-        return {name: np.array(values) for name, values in json.loads(said).items()}
-
-    yield answer
-    process.communicate()
+    with questions() as answer:
+        yield answer

@@ -75,8 +75,8 @@ def machine(
     unbalance: list,
 ) -> dict:  # fmt: skip
     """A shaft of steel with discs (node, mass, diametral and polar inertia) in bearings, each with matrices
-    at a speed: ROSS's matrices, its eigenvalues, and its whirl, x and y of each node, under an unbalance
-    (node, moment, phase).
+    at a speed: ROSS's matrices, its eigenvalues without those of torsion and axial vibration, and its whirl,
+    x and y of each node, under an unbalance (node, moment, phase).
     """
     steel = ross.Material("steel", rho=7850, E=2.1e11, Poisson=0.3)
     shaft = [
@@ -95,7 +95,11 @@ def machine(
         for n, k, c in zip(nodes, stiffness, damping, strict=True)
     ]
     rotor = ross.Rotor(shaft, disks, bearings)
-    values = np.linalg.eigvals(rotor.A(speed))
+    # bending is coupled with neither torsion nor axial vibration
+    places = described(rotor)["places"]
+    bending = [rotor.number_dof * n + each for n in range(len(rotor.nodes)) for each in places]
+    bending = [*bending, *(rotor.ndof + each for each in bending)]
+    values = np.linalg.eigvals(rotor.A(speed)[np.ix_(bending, bending)])
     node, moment, phase = unbalance
     moved = rotor.run_unbalance_response(
         node=node, unbalance_magnitude=moment, unbalance_phase=phase, speed_range=np.array([speed])

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 import tiltpad
+from ross_machine import in_ross
 
 SPEEDS = [4000, 4500, 5000, 5500, 6000, 6500]
 #: Speed of the march, rpm; mass, kg; unbalance, kg m: an orbit of 0.08 um, in which the film is linear.
@@ -21,12 +22,6 @@ def study(runs_of, cases, tmp_path_factory):
     tiltpad.collect(folder, folder.with_suffix(".h5"))
     with tiltpad.read_study(folder.with_suffix(".h5")) as opened:
         yield opened
-
-
-def in_ross(matrix):
-    """A matrix of y, z in the axes x = -z, y: turned, not by the formula of tiltpad.to_ross."""
-    turn = np.array([[0.0, -1.0], [1.0, 0.0]])
-    return turn @ matrix @ turn.T
 
 
 @pytest.mark.parametrize("over", ["speed", "frequency", "both"])
