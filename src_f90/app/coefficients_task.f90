@@ -25,6 +25,8 @@ module coefficients_task
 
    !> Whirl frequencies, and modes of the rotor and of the pads, that are printed at most.
    integer, parameter :: most = 4
+   !> Modes of which more than this part of the damping is that of the reduction are not listed.
+   real(wp), parameter :: mostly = 0.5_wp
 
 contains
 
@@ -82,13 +84,17 @@ contains
       call put_modes(run%file, found)
       call put_thresholds(run%file, found)
       if (run%quiet) return
-      call print_coefficients(found, run%inputs)
+      if (.not. allocated(response%of_reduction)) allocate (response%of_reduction(2*size(found%bearings(1)%moves), &
+         & size(found%modes)), source=0.0_wp)
+      call print_coefficients(found, run%inputs, response%of_reduction > mostly)
       if (run%inputs%is_machine()) call print_response(found, response, run%inputs)
    end subroutine write_coefficients
 
-   subroutine print_coefficients(found, inputs)
+   subroutine print_coefficients(found, inputs, of_reduction)
       type(bearing_coefficients_type), intent(in) :: found
       type(case_type), intent(in) :: inputs
+      !> Whether the damping of a mode is that of the reduction, (mode, pivot).
+      logical, intent(in) :: of_reduction(:, :)
       integer :: b, i, k
       if (inputs%thermal%model /= 'none') print '(a)', 'stiffness and damping at the viscosities of this equilibrium:'
       associate (ratios => inputs%coefficients%frequency_ratio)
@@ -104,56 +110,85 @@ contains
             end do
             if (size(ratios) > most) print '(a)', '  and '//to_text(size(ratios) - most) &
                & //' whirl frequencies more, in the file'
-            call print_modes(found%modes(i))
+            call print_modes(found%modes(i), of_reduction(:size(found%modes(i)%eigenvalue), i) &
+               & .and. found%modes(i)%eigenvalue%re < 0)
             if (allocated(found%thresholds)) call print_threshold(found%thresholds(i), found%sought_up_to, &
                & inputs%operation%speed_rpm)
          end do
       end associate
    end subroutine print_coefficients
 
-   !> Where the least damped mode on synchronously reduced coefficients differs from the one with the pads' own
-   !> equations: in its sign, or by more than a tenth of the logarithmic decrement. The largest whirl of the stations.
+   !> What synchronously reduced coefficients would change of the modes; the largest whirl of the stations.
    subroutine print_response(found, response, inputs)
       type(bearing_coefficients_type), intent(in) :: found
       type(case_type), intent(in) :: inputs
       type(rotor_response_type), intent(in) :: response
-      real(wp), parameter :: differs = 0.1_wp
       real(wp), allocatable :: amplitude(:)
+      character(len=:), allocatable :: pivots, others
       integer :: i
       do i = 1, size(found%modes)
-         associate (exact => found%modes(i), reduced => response%synchronous(i))
-            associate (k => minloc(abs(reduced%eigenvalue - exact%eigenvalue(1)), dim=1))
-               if (abs(reduced%log_decrement(k) - exact%log_decrement(1)) > differs*abs(exact%log_decrement(1))) then
-                  print '(a)', pivots_of(found, i, inputs)//': synchronously reduced coefficients ' &
-                     & //'would give mode 1 a logarithmic decrement of '//fixed_text(reduced%log_decrement(k), 4) &
-                     & //', and not '//fixed_text(exact%log_decrement(1), 4)
-               end if
-            end associate
-         end associate
+         pivots = pivots_of(found, i, inputs)//': '
+         others = other_decrements(found%modes(i), response%synchronous(i), response%of_reduction(:, i) > mostly)
+         if (others /= '') print '(a)', pivots//'synchronously reduced coefficients would give other logarithmic ' &
+            & //'decrements: '//others
          amplitude = maxval(abs(response%unbalance(:, :, i)), 1)
-         print '(a)', pivots_of(found, i, inputs)//': linear response to the unbalance, largest at ' &
-            & //'station '//to_text(maxloc(amplitude, dim=1))//': '//fixed_text(1e6_wp*maxval(amplitude), 3)//' um'
+         print '(a)', pivots//'linear response to the unbalance, largest at station ' &
+            & //to_text(maxloc(amplitude, dim=1))//': '//fixed_text(1e6_wp*maxval(amplitude), 3)//' um'
       end do
    end subroutine print_response
 
+   !> Modes of the rotor whose logarithmic decrement on synchronously reduced coefficients has another sign than with the
+   !> pads' own equations, or differs by more than a tenth: "mode 1 (shaft, backward) 1.0345 and not 1.1234, ...". A mode
+   !> is compared with the one of the nearest eigenvalue that no mode before it has; none is there where that is further
+   !> away than 0.
+   function other_decrements(exact, reduced, of_reduction) result(text)
+      type(vibration_modes_type), intent(in) :: exact, reduced
+      logical, intent(in) :: of_reduction(:)
+      character(len=:), allocatable :: text, there
+      real(wp), parameter :: differs = 0.1_wp
+      logical :: waiting(size(reduced%eigenvalue))
+      integer :: i, k, others
+      text = ''
+      others = 0
+      waiting = reduced%eigenvalue%im > 0
+      do i = 1, size(exact%eigenvalue)
+         if (.not. (exact%eigenvalue(i)%im > 0 .and. is_of_rotor(exact%name(i)))) cycle
+         k = minloc(abs(reduced%eigenvalue - exact%eigenvalue(i)), dim=1, mask=waiting)
+         if (k == 0) exit
+         waiting(k) = .false.
+         ! a decrement of another sign differs by more than itself
+         if (of_reduction(i) .or. abs(reduced%log_decrement(k) - exact%log_decrement(i)) &
+            & <= differs*abs(exact%log_decrement(i))) cycle
+         others = others + 1
+         if (others > most) cycle
+         there = fixed_text(reduced%log_decrement(k), 4)
+         if (abs(reduced%eigenvalue(k) - exact%eigenvalue(i)) > abs(exact%eigenvalue(i))) there = 'none'
+         if (others > 1) text = text//', '
+         text = text//'mode '//to_text(i)//' ('//trim(exact%name(i))//') '//there//' and not ' &
+            & //fixed_text(exact%log_decrement(i), 4)
+      end do
+      if (others > most) text = text//', and '//to_text(others - most)//' more'
+   end function other_decrements
+
    !> What modes of the rotor, and those of pads, say of stability, and the least damped ones that vibrate or grow.
-   subroutine print_modes(modes)
+   subroutine print_modes(modes, of_reduction)
       type(vibration_modes_type), intent(in) :: modes
+      logical, intent(in) :: of_reduction(:)
       logical :: of_rotor(size(modes%name))
       of_rotor = is_of_rotor(modes%name)
-      call print_kind(modes, of_rotor, trim(merge('the shaft  ', 'the journal', any(index(modes%name, 'shaft') == 1))) &
-         & //' is')
-      call print_kind(modes, .not. of_rotor, 'the pads are')
+      call print_kind(modes, of_rotor, of_reduction, trim(merge('the shaft  ', 'the journal', &
+         & any(index(modes%name, 'shaft') == 1)))//' is')
+      call print_kind(modes, .not. of_rotor, of_reduction, 'the pads are')
    end subroutine print_modes
 
-   subroutine print_kind(modes, of_kind, who)
+   subroutine print_kind(modes, of_kind, of_reduction, who)
       type(vibration_modes_type), intent(in) :: modes
-      logical, intent(in) :: of_kind(:)
+      logical, intent(in) :: of_kind(:), of_reduction(:)
       character(len=*), intent(in) :: who
       integer, allocatable :: shown(:)
       integer :: i, k
       if (.not. any(of_kind)) return
-      shown = pack([(i, i=1, size(of_kind))], of_kind .and. modes%damping_ratio < 1)
+      shown = pack([(i, i=1, size(of_kind))], of_kind .and. modes%damping_ratio < 1 .and. .not. of_reduction)
       print '(a)', '  '//who//trim(merge(' unstable', ' stable  ', any(of_kind .and. modes%eigenvalue%re > 0))) &
          & //trim(merge(':                  ', ', without vibration', size(shown) > 0))
       do k = 1, min(most, size(shown))
@@ -168,6 +203,8 @@ contains
             end if
          end associate
       end do
+      if (any(of_kind .and. of_reduction)) print '(a)', '    not listed: '//to_text(count(of_kind .and. of_reduction)) &
+         & //' with the damping that high modes of the shaft are given (reduction%damp_above)'
    end subroutine print_kind
 
    !> Where an eigenvalue crosses the axis next.

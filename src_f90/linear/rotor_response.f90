@@ -7,6 +7,7 @@ module rotor_response
    use errors, only: error_type, raise, numerics_error
    use operating_point, only: operating_point_type
    use equations_of_motion, only: machine_model
+   use elastic_rotor, only: elastic_rotor_type
    use mode_names, only: at_stations
    use linear_bearing, only: linear_bearing_type, vibration_modes_type, bearing_coefficients_type, find_modes
    implicit none (type, external)
@@ -20,6 +21,9 @@ module rotor_response
       complex(wp), allocatable :: unbalance(:, :, :)
       !> Stations in the modes, m, (2, station, mode, pivot); 0 of modes that there are not.
       complex(wp), allocatable :: shapes(:, :, :, :)
+      !> Which part of the damping of each mode is that which the reduction gives to high modes, (mode, pivot); 0 of
+      !> modes that there are not.
+      real(wp), allocatable :: of_reduction(:, :)
       !> Modes of the rotor on synchronously reduced coefficients.
       type(vibration_modes_type), allocatable :: synchronous(:)
    end type rotor_response_type
@@ -37,8 +41,9 @@ contains
       associate (pivots => size(coefficients%modes), stations => model%rotor%stations)
          modes = maxval([(size(coefficients%modes(i)%eigenvalue), i=1, pivots)])
          allocate (found%unbalance(2, stations, pivots), found%shapes(2, stations, modes, pivots), &
-            & found%synchronous(pivots))
+            & found%of_reduction(modes, pivots), found%synchronous(pivots))
          found%shapes = 0
+         found%of_reduction = 0
          do i = 1, pivots
             call whirl(model, coefficients%with_rotor(i), found%unbalance(:, :, i), ok)
             if (ok) call reduce(model, coefficients%bearings(i), found%synchronous(i), ok)
@@ -49,10 +54,27 @@ contains
             end if
             do k = 1, size(coefficients%modes(i)%eigenvalue)
                found%shapes(:, :, k, i) = at_stations(model, coefficients%modes(i)%shape(:, k))
+               found%of_reduction(k, i) = part_of_reduction(model, coefficients%with_rotor(i), &
+                  & coefficients%modes(i)%shape(:, k), coefficients%modes(i)%eigenvalue(k))
             end do
          end do
       end associate
    end subroutine find_rotor_response
+
+   !> Which part of the damping of a mode is that which the reduction gives to the high modes of the shaft: the power
+   !> that this takes in a vibration, over that which the decay of the vibration takes. 0 of what does not vibrate.
+   pure real(wp) function part_of_reduction(model, linear, shape, eigenvalue) result(part)
+      type(machine_model), intent(in) :: model
+      type(linear_bearing_type), intent(in) :: linear
+      complex(wp), intent(in) :: shape(:), eigenvalue
+      part = 0
+      if (.not. eigenvalue%im > 0) return
+      select type (rotor => model%rotor)
+      type is (elastic_rotor_type)
+         part = sum(rotor%matrices%high_damping*abs(shape(:rotor%positions))**2)/max(tiny(part), &
+            & 2*abs(eigenvalue%re)*real(dot_product(shape, matmul(linear%mass, shape))))
+      end select
+   end function part_of_reduction
 
    !> The steady whirl under the unbalance: (K + i Omega C - Omega^2 M) x = f.
    subroutine whirl(model, linear, stations, ok)

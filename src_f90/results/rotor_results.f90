@@ -28,6 +28,7 @@ contains
       call put_complex('response/z', found%unbalance(2, :, :), 'the same of z')
       call file%put_table('response/amplitude', amplitude(found%unbalance), 'm', 'major semi-axis of the whirl of ' &
          & //'the station under the unbalance', 'pivot station')
+      call put_parts(file, found%of_reduction, 2*size(coefficients%bearings(1)%moves))
       call put_station_shapes(file, found%shapes, 2*size(coefficients%bearings(1)%moves))
       n = maxval([(size(found%synchronous(i)%eigenvalue), i=1, size(found%synchronous))])
       call file%put_list('synchronous_mode', [(real(i, wp), i=1, n)], '1', 'mode number', 'synchronous_mode')
@@ -42,6 +43,18 @@ contains
          call file%put_table(name//'_imag', values%im, 'm', meaning//', imaginary part', 'pivot station')
       end subroutine put_complex
    end subroutine put_rotor_response
+
+   !> Parts of the damping of the modes that are the reduction's; n modes.
+   subroutine put_parts(file, parts, n)
+      class(record_type), intent(inout) :: file
+      real(wp), intent(in) :: parts(:, :)
+      integer, intent(in) :: n
+      real(wp) :: all_parts(n, size(parts, 2))
+      all_parts = 0
+      all_parts(:size(parts, 1), :) = parts
+      call file%put_table('modes/part_of_reduction', all_parts, '1', 'part of the damping of the mode that the ' &
+         & //'reduction gives to high modes of the shaft (reduction%damp_above)', 'pivot mode')
+   end subroutine put_parts
 
    !> Major semi-axes of ellipses (y, z): the sum of the circles that turn forward and backward.
    pure function amplitude(whirl)

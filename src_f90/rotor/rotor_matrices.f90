@@ -19,6 +19,8 @@ module rotor_matrices
    type :: rotor_matrices_type
       integer :: journals = 0
       real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness
+      !> Damping of the displacements that the reduction adds, as they are modes above reduction%damp_above, 1/s.
+      real(wp), allocatable :: high_damping(:)
       !> Weight (along -y), static loads, and what the offsets of the bearings bend.
       real(wp), allocatable :: load(:)
       !> (n, 2): the force of the unbalances at the shaft angle phi is Omega**2*(unbalance(:, 1)*cos(phi)
@@ -67,7 +69,7 @@ contains
       r%total_mass = component%total_mass
       r%mode_frequency = fixed%frequency(:modes)/(2*pi)
       if (modes < size(fixed%frequency)) r%left_out_frequency = fixed%frequency(modes + 1)/(2*pi)
-      call add_modal_damping(mode_damping(machine, fixed, modes), fixed%planes, r%damping)
+      call add_modal_damping(mode_damping(machine, fixed, modes), fixed%planes, r)
       call add_supports(machine, gravity, r%mass, r%damping, r%stiffness, r%load)
    end function reduced_rotor
 
@@ -103,14 +105,16 @@ contains
    end function projected
 
    !> Adds the damping of modes to the last displacements, which are theirs, in each plane.
-   pure subroutine add_modal_damping(modal_damping, planes, damping)
+   pure subroutine add_modal_damping(modal_damping, planes, r)
       real(wp), intent(in) :: modal_damping(:)
       integer, intent(in) :: planes
-      real(wp), intent(inout) :: damping(:, :)
+      type(rotor_matrices_type), intent(inout) :: r
       integer :: i, at
+      allocate (r%high_damping(size(r%damping, 1)), source=0.0_wp)
       do i = 1, planes*size(modal_damping)
-         at = size(damping, 1) - planes*size(modal_damping) + i
-         damping(at, at) = damping(at, at) + modal_damping((i + planes - 1)/planes)
+         at = size(r%damping, 1) - planes*size(modal_damping) + i
+         r%high_damping(at) = modal_damping((i + planes - 1)/planes)
+         r%damping(at, at) = r%damping(at, at) + r%high_damping(at)
       end do
    end subroutine add_modal_damping
 end module rotor_matrices

@@ -1,0 +1,109 @@
+"""What a run says of a machine beside its figures: damping of high modes, and coefficients without pads."""
+
+import re
+
+import h5py
+import numpy as np
+import pytest
+
+#: A light rotor of a turbocharger's kind, whose speed is not far below 500 Hz.
+FAST = """&case task='coefficients' /
+&operation speed_rpm=30000 /
+&shaft length=4*0.05, diameter=4*0.05 /
+&disc station=3, mass=3, polar_inertia=0.005, diametral_inertia=0.003 /
+&disc station=1, mass=0.5, polar_inertia=0.0005, diametral_inertia=0.0003 /
+&unbalance station=3, moment=1e-6 /
+&bearing journal_radius=0.025, machined_clearance=4e-5, assembled_clearance=3e-5, axial_length=0.02 /
+&bearing name='left', station=2 /
+&bearing name='right', station=5 /
+"""
+HEAVY = """&case task='coefficients' /
+&operation speed_rpm=4100 /
+&shaft length=0.05, 0.05, 10*0.2, 0.05, 0.05, diameter=2*0.0998, 10*0.26, 2*0.0998 /
+&disc station=6, mass=1400, polar_inertia=120, diametral_inertia=70 /
+&disc station=10, mass=1000, polar_inertia=80, diametral_inertia=50 /
+&unbalance station=6, moment=0.01 /
+&bearing name='left', station=2 /
+&bearing name='right', station=14 /
+"""
+
+
+def eigenvalues(path, group="modes"):
+    """Of all modes with free pivots."""
+    with h5py.File(path) as file:
+        return file[f"{group}/eigenvalue_real"][0] + 1j * file[f"{group}/eigenvalue_imag"][0]
+
+
+def test_much_damping_of_high_modes_is_said_with_what_changes_it(run, tmp_path):
+    note = re.search(
+        r"note: the damping of modes above 500 Hz changes amplitudes at the highest speed by (.*) %; "
+        r"reduction%damp_above = (\d+) changes less",
+        run(FAST).stdout,
+    )
+    with h5py.File(tmp_path / "case.h5") as file:
+        before = file["rotor/damping_error"][()]
+    assert float(note[1]) == pytest.approx(100 * before, abs=0.05)
+    assert (
+        "note: the damping" not in run(FAST, f"reduction%damp_above={note[2]}", more=("--overwrite",)).stdout
+    )
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert file["rotor/damping_error"][()] < 0.01 < before
+
+
+def test_the_part_of_the_reduction_is_what_its_damping_adds(run, tmp_path):
+    """Of a small damping ratio: what a mode decays faster than without.
+
+    The part is that of the power in the mode itself. It is all to first order where matrices are symmetric; the
+    films' are not.
+    """
+    values = []
+    for ratio in (0, 1e-4):
+        run(HEAVY, f"reduction%damping_ratio={ratio}", more=("--overwrite",))
+        values.append(eigenvalues(tmp_path / "case.h5"))
+    with h5py.File(tmp_path / "case.h5") as file:
+        parts = file["modes/part_of_reduction"][0]
+    compared = 0
+    for part, found in zip(parts, values[1], strict=True):
+        if found.imag > 0 and part > 1e-4:
+            without = values[0][np.nanargmin(abs(values[0] - found))]
+            assert without.real - found.real == pytest.approx(part * -found.real, rel=0.1)
+            compared += 1
+    assert compared > 4
+
+
+def test_modes_with_the_damping_of_the_reduction_are_not_listed(run, tmp_path):
+    said = run(FAST).stdout.partition("pivots locked:")[0]
+    listed = [int(each) for each in re.findall(r"mode (\d+) \(shaft", said)]
+    with h5py.File(tmp_path / "case.h5") as file:
+        parts = file["modes/part_of_reduction"][0]
+        shaft = np.char.startswith(file["modes/name"].asstr()[0].astype(str), "shaft")
+    assert len(listed) >= 4
+    assert all(parts[each - 1] <= 0.5 for each in listed)
+    left_out = int((shaft & (parts > 0.5)).sum())
+    assert left_out > 0
+    assert f"not listed: {left_out} with the damping that high modes of the shaft are given" in said
+
+
+def test_all_modes_are_compared_with_those_of_synchronous_coefficients(run, tmp_path):
+    """Said of those whose decrement differs by more than a tenth, four at most with their figures."""
+    said = run(HEAVY).stdout
+    line = re.search(r"pivots free: synchronously reduced coefficients would give other .*: (mode .*)", said)[
+        1
+    ]
+    own, reduced = (eigenvalues(tmp_path / "case.h5", group) for group in ("modes", "synchronous"))
+    with h5py.File(tmp_path / "case.h5") as file:
+        parts = file["modes/part_of_reduction"][0]
+        shaft = np.char.startswith(file["modes/name"].asstr()[0].astype(str), "shaft")
+    differ, left = [], [each for each in reduced if each.imag > 0]
+    for k in np.flatnonzero(shaft & (own.imag > 0)):
+        if not left:
+            break
+        nearest = min(left, key=lambda each, k=k: abs(each - own[k]))
+        left.remove(nearest)
+        decrement, other = (-2 * np.pi * each.real / each.imag for each in (own[k], nearest))
+        if parts[k] <= 0.5 and abs(other - decrement) > 0.1 * abs(decrement):
+            differ.append((k + 1, f"{other:.4f} and not {decrement:.4f}"))
+    assert len(differ) > 4
+    for number, words in differ[:4]:
+        assert re.search(rf"mode {number} \(shaft, \w+\) {words}", line), (number, words, line)
+    assert line.endswith(f", and {len(differ) - 4} more")
