@@ -6,6 +6,7 @@ module equilibrium_notes
    use heat_balance_equations, only: static_figures_type, find_static_figures
    use bearings_alone, only: bearing_alone, part_of, bearing_loads
    use bearing_file, only: bearing_file_type
+   use checked_case, only: first_equal
    use equilibrium_results, only: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, &
       & put_film_temperatures
    use machine_results, only: put_machine_equilibrium
@@ -23,11 +24,11 @@ contains
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
       real(wp), allocatable :: loads(:, :)
-      integer :: b
+      integer :: b, as
       run%model%oil = static%oil
       run%computed = .true.
       if (.not. run%inputs%is_machine()) then
-         call note_bearing(run, run%model, static, 1, 'equilibrium: ')
+         call note_bearing(run, run%model, static, 1, 'equilibrium: ', .not. run%quiet)
          call put_stability(run%file, static)
          call run%note_remarks(shown=.true.)
          return
@@ -38,37 +39,76 @@ contains
       if (.not. run%quiet) call print_shaft(run%file, run%inputs)
       if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static, run%inputs)
       do b = 1, size(loads, 2)
+         as = same_equilibrium(run, static, loads, b)
          call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, &
-            & bearing_title(run%inputs, b, loads(:, b)))
-         call note_misalignment(run, static, b)
+            & bearing_title(run%inputs, b, loads(:, b)), as == b .and. .not. run%quiet)
+         call note_misalignment(run, static, b, as == b .and. .not. run%quiet)
+         if (as < b .and. .not. run%quiet) print '(a)', bearing_title(run%inputs, b, loads(:, b)) &
+            & //'all else as of bearing '''//run%inputs%machine%bearings(as)%name//''''
       end do
       call run%note_remarks(shown=.true.)
    end subroutine note_equilibrium
 
+   !> The first bearing that is as bearing b and whose films, journal and shaft are in the same equilibrium, but for
+   !> digits that are not printed: it, or one before it.
+   integer function same_equilibrium(run, static, loads, b) result(first)
+      type(case_run_type), intent(in) :: run
+      type(equilibrium_type), intent(in) :: static
+      !> Of each bearing, N.
+      real(wp), intent(in) :: loads(:, :)
+      integer, intent(in) :: b
+      type(equilibrium_type) :: one, own
+      own = part_of(run%model, static, b)
+      do first = 1, b - 1
+         if (first_equal(run%inputs, b) /= first_equal(run%inputs, first)) cycle
+         one = part_of(run%model, static, first)
+         if (agree(loads(:, first), loads(:, b)) .and. agree(one%rotor, own%rotor) .and. agree(one%tilt, own%tilt) &
+            & .and. agree(one%min_film_thickness, own%min_film_thickness) &
+            & .and. agree([slope(run, static, first)], [slope(run, static, b)])) return
+      end do
+   end function same_equilibrium
+
+   !> Whether numbers of one kind are the same but for the digits that are not printed.
+   pure logical function agree(one, other)
+      real(wp), intent(in) :: one(:), other(:)
+      agree = maxval(abs(one - other)) <= 1e-5_wp*maxval(abs(other))
+   end function agree
+
+   !> Slope of the shaft in bearing b, rad.
+   real(wp) function slope(run, static, b)
+      type(case_run_type), intent(in) :: run
+      type(equilibrium_type), intent(in) :: static
+      integer, intent(in) :: b
+      real(wp) :: slopes(2, run%model%rotor%stations)
+      slopes = run%model%rotor%station_slopes(static%rotor)
+      slope = norm2(slopes(:, run%inputs%machine%bearings(b)%station))
+   end function slope
+
    !> What the slope of the shaft in bearing b of a machine does to its films, which leave it out.
-   subroutine note_misalignment(run, static, b)
+   subroutine note_misalignment(run, static, b, shown)
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
       integer, intent(in) :: b
+      logical, intent(in) :: shown
       type(bearing_file_type) :: file
-      real(wp) :: slopes(2, run%model%rotor%stations), slope, misalignment
+      real(wp) :: misalignment
       file = run%bearing(b)
-      slopes = run%model%rotor%station_slopes(static%rotor)
       associate (of => run%inputs%machine%bearings(b), bearing => run%model%layout%bearings(b))
-         slope = norm2(slopes(:, of%station))
-         misalignment = maxval(slope*of%bearing%axial_length/2/static%min_film_thickness(bearing%all_pads()))
+         misalignment = maxval(slope(run, static, b)*of%bearing%axial_length/2 &
+            & /static%min_film_thickness(bearing%all_pads()))
       end associate
       call put_misalignment(file, misalignment)
-      if (.not. run%quiet) call print_misalignment(slope, misalignment)
+      if (shown) call print_misalignment(slope(run, static, b), misalignment)
    end subroutine note_misalignment
 
-   !> Bearing b, of this model of it alone; `title` begins its first line.
-   subroutine note_bearing(run, model, static, b, title)
+   !> Bearing b, of this model of it alone; `title` begins its first line. `shown`: it is printed, too.
+   subroutine note_bearing(run, model, static, b, title, shown)
       type(case_run_type), intent(inout) :: run
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(in) :: static
       integer, intent(in) :: b
       character(len=*), intent(in) :: title
+      logical, intent(in) :: shown
       type(static_figures_type) :: figures
       type(bearing_file_type) :: file
       file = run%bearing(b)
@@ -78,7 +118,7 @@ contains
          call put_figures(file, inputs, figures)
          if (allocated(figures%oil)) call put_temperatures(file, figures%oil, static%oil%viscosity)
          if (allocated(static%films)) call put_film_temperatures(file, static%films)
-         if (run%quiet) return
+         if (.not. shown) return
          call print_equilibrium(title, static, inputs, .not. run%inputs%is_machine())
          call print_figures(inputs, figures)
          if (allocated(figures%oil)) call print_temperatures(figures%oil, static%oil%viscosity)

@@ -15,11 +15,11 @@ module checked_case
    use machine_names, only: kind_of
    use assignments, only: namelist_type
    use case_namelist, only: fill_case
-   use namelist_writer, only: lines_of, group_start
+   use namelist_writer, only: lines_of, group_start, namelist_of
    use case_remarks, only: remarks_on_case, behind, newline
    implicit none (type, external)
    private
-   public :: marked_text, derived_text
+   public :: marked_text, derived_text, first_equal
 
    !> Temperatures of warm oil, C.
    real(wp), parameter :: warm(3) = [60.0_wp, 80.0_wp, 100.0_wp]
@@ -79,7 +79,7 @@ contains
       if (inputs%is_machine()) then
          if (inputs%machine%shaft%is_given()) text = text//said('mass', inputs%machine%mass(), 'kg, shaft and discs')
          do b = 1, inputs%bearing_count()
-            text = text//'! bearing '''//inputs%machine%bearings(b)%name//''''//newline &
+            if (first_equal(inputs, b) == b) text = text//'! '//names_of_equals(inputs, b)//newline &
                & //derived_of_bearing(inputs%of_bearing(b))
          end do
       else
@@ -148,4 +148,30 @@ contains
       padded = name
       line = '!   '//padded//' '//to_text(value)//'  '//meaning//newline
    end function said
+
+   !> The first bearing of a machine that is as bearing b: it, or one before it.
+   integer function first_equal(inputs, b) result(first)
+      type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
+      do first = 1, b - 1
+         if (namelist_of(inputs%of_bearing(first)) == namelist_of(inputs%of_bearing(b))) return
+      end do
+   end function first_equal
+
+   !> "bearings 'left', 'right'": bearing b of a machine and those behind it that are as it is.
+   function names_of_equals(inputs, b) result(text)
+      type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
+      character(len=:), allocatable :: text
+      integer :: i, equals
+      text = ''
+      equals = 0
+      do i = b, inputs%bearing_count()
+         if (first_equal(inputs, i) /= b) cycle
+         equals = equals + 1
+         if (equals > 1) text = text//', '
+         text = text//''''//inputs%machine%bearings(i)%name//''''
+      end do
+      text = trim(merge('bearing ', 'bearings', equals == 1))//' '//text
+   end function names_of_equals
 end module checked_case

@@ -21,8 +21,8 @@ module rotor_response
       complex(wp), allocatable :: unbalance(:, :, :)
       !> Stations in the modes, m, (2, station, mode, pivot); 0 of modes that there are not.
       complex(wp), allocatable :: shapes(:, :, :, :)
-      !> Which part of the damping of each mode is that which the reduction gives to high modes, (mode, pivot); 0 of
-      !> modes that there are not.
+      !> Part of the damping of each mode that the reduction gives to high modes, (mode, pivot); 0 of modes that there
+      !> are not.
       real(wp), allocatable :: of_reduction(:, :)
       !> Modes of the rotor on synchronously reduced coefficients.
       type(vibration_modes_type), allocatable :: synchronous(:)
@@ -61,8 +61,8 @@ contains
       end associate
    end subroutine find_rotor_response
 
-   !> Which part of the damping of a mode is that which the reduction gives to the high modes of the shaft: the power
-   !> that this takes in a vibration, over that which the decay of the vibration takes. 0 of what does not vibrate.
+   !> Part of the damping of a mode that the reduction gives to the high modes of the shaft: the power of this damping
+   !> in a vibration, over the power with which the vibration decays. 0 of what does not vibrate.
    pure real(wp) function part_of_reduction(model, linear, shape, eigenvalue) result(part)
       type(machine_model), intent(in) :: model
       type(linear_bearing_type), intent(in) :: linear

@@ -41,7 +41,7 @@ contains
          return
       end if
       call read_matrices(file, machine%given, error)
-      if (allocated(file%failure)) call raise(error, input_error, file%failure)
+      if (allocated(file%failure)) call raise(error, input_error, file%failure//'; all numbers must be 64-bit floats')
       call file%close()
       call add_context(error, 'rotor%file = '''//machine%rotor_file//'''')
    end subroutine read_rotor

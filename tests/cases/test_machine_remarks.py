@@ -53,8 +53,8 @@ def test_much_damping_of_high_modes_is_said_with_what_changes_it(run, tmp_path):
 def test_the_part_of_the_reduction_is_what_its_damping_adds(run, tmp_path):
     """Of a small damping ratio: what a mode decays faster than without.
 
-    The part is that of the power in the mode itself. It is all to first order where matrices are symmetric; the
-    films' are not.
+    The part is that of the power in the mode itself. It is all to first order where matrices are symmetric;
+    those of films are not.
     """
     values = []
     for ratio in (0, 1e-4):
@@ -107,3 +107,33 @@ def test_all_modes_are_compared_with_those_of_synchronous_coefficients(run, tmp_
     for number, words in differ[:4]:
         assert re.search(rf"mode {number} \(shaft, \w+\) {words}", line), (number, words, line)
     assert line.endswith(f", and {len(differ) - 4} more")
+
+
+#: A rotor whose halves are alike.
+SYMMETRIC = """&case task='equilibrium' /
+&operation speed_rpm=4100 /
+&shaft length=2*0.05, 4*0.25, 2*0.05, diameter=2*0.0998, 4*0.2, 2*0.0998 /
+&disc station=5, mass=800, polar_inertia=60, diametral_inertia=35 /
+&bearing name='left', station=2 /
+&bearing name='right', station=8 /
+"""
+
+
+def test_equal_bearings_in_one_equilibrium_are_told_once(run, tmp_path):
+    """Their figures stand in the file of each; where anything differs, inputs or loads, both are told."""
+    said = run(SYMMETRIC).stdout
+    assert said.count("pad 1: tilt") == 1
+    assert re.search(
+        r"\nbearing 'right' at station 8: load y \S+, z \S+ N, all else as of bearing 'left'\n", said
+    )
+    with h5py.File(tmp_path / "case.h5") as file:
+        heights = [file[f"bearings/{name}/equilibrium/journal_y"][()] for name in ("left", "right")]
+    assert heights[0] == pytest.approx(heights[1], rel=1e-5)
+    for other in ("bearing:right%viscosity=0.0131", "disc(1)%station=4"):
+        said = run(SYMMETRIC, other, more=("--overwrite",)).stdout
+        assert said.count("pad 1: tilt") == 2
+    said = run(SYMMETRIC, more=("--check",)).stdout
+    assert "! bearings 'left', 'right'\n" in said
+    assert said.count("clearance ratio") == 1
+    said = run(SYMMETRIC, "bearing:right%axial_length=0.11", more=("--check",)).stdout
+    assert said.count("clearance ratio") == 2
