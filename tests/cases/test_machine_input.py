@@ -199,7 +199,10 @@ MATRICES = {
     "negative mass": (lambda m: m.update(total_mass=-1.0), "total_mass = -1: must be that of"),
     "mass in t": (lambda m: m.update(total_mass=m["total_mass"] / 1e3), "total_mass = 0.0739"),
     "missing": (lambda m: m.pop("damping"), "could not find damping"),
-    "32 bits": (lambda m: m.update(mass=np.float32(m["mass"])), "right kind in mass; all numbers must be 64-bit floats"),
+    "32 bits": (
+        lambda m: m.update(mass=np.float32(m["mass"])),
+        "right kind in mass; all numbers must be 64-bit floats",
+    ),
     "integers": (
         lambda m: m.update(damping=np.zeros((20, 20), int)),
         "in damping; all numbers must be 64-bit floats",
