@@ -36,7 +36,7 @@ contains
       call put_stability(run%file, static)
       loads = bearing_loads(run%model, static%rotor)
       call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads)
-      if (.not. run%quiet) call print_shaft(run%file, run%inputs)
+      if (.not. run%quiet) call print_shaft(run%file)
       if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static, run%inputs)
       do b = 1, size(loads, 2)
          as = same_equilibrium(run, static, loads, b)

@@ -21,10 +21,6 @@ module run_summary
 
    !> s.
    real(wp), parameter :: thousand_hours = 3.6e6_wp
-   !> Error of amplitudes by the damping of high modes from which on a remark says how to have less.
-   real(wp), parameter :: much_damping = 0.01_wp
-   !> And from which multiple of the highest speed on their damping changes less.
-   real(wp), parameter :: far_above = 4
 
 contains
 
@@ -42,9 +38,8 @@ contains
    end function bearing_title
 
    !> The rotor of a machine: its mass, its kept modes and what those that are left out change.
-   subroutine print_shaft(file, inputs)
+   subroutine print_shaft(file)
       class(record_type), intent(in) :: file
-      type(case_type), intent(in) :: inputs
       real(wp), allocatable :: frequencies(:)
       character(len=:), allocatable :: modes
       allocate (frequencies(file%list_size('rotor/mode')))
@@ -55,12 +50,6 @@ contains
       print '(a)', 'rotor: '//fixed_text(file%get_real('rotor/total_mass'), 1)//' kg, '//modes &
          & //'; amplitudes err by '//to_text(file%get_real('rotor/truncation_error'))//' by modes left out and by ' &
          & //to_text(file%get_real('rotor/damping_error'))//' by their damping'
-      associate (above => inputs%machine%reduction%damp_above, speed => inputs%highest_speed()/(2*pi))
-         if (file%get_real('rotor/damping_error') > much_damping) print '(a)', 'note: the damping of modes above ' &
-            & //to_text(above)//' Hz changes amplitudes at the highest speed by ' &
-            & //fixed_text(100*file%get_real('rotor/damping_error'), 1)//' %; reduction%damp_above = ' &
-            & //to_text(anint(max(2*above, far_above*speed)))//' changes less, and takes more steps in a march'
-      end associate
    end subroutine print_shaft
 
    !> The stations that move most in the last revolution.

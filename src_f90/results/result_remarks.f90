@@ -2,7 +2,7 @@
 !> it as `summary/remarks`; console, report, plots and Python repeat it.
 module result_remarks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use kinds, only: wp, degree
+   use kinds, only: wp, degree, pi
    use text, only: to_text, fixed_text
    use case_inputs, only: case_type
    use case_remarks, only: remarks_on_case, remarks_on_load, of_bearing_named, behind, newline
@@ -26,6 +26,9 @@ module result_remarks
    real(wp), parameter :: roughnesses = 3, visible_slope = 0.2_wp
    !> Part of a pad's inflow that may be missing in its balance.
    real(wp), parameter :: visible_flow = 0.02_wp
+   !> Error of amplitudes by the damping of high modes of a shaft, and the multiple of the highest speed from which on
+   !> it is less.
+   real(wp), parameter :: much_damping = 0.01_wp, far_above = 4
 
 contains
 
@@ -38,7 +41,7 @@ contains
       type(case_type) :: alone
       real(wp) :: loads(2, inputs%bearing_count())
       integer :: b
-      all = remarks_on_case(inputs)
+      all = remarks_on_case(inputs)//on_damping(inputs, file)
       call file%get_list('equilibrium/bearing_load_y', loads(1, :))
       call file%get_list('equilibrium/bearing_load_z', loads(2, :))
       do b = 1, inputs%bearing_count()
@@ -58,6 +61,21 @@ contains
          & //'that of the march, whose displacements change by '//to_text(file%get_real('periodic/change')) &
          & //' of their characteristic scales in a period'//newline
    end function remarks_on_run
+
+   !> What the damping that the reduction of a shaft gives to its high modes changes.
+   function on_damping(inputs, file) result(remark)
+      type(case_type), intent(in) :: inputs
+      class(run_file_type), intent(inout) :: file
+      character(len=:), allocatable :: remark
+      remark = ''
+      if (.not. file%has('rotor/damping_error')) return
+      associate (error => file%get_real('rotor/damping_error'), above => inputs%machine%reduction%damp_above)
+         if (error > much_damping) remark = 'the damping of modes above '//to_text(above) &
+            & //' Hz changes amplitudes at the highest speed by '//fixed_text(100*error, 1) &
+            & //' %; reduction%damp_above = '//to_text(anint(max(2*above, far_above*inputs%highest_speed()/(2*pi)))) &
+            & //' changes less, and takes more steps in a march'//newline
+      end associate
+   end function on_damping
 
    !> Writes the list; a list that was there is replaced.
    subroutine put_remarks(file, all)

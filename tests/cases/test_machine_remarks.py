@@ -36,7 +36,7 @@ def eigenvalues(path, group="modes"):
 
 def test_much_damping_of_high_modes_is_said_with_what_changes_it(run, tmp_path):
     note = re.search(
-        r"note: the damping of modes above 500 Hz changes amplitudes at the highest speed by (.*) %; "
+        r"remark: the damping of modes above 500 Hz changes amplitudes at the highest speed by (.*) %; "
         r"reduction%damp_above = (\d+) changes less",
         run(FAST).stdout,
     )
@@ -44,7 +44,7 @@ def test_much_damping_of_high_modes_is_said_with_what_changes_it(run, tmp_path):
         before = file["rotor/damping_error"][()]
     assert float(note[1]) == pytest.approx(100 * before, abs=0.05)
     assert (
-        "note: the damping" not in run(FAST, f"reduction%damp_above={note[2]}", more=("--overwrite",)).stdout
+        "remark: the damping" not in run(FAST, f"reduction%damp_above={note[2]}", more=("--overwrite",)).stdout
     )
     with h5py.File(tmp_path / "case.h5") as file:
         assert file["rotor/damping_error"][()] < 0.01 < before
