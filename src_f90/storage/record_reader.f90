@@ -13,7 +13,7 @@ module record_reader
    public :: read_record
 
    !> Most numbers of a dataset, and most bytes of a label; only a damaged file says more.
-   integer, parameter :: most_numbers = 10000000, longest_label = 200
+   integer, parameter :: most_numbers = 10000000, longest_label = 30000
    !> Root attributes that are read: numbers, and texts that a run adds to when it goes on.
    character(len=*), parameter :: flags(*) = [character(len=11) :: 'complete', 'exit_status', 'resumes']
    character(len=*), parameter :: texts(*) = [character(len=11) :: 'history', 'branch_ends']
