@@ -3,6 +3,7 @@
 import os
 import re
 import resource
+import shutil
 import subprocess
 
 import pytest
@@ -50,6 +51,13 @@ def test_no_memory_for_a_run_of_a_study(tiltpad, tmp_path, failing):
     call, said = 1000, [""]
     while not said[-1].endswith("2 runs failed"):
         done = tiltpad("case.nml", "-q", "--jobs", 1, cwd=tmp_path, env=failing("memory", call, "ENOMEM"))
+        if done.returncode == 0:
+            # HDF5 gave back what it keeps in reserve, and asked again
+            assert sorted(os.listdir(tmp_path / "case")) == ["0001.h5", "0002.h5"]
+            shutil.rmtree(tmp_path / "case")
+            (tmp_path / "case.h5").unlink()
+            call += 1
+            continue
         assert done.returncode == 3
         *lines, said = done.stderr.splitlines()
         said = [*sorted(lines), said]

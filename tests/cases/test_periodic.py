@@ -191,11 +191,6 @@ def test_fixed_pads(run, tmp_path):
     ("overrides", "names"),
     [
         ((PERIODIC, "operation%final_speed_rpm=7000"), ("operation%final_speed_rpm", "7000", "periodic")),
-        ((PERIODIC, "output%start_time=0.1"), ("output%start_time",)),
-        ((PERIODIC, "integration%stop_when_periodic=1e-3"), ("integration%stop_when_periodic",)),
-        (("periodic%revolutions=2",), ("periodic%revolutions", "case%task")),
-        (("periodic%tolerance=1e-6",), ("periodic%tolerance", "case%task")),
-        (("periodic%max_iterations=3",), ("periodic%max_iterations", "case%task")),
         ((PERIODIC, "periodic%revolutions=0"), ("periodic%revolutions", "1 to")),
         ((PERIODIC, "periodic%tolerance=0"), ("periodic%tolerance", "1e-12 to")),
         ((PERIODIC, "periodic%max_iterations=0"), ("periodic%max_iterations", "1 to")),
@@ -206,6 +201,20 @@ def test_what_is_refused(run, tmp_path, overrides, names):
     for name in names:
         assert name in done.stderr
     assert not (tmp_path / "case.h5").exists()
+
+
+@pytest.mark.parametrize(
+    ("overrides", "name"),
+    [
+        ((PERIODIC, "output%start_time=0.1"), "output (start_time)"),
+        ((PERIODIC, "integration%stop_when_periodic=1e-3"), "integration (stop_when_periodic)"),
+        (("periodic%revolutions=2",), "periodic (revolutions)"),
+        (("periodic%tolerance=1e-6",), "periodic (tolerance)"),
+        (("periodic%max_iterations=3",), "periodic (max_iterations)"),
+    ],
+)
+def test_what_belongs_to_another_task_is_a_remark(run, overrides, name):
+    assert f"remark: {name}: has no effect with case%task" in run(LUGRE, *overrides, more=("--check",)).stdout
 
 
 def test_a_march_that_repeats_is_an_orbit(run, tmp_path):

@@ -135,7 +135,7 @@ def test_a_runup_names_its_peak(made):
     assert figures.orders([case, larger]).axes[0].get_ylim() == (0, pytest.approx(105, rel=1e-3))
     assert "from where the unbalance points along +y" in fig.get_supxlabel().replace("\n", " ")
     assert "y: peak 10." in figures.size([case]).get_supxlabel()
-    assert "Peaks of the first order" in tiltpad.report.remarks(case)
+    assert "Peaks of the first order" in tiltpad.report.peaks(case)
 
 
 def test_a_band_of_half_the_order_is_no_sawtooth(made):

@@ -285,7 +285,7 @@ contains
             end if
             do k = 1, 2
                if (contact(k) > 0) piece%pivot_deflection(k) &
-                  & = model%bearings(1)%pivots(k)%contact%law%pivot_deflection(contact(k))
+                  & = model%bearings(1)%pivots(i)%contact%law%pivot_deflection(contact(k))
             end do
             piece%way = pad%position%pivot_radius + piece%pivot_deflection - r
          end if
@@ -315,10 +315,12 @@ contains
             if (norm2(place) > reach) cycle
             do draw = 1, draws
                call journal_on_curves(model, curves, place, 0.5_wp - 0.2_wp*(draw - 1), y, ok)
-               if (.not. ok .or. known(model, y, tried, 2e-2_wp)) cycle
+               if (.not. ok) cycle
+               if (known(model, y, tried, 2e-2_wp)) cycle
                tried = reshape([tried, y], [model%n, size(tried, 2) + 1])
                call polish(model, y, ok)
-               if (.not. ok .or. known(model, y, found, 1e-4_wp)) cycle
+               if (.not. ok) cycle
+               if (known(model, y, found, 1e-4_wp)) cycle
                found = reshape([found, y], [model%n, size(found, 2) + 1])
                call stability_at(model, y, stability, ok)
                if (.not. ok) cycle

@@ -94,7 +94,12 @@ UNITS = {
     **dict.fromkeys(("supply_temperature", "shaft_temperature", "reference_temperature"), "°C"),
     **{"at_temperature": "°C", "temperature_exponent": "1/K", "reference_viscosity": "Pa s"},
     **{"kinematic_viscosity": "m²/s", "density_at_15": "kg/m³", "density_slope": "kg/(m³ K)"},
-    **{"conductivity": "W/(m K)", "groove_volume": "m³"},
+    **{
+        "conductivity": "W/(m K)",
+        "back_coefficient": "W/(m² K)",
+        "back_temperature": "°C",
+        "groove_volume": "m³",
+    },
     **dict.fromkeys(("duration", "start_time", "max_step", "checkpoint_seconds"), "s"),
     **dict.fromkeys(("supply_pressure", "ambient_pressure", "cavitation_pressure"), "Pa"),
     **dict.fromkeys(("young_modulus", "elastic_modulus"), "Pa"),
