@@ -139,8 +139,8 @@ contains
 
    !> Modes of the rotor whose logarithmic decrement on synchronously reduced coefficients has another sign than with
    !> the pads' own equations, or differs by more than a tenth: "mode 1 (shaft, backward) 1.0345 and not 1.1234, ...". A
-   !> mode is compared with the one of the nearest eigenvalue that no mode before it has; where that is further away
-   !> than 0, there is none.
+   !> mode is compared with the one of the nearest eigenvalue that no mode before it has; where even that is further
+   !> from its own eigenvalue than the origin is, it has no counterpart, which is said as "none".
    function other_decrements(exact, reduced, of_reduction) result(text)
       type(vibration_modes_type), intent(in) :: exact, reduced
       logical, intent(in) :: of_reduction(:)

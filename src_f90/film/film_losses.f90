@@ -153,17 +153,11 @@ contains
       !> That of the modes.
       type(film_response), intent(in) :: fourier
       type(film_loss), intent(inout) :: loss
-      type(elimination_film_type) :: volumes(2)
       type(volume_flow_type) :: whole(2), found(2)
       type(arc_weights) :: at_edge
-      integer :: k, status
       logical :: cavitates
       cavitates = self%condition /= cavitation_none .and. is_cavitated(self%gap%cavitation_pressure, fourier)
-      do k = 1, 2
-         volumes(k) = new_following_grid(self%gap, motion, speed, k*(enough_rows/2))
-         call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), found(k), status)
-         loss%status = max(loss%status, status)
-      end do
+      call on_two_grids(self, motion, oil, speed, whole, found, loss)
       if (.not. cavitates) found = whole
       associate (gap => self%gap, d => self%directions, surface => speed*self%gap%journal_radius, &
          & r => finer(found(1), found(2)))
@@ -180,6 +174,23 @@ contains
          loss%unfed = r%unfed
       end associate
    end subroutine uneven_film
+
+   !> Films of volumes on a grid and on one of twice as many rows, whole and cavitated.
+   subroutine on_two_grids(self, motion, oil, speed, whole, cavitated, loss)
+      class(film_losses_type), intent(inout) :: self
+      type(film_motion), intent(in) :: motion
+      type(film_oil), intent(in) :: oil
+      real(wp), intent(in) :: speed
+      type(volume_flow_type), intent(inout) :: whole(2), cavitated(2)
+      type(film_loss), intent(inout) :: loss
+      type(elimination_film_type) :: volumes(2)
+      integer :: k, status
+      do k = 1, 2
+         volumes(k) = new_following_grid(self%gap, motion, speed, k*(enough_rows/2))
+         call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), cavitated(k), status)
+         loss%status = max(loss%status, status)
+      end do
+   end subroutine on_two_grids
 
    !> Integral of f0/h over the area of a full film, N s/m, by Simpson's rule.
    pure real(wp) function sliding_shear(gap, motion, oil)
@@ -218,15 +229,9 @@ contains
       type(film_response), intent(in) :: fourier
       type(volume_flow_type), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
-      type(elimination_film_type) :: volumes(2)
       type(volume_flow_type) :: whole(2), cavitated(2)
       real(wp) :: c
-      integer :: k, status
-      do k = 1, 2
-         volumes(k) = new_following_grid(self%gap, motion, speed, k*(enough_rows/2))
-         call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), cavitated(k), status)
-         loss%status = max(loss%status, status)
-      end do
+      call on_two_grids(self, motion, oil, speed, whole, cavitated, loss)
       c = share_of_modes(self%gap%cavitation_pressure, fourier)
       associate (w => finer(whole(1), whole(2)), r => finer(cavitated(1), cavitated(2)))
          driven%force = r%force + c*(driven%force - w%force)
