@@ -6,7 +6,7 @@ module equilibrium_results
    use heat_balance, only: oil_temperatures_type
    use film_network, only: warm_films_type
    use film_energy, only: solid_layers
-   use bearing_numbers, only: load, specific_load, sommerfeld_number, of_supply
+   use bearing_numbers, only: load, specific_load, sommerfeld_number
    use static_model, only: equilibrium_type
    use heat_balance_equations, only: static_figures_type
    use summary_group, only: put_figure
@@ -73,7 +73,7 @@ contains
          call number('attitude_angle', figures%attitude_angle, 'rad', &
             & 'angle from the load to the journal displacement, in the sense of rotation')
          call number('sommerfeld_number', sommerfeld_number(inputs), '1', &
-            & 'mu N L D/W (R_J/c_r)^2, mu '//of_supply(inputs))
+            & 'mu N L D/W (R_J/c_r)^2, mu of the oil as supplied')
       end if
       associate (pads => figures%pads)
          call list('load', pads%load, 'N', 'force of film and asperities on the journal')

@@ -7,7 +7,7 @@ module hdf5_members
    public :: member_type, list_members
 
    !> Only a damaged file has longer names, or more members in a group.
-   integer, parameter :: longest_name = 200, most_members = 100000
+   integer, parameter :: longest_name = 200, most_members = 2000
 
    !> A dataset, a group, or, where it is neither, a link that leads nowhere or a type.
    type :: member_type
