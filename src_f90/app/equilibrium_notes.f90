@@ -39,7 +39,8 @@ contains
       if (.not. run%quiet) call print_shaft(run%file)
       if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static, run%inputs)
       do b = 1, size(loads, 2)
-         as = same_equilibrium(run, static, loads, b)
+         as = b
+         if (.not. run%quiet) as = same_equilibrium(run, static, loads, b)
          call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, &
             & bearing_title(run%inputs, b, loads(:, b)), as == b .and. .not. run%quiet)
          call note_misalignment(run, static, b, as == b .and. .not. run%quiet)

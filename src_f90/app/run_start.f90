@@ -8,7 +8,6 @@ module run_start
    use kinematics, only: pad_state
    use static_model, only: equilibrium_type
    use bearing_equilibrium, only: find_partial_equilibrium
-   use namelist_writer, only: namelist_of
    use equilibrium, only: find_equilibrium
    use heat_balance_equations, only: has_warm_oil
    use equilibrium_notes, only: note_equilibrium
@@ -33,7 +32,7 @@ contains
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: files
-      call run%file%start(run%inputs, namelist_of(run%inputs), error)
+      call run%file%start(run%inputs, error)
       if (allocated(error)) return
       files = file_marks(run%inputs)
       if (files /= '') call run%file%put_text(marks_name, files)

@@ -115,7 +115,8 @@ contains
       integer :: k
       do k = 1, table%count
          associate (list => table%variables(k))
-            if (list%counts == v%each .and. bearing_of(list%group) == bearing_of(v%group)) number_of = size(list%values)
+            if (list%counts /= v%each) cycle
+            if (bearing_of(list%group) == bearing_of(v%group)) number_of = size(list%values)
          end associate
       end do
    end function number_of

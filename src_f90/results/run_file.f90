@@ -6,6 +6,7 @@ module run_file
    use kinds, only: wp, i8, pi
    use errors, only: error_type, raise, system_error
    use case_inputs, only: case_type
+   use namelist_writer, only: namelist_of
    use parameter_study, only: run_tag
    use record, only: record_type
    use record_file, only: write_record
@@ -61,11 +62,9 @@ module run_file
 
 contains
 
-   !> Starts the results of a case, in a file under the name claimed if they are filed; `input` is its resolved
-   !> namelist.
-   subroutine start(self, inputs, input, error)
+   !> Starts the results of a case, in a file under the name claimed if they are filed, with its resolved namelist.
+   subroutine start(self, inputs, error)
       class(run_file_type), intent(inout) :: self
-      character(len=*), intent(in) :: input
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
       self%keep = inputs%output%keep
@@ -81,7 +80,7 @@ contains
       call self%put_flag('complete', 0)
       call self%put_text('title', inputs%about%title)
       call self%put_text('task', inputs%about%task)
-      call self%put_text('input', input)
+      if (self%filed) call self%put_text('input', namelist_of(inputs))
       if (allocated(inputs%about%of_paper)) call self%put_text('of_paper', inputs%about%of_paper)
       call put_bearings(self, inputs)
       if (inputs%about%task /= 'branch') call put_figure(self, 'speed', inputs%operation%speed_rpm*pi/30, 'rad/s', &
