@@ -150,11 +150,12 @@ contains
       is_turned = abs(sample%shaft_angle - 2*pi*anint(sample%shaft_angle/(2*pi))) <= 0.501_wp*sample%speed*interval
    end function is_turned
 
-   !> Writes the spectra of all bearings, from samples at this interval, s.
+   !> Writes the spectra of all bearings, from samples at this interval, s; the row of a run without file has none.
    subroutine put_all_spectra(self, interval)
       class(recorder_type), intent(inout) :: self
       real(wp), intent(in) :: interval
       integer :: b
+      if (.not. self%run%file%filed) return
       do b = 1, size(self%bearings)
          call put_spectra(self%bearings(b), self%run%inputs%of_bearing(b), interval)
       end do
