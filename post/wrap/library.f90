@@ -9,6 +9,7 @@ module tiltpad_library
    use case_inputs, only: case_type
    use case_namelist, only: case_from_text
    use number_columns, only: read_tables
+   use film_oils, only: uneven_oil
    use factories, only: make_law, make_friction
    use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
@@ -25,13 +26,14 @@ module tiltpad_library
 contains
 
    !> Pressure of every pad's film, and what the program samples of it, in one state of the bearing.
-   subroutine film_pressure(text, name, viscosity, time, journal, tilt, pivot_deflection, along, across, phi, z, &
-      pressure, &
-      & force, max_pressure, min_film_thickness, status, message, pads, n, m)
+   subroutine film_pressure(text, name, viscosity, weights, time, journal, tilt, pivot_deflection, along, across, &
+      phi, z, pressure, force, max_pressure, min_film_thickness, status, message, pads, n, m)
       integer(c_int), intent(in) :: pads, n, m
       character(len=*), intent(in) :: text, name
       !> Of the oil on each pad, Pa s; 0: that of the case.
       real(c_double), intent(in) :: viscosity(pads)
+      !> Coefficients of ln(12 mu f2), f1 and ln(f0/mu) along the arcs; 0 where all of the oil has its viscosity.
+      real(c_double), intent(in) :: weights(5, 3, pads)
       !> s, of which the speed follows; y, z of the journal, m, and their rates, m/s.
       real(c_double), intent(in) :: time, journal(4)
       !> Tilt, rad, and pivot deflection, m (tilting-only: no matter), each with its rate.
@@ -53,7 +55,7 @@ contains
       real(c_double), allocatable :: y(:)
       integer :: i
       logical :: ok
-      call read_bearing(text, name, viscosity, inputs, model, error)
+      call read_bearing(text, name, viscosity, weights, inputs, model, error)
       if (.not. allocated(error)) then
          y = model%state(journal_motion(journal(:2), journal(3:4)), &
             & [(pad_state(tilt(1, i), tilt(2, i), pivot_deflection(1, i), pivot_deflection(2, i)), i=1, pads)])
@@ -78,13 +80,13 @@ contains
    end subroutine film_pressure
 
    !> Loads, losses and flows of all pads in n states of the bearing.
-   subroutine power_losses(text, name, viscosity, time, journal, tilt, pivot_deflection, losses, status, message, &
-      pads, n)
+   subroutine power_losses(text, name, viscosity, weights, time, journal, tilt, pivot_deflection, losses, status, &
+      message, pads, n)
       integer(c_int), intent(in) :: pads, n
       character(len=*), intent(in) :: text, name
       !> As in film_pressure, state by state.
-      real(c_double), intent(in) :: viscosity(pads), time(n), journal(4, n), tilt(2, pads, n), pivot_deflection(2, &
-         pads, n)
+      real(c_double), intent(in) :: viscosity(pads), weights(5, 3, pads), time(n), journal(4, n), &
+         tilt(2, pads, n), pivot_deflection(2, pads, n)
       !> Load, N; Couette, pressure and boundary loss, W; drag on the journal and on the pad, N m; inlet, outlet and
       !> side flow, m^3/s. No numbers where a film is closed.
       real(c_double), intent(out) :: losses(9, pads, n)
@@ -96,7 +98,7 @@ contains
       type(bearing_losses_type) :: finder
       type(pad_loss) :: found(pads)
       integer :: i, k
-      call read_bearing(text, name, viscosity, inputs, model, error)
+      call read_bearing(text, name, viscosity, weights, inputs, model, error)
       if (.not. allocated(error)) then
          finder = new_bearing_losses(inputs)
          do k = 1, n
@@ -182,12 +184,13 @@ contains
 
    !> The bearing of a namelist text, which has to have as many pads as viscosities are given. Few states are not worth
    !> a table.
-   subroutine read_bearing(text, name, viscosity, inputs, model, error)
+   subroutine read_bearing(text, name, viscosity, weights, inputs, model, error)
       character(len=*), intent(in) :: text, name
-      real(c_double), intent(in) :: viscosity(:)
+      real(c_double), intent(in) :: viscosity(:), weights(0:, :, :)
       type(case_type), intent(out) :: inputs
       type(machine_model), intent(out) :: model
       type(error_type), allocatable, intent(out) :: error
+      integer :: i
       call case_from_text(text, name, inputs, error)
       if (.not. allocated(error)) call read_tables(inputs, error)
       if (allocated(error)) return
@@ -198,7 +201,7 @@ contains
       end if
       if (inputs%film%solver == 'auto') inputs%film%solver = 'direct'
       model = new_machine_model(inputs)
-      if (all(viscosity > 0)) model%oil%viscosity = viscosity
+      if (all(viscosity > 0)) model%oil = [(uneven_oil(viscosity(i), weights(:, :, i)), i=1, size(viscosity))]
    end subroutine read_bearing
 
    !> The contact at each pivot deflection, m; that of no force where it is not positive.

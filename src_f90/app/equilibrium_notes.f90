@@ -9,6 +9,7 @@ module equilibrium_notes
    use checked_case, only: first_equal
    use equilibrium_results, only: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, &
       & put_film_temperatures
+   use oil_results, only: put_oil
    use machine_results, only: put_machine_equilibrium
    use case_run, only: case_run_type
    use run_summary, only: print_shaft, print_equilibrium, stability_text, print_figures, print_temperatures, &
@@ -117,7 +118,10 @@ contains
          call put_equilibrium(file, static, inputs%tilting(), inputs%tilting_radial())
          call find_static_figures(model, static, figures)
          call put_figures(file, inputs, figures)
-         if (allocated(figures%oil)) call put_temperatures(file, figures%oil, static%oil%viscosity)
+         if (allocated(figures%oil)) then
+            call put_temperatures(file, figures%oil)
+            call put_oil(file, 'equilibrium/', static%oil)
+         end if
          if (allocated(static%films)) call put_film_temperatures(file, static%films)
          if (.not. shown) return
          call print_equilibrium(title, static, inputs, .not. run%inputs%is_machine())

@@ -5,6 +5,7 @@ module run_start
    use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
    use files, only: real_path
    use read_files, only: file_marks, marks_name
+   use film_oils, only: film_oil
    use kinematics, only: pad_state
    use static_model, only: equilibrium_type
    use bearing_equilibrium, only: find_partial_equilibrium
@@ -13,9 +14,11 @@ module run_start
    use equilibrium_notes, only: note_equilibrium
    use last_state, only: read_last_state
    use summary_group, only: put_figure
-   use bearing_file, only: bearing_file_type
+   use run_file, only: run_file_type
+   use bearing_file, only: bearing_file_type, new_bearing_file
    use machine_results, only: put_machine
-   use march_results, only: put_excitations, put_viscosity, put_viscosity_history
+   use march_results, only: put_excitations, put_viscosity_history
+   use oil_results, only: put_oil, read_oil
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use viscosity_history, only: viscosity_history_type
@@ -23,7 +26,7 @@ module run_start
    use run_summary, only: print_start
    implicit none (type, external)
    private
-   public :: start_at_equilibrium, seek_equilibrium, make_start, take_oil, continue_from_checkpoint
+   public :: start_at_equilibrium, seek_equilibrium, make_start, take_oil, restore_oil, continue_from_checkpoint
 
 contains
 
@@ -125,14 +128,13 @@ contains
       do b = 1, size(run%model%bearings)
          file = run%bearing(b)
          associate (pads => run%model%layout%bearings(b)%all_pads())
-            if (has_warm_oil(run%model)) call put_viscosity(file, run%model%oil(pads)%viscosity)
+            if (has_warm_oil(run%model)) call put_oil(file, '', run%model%oil(pads))
             if (run%model%oil_history%runs()) call put_viscosity_history(file, run%model%oil_history, pads)
          end associate
       end do
    end subroutine note_oil
 
-   !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere or goes on from
-   !> a checkpoint.
+   !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere.
    subroutine take_oil(run, partly, error, equilibrium_state)
       type(case_run_type), intent(inout) :: run
       !> Whether it is the equilibrium of the pads that have one.
@@ -161,13 +163,41 @@ contains
       end if
    end subroutine take_oil
 
+   !> Gives warm oil what a result of the run says of it; where it takes its course in a run-up, what led to this.
+   subroutine restore_oil(run, file, error)
+      type(case_run_type), intent(inout) :: run
+      class(run_file_type), intent(in), target :: file
+      type(error_type), allocatable, intent(inout) :: error
+      type(film_oil), allocatable :: oil(:)
+      integer :: b
+      if (.not. has_warm_oil(run%model)) return
+      if (oil_takes_course(run)) then
+         call take_oil(run, run%inputs%start%from == 'partial', error)
+         return
+      end if
+      do b = 1, size(run%model%bearings)
+         associate (pads => run%model%layout%bearings(b)%all_pads())
+            oil = run%model%oil(pads)
+            if (.not. allocated(error)) call read_oil(new_bearing_file(file, run%inputs, b), '', oil, error)
+            run%model%oil(pads) = oil
+         end associate
+      end do
+      call add_context(error, run%path)
+   end subroutine restore_oil
+
+   !> Whether grooves warm or cool in the march.
+   pure logical function oil_takes_course(run)
+      type(case_run_type), intent(in) :: run
+      oil_takes_course = run%inputs%thermal%march == 'groove' .and. abs(run%model%point%acceleration) > 0
+   end function oil_takes_course
+
    !> Where the speed changes and the input wants it, the oil takes its course from the equilibrium y on.
    subroutine let_grooves_warm(run, y, error)
       type(case_run_type), intent(inout) :: run
       real(wp), intent(in) :: y(:)
       type(error_type), allocatable, intent(inout) :: error
       type(viscosity_history_type) :: history
-      if (run%inputs%thermal%march /= 'groove' .or. .not. abs(run%model%point%acceleration) > 0) return
+      if (.not. oil_takes_course(run)) return
       call find_groove_transient(run%model, y, run%inputs%operation%duration, history, error, stop_requested)
       if (allocated(error)) return
       run%model%oil_history = history
@@ -182,7 +212,7 @@ contains
       allocate (y(run%model%n))
       run%earlier = run%statistics()
       call run%file%resume(run%inputs, t, run%earlier, error, y)
-      if (.not. allocated(error)) call take_oil(run, run%inputs%start%from == 'partial', error)
+      if (.not. allocated(error)) call restore_oil(run, run%file, error)
       if (allocated(error)) return
       run%computed = .true.
       if (.not. run%quiet) print '(a)', 'going on from t = '//to_text(t)//' s'

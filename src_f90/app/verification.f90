@@ -19,7 +19,8 @@ module verification
    use verification_results, only: put_verification
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use run_start, only: take_oil
+   use oil_results, only: read_oil
+   use run_start, only: restore_oil
    implicit none (type, external)
    private
    public :: check_verification, verify_films, sample_of
@@ -38,8 +39,6 @@ contains
       integer(i8) :: samples
       call require(.not. inputs%is_machine(), '--verify: compares the films of one bearing with a rigid journal, not ' &
          & //'those of a machine; run each bearing alone, with its load as rotor%static_load', error)
-      call require(inputs%thermal%model /= 'film', '--verify: compares films of one viscosity, not those of ' &
-         & //'thermal%model = ''film''', error)
       call require(inputs%about%task /= 'branch', '--verify: the points of a branch keep no states to verify; run ' &
          & //'one of them with case%task = ''equilibrium'' or ''periodic''', error)
       call require(inputs%output%keep == 'all' .or. .not. any(inputs%about%task == ['march   ', 'periodic']), &
@@ -58,12 +57,13 @@ contains
       type(case_run_type), intent(inout) :: run
       logical, intent(in) :: remade
       type(error_type), allocatable, intent(out) :: error
-      type(run_file_type) :: file
+      type(run_file_type), target :: file
       type(film_difference), allocatable :: found(:, :)
       real(wp), allocatable :: time(:)
       character(len=:), allocatable :: lines
       if (.not. run%file%filed) then
-         call verify_equilibrium(run, run%file, time, found)
+         call verify_equilibrium(run, run%file, time, found, error)
+         if (allocated(error)) return
          call put_verification(run%file, time, found, norm2(run%model%point%load), lines)
          return
       end if
@@ -71,13 +71,12 @@ contains
       if (allocated(error)) return
       call file%reopen(run%inputs, error)
       if (.not. allocated(error)) call file%begin_series('time', 0_i8)
-      if (.not. allocated(error) .and. remade .and. file%samples > 0) call take_oil(run, &
-         & run%inputs%start%from == 'partial', error)
+      if (.not. allocated(error) .and. remade .and. file%samples > 0) call restore_oil(run, file, error)
       if (.not. allocated(error)) then
          if (file%samples > 0) then
             call verify_samples(run, file, time, found, error)
          else
-            call verify_equilibrium(run, file, time, found)
+            call verify_equilibrium(run, file, time, found, error)
          end if
       end if
       if (.not. allocated(error)) call file%error_of(error)
@@ -143,11 +142,12 @@ contains
    end function sample_of
 
    !> The films at the equilibrium; coefficients have converged ones.
-   subroutine verify_equilibrium(run, file, time, found)
+   subroutine verify_equilibrium(run, file, time, found, error)
       type(case_run_type), intent(inout) :: run
       type(run_file_type), intent(inout) :: file
       real(wp), allocatable, intent(out) :: time(:)
       type(film_difference), allocatable, intent(out) :: found(:, :)
+      type(error_type), allocatable, intent(inout) :: error
       type(film_comparison_type) :: comparison
       type(machine_model) :: static
       type(pad_state) :: pads(run%model%layout%pads)
@@ -161,7 +161,8 @@ contains
       journal = [file%get_real('equilibrium/journal_y'), file%get_real('equilibrium/journal_z')]
       if (static%layout%bearings(1)%tilting) call file%get_list('equilibrium/pad_tilt', pads%tilt)
       if (static%layout%bearings(1)%radial) call file%get_list('equilibrium/pivot_deflection', pads%pivot_deflection)
-      if (has_warm_oil(static)) call file%get_list('equilibrium/viscosity', static%oil%viscosity)
+      if (has_warm_oil(static)) call read_oil(file, 'equilibrium/', static%oil, error)
+      if (allocated(error)) return
       comparison = new_film_comparison(run%inputs)
       call comparison%compare(static, 0.0_wp, static%static_state(journal, pads%tilt, pads%pivot_deflection), &
          & found(:, 1))

@@ -22,6 +22,8 @@ module film_network
       !> C, (layer, station, pad), the pad's layers first; of the pads' surfaces, (station, pad).
       real(wp), allocatable :: fields(:, :, :), surfaces(:, :)
       type(oil_temperatures_type) :: oil
+      !> Heat that each film gives to the shaft and to its pad, W.
+      real(wp), allocatable :: to_shaft(:), to_pad(:)
    end type warm_films_type
 
 contains
@@ -85,6 +87,7 @@ contains
       type(oil_temperatures_type) :: found
       real(wp), dimension(size(streams)) :: inflow, outflow, hot
       real(wp) :: ends(size(streams) + 1), parts(3)
+      real(wp), allocatable :: to_shaft(:), to_pad(:)
       integer :: i, last
       last = size(ends)
       do i = 1, size(streams)
@@ -100,6 +103,7 @@ contains
       found%shaft = ends(last)
       allocate (found%mean, found%outlet, found%maximum, mold=found%inlet)
       found%drain = 0
+      allocate (to_shaft(size(streams)), to_pad(size(streams)))
       do i = 1, size(streams)
          parts = [1.0_wp, ends(i), ends(last)]
          fields(:, :, i) = pads(i)%field(:, :, by_nothing) + ends(i)*pads(i)%field(:, :, by_inlet) &
@@ -108,12 +112,16 @@ contains
          found%outlet(i) = dot_product(pads(i)%outlet, parts)
          films%surfaces(:, i) = matmul(pads(i)%surface, parts)
          found%maximum(i) = highest(films%surfaces(:, i))
-         found%drain = found%drain + pads(i)%made - dot_product(pads(i)%to_shaft + pads(i)%to_back, parts)
+         to_shaft(i) = dot_product(pads(i)%to_shaft, parts)
+         to_pad(i) = dot_product(pads(i)%to_back, parts)
+         found%drain = found%drain + pads(i)%made - to_shaft(i) - to_pad(i)
       end do
       associate (fresh => sum(inflow - hot)*films%heat(1)%capacity)
          found%drain = oil%supply_temperature + merge(found%drain/max(fresh, tiny(fresh)), 0.0_wp, fresh > 0)
       end associate
       films%oil = found
+      call move_alloc(to_shaft, films%to_shaft)
+      call move_alloc(to_pad, films%to_pad)
    end subroutine solve_network
 
    !> Temperatures where the films begin and, last, of the shaft, C, and which flow comes hot from upstream, m^3/s.

@@ -7,7 +7,7 @@
 module film_profiles
    use kinds, only: wp, pi
    use linear_algebra, only: dgesv
-   use film_oils, only: film_oil, weights_degree
+   use film_oils, only: film_oil, uneven_oil, weights_degree
    implicit none (type, external)
    private
    public :: film_profile, layer_faces, new_profile, fitted_oil
@@ -86,6 +86,6 @@ contains
          right(:, 3) = matmul(log(profiles%f0/viscosity), powers)
       end associate
       call dgesv(size(matrix, 1), 3, matrix, size(matrix, 1), pivots, right, size(right, 1), info)
-      oil = film_oil(viscosity, .true., right(:, 1), right(:, 2), right(:, 3))
+      oil = uneven_oil(viscosity, right)
    end function fitted_oil
 end module film_profiles

@@ -5,6 +5,8 @@ module varied_bearing
    use errors, only: error_type, add_context
    use case_inputs, only: case_type
    use case_parameter, only: case_parameter_type
+   use film_oils, only: film_oil, even_oil
+   use film_network, only: warm_films_type
    use heat_balance, only: oil_temperatures_type
    use thermal_equilibrium, only: solve_thermal_equilibrium
    use heat_balance_equations, only: state_balance_type, find_temperatures
@@ -25,11 +27,14 @@ module varied_bearing
       procedure :: set_value
    end type varied_bearing_type
 
-   !> A state in equilibrium and the viscosities there, Pa s, as numbers, at a value of the parameter; where its search
-   !> began.
+   !> A state in equilibrium and the oil there, at a value of the parameter; where its search began: a state and the
+   !> viscosities, Pa s, as numbers.
    type :: static_state_type
       real(wp) :: value = -huge(1.0_wp)
-      real(wp), allocatable :: start(:), found(:)
+      real(wp), allocatable :: start(:), state(:)
+      type(film_oil), allocatable :: oil(:)
+      !> Where films have temperatures along and across.
+      type(warm_films_type), allocatable :: films
    end type static_state_type
 
    type :: frozen_viscosity_type
@@ -77,6 +82,7 @@ contains
       real(wp), intent(inout) :: found(:)
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: ignored
+      type(warm_films_type), allocatable :: films
       real(wp) :: y(self%bearing%model%n), residual
       if (is_known(self%known(2))) self%known = self%known([2, 1])
       if (.not. is_known(self%known(1))) then
@@ -84,17 +90,20 @@ contains
          call self%bearing%set_value(value, .true., ignored)
          associate (model => self%bearing%model)
             y = start(:size(y))
-            model%oil%viscosity = start(size(y) + 1:)
-            call solve_thermal_equilibrium(model, y, residual, error)
+            model%oil = even_oil(start(size(y) + 1:))
+            call solve_thermal_equilibrium(model, y, residual, error, films=films)
             call add_context(error, 'the oil takes the temperatures of the equilibrium')
             if (allocated(error)) return
             self%known(2) = self%known(1)
             self%known(1)%value = value
             self%known(1)%start = start
-            self%known(1)%found = [y, model%oil%viscosity]
+            self%known(1)%state = y
+            self%known(1)%oil = model%oil
+            if (allocated(self%known(1)%films)) deallocate (self%known(1)%films)
+            if (allocated(films)) call move_alloc(films, self%known(1)%films)
          end associate
       end if
-      found = self%known(1)%found
+      found = [self%known(1)%state, self%known(1)%oil%viscosity]
    contains
       pure logical function is_known(state)
          type(static_state_type), intent(in) :: state
@@ -109,11 +118,15 @@ contains
       type(oil_temperatures_type), intent(out) :: oil(:)
       real(wp), allocatable, intent(out) :: viscosity(:)
       type(error_type), allocatable :: ignored
-      call self%bearing%set_value(self%known(1)%value, .true., ignored)
-      associate (model => self%bearing%model, found => self%known(1)%found)
-         viscosity = found(model%n + 1:)
-         model%oil%viscosity = viscosity
-         call find_temperatures(model, found(:model%n), self%balance, oil)
+      associate (model => self%bearing%model, known => self%known(1))
+         viscosity = known%oil%viscosity
+         if (allocated(known%films)) then
+            oil(1) = known%films%oil
+            return
+         end if
+         call self%bearing%set_value(known%value, .true., ignored)
+         model%oil = known%oil
+         call find_temperatures(model, known%state, self%balance, oil)
       end associate
    end subroutine temperatures
 
@@ -129,6 +142,7 @@ contains
          if (.not. allocated(self%oil)) return
          call self%oil%find(parameter, self%start, self%found, oil_error)
          model%oil%viscosity = self%found(model%n + 1:)
+         if (.not. allocated(oil_error)) model%oil = self%oil%known(1)%oil
       end associate
       if (.not. allocated(error)) call move_alloc(oil_error, error)
    end subroutine set

@@ -289,7 +289,7 @@ contains
          end if
          if (.not. ok) cycle
          held = .not. in_equilibrium
-         call solve_thermal_equilibrium(static, y, found%residual, error, give_up, held)
+         call solve_thermal_equilibrium(static, y, found%residual, error, give_up, held, films=found%films)
          if (.not. allocated(error)) then
             call describe(static, y, found)
             return

@@ -7,6 +7,7 @@ module thermal_equilibrium
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, asked_to_stop, asked
+   use film_oils, only: even_oil
    use heat_balance, only: oil_temperatures_type
    use oil_properties, only: viscosity
    use equations_of_motion, only: machine_model
@@ -50,7 +51,7 @@ contains
             & balanced, ok)
          if (ok) wanted = balanced
       end if
-      model%oil%viscosity = wanted
+      model%oil = even_oil(wanted)
    end subroutine guess_oil
 
    !> Brings a state that is near equilibrium to equilibrium, as solve_equilibrium does, and the oil, where it is warm,
@@ -67,6 +68,7 @@ contains
       type(oil_temperatures_type), intent(in), optional :: kept(:)
       !> The films' temperatures, where the case wants them along and across.
       type(warm_films_type), allocatable, intent(out), optional :: films
+      type(warm_films_type), allocatable :: found
       type(state_balance_type) :: balance
       type(oil_temperatures_type) :: oil(size(model%bearings))
       real(wp), dimension(model%layout%pads) :: last, step
@@ -76,6 +78,8 @@ contains
          call solve_equilibrium(model, y, residual, error, give_up, held)
          return
       end if
+      ! one temperature for each pad leads to those along and across
+      model%oil = even_oil(model%oil%viscosity)
       step = 0
       do round = 1, most_rounds
          call follow(model, y, step, residual, error, give_up, held)
@@ -96,10 +100,11 @@ contains
             & //'settle: after '//to_text(most_rounds)//' rounds its viscosity still changes by ' &
             & //to_text(100*lack)//' %')
       end associate
-      if (allocated(error) .or. .not. (present(films) .and. model%inputs%thermal%model == 'film')) return
+      if (allocated(error) .or. model%inputs%thermal%model /= 'film') return
       call find_temperatures(model, y, balance, oil)
-      films = new_warm_films(model%inputs, oil(1)%mean)
-      call solve_warm_films(model, y, films, residual, error, give_up, held)
+      found = new_warm_films(model%inputs, oil(1)%mean)
+      call solve_warm_films(model, y, found, residual, error, give_up, held)
+      if (present(films)) call move_alloc(found, films)
    end subroutine solve_thermal_equilibrium
 
    !> Brings an equilibrium that another model has found to that of this one, whose films differ a little; y is its

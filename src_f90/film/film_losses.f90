@@ -199,14 +199,12 @@ contains
       type(film_oil), intent(in) :: oil
       integer, parameter :: n = 1000
       real(wp) :: phi(0:n), weight(0:n)
-      type(arc_weights) :: weights(0:n)
       integer :: i
       phi = [(i*gap%arc()/n - gap%trailing_angle, i=0, n)]
-      weights = oil%weights(gap, phi)
       weight = [(2 + 2*mod(i, 2), i=0, n)]
       weight([0, n]) = 1
       sliding_shear = oil%viscosity*gap%pad_radius()*gap%axial_length*gap%arc()/(3*n) &
-         & *sum(weight*weights%shear/gap%thickness(motion, sin(phi), cos(phi)))
+         & *sum(weight*oil%shear_weight(gap, phi)/gap%thickness(motion, sin(phi), cos(phi)))
    end function sliding_shear
 
    !> The part of w that comes from the journal's rotation, m/s.

@@ -118,18 +118,16 @@ contains
       end subroutine list
    end subroutine put_figures
 
-   !> Writes the temperatures of warm oil, C, and the viscosity of each pad's film, Pa s.
-   subroutine put_temperatures(file, oil, viscosity)
+   !> Writes the temperatures of warm oil, C.
+   subroutine put_temperatures(file, oil)
       class(record_type), intent(inout) :: file
       type(oil_temperatures_type), intent(in) :: oil
-      real(wp), intent(in) :: viscosity(:)
       call temperature('inlet', oil%inlet, 'temperature of the oil at the leading edge')
       call temperature('mean', oil%mean, 'mean temperature of the film')
       call temperature('outlet', oil%outlet, 'temperature of the oil at the trailing edge')
       call temperature('maximum', oil%maximum, 'maximum temperature of the pad')
       call put_figure(file, 'equilibrium_maximum_temperature', maxval(oil%maximum), 'degC', &
          & 'maximum temperature of all pads')
-      call file%put_list('equilibrium/viscosity', viscosity, 'Pa s', 'viscosity of the film', 'pad')
       call file%put_real('equilibrium/shaft_temperature', oil%shaft, 'degC', 'temperature of the shaft')
       call file%put_real('equilibrium/drain_temperature', oil%drain, 'degC', &
          & 'temperature of the oil that leaves the bearing')
@@ -156,6 +154,9 @@ contains
             & 'pad film_arc film_height')
          call file%put_table('equilibrium/surface_temperature', films%surfaces, 'degC', &
             & 'temperature of the pad where it meets the film', 'pad film_arc')
+         call file%put_list('equilibrium/heat_to_shaft', films%to_shaft, 'W', 'heat from the film to the shaft', 'pad')
+         call file%put_list('equilibrium/heat_to_pad', films%to_pad, 'W', &
+            & 'heat from the film to the pad, which goes out at its back and ends', 'pad')
       end associate
    end subroutine put_film_temperatures
 end module equilibrium_results

@@ -14,7 +14,7 @@ module march_results
    use bearing_file, only: bearing_file_type
    implicit none (type, external)
    private
-   public :: add_sample, put_excitations, put_spectra, put_viscosity, put_viscosity_history, put_periodic
+   public :: add_sample, put_excitations, put_spectra, put_viscosity_history, put_periodic
 
    !> Values of a sample: of the shaft, of a journal, and of a pad at most.
    integer, parameter :: of_shaft = 3, of_journal = 4, of_pad = 12
@@ -146,13 +146,6 @@ contains
          k = k + 1
       end subroutine each
    end subroutine take_bearing
-
-   !> Writes the viscosity of the oil on each pad, Pa s, which warm oil keeps in a march.
-   subroutine put_viscosity(file, viscosity)
-      type(bearing_file_type), intent(inout) :: file
-      real(wp), intent(in) :: viscosity(:)
-      call file%put_list('viscosity', viscosity, 'Pa s', 'viscosity of the oil on each pad in the march', 'pad')
-   end subroutine put_viscosity
 
    !> Writes the history of the viscosities of these pads in a run-up.
    subroutine put_viscosity_history(file, history, pads)

@@ -47,6 +47,8 @@ THERMAL_EQUILIBRIA = EQUILIBRIA.replace("14700", "13500").replace("15300", "1410
 WARM_ORBITS = f"""{BRANCH}&operation speed_rpm=4000 / {WARM}
 &branch parameter='oil%supply_temperature', last=41, step=0.1, max_step=0.1 /
 """
+#: As these, with temperatures along and across the films.
+UNEVEN_ORBITS = WARM_ORBITS.replace("'pad'", "'film'").replace("step=0.1", "step=0.2")
 #: Films that are solved by SOR sweeps from the last ones.
 RELAXED = EQUILIBRIA.replace("&rotor", "&film solver='sor', circumferential_cells=20, axial_cells=4 / &rotor")
 #: What each stretch of a run has of its own, and the input, where the time between checkpoints may change.
@@ -69,8 +71,8 @@ def check_same(path, reference):
 
 @pytest.mark.parametrize(
     "case",
-    [EQUILIBRIA, RELAXED, DOUBLED, LUGRE, SWITCHING, THERMAL_EQUILIBRIA, WARM_ORBITS],
-    ids=["equilibria", "relaxed", "doubled", "lugre", "switching", "warm equilibria", "warm orbits"],
+    [EQUILIBRIA, RELAXED, DOUBLED, LUGRE, SWITCHING, THERMAL_EQUILIBRIA, WARM_ORBITS, UNEVEN_ORBITS],
+    ids=["equilibria", "relaxed", "doubled", "lugre", "switching", "warm equilibria", "warm orbits", "uneven orbits"],
 )
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, case, number):

@@ -41,6 +41,7 @@ CASES = {
     "warm_runup": "--set oil%grade=46 --set thermal%model='pad' --set thermal%march='groove' "
     "--set oil%groove_volume=1e-5 --set operation%final_speed_rpm=5000 --set operation%duration=0.2",
     "warm": "--set oil%grade=46 --set thermal%model='pad' --set operation%duration=0.3",
+    "film_temperatures": "--set oil%grade=46 --set thermal%model='film' --set operation%duration=0.1",
 }
 KILLS = 100
 
@@ -71,7 +72,7 @@ def series(file):
     return [
         name
         for name, each in file.items()
-        if isinstance(each, h5py.Dataset) and name not in ("pad", "pivot_angle", "viscosity", "revolution")
+        if isinstance(each, h5py.Dataset) and each.shape and (name == "time" or "time" in each.dims[0])
     ]
 
 

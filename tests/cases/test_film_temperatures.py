@@ -87,7 +87,15 @@ def test_coefficients_and_a_study(run, tmp_path):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (FILM, "thermal%model = 'film': is for case%task = 'equilibrium' or 'coefficients'; 'march' takes"),
+        (
+            "&case task='branch' /\n"
+            "&branch of='equilibrium', parameter='operation%speed_rpm', last=7000, step=100 /\n" + FILM,
+            "branch%of = 'equilibrium': needs thermal%model = 'pad' or 'none'",
+        ),
+        (
+            FILM.replace("'film'", "'film', march='groove'") + "&operation final_speed_rpm=9000 /\n",
+            "thermal%march = 'groove': has no effect but with thermal%model = 'pad'",
+        ),
         (
             "&case task='coefficients' /\n&coefficients threshold_up_to_rpm=9000 /\n" + FILM,
             "threshold_up_to_rpm",
@@ -104,9 +112,81 @@ def test_what_is_refused(tiltpad, tmp_path, text, words):
     assert words in tiltpad("case.nml", cwd=tmp_path, status=1).stderr
 
 
-def test_films_of_uneven_viscosity_are_not_solved_again(run, tmp_path):
+def test_films_are_solved_again_as_they_were(run, tmp_path):
+    """Pressures, forces and losses from the oil in the file are those of the run, at rest and in a march."""
+    run(FILM + "&operation duration=0.02 /\n&output samples_per_revolution=90 /\n")
+    with package.read(tmp_path / "case.h5") as case:
+        rest = case.equilibrium
+        np.testing.assert_allclose(package.pressure(case).max_pressure, rest["max_pressure"], rtol=1e-9)
+        found = package.pressure(case, 0.01)
+        # a sample has the error of the march
+        radial = case.film_force_radial[np.abs(case.time - found.time).argmin()]
+        np.testing.assert_allclose(found.force[:, 1], radial, rtol=1e-3)
+        losses = package.losses(case, last=3)
+        # the march starts at the equilibrium
+        np.testing.assert_allclose(losses.power[0], rest["power_loss"], rtol=1e-6)
+        np.testing.assert_allclose(losses.side_flow[0], rest["side_flow"], rtol=1e-6)
+        np.testing.assert_array_equal(case["flow_weights"], rest["flow_weights"])
+
+
+def test_heat_is_conserved(run, tmp_path):
+    """What the films make warms the fresh oil up to the drain and goes out behind the pads; a shaft of its own
+    temperature takes nothing.
+    """
     run(REST)
     with package.read(tmp_path / "case.h5") as case:
-        for ask in (package.pressure, package.heat_balance):
-            with pytest.raises(package.NotInRunError, match="temperatures along and across"):
-                ask(case)
+        heat, rest, oil = package.heat_balance(case), case.equilibrium, case.input["oil"]
+        np.testing.assert_allclose(heat.to_oil + heat.to_shaft + heat.to_pad, heat.made)
+        assert abs(heat.to_shaft.sum()) < 1e-9 * heat.made.sum()
+        assert (heat.to_pad > 0).all()
+        # pad 2 gets what its neighbour upstream sends on
+        hot = oil["carry_over"] * rest["outlet_flow"][0]
+        fresh = rest["inlet_flow"].sum() - hot
+        warming = rest["drain_temperature"] - oil["supply_temperature"]
+        # flows of the energy's volumes and of the losses' differ by the error of either
+        np.testing.assert_allclose(
+            heat.to_oil.sum(), oil["density"] * oil["specific_heat"] * fresh * warming, rtol=2e-3
+        )
+
+
+def test_an_orbit_is_what_a_march_leads_to(run, tmp_path):
+    """As with even oil: after twenty revolutions the tolerances remain."""
+    more = "&friction model='none' /\n&output samples_per_revolution=90 /\n"
+    run(FILM + more + "&case task='periodic' /\n")
+    run(FILM + more, "operation%duration=0.19", name="march")
+    with h5py.File(tmp_path / "case.h5") as orbit, h5py.File(tmp_path / "march.h5") as march:
+        for name in ("journal_y", "journal_z"):
+            one, other = orbit[name][:-1], march[name][20 * 90 : 21 * 90]
+            assert np.ptp(one) > 1e-5
+            both = min(len(one), len(other))
+            assert both > 40
+            assert np.abs(one[:both] - other[:both]).max() < 2e-8, name
+        for name in ("flow_weights", "shear_weights", "viscosity"):
+            np.testing.assert_array_equal(orbit[name], march[name])
+
+
+def test_orbits_of_a_branch_have_the_oil_of_their_equilibrium(run, tmp_path):
+    """Its last point is the orbit that the task periodic finds with the parameter's last value."""
+    more = FILM + "&output samples_per_revolution=90 /\n"
+    run(
+        "&case task='branch' /\n&branch parameter='oil%supply_temperature', last=42, step=1 /\n" + more,
+        name="branch",
+    )
+    run("&case task='periodic' /\n" + more, "oil%supply_temperature=42")
+    with h5py.File(tmp_path / "branch.h5") as branch, h5py.File(tmp_path / "case.h5") as orbit:
+        rest = orbit["equilibrium"]
+        np.testing.assert_allclose(branch["viscosity"][-1], rest["viscosity"], rtol=1e-6)
+        np.testing.assert_allclose(branch["maximum_temperature"][-1], rest["maximum_temperature"], atol=1e-4)
+        highest = branch["journal_y_max"][-1], orbit["journal_y"][:].max()
+        assert abs(highest[0] - highest[1]) < 2e-8
+
+
+def test_oil_that_does_not_thin_is_even(run, tmp_path):
+    """A march with temperatures of an oil whose viscosity does not depend on them is that of cold oil."""
+    even = "&oil reference_viscosity=0.02, temperature_exponent=0 /\n&operation duration=0.05 /\n"
+    run(even + "&thermal model='film' /\n")
+    run(even + "&film solver='direct' /\n", name="cold")
+    with h5py.File(tmp_path / "case.h5") as case, h5py.File(tmp_path / "cold.h5") as cold:
+        for name in ("journal_y", "journal_z", "pad_tilt"):
+            size = np.ptp(cold[name][:])
+            assert np.abs(case[name][:] - cold[name][:]).max() < 1e-6 * size, name

@@ -51,13 +51,12 @@ def test_each_start_leads_to_the_orbit(run, start):
         assert np.abs(one - two).max() < 2e-3 * size, name
 
 
-WARM = ("oil%grade=46", "thermal%model='pad'")
-
-
+@pytest.mark.parametrize("model", ["pad", "film"])
 @pytest.mark.parametrize("start", ["partial", "centred"])
-def test_warm_oil_keeps_the_temperatures_of_the_equilibrium(run, start):
+def test_warm_oil_keeps_the_temperatures_of_the_equilibrium(run, start, model):
     """Wherever a march starts; and they are those of the march: one film is thicker than the other."""
-    whole, other = run("warm", *WARM), run(f"warm_{start}", *WARM, *STARTS[start])
+    warm = ("oil%grade=46", f"thermal%model='{model}'")
+    whole, other = run(model, *warm), run(f"{model}_{start}", *warm, *STARTS[start])
     for name, size in SIZES.items():
         one, two = (np.sort(file[name][-360:], axis=0) for file in (whole, other))
         assert np.abs(one - two).max() < 2e-3 * size, name

@@ -72,10 +72,14 @@ def test_an_equilibrium_is_one_state(verified, task):
     assert found[""] == pytest.approx(found["_max"])
 
 
-def test_warm_oil_of_an_equilibrium(verified):
-    """The films have the viscosities of the equilibrium: with any other its force would be another."""
-    warm = "&oil grade=46 / &thermal model='pad' /\n"
-    found, _ = verified(CASE + warm, "case%task='equilibrium'")
+@pytest.mark.parametrize(
+    ("model", "task"),
+    [("pad", "equilibrium"), ("film", "equilibrium"), ("film", "march"), ("film", "periodic")],
+)
+def test_warm_oil(verified, model, task):
+    """The films have the oil of the equilibrium: with any other their force would be another."""
+    warm = f"&oil grade=46 / &thermal model='{model}' /\n"
+    found, _ = verified(CASE + warm, f"case%task='{task}'")
     assert np.all(found["_max"] < TOLERANCE)
 
 

@@ -1,5 +1,5 @@
-!> The linearised bearing against the motion itself, marched: the response to a small harmonic force on the journal, and
-!> growth and decay on both sides of the threshold of stability.
+!> The linearised bearing against the motion itself, marched: the response to a small harmonic force on the journal,
+!> growth and decay on both sides of the threshold of stability, and decay with temperatures along and across the films.
 module forced_motion
    use kinds, only: wp
    use equations_of_motion, only: machine_model
@@ -31,6 +31,7 @@ program test_linear_motion
    use kinds, only: wp, pi
    use text, only: to_text
    use case_inputs, only: case_type
+   use input_cases, only: case_of
    use operating_point, only: operating_point_type
    use sampled_march, only: march_samples
    use linear_analysis, only: analyse
@@ -43,6 +44,7 @@ program test_linear_motion
    if (runs('response')) call response()
    if (runs('free')) call both_sides('free', 14945.85_wp)
    if (runs('stuck')) call both_sides('stuck', 8700.0_wp)
+   if (runs('film_temperatures')) call film_temperatures()
    call report()
 
 contains
@@ -154,12 +156,32 @@ contains
       end do
    end subroutine both_sides
 
+   !> A small motion keeps the temperatures of the films at the equilibrium, and vibrates and decays as the first mode
+   !> says.
+   subroutine film_temperatures()
+      type(case_type) :: inputs
+      type(bearing_coefficients_type) :: found
+      type(machine_model) :: model
+      real(wp), allocatable :: y(:)
+      real(wp) :: differs
+      inputs = case_of('&case task = ''coefficients''/ &film solver = ''fourier'', cavitation = ''none''/' &
+         & //'&oil grade = 46/ &thermal model = ''film''/')
+      call analyse(inputs, 'analysis', found, fine=model, y=y)
+      call expect(all(model%oil%varies), 'uneven oil')
+      associate (value => found%modes(1)%eigenvalue(1))
+         call expect_close(growth(model, y, found%modes(1), differs), value%re, 1e-3_wp*abs(value%re), 'decay')
+         call expect(differs < 2*pi*4*1e-4_wp, 'frequency to 1e-4')
+      end associate
+   end subroutine film_temperatures
+
    !> Growth, 1/s, of a mode in a march that starts with its shape, in the journal's speed: the largest of a vibration
-   !> over that four vibrations before. Bristles move with the pads.
-   real(wp) function growth(model, rest, modes)
+   !> over that four vibrations before. Bristles move with the pads. `differs`: how far the speed is, over its largest
+   !> value, from what the mode makes of it in these four vibrations, whose frequency it has otherwise missed.
+   real(wp) function growth(model, rest, modes, differs)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: rest(:)
       type(vibration_modes_type), intent(in) :: modes
+      real(wp), intent(out), optional :: differs
       integer, parameter :: samples = 100, periods = 6, last = 4
       type(machine_model), target :: moving
       type(operating_point_type) :: point
@@ -185,5 +207,10 @@ contains
       call march_samples(moving, moving%scale, [1e-9_wp, 1e-13_wp], y, 0.0_wp, period/samples, states)
       fastest = [(maxval(norm2(states(3:4, (k - 1)*samples + 1:k*samples), 1)), k=1, periods)]
       growth = log(fastest(periods)/fastest(periods - last))/(last*period)
+      associate (before => states(3:4, (periods - last - 1)*samples + 1:(periods - last)*samples), &
+         & after => states(3:4, (periods - 1)*samples + 1:))
+         if (present(differs)) differs = maxval(norm2(after - exp(modes%eigenvalue(1)%re*last*period)*before, 1)) &
+            & /fastest(periods)
+      end associate
    end function growth
 end program test_linear_motion

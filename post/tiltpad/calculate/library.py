@@ -121,7 +121,7 @@ def pressure(
     phi, z, field, force, max_pressure, min_film_thickness = called(
         "film_pressure",
         run,
-        viscosity(run, at),
+        *oil(run, at),
         0.0 if at is None else at,
         journal,
         *pads,
@@ -149,20 +149,28 @@ def losses(run: Run, last: float = 1) -> Losses:
         return np.moveaxis(np.array(values), 1, -1)
 
     states = motion("pad_tilt"), motion("pivot_deflection")
-    (found,) = called("power_losses", run, viscosity(run, time.mean()), time, np.array(journal), *states)
+    (found,) = called("power_losses", run, *oil(run, time.mean()), time, np.array(journal), *states)
     load, couette, pressure, boundary, *others = np.moveaxis(found, -1, 1)
     return Losses(time, load, couette + pressure + boundary, couette, pressure, boundary, *others)
 
 
-def viscosity(run: Run, time: float | None) -> np.ndarray:
-    """Viscosity of the oil on each pad at a time, s (None: equilibrium), Pa s, (pad,); 0: the input's."""
-    run.needs_even_oil()
+def oil(run: Run, time: float | None) -> tuple[np.ndarray, np.ndarray]:
+    """The oil of each pad at a time, s (None: equilibrium): its viscosity, Pa s, (pad,), 0: the input's; the
+    coefficients of what it is along the arc where it is uneven, (5, 3, pad).
+    """
+    even = np.zeros((5, 3, run.pads))
     if time is not None and "oil/viscosity" in run:
-        return np.exp([np.interp(time, run["oil/time"], pad) for pad in np.log(run["oil/viscosity"].T)])
+        return np.exp([np.interp(time, run["oil/time"], pad) for pad in np.log(run["oil/viscosity"].T)]), even
     # of a branch `viscosity` is that of its points
     names = ("equilibrium/viscosity",) if run.is_branch else ("viscosity", "equilibrium/viscosity")
     warm = next((name for name in names if name in run), None)
-    return run[warm] if warm else np.zeros(run.pads)
+    if warm is None:
+        return np.zeros(run.pads), even
+    group = warm.removesuffix("viscosity")
+    if f"{group}flow_weights" not in run:
+        return run[warm], even
+    along = [run[f"{group}{each}_weights"] for each in ("flow", "sliding", "shear")]
+    return run[warm], np.array(along).transpose(2, 0, 1)
 
 
 def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple[np.ndarray, np.ndarray]]:

@@ -42,11 +42,14 @@ def journal(run: Run) -> list[Figure]:
 def pads(run: Run) -> list[Figure]:
     """Key figures of the pads, (pad,) each, and where their heat goes."""
     found = list(figures(run, ("pad",)))
-    if "equilibrium/viscosity" in run and not run.has_film_temperatures:
+    if "equilibrium/viscosity" in run:
         heat, shown = heat_balance(run), SHOWN["power_loss"]
+        # what goes to shaft and pad the file says itself where the heat of the pads is known
+        places = {"to the oil": heat.to_oil, "to the shaft": heat.to_shaft}
         found += [
             Figure(f"heat {to}", shown._replace(text=f"equilibrium: heat {to}"), values)
-            for to, values in (("to the oil", heat.to_oil), ("to the shaft", heat.to_shaft))
+            for to, values in places.items()
+            if to == "to the oil" or not run.has_film_temperatures
         ]
     return found
 

@@ -275,14 +275,6 @@ class Run(Archive):
         """True where films have temperatures along and across (thermal%model = 'film')."""
         return self.input.get("thermal", {}).get("model") == "film"
 
-    def needs_even_oil(self) -> None:
-        """Raises NotInRunError where films have temperatures along and across."""
-        if self.has_film_temperatures:
-            raise NotInRunError(
-                f"{self.path}: its films have temperatures along and across (thermal%model = 'film'); "
-                "this is known only of films with one temperature each"
-            )
-
     def is_cold(self, name: str) -> bool:
         """True for what a heat balance tells, of a run without one."""
         thermal = self.input.get("thermal", {}).get("model", "none")

@@ -12,10 +12,12 @@ module film_oils
    use pad_gap, only: pad_gap_type
    implicit none (type, external)
    private
-   public :: film_oil, arc_weights, weights_degree
+   public :: film_oil, arc_weights, even_oil, uneven_oil, weights_degree, polynomials
 
    !> Degree of the polynomials: of temperatures of pads it leaves 0.03 % of the stiffness and 0.3 % of the damping.
    integer, parameter :: weights_degree = 4
+   !> Of flow, sliding and shear.
+   integer, parameter :: polynomials = 3
 
    type :: film_oil
       !> Dynamic viscosity, Pa s.
@@ -28,42 +30,92 @@ module film_oils
       real(wp) :: shear(0:weights_degree) = 0
    contains
       procedure :: weights => weights_at
+      procedure :: shear_weight
+      procedure :: coefficients
    end type film_oil
 
-   !> At an angle: 12 mu f2, 2 f1, f0/mu.
+   !> At an angle: 12 mu f2, 2 f1.
    type :: arc_weights
-      real(wp) :: flow = 1, sliding = 1, shear = 1
+      real(wp) :: flow = 1, sliding = 1
       !> Derivatives over the angle, 1/rad and its powers: of ln(12 mu f2), 1st to 3rd, and of 2 f1, 1st and 2nd.
       real(wp) :: flow_slopes(3) = 0, sliding_slopes(2) = 0
    end type arc_weights
 
 contains
 
+   !> Oil all of which has this viscosity, Pa s.
+   elemental type(film_oil) function even_oil(viscosity) result(oil)
+      real(wp), intent(in) :: viscosity
+      oil%viscosity = viscosity
+   end function even_oil
+
+   !> The oil of a viscosity, Pa s, with these coefficients of its polynomials, (0:degree, polynomial); all of it has
+   !> this viscosity where they are 0.
+   pure type(film_oil) function uneven_oil(viscosity, coefficients) result(oil)
+      real(wp), intent(in) :: viscosity, coefficients(0:, :)
+      oil%viscosity = viscosity
+      oil%varies = any(abs(coefficients) > 0)
+      if (.not. oil%varies) return
+      oil%flow = coefficients(:, 1)
+      oil%sliding = coefficients(:, 2)
+      oil%shear = coefficients(:, 3)
+   end function uneven_oil
+
+   !> The coefficients of flow, sliding and shear, (0:degree, polynomial); 0 where all of the oil has its viscosity.
+   pure function coefficients(self)
+      class(film_oil), intent(in) :: self
+      real(wp) :: coefficients(0:weights_degree, polynomials)
+      coefficients = 0
+      if (self%varies) coefficients = reshape([self%flow, self%sliding, self%shear], shape(coefficients))
+   end function coefficients
+
    !> The weights at an angle from the pivot, rad.
    elemental type(arc_weights) function weights_at(self, gap, phi) result(weights)
       class(film_oil), intent(in) :: self
       type(pad_gap_type), intent(in) :: gap
       real(wp), intent(in) :: phi
-      real(wp) :: half, x
-      integer :: k
+      real(wp) :: flow(0:3), sliding(0:3), unit
       if (.not. self%varies) return
-      half = 0.5_wp*gap%arc()
-      x = (0.5_wp*(gap%leading_angle - gap%trailing_angle) - phi)/half
-      weights%flow = exp(polynomial(self%flow, x, 0))
-      weights%shear = exp(polynomial(self%shear, x, 0))
-      weights%sliding = 2*polynomial(self%sliding, x, 0)
-      weights%flow_slopes = [(polynomial(self%flow, x, k)/(-half)**k, k=1, 3)]
-      weights%sliding_slopes = [(2*polynomial(self%sliding, x, k)/(-half)**k, k=1, 2)]
+      unit = -2/gap%arc()
+      flow = derivatives(self%flow, place(gap, phi))
+      sliding = 2*derivatives(self%sliding, place(gap, phi))
+      weights%flow = exp(flow(0))
+      weights%sliding = sliding(0)
+      weights%flow_slopes = flow(1:)*[unit, unit**2, unit**3]
+      weights%sliding_slopes = sliding(1:2)*[unit, unit**2]
    end function weights_at
 
-   !> The derivative of this order of the polynomial with coefficients c at x.
-   pure real(wp) function polynomial(c, x, order)
-      real(wp), intent(in) :: c(0:), x
-      integer, intent(in) :: order
-      integer :: i, k
-      polynomial = 0
-      do i = ubound(c, 1), order, -1
-         polynomial = polynomial*x + c(i)*product([(real(k, wp), k=i - order + 1, i)])
+   !> f0/mu at an angle from the pivot, rad.
+   elemental real(wp) function shear_weight(self, gap, phi) result(weight)
+      class(film_oil), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: phi
+      real(wp) :: shear(0:3)
+      weight = 1
+      if (.not. self%varies) return
+      shear = derivatives(self%shear, place(gap, phi))
+      weight = exp(shear(0))
+   end function shear_weight
+
+   !> The place on the arc, from -1 to 1, at an angle from the pivot, rad.
+   pure real(wp) function place(gap, phi)
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: phi
+      place = (gap%leading_angle - gap%trailing_angle - 2*phi)/gap%arc()
+   end function place
+
+   !> The polynomial with coefficients c at x and its first three derivatives, by Horner's rule.
+   pure function derivatives(c, x) result(d)
+      real(wp), intent(in) :: c(0:weights_degree), x
+      real(wp) :: d(0:3)
+      integer :: i
+      d = 0
+      do i = weights_degree, 0, -1
+         d(3) = d(3)*x + d(2)
+         d(2) = d(2)*x + d(1)
+         d(1) = d(1)*x + d(0)
+         d(0) = d(0)*x + c(i)
       end do
-   end function polynomial
+      d(2:) = d(2:)*[2, 6]
+   end function derivatives
 end module film_oils

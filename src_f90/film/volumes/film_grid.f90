@@ -165,7 +165,7 @@ contains
       at_face = oil%weights(grid%gap, atan2(grid%sin_face, grid%cos_face))
       grid%flow_cell(:) = at_cell%flow
       grid%sliding_cell(:) = at_cell%sliding
-      grid%shear_cell(:) = at_cell%shear
+      grid%shear_cell(:) = oil%shear_weight(grid%gap, grid%middle(1:grid%columns))
       grid%flow_face(:) = at_face%flow
       grid%sliding_face(:) = at_face%sliding
       grid%uneven = oil%varies
