@@ -72,7 +72,7 @@ def check_same(path, reference):
 @pytest.mark.parametrize(
     "case",
     [EQUILIBRIA, RELAXED, DOUBLED, LUGRE, SWITCHING, THERMAL_EQUILIBRIA, WARM_ORBITS, UNEVEN_ORBITS],
-    ids=["equilibria", "relaxed", "doubled", "lugre", "switching", "warm equilibria", "warm orbits", "uneven orbits"],
+    ids=["equilibria", "relaxed", "doubled", "lugre", "switching", "warm equilibria", "warm", "uneven"],
 )
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, case, number):

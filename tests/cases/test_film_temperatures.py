@@ -130,9 +130,7 @@ def test_films_are_solved_again_as_they_were(run, tmp_path):
 
 
 def test_heat_is_conserved(run, tmp_path):
-    """What the films make warms the fresh oil up to the drain and goes out behind the pads; a shaft of its own
-    temperature takes nothing.
-    """
+    """What the films make warms the fresh oil up to the drain and goes out behind the pads."""
     run(REST)
     with package.read(tmp_path / "case.h5") as case:
         heat, rest, oil = package.heat_balance(case), case.equilibrium, case.input["oil"]
