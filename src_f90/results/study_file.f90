@@ -31,8 +31,6 @@ module study_file
       real(wp), private :: last_checkpoint = 0, taken = 0
       !> Whether rows have been added since.
       logical, private :: grown = .false.
-      !> Clock of the last beat, s.
-      integer, private :: last_beat = 0
    contains
       !> Locks the name of the file, so that nobody else writes it, until `finish` or `abandon`.
       procedure :: claim
@@ -273,10 +271,7 @@ contains
    subroutine beat(self, now)
       class(study_file_type), intent(inout) :: self
       integer, intent(in) :: now
-      if (now == self%last_beat) return
-      self%last_beat = now
-      call self%working%lock%beat(now)
-      call self%working%begin_sync()
+      call self%working%beat(now)
    end subroutine beat
 
    function taken_from(self)

@@ -23,8 +23,6 @@ module growing_file
 
    type, extends(hdf5_type) :: growing_file_type
       type(working_file_type), private :: working
-      !> Clock of the last beat, s.
-      integer, private :: last_beat = 0
       !> Name of the series that is the scale of all; it is declared first.
       character(len=:), allocatable, private :: axis
       !> How many samples there will be, if this is known.
@@ -310,10 +308,7 @@ contains
    subroutine beat(self, now)
       class(growing_file_type), intent(inout) :: self
       integer, intent(in) :: now
-      if (now == self%last_beat) return
-      self%last_beat = now
-      call self%working%lock%beat(now)
-      call self%working%begin_sync()
+      call self%working%beat(now)
    end subroutine beat
 
    function taken_from(self)

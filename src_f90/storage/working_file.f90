@@ -32,6 +32,8 @@ module working_file
       !> True once this run has published; true where the part could not be renamed and is kept.
       logical :: published = .false., stranded = .false.
       type(file_lock_type) :: lock
+      !> Clock of the last beat, s.
+      integer, private :: last_beat = 0
    contains
       !> Locks the name; no other run writes under it until `release`.
       procedure :: claim
@@ -40,8 +42,9 @@ module working_file
       !> Makes the part a copy of the published file.
       procedure :: copy_published
       procedure :: publish
-      !> Has the system begin to write the part to the disk.
-      procedure :: begin_sync => begin_part
+      !> Shows other programs that this one lives, and has the system begin to write the part to the disk; to be called
+      !> often with a clock, s.
+      procedure :: beat
       !> Deletes the part; frees the lock, whose file stays where the part does.
       procedure :: release
       procedure, private :: choose_part
@@ -240,10 +243,14 @@ contains
       ok = sync_file(self%path(:index(self%path, '/', back=.true.))//'.')
    end subroutine publish
 
-   subroutine begin_part(self)
-      class(working_file_type), intent(in) :: self
+   subroutine beat(self, now)
+      class(working_file_type), intent(inout) :: self
+      integer, intent(in) :: now
+      if (now == self%last_beat) return
+      self%last_beat = now
+      call self%lock%beat(now)
       call begin_sync(self%part)
-   end subroutine begin_part
+   end subroutine beat
 
    !> Deletes the part if it is the one that this run has made; what stays so stays in the lock.
    subroutine delete_part(self)

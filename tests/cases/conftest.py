@@ -28,6 +28,8 @@ signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 #: Seconds after which a test gives up what it waits for: many times what it takes on a loaded machine.
 TIMEOUT = 300
+#: Columns of a study that depend on the moment.
+TIMES = ("wall_seconds", "film_seconds", "film_building_seconds", "output_seconds", "checkpoint_seconds")
 #: A run that does not end by itself.
 ENDLESS = ("--set", "operation%duration=10000")
 #: A run that makes a checkpoint at each of its steps, which takes fifty times as long as the steps do.
@@ -146,6 +148,22 @@ def arrays(path, *but):
     with h5py.File(path) as file:
         file.visititems(note)
     return found
+
+
+def rows(path):
+    """All arrays of a study that do not depend on the moment."""
+    return {name: values for name, values in arrays(path).items() if name not in TIMES}
+
+
+@pytest.fixture
+def case(tmp_path):
+    """Writes case.nml into a folder of its own and returns that."""
+
+    def write(text):
+        (tmp_path / "case.nml").write_text(text)
+        return tmp_path
+
+    return write
 
 
 def shorten(path, more=0.01):

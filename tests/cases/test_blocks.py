@@ -10,10 +10,8 @@ import h5py
 import numpy as np
 import pytest
 import tiltpad as package
-from conftest import FAST_CLOCK, TIMEOUT, arrays, in_a_mount_namespace, one_error, wait_for
+from conftest import FAST_CLOCK, TIMEOUT, in_a_mount_namespace, one_error, rows, wait_for
 
-#: What depends on the moment.
-TIMES = ("wall_seconds", "film_seconds", "film_building_seconds", "output_seconds", "checkpoint_seconds")
 QUICK = "&case task='equilibrium' / &output checkpoint_seconds=1e-9 /\n&sweep rotor%mass=1001:{last}:1 /\n"
 #: Columns and labels that only some runs have, and runs that fail.
 MIXED = """\
@@ -27,21 +25,6 @@ MIXED = """\
 /
 """
 OTHERS = "; --overwrite replaces it, and --output names another place"
-
-
-@pytest.fixture
-def case(tmp_path):
-    """Writes case.nml into a folder of its own and returns that."""
-
-    def write(text):
-        (tmp_path / "case.nml").write_text(text)
-        return tmp_path
-
-    return write
-
-
-def rows(path):
-    return {name: values for name, values in arrays(path).items() if name not in TIMES}
 
 
 def expect_same(one, other):

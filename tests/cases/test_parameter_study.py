@@ -23,17 +23,6 @@ def varied(*lines, base=QUICK):
     return base + "&sweep\n" + "".join(f"  {line}\n" for line in lines) + "/\n"
 
 
-@pytest.fixture
-def case(tmp_path):
-    """Writes case.nml into a folder of its own and returns that."""
-
-    def write(text):
-        (tmp_path / "case.nml").write_text(text)
-        return tmp_path
-
-    return write
-
-
 def result(run, *, status=0):
     """Standard output and the lines of standard error, which are errors of ours."""
     lines = run.stderr.splitlines()

@@ -16,30 +16,14 @@ from conftest import (
     arrays,
     in_a_mount_namespace,
     one_error,
+    rows,
     wait_for,
     wait_for_checkpoint,
 )
 
-#: What depends on the moment.
-TIMES = ("wall_seconds", "film_seconds", "film_building_seconds", "output_seconds", "checkpoint_seconds")
 #: A study with a checkpoint whenever there can be one, and one of runs that do not end.
 QUICK = "&case task='equilibrium' / &output checkpoint_seconds=1e-9 /\n&sweep rotor%mass=1001:{last}:1 /\n"
 ENDLESS = "&operation duration=10000 / &output keep='summary' /\n&sweep rotor%mass=2000,2100,2200 /\n"
-
-
-@pytest.fixture
-def case(tmp_path):
-    """Writes case.nml into a folder of its own and returns that."""
-
-    def write(text):
-        (tmp_path / "case.nml").write_text(text)
-        return tmp_path
-
-    return write
-
-
-def rows(path):
-    return {name: values for name, values in arrays(path).items() if name not in TIMES}
 
 
 def expect_same(one, other):
