@@ -139,8 +139,11 @@ def files(paths: list[str]) -> Iterator[Path]:
     """The texts below some paths."""
     for path in map(Path, paths):
         for each in sorted(path.rglob("*")) if path.is_dir() else [path]:
+            inside = each.relative_to(path).parts if path.is_dir() else ()
+            # what tools leave behind, as .ruff_cache, is nobody's text
+            hidden = any(part.startswith(".") or ".egg-info" in part for part in inside)
             known = each.suffix in ENDINGS and not str(each).endswith(ALIASES)
-            if known and each.is_file() and ".egg-info" not in str(each):
+            if known and not hidden and each.is_file():
                 yield each
 
 

@@ -146,12 +146,18 @@ def tell(result: object) -> None:
 
 
 def tell_remarks(sources: Sequence[Run | Study]) -> None:
-    """Prints the remarks on results, with the names of their files where there are several."""
+    """Prints the remarks on results, with the names of their files where there are several.
+
+    Of a study only how many runs have any.
+    """
     for each in sources:
         if isinstance(each, Run):
             name = f"{each.path}: " * (len({one.path for one in sources}) > 1)
             for line in each.remarks:
                 tell(f"{name}remark: {line}")
+        elif "remarks" in each:
+            remarked, runs = sum(map(bool, each["remarks"])), each.length("run")
+            tell(f"{each.path}: remarks on {remarked} of {runs} runs; the report of the study counts them")
 
 
 def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
@@ -269,7 +275,8 @@ def bearings_of(source: Run | Study, options: argparse.Namespace) -> list[Run | 
             known = ", ".join(source.bearings) or "it is a study of one bearing"
             raise ValueError(f"{source.path}: no bearing {options.bearing}: {known}")
         return [source.bearings[options.bearing]]
-    if isinstance(source, Study) or not source.bearings or options.plot in OF_MACHINES:
+    of_station = options.plot == RESPONSE and options.station is not None
+    if isinstance(source, Study) or not source.bearings or options.plot in OF_MACHINES or of_station:
         return [source]
     if options.plot == "temperatures" and source.is_branch:
         return [one_bearing(source, options)]

@@ -104,13 +104,11 @@ contains
       end associate
    end subroutine note_figures
 
-   !> Writes the remarks on the run so far, and prints those that were not if they are to be `shown`. A run of a study
-   !> that has no file has none.
+   !> Writes the remarks on the run so far, and prints those that were not if they are to be `shown`.
    subroutine note_remarks(self, shown)
       class(case_run_type), intent(inout) :: self
       logical, intent(in) :: shown
       character(len=:), allocatable :: all
-      if (.not. self%file%filed) return
       all = remarks_on_run(self%inputs, self%file)
       call put_remarks(self%file, all)
       if (self%quiet .or. .not. shown) return

@@ -24,7 +24,7 @@ contains
    subroutine note_equilibrium(run, static)
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
-      real(wp), allocatable :: loads(:, :)
+      real(wp), allocatable :: loads(:, :), slopes(:)
       integer :: b, as
       run%model%oil = static%oil
       run%computed = .true.
@@ -36,15 +36,16 @@ contains
       end if
       call put_stability(run%file, static)
       loads = bearing_loads(run%model, static%rotor)
+      slopes = bearing_slopes(run, static)
       call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads)
       if (.not. run%quiet) call print_shaft(run%file)
       if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static, run%inputs)
       do b = 1, size(loads, 2)
          as = b
-         if (.not. run%quiet) as = same_equilibrium(run, static, loads, b)
+         if (.not. run%quiet) as = same_equilibrium(run, static, loads, slopes, b)
          call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, &
             & bearing_title(run%inputs, b, loads(:, b)), as == b .and. .not. run%quiet)
-         call note_misalignment(run, static, b, as == b .and. .not. run%quiet)
+         call note_misalignment(run, static, slopes(b), b, as == b .and. .not. run%quiet)
          if (as < b .and. .not. run%quiet) print '(a)', bearing_title(run%inputs, b, loads(:, b)) &
             & //'all else as of bearing '''//run%inputs%machine%bearings(as)%name//''''
       end do
@@ -53,11 +54,11 @@ contains
 
    !> The first bearing that is as bearing b and whose films, journal and shaft are in the same equilibrium, but for
    !> digits that are not printed: it, or one before it.
-   integer function same_equilibrium(run, static, loads, b) result(first)
+   integer function same_equilibrium(run, static, loads, slopes, b) result(first)
       type(case_run_type), intent(in) :: run
       type(equilibrium_type), intent(in) :: static
-      !> Of each bearing, N.
-      real(wp), intent(in) :: loads(:, :)
+      !> Of each bearing, N and rad.
+      real(wp), intent(in) :: loads(:, :), slopes(:)
       integer, intent(in) :: b
       type(equilibrium_type) :: one, own
       own = part_of(run%model, static, b)
@@ -66,7 +67,7 @@ contains
          one = part_of(run%model, static, first)
          if (agree(loads(:, first), loads(:, b)) .and. agree(one%rotor, own%rotor) .and. agree(one%tilt, own%tilt) &
             & .and. agree(one%min_film_thickness, own%min_film_thickness) &
-            & .and. agree([slope(run, static, first)], [slope(run, static, b)])) return
+            & .and. agree([slopes(first)], [slopes(b)])) return
       end do
    end function same_equilibrium
 
@@ -76,31 +77,30 @@ contains
       agree = maxval(abs(one - other)) <= 1e-5_wp*maxval(abs(other))
    end function agree
 
-   !> Slope of the shaft in bearing b, rad.
-   real(wp) function slope(run, static, b)
+   !> Slope of the shaft in each bearing, rad.
+   function bearing_slopes(run, static) result(slopes)
       type(case_run_type), intent(in) :: run
       type(equilibrium_type), intent(in) :: static
-      integer, intent(in) :: b
-      real(wp) :: slopes(2, run%model%rotor%stations)
-      slopes = run%model%rotor%station_slopes(static%rotor)
-      slope = norm2(slopes(:, run%inputs%machine%bearings(b)%station))
-   end function slope
+      real(wp) :: slopes(size(run%inputs%machine%bearings)), at_stations(2, run%model%rotor%stations)
+      at_stations = run%model%rotor%station_slopes(static%rotor)
+      slopes = norm2(at_stations(:, run%inputs%machine%bearings%station), dim=1)
+   end function bearing_slopes
 
-   !> What the slope of the shaft in bearing b of a machine does to its films, which leave it out.
-   subroutine note_misalignment(run, static, b, shown)
+   !> What the slope of the shaft in bearing b of a machine, rad, does to its films, which leave it out.
+   subroutine note_misalignment(run, static, slope, b, shown)
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
+      real(wp), intent(in) :: slope
       integer, intent(in) :: b
       logical, intent(in) :: shown
       type(bearing_file_type) :: file
       real(wp) :: misalignment
       file = run%bearing(b)
       associate (of => run%inputs%machine%bearings(b), bearing => run%model%layout%bearings(b))
-         misalignment = maxval(slope(run, static, b)*of%bearing%axial_length/2 &
-            & /static%min_film_thickness(bearing%all_pads()))
+         misalignment = maxval(slope*of%bearing%axial_length/2/static%min_film_thickness(bearing%all_pads()))
       end associate
       call put_misalignment(file, misalignment)
-      if (shown) call print_misalignment(slope(run, static, b), misalignment)
+      if (shown) call print_misalignment(slope, misalignment)
    end subroutine note_misalignment
 
    !> Bearing b, of this model of it alone; `title` begins its first line. `shown`: it is printed, too.

@@ -25,6 +25,8 @@ module study_runs
    !> What became of the runs so far.
    type :: tally_type
       integer :: done = 0, failed = 0, stopped = 0
+      !> How many of those performed now have remarks.
+      integer :: remarked = 0
       !> The highest exit status of those that failed.
       integer :: status = 0
       !> Number, status and message of the first failed runs.
@@ -172,6 +174,7 @@ contains
          ! one that was killed meanwhile will be told below
          if (.not. ok) cycle
          call note(report%run, report%error, tally)
+         if (children(i)%results%has('summary/remarks')) tally%remarked = tally%remarked + 1
          if (report%error%status /= stopped) call table%add(report%run, report%error%status, report%error%message, &
             & children(i)%results, i, runner%own_file(report%run))
          children(i)%run = 0
@@ -232,6 +235,8 @@ contains
       end do
       if (.not. quiet) print '(a)', to_text(runs)//' runs: '//totals(runs, tally)//'; ' &
          & //fixed_text(wall_clock() - tally%started, 2)//' s; in '//path
+      if (tally%remarked > 0 .and. .not. quiet) print '(a)', 'remarks on '//to_text(tally%remarked)//' of the runs: ' &
+         & //'its column remarks has them, and tiltpad-report counts them'
       if (stop_requested()) then
          call raise(error, stopped, stop_reason()//'; of '//to_text(runs)//' runs '//totals(runs, tally))
       else if (tally%stopped > 0) then

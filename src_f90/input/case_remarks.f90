@@ -11,7 +11,7 @@ module case_remarks
    use namelist_writer, only: lines_of
    implicit none (type, external)
    private
-   public :: remarks_on_case, remarks_on_load, of_bearing_named, behind, newline
+   public :: remarks_on_case, remarks_on_load, of_bearing, behind, newline
 
    character(len=*), parameter :: newline = achar(10)
    !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
@@ -32,7 +32,7 @@ contains
       integer :: b
       lines = ''
       do b = 1, inputs%bearing_count()
-         lines = lines//behind(of_bearing_named(inputs, b), on_bearing(inputs%of_bearing(b)))
+         lines = lines//of_bearing(inputs, b, on_bearing(inputs%of_bearing(b)))
       end do
       if (.not. inputs%is_machine()) lines = lines//on_rigid_journal(inputs)//remarks_on_load(inputs)
       if (allocated(inputs%about%of_paper)) lines = lines//'not given, and so as in the paper''s bearing: ' &
@@ -40,14 +40,15 @@ contains
       lines = lines//on_idle_groups(inputs)
    end function remarks_on_case
 
-   !> What stands before a remark on a bearing of a machine; empty where there is one bearing.
-   function of_bearing_named(inputs, b) result(prefix)
+   !> Lines on bearing b; in a machine its name begins each.
+   function of_bearing(inputs, b, lines) result(named)
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: b
-      character(len=:), allocatable :: prefix
-      prefix = ''
-      if (inputs%is_machine()) prefix = 'bearing '''//inputs%machine%bearings(b)%name//''': '
-   end function of_bearing_named
+      character(len=*), intent(in) :: lines
+      character(len=:), allocatable :: named
+      named = lines
+      if (inputs%is_machine()) named = behind('bearing '''//inputs%machine%bearings(b)%name//''': ', lines)
+   end function of_bearing
 
    !> Lines, each behind a prefix.
    pure function behind(prefix, lines) result(prefixed)

@@ -5,7 +5,7 @@ module result_remarks
    use kinds, only: wp, degree, pi
    use text, only: to_text, fixed_text
    use case_inputs, only: case_type
-   use case_remarks, only: remarks_on_case, remarks_on_load, of_bearing_named, behind, newline
+   use case_remarks, only: remarks_on_case, remarks_on_load, of_bearing, newline
    use equilibrium_refusal, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
    use record, only: record_type
@@ -54,7 +54,7 @@ contains
             alone = inputs
          end if
          if (part%has('equilibrium/journal_y')) own = own//on_equilibrium(alone, part)
-         all = all//behind(of_bearing_named(inputs, b), own//on_motion(alone, part))
+         all = all//of_bearing(inputs, b, own//on_motion(alone, part))
       end do
       if (.not. file%has('periodic/closed')) return
       if (.not. file%get_real('periodic/closed') > 0) all = all//'Newton''s method does not close the orbit: it is ' &

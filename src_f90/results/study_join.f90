@@ -125,7 +125,7 @@ contains
       at = positions(lists, rows%table%extents(column%over))
    end function places_in
 
-   !> Copies reasons and names of files.
+   !> Copies reasons, remarks and names of files.
    subroutine join_texts(file, rows, other_file, other, wanted)
       class(hdf5_type), intent(inout) :: file
       type(study_rows_type), intent(inout) :: rows
@@ -144,6 +144,10 @@ contains
                if (text(1)%text /= '' .or. rows%status(i) /= not_run) call rows%reasons%write(file, i, text)
             end associate
          end do
+         if (other%remarks%id >= 0) then
+            call other%remarks%read(other_file, first, last - first + 1, texts)
+            if (.not. allocated(other_file%failure)) call rows%put_remarks(file, first, texts)
+         end if
          if (other%files%id >= 0) then
             call other%files%read(other_file, first, last - first + 1, texts)
             if (.not. allocated(other_file%failure)) call rows%put_files(file, first, texts)

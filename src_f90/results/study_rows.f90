@@ -18,6 +18,8 @@ module study_rows
    !> The status of a run that has no row.
    integer, parameter :: not_run = -2
    character(len=*), parameter :: status_name = 'status', reason_name = 'reason', file_name = 'file'
+   !> Remarks of a run, and where a record has them.
+   character(len=*), parameter :: remarks_name = 'remarks', remarks_path = 'summary/remarks'
    character(len=*), parameter :: status_meaning = 'exit status: 0 done, 2 numerics, 3 system, 4 stopped, ' &
       & //'-1 not ended, -2 not run yet; nan: its file cannot be read'
    !> Columns that every study has, one value a run.
@@ -27,17 +29,18 @@ module study_rows
 
    type :: study_rows_type
       type(study_columns_type) :: table
-      !> Reasons of failures, and the results' own files; the latter are no column where no run has one.
-      type(hdf5_texts_type) :: reasons, files
+      !> Reasons of failures, remarks on the runs, and the results' own files; the last two are no column where no run
+      !> has any.
+      type(hdf5_texts_type) :: reasons, remarks, files
       !> Exit status of each run; `not_run` where it has no row.
       integer, allocatable :: status(:)
       !> Names that no column may have, separated by blanks.
       character(len=:), allocatable :: taken
       type(row_mapping_type), allocatable, private :: sources(:)
-      !> Rows held back, their runs and reasons, and whether the run had a row before; how many there are.
+      !> Rows held back, their runs, reasons and remarks, and whether the run had a row before; how many there are.
       real(wp), allocatable, private :: held(:, :)
       integer, allocatable, private :: numbers(:)
-      type(text_type), allocatable, private :: texts(:)
+      type(text_type), allocatable, private :: texts(:), remarked(:)
       logical, allocatable, private :: again(:)
       integer, private :: count = 0
       !> Places of status and `complete` in a row.
@@ -46,6 +49,7 @@ module study_rows
       procedure :: begin
       procedure :: read_layout
       procedure :: add
+      procedure :: put_remarks
       procedure :: put_files
       procedure :: flush => write_held
       procedure :: open => open_rows
@@ -91,9 +95,9 @@ contains
    subroutine forget(self)
       type(study_rows_type), intent(inout) :: self
       self%count = 0
-      self%taken = run_scale//' '//reason_name//' '//file_name//' runs '//self%table%coordinates
+      self%taken = run_scale//' '//reason_name//' '//remarks_name//' '//file_name//' runs '//self%table%coordinates
       if (allocated(self%sources)) deallocate (self%sources)
-      if (allocated(self%held)) deallocate (self%held, self%numbers, self%texts, self%again)
+      if (allocated(self%held)) deallocate (self%held, self%numbers, self%texts, self%remarked, self%again)
       allocate (self%sources(0))
    end subroutine forget
 
@@ -129,6 +133,7 @@ contains
       self%count = self%count + 1
       self%numbers(self%count) = k
       self%texts(self%count)%text = trim(printable(reason))
+      self%remarked(self%count)%text = remarks_in(record)
       self%again(self%count) = self%status(k) /= not_run
       self%status(k) = status
       associate (row => self%held(:, self%count))
@@ -137,6 +142,30 @@ contains
          row(self%singles) = [real(status, wp), merge(1.0_wp, 0.0_wp, status == 0)]
       end associate
    end subroutine add
+
+   !> The remarks in a record, a line each.
+   function remarks_in(record) result(lines)
+      type(record_type), intent(in) :: record
+      character(len=:), allocatable :: lines
+      integer :: i
+      lines = ''
+      do i = 1, record%count
+         associate (own => record%datasets(i))
+            if (own%path == remarks_path .and. own%there) lines = own%texts(:len(own%texts) - 1)
+         end associate
+      end do
+   end function remarks_in
+
+   !> The remarks on runs, from run k on; they become a column with the first.
+   subroutine put_remarks(self, file, k, remarks)
+      class(study_rows_type), intent(inout) :: self
+      class(hdf5_type), intent(inout) :: file
+      integer, intent(in) :: k
+      type(text_type), intent(in) :: remarks(:)
+      if (self%remarks%id < 0) call create_texts(self, file, remarks_name, &
+         & 'what is unusual in the run, or leaves the range of the model, a line each', self%remarks)
+      call self%remarks%write(file, k, remarks)
+   end subroutine put_remarks
 
    !> The names of runs' own files, from run k on.
    subroutine put_files(self, file, k, names)
@@ -154,7 +183,8 @@ contains
       type(study_rows_type), intent(inout) :: self
       integer :: rows
       rows = max(1, min(most_held, most_numbers/self%table%width))
-      allocate (self%held(self%table%width, rows), self%numbers(rows), self%texts(rows), self%again(rows))
+      allocate (self%held(self%table%width, rows), self%numbers(rows), self%texts(rows), self%remarked(rows), &
+         & self%again(rows))
       associate (columns => self%table%columns)
          self%singles = [columns(self%table%find(status_name))%before, &
             & columns(self%table%find(complete_name))%before] + 1
@@ -183,7 +213,7 @@ contains
          if (size(new) == 0) return
          call self%flush(file)
          call self%table%extend(file, self%status /= not_run, scales, used, new)
-         if (allocated(self%held)) deallocate (self%held, self%numbers, self%texts, self%again)
+         if (allocated(self%held)) deallocate (self%held, self%numbers, self%texts, self%remarked, self%again)
          call own%find(record, self%table, self%taken)
       end associate
    end subroutine make_room
@@ -208,6 +238,9 @@ contains
       do last = 1, self%count
          if (self%texts(last)%text /= '' .or. self%again(last)) call self%reasons%write(file, self%numbers(last), &
             & self%texts(last:last))
+         if (self%remarked(last)%text /= '' .or. self%again(last) .and. self%remarks%id >= 0) then
+            call self%put_remarks(file, self%numbers(last), self%remarked(last:last))
+         end if
       end do
       self%count = 0
    end subroutine write_held
@@ -236,6 +269,7 @@ contains
       integer, allocatable :: more(:)
       call self%table%resize(file, runs)
       call self%reasons%resize(file, runs)
+      if (self%remarks%id >= 0) call self%remarks%resize(file, runs)
       if (self%files%id >= 0) call self%files%resize(file, runs)
       allocate (more(runs), source=not_run)
       more(:size(self%status)) = self%status
@@ -254,6 +288,7 @@ contains
       class(study_rows_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
       call self%reasons%open(file, reason_name)
+      if (file%has(remarks_name)) call self%remarks%open(file, remarks_name)
       if (file%has(file_name)) call self%files%open(file, file_name)
    end subroutine open_texts
 
@@ -262,6 +297,7 @@ contains
       class(hdf5_type), intent(inout) :: file
       call self%table%close(file)
       call self%reasons%close(file)
+      call self%remarks%close(file)
       call self%files%close(file)
    end subroutine close_rows
 

@@ -1,9 +1,9 @@
 !> A record for another process, in two parts: what its datasets are, which seldom changes, and their numbers.
 module record_message
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_value, ieee_quiet_nan
    use kinds, only: wp
    use text, only: to_text
-   use record, only: record_type, of_texts
+   use record, only: record_type, dataset_type, of_texts
    implicit none (type, external)
    private
    public :: description, take_description, numbers, take_numbers
@@ -71,24 +71,32 @@ contains
       end function whole
    end subroutine take_description
 
-   !> The numbers of all datasets; not a number where the run has none.
+   !> The numbers of all datasets; not a number where the run has none. Of texts, one: whether the run has them.
    function numbers(self) result(values)
       type(record_type), intent(in) :: self
       real(wp), allocatable :: values(:)
       integer :: k, n
-      allocate (values(sum([(size(self%datasets(k)%values), k=1, self%count)])))
+      allocate (values(sum([(length(self%datasets(k)), k=1, self%count)])))
       n = 0
       do k = 1, self%count
          associate (own => self%datasets(k))
-            if (own%there) then
-               values(n + 1:n + size(own%values)) = own%values
+            if (.not. own%there) then
+               values(n + 1:n + length(own)) = ieee_value(1.0_wp, ieee_quiet_nan)
+            else if (own%kind == of_texts) then
+               values(n + 1) = 1
             else
-               values(n + 1:n + size(own%values)) = ieee_value(1.0_wp, ieee_quiet_nan)
+               values(n + 1:n + length(own)) = own%values
             end if
-            n = n + size(own%values)
+            n = n + length(own)
          end associate
       end do
    end function numbers
+
+   !> How many numbers of a message are of this dataset.
+   pure integer function length(dataset)
+      type(dataset_type), intent(in) :: dataset
+      length = merge(1, size(dataset%values), dataset%kind == of_texts)
+   end function length
 
    !> Takes the numbers of a record with the same datasets.
    subroutine take_numbers(self, values)
@@ -98,9 +106,13 @@ contains
       n = 0
       do k = 1, self%count
          associate (own => self%datasets(k))
-            own%values = values(n + 1:n + size(own%values))
             own%there = .true.
-            n = n + size(own%values)
+            if (own%kind == of_texts) then
+               own%there = .not. ieee_is_nan(values(n + 1))
+            else
+               own%values = values(n + 1:n + length(own))
+            end if
+            n = n + length(own)
          end associate
       end do
    end subroutine take_numbers

@@ -2,6 +2,7 @@
 
 import h5py
 import pytest
+from conftest import ENDLESS, shorten, wait_for_checkpoint
 
 #: A plain bearing whose groove can be turned, warm oil, and remarks by what a case adds to the paper's.
 BORE = ("bearing%preload=0", "pads%motion=fixed", "pads%arc_deg=360", "rotor%mass=500")
@@ -93,3 +94,41 @@ def test_the_sommerfeld_number_says_its_viscosity(run, tmp_path):
         # the same words in every run, as it is one column of a study
         about = file["equilibrium/sommerfeld_number"].attrs["long_name"]
     assert about.endswith("mu of the oil as supplied")
+
+
+def test_a_run_that_goes_on_keeps_what_its_case_leaves_to_the_paper(tiltpad, start, tmp_path):
+    """The resolved input of a result gives every value, so that the remark cannot be made of it again."""
+    (tmp_path / "case.nml").write_text(
+        "&bearing axial_length=0.11 / &output checkpoint_seconds=0.01, keep='last_revolutions' /"
+    )
+    process = start(tmp_path, "-q", "case.nml", *ENDLESS)
+    wait_for_checkpoint(tmp_path / "case.h5", process)
+    process.kill()
+    process.wait()
+    before = listed(tmp_path / "case.h5")
+    assert before[0].startswith("not given, and so as in the paper's bearing: rotor%mass = 2000 kg")
+    shorten(tmp_path / "case.h5")
+    done = tiltpad("--resume", "case.h5", cwd=tmp_path, status=0)
+    assert before[0] in lines(done.stdout)
+    assert listed(tmp_path / "case.h5")[0] == before[0]
+
+
+def test_rows_of_a_study_have_the_remarks_of_its_runs(tiltpad, tmp_path):
+    """Each its own, also where runs without any lie between, and where one is performed anew with a file."""
+    (tmp_path / "case.nml").write_text("&case task='equilibrium' / &sweep rotor%mass=6000,1000,9000,1500 /")
+    for jobs in (1, 3):
+        done = tiltpad("case.nml", "--jobs", jobs, "-o", f"by{jobs}", cwd=tmp_path, status=0)
+        assert "\nremarks on 2 of the runs" in done.stdout
+        with h5py.File(tmp_path / f"by{jobs}.h5") as file:
+            rows = [each.splitlines() for each in file["remarks"].asstr()]
+        assert [bool(each) for each in rows] == [True, False, True, False]
+        for number in (1, 3):
+            tiltpad("case.nml", "--run", number, "--overwrite", cwd=tmp_path, status=0)
+            assert rows[number - 1] == listed(tmp_path / f"case/000{number}.h5")
+    assert rows[0] != rows[2]
+    done = tiltpad(
+        "case.nml", "-o", "none", overrides=("sweep%rotor%mass=1000,1500",), cwd=tmp_path, status=0
+    )
+    assert "remarks" not in done.stdout
+    with h5py.File(tmp_path / "none.h5") as file:
+        assert "remarks" not in file

@@ -61,3 +61,10 @@ def test_the_command(tmp_path):
     ]
     page.write_text("A case.\n")
     assert subprocess.run([sys.executable, words.__file__, tmp_path]).returncode == 0
+
+
+def test_what_tools_leave_behind_is_not_read(tmp_path):
+    (tmp_path / ".ruff_cache").mkdir()
+    (tmp_path / ".ruff_cache" / "0").write_bytes(b"\xff\x00 ruptured")
+    (tmp_path / "page.md").write_text("plain\n")
+    assert [each.name for each in words.files([str(tmp_path)])] == ["page.md"]

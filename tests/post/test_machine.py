@@ -8,7 +8,7 @@ import pytest
 import tiltpad
 from tiltpad import command, figures
 from tiltpad.calculate import stations
-from tiltpad.draw import machines
+from tiltpad.draw import machine_report, machines
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
 
@@ -159,6 +159,70 @@ def test_a_case_is_drawn(machine, program, tmp_path, capsys, monkeypatch):
     assert "choose one of its bearings by --bearing: drive_end, free_end" in capsys.readouterr().err
     assert command.main(["bearing", case, "--bearing", "fre_end", "-o", output]) == 1
     assert "(did you mean free_end?)" in capsys.readouterr().err
+
+
+def test_response_of_a_branch_at_a_station(machine, tmp_path, capsys):
+    """Of the station that moves most, or of one that is chosen; of a bearing as of any run."""
+    with tiltpad.read(machine("branch")) as run:
+        first = run["branch"] == 1
+        found = tiltpad.response(run, station=4)
+        assert (found.parameter, found.station) == ("speed_rpm", 4)
+        assert list(found.values) == list(run["parameter"][first])
+        for k, axis in enumerate("yz"):
+            np.testing.assert_allclose(found.amplitude[:, k], run[f"station_{axis}_amplitude"][first, 3])
+            turned = found.phase[:, k] - run[f"station_{axis}_phase"][first, 3]
+            np.testing.assert_allclose(np.exp(1j * turned), 1)
+        largest = max(run[f"station_{axis}_amplitude"][first].max() for axis in "yz")
+        assert tiltpad.response(run).amplitude.max() == largest
+        journal = tiltpad.response(run.bearings["free_end"])
+        assert journal.station is None
+        np.testing.assert_array_equal(
+            journal.amplitude[:, 0], run.bearings["free_end"]["journal_y_amplitude"][first]
+        )
+        with pytest.raises(ValueError, match="station 11: must be 1 to 10"):
+            tiltpad.response(run, station=11)
+        with pytest.raises(ValueError, match="station, pivot: for a machine"):
+            tiltpad.response(run.bearings["free_end"], station=4)
+        fig = figures.FIGURES["response"]([run], None, None, station=4)
+        assert fig.legends[0].get_title().get_text() == "Machine, station 4"
+        fig = figures.FIGURES["response"](list(run.bearings.values()))
+        named = [each.get_text() for each in fig.legends[0].get_texts()]
+        assert named == [f"bearing {name}, ${axis}$" for name in ("drive_end", "free_end") for axis in "yz"]
+        assert fig.legends[0].get_title().get_text() == "Machine"
+    output = tmp_path / "a.png"
+    assert command.main(["response", str(machine("branch")), "--station", "4", "-o", str(output)]) == 0
+    assert output.exists()
+    assert capsys.readouterr().err == ""
+
+
+def test_response_of_a_run_up_at_a_station_is_that_of_its_order_tracks(tiltpad_runup):
+    with tiltpad.read(tiltpad_runup) as run:
+        found = tiltpad.response(run, station=2)
+        own = tiltpad.response(run.bearings["drive_end"])
+        # this bearing stands on the ground: its journal is the station
+        np.testing.assert_allclose(found.amplitude, own.amplitude, rtol=1e-9)
+        np.testing.assert_allclose(found.phase, own.phase, atol=1e-9)
+
+
+@pytest.fixture
+def tiltpad_runup(tiltpad, machine, tmp_path):
+    """A short run-up of the machine."""
+    case = machine("march").parent / "machine.nml"
+    speeds = ("--set", "operation%speed_rpm=3000", "--set", "operation%final_speed_rpm=4100")
+    tiltpad("-q", case, *speeds, "--set", "operation%duration=0.3", "-o", "up.h5", cwd=tmp_path, status=0)
+    return tmp_path / "up.h5"
+
+
+def test_the_report_leaves_out_modes_with_the_damping_of_the_reduction(machine):
+    with tiltpad.read(machine("coefficients")) as run:
+        page = machine_report.mode_table(run)
+        parts = run["modes/part_of_reduction"]
+        vibrate = run["modes/frequency"] > 0
+        left_out = int((parts > 0.5).sum())
+        assert left_out > 0
+        assert f"Not listed: {left_out} with the damping" in page
+        shown = (vibrate | (run["modes/damping_ratio"] < 0)) & ~(parts > 0.5)
+        assert page.count("<tr>") == 1 + shown.sum()
 
 
 def test_orbits_are_drawn(machine):

@@ -7,7 +7,9 @@ import time
 
 import numpy as np
 import pytest
-from tiltpad import collect, read, read_study
+from tiltpad import collect, command, read, read_study
+from tiltpad.calculate.statistics import common_remarks
+from tiltpad.draw.study_report import study_report
 from tiltpad.files import units
 
 LUGRE = "&case task='march' / &friction model='lugre' /"
@@ -155,3 +157,23 @@ def test_a_study_of_which_little_was_run(program, tmp_path):
         np.testing.assert_array_equal(np.isfinite(study.stiffness[:, 0, 0, 0, 0]), study.done)
         np.testing.assert_array_equal(study.status[~study.done], -2)
         assert np.nansum(study.complete) == study.done.sum()
+
+
+def test_remarks_are_counted_by_kind(tiltpad, tmp_path, capsys):
+    """Those that differ in their numbers alone are one, in the words of the first run that has it."""
+    (tmp_path / "case.nml").write_text("&case task='equilibrium' / &sweep rotor%mass=1000,6000,7000,9000 /")
+    tiltpad("case.nml", "-q", cwd=tmp_path, status=0)
+    with read_study(tmp_path / "case.h5") as study:
+        assert study.remarks[0] == ""
+        first = study.remarks[1].splitlines()[0]
+        told = sum(len(each.splitlines()) for each in study.remarks)
+        common = common_remarks(study)
+        page = study_report(study)
+    assert common[0].runs == 3
+    assert (common[0].first, common[0].words) == (2, first)
+    assert common[0].words.startswith("specific load 5.90 MPa")
+    assert sum(each.runs for each in common) == told > len(common)
+    assert "<h2>Remarks</h2>" in page
+    assert f"<td>3</td><td>2</td><td>{common[0].words}</td>" in page
+    assert command.report([str(tmp_path / "case.h5"), "-o", str(tmp_path / "a.html")]) == 0
+    assert "remarks on 3 of 4 runs" in capsys.readouterr().out

@@ -15,7 +15,7 @@ from tiltpad.calculate.selection import SPEED, axis_of, selected, varying
 from tiltpad.calculate.signals import at_angle, steady
 from tiltpad.calculate.spectra import order_track
 from tiltpad.files.archive import NotInRunError
-from tiltpad.files.read import Run, needs_run
+from tiltpad.files.read import Bearing, Run, needs_run
 from tiltpad.files.study import Study
 
 #: Directions of the journal, in the order of the columns.
@@ -103,25 +103,30 @@ def response(
 
     The runs of a study are marches, or periodic orbits; `where` keeps those with these values of
     parameters, `over` is a parameter in place of the speed. Of a machine it is that of a station of the shaft
-    (1, 2, ..., by default the one that moves most), and its runs may be of the task coefficients, too: their
-    response is the linear one, with pivots as `pivot` says (by default the first). Peaks are looked for on a
-    cubic through the points; one from which the curve climbs higher before it falls to half power is part of
-    another.
+    (1, 2, ..., by default the one that moves most), and the runs of its study may be of the task
+    coefficients, too: their response is the linear one, with pivots as `pivot` says (by default the first).
+    Peaks are looked for on a cubic through the points; one from which the curve climbs higher before it falls
+    to half power is part of another.
     """
     if not isinstance(source, Study):
         needs_run(source)
-    if isinstance(source, Study) and STATION in source:
-        parameter, values, every = of_machine(source, where or {}, over, pivot)
+    if not isinstance(source, Study) and (where or over):
+        raise ValueError(f"{source.path}: where, over: for a study, this is one run")
+    if not isinstance(source, Study) and pivot is not None:
+        raise ValueError(f"{source.path}: pivot: for the study of a machine")
+    if STATION in source and not isinstance(source, Bearing):
+        if isinstance(source, Study):
+            parameter, values, every = of_machine(source, where or {}, over, pivot)
+        else:
+            parameter, values, every = of_stations(source)
         station = station or busiest(every)
         if not 1 <= station <= every.shape[1]:
             raise ValueError(f"{source.path}: station {station}: must be 1 to {every.shape[1]}")
         amplitude, phase = np.abs(every[:, station - 1]), -np.angle(every[:, station - 1])
     elif station is not None or pivot is not None:
-        raise ValueError(f"{source.path}: station, pivot: for the study of a machine")
+        raise ValueError(f"{source.path}: station, pivot: for a machine")
     elif isinstance(source, Study):
         parameter, values, amplitude, phase = of_study(source, where or {}, over)
-    elif where or over:
-        raise ValueError(f"{source.path}: where, over: for a study, this is one run")
     else:
         parameter, values, amplitude, phase = of_branch(source) if source.is_branch else of_runup(source)
     there = np.isfinite(amplitude).all(axis=1)
@@ -154,6 +159,25 @@ def of_machine(
             amplitude, phase = (study[f"station_{each}_{what}"][place] for what in ("amplitude", "phase"))
             planes.append(amplitude * np.exp(-1j * phase))
     return over, study[over][place], np.stack(planes, axis=-1)
+
+
+def of_stations(run: Run) -> tuple[str, np.ndarray, np.ndarray]:
+    """The same along a machine's branch of periodic orbits, or its run-up: (point, station, direction)."""
+    if run.is_branch:
+        name, values, first = along_branch(run, "station_y_amplitude")
+        planes = [
+            run[f"station_{each}_amplitude"][first] * np.exp(-1j * run[f"station_{each}_phase"][first])
+            for each in DIRECTIONS
+        ]
+        return name, values, np.stack(planes, axis=-1)
+    needs_runup(run)
+    whirl = []
+    for each in DIRECTIONS:
+        tracks = [order_track(run, f"station_{each}", pad=k) for k in range(1, run.length(STATION) + 1)]
+        whirl.append(np.stack([amplitude * np.exp(1j * phase) for _, amplitude, phase in tracks], axis=-1))
+    speed = tracks[0][0]
+    order = np.argsort(speed, kind="stable")
+    return SPEED, speed[order] * 30 / np.pi, np.stack(whirl, axis=-1)[order]
 
 
 def busiest(whirl: np.ndarray) -> int:
@@ -200,24 +224,34 @@ def harmonics(source: Run | Study, place: np.ndarray | slice) -> tuple[np.ndarra
 
 def of_branch(run: Run) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
     """Parameter, its values, amplitudes and phases along the first branch of periodic orbits."""
-    if "journal_y_amplitude" not in run:
+    name, values, first = along_branch(run, "journal_y_amplitude")
+    return name, values, *harmonics(run, first)
+
+
+def along_branch(run: Run, amplitude: str) -> tuple[str, np.ndarray, np.ndarray]:
+    """Parameter, its values along the first branch of periodic orbits, and which points are on it."""
+    if amplitude not in run:
         raise NotInRunError(f"{run.path}: no response in this run: its branch is one of equilibria")
     first = run["branch"] == 1
-    name = f"{run.attributes['branch_parameter']}".rpartition("%")[2]
-    return name, run["parameter"][first], *harmonics(run, first)
+    return f"{run.attributes['branch_parameter']}".rpartition("%")[2], run["parameter"][first], first
 
 
 def of_runup(run: Run) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
     """Parameter, speeds, amplitudes and phases along a run-up or run-down."""
+    needs_runup(run)
+    tracks = [order_track(run, f"journal_{each}") for each in DIRECTIONS]
+    order = np.argsort(tracks[0][0], kind="stable")
+    amplitude, phase = (np.column_stack([track[k] for track in tracks])[order] for k in (1, 2))
+    return SPEED, tracks[0][0][order] * 30 / np.pi, amplitude, -phase
+
+
+def needs_runup(run: Run) -> None:
+    """Raises NotInRunError for a run whose speed stays the same."""
     if steady(run):
         raise NotInRunError(
             f"{run.path}: no response in this run: its speed stays the same; a study over the speed, a "
             "run-up or a branch is needed"
         )
-    tracks = [order_track(run, f"journal_{each}") for each in DIRECTIONS]
-    order = np.argsort(tracks[0][0], kind="stable")
-    amplitude, phase = (np.column_stack([track[k] for track in tracks])[order] for k in (1, 2))
-    return SPEED, tracks[0][0][order] * 30 / np.pi, amplitude, -phase
 
 
 def peaks_of(direction: str, way: np.ndarray, speed: np.ndarray, amplitude: np.ndarray) -> list[Peak]:

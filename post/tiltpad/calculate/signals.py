@@ -88,8 +88,13 @@ def pad_column(run: Run, pad: int) -> int:
 
 
 def series(run: Run, name: str, part: slice = slice(None), pad: int | None = None) -> np.ndarray:
-    """The samples `part` of a dataset, (time,) or (time, pad); of one pad, (time,), where `pad` is given."""
-    return run.values(name, part) if pad is None else run.values(name, part)[:, pad_column(run, pad)]
+    """The samples `part` of a dataset, (time,) or (time, pad); of one pad, (time,), where `pad` is given.
+
+    Of a dataset of the stations of a machine, `pad` is the station.
+    """
+    if pad is None:
+        return run.values(name, part)
+    return run.values(name, part)[:, pad - 1 if name.startswith("station") else pad_column(run, pad)]
 
 
 def orbit(run: Run, last: float = 1) -> tuple[np.ndarray, np.ndarray]:

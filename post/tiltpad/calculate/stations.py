@@ -10,6 +10,9 @@ from tiltpad.calculate.coefficients import place_of_pivot
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 
+#: As on the console: the damping of a mode is that of the reduction where this part of it is.
+MOSTLY = 0.5
+
 
 class StationModes(NamedTuple):
     """Modes of a machine at the stations of its shaft; its fields:
@@ -20,6 +23,7 @@ class StationModes(NamedTuple):
     damping_ratio, log_decrement     (mode,)
     whirl            sense of the whirl of the shaft, (mode,): 1 forward to -1 backward
     shape            displacement of the stations, complex, (mode, station, 2): y (up) and z; any scale
+    own              False for modes whose damping is mostly that of the reduction of the shaft, (mode,)
     """
 
     pivot: str
@@ -29,6 +33,7 @@ class StationModes(NamedTuple):
     log_decrement: np.ndarray
     whirl: np.ndarray
     shape: np.ndarray
+    own: np.ndarray
 
 
 def station_modes(run: Run, pivot: str | None = None) -> StationModes:
@@ -44,9 +49,9 @@ def station_modes(run: Run, pivot: str | None = None) -> StationModes:
     y, z = (run[f"modes/station_{axis}_real"][k] + 1j * run[f"modes/station_{axis}_imag"][k] for axis in "yz")
     eigenvalue = run["modes/eigenvalue_real"][k] + 1j * run["modes/eigenvalue_imag"][k]
     shape = np.stack([y, z], axis=-1)
-    return StationModes(
-        str(run["pivot"][k]), eigenvalue, frequency, damping_ratio, log_decrement, whirl, shape
-    )
+    part = run["modes/part_of_reduction"][k] if "modes/part_of_reduction" in run else np.zeros(len(frequency))
+    figures = (eigenvalue, frequency, damping_ratio, log_decrement, whirl, shape)
+    return StationModes(str(run["pivot"][k]), *figures, ~(part > MOSTLY))
 
 
 def station_orbit(run: Run, station: int, last: float = 1) -> tuple[np.ndarray, np.ndarray]:

@@ -179,6 +179,28 @@ def outcomes(study: Study, pivot: str | None = None, where: Mapping[str, Any] | 
     )
 
 
+class CommonRemark(NamedTuple):
+    """A remark on runs of a study, numbers and names left aside: how many runs, the first, its own words."""
+
+    runs: int
+    first: int
+    words: str
+
+
+def common_remarks(study: Study) -> list[CommonRemark]:
+    """The remarks on the runs of a study, the most frequent first; empty where there are none."""
+    found: dict[str, list[int]] = {}
+    words: dict[str, str] = {}
+    if "remarks" not in study:
+        return []
+    for number, text in zip(study["run"], study["remarks"], strict=True):
+        for kind, line in {cause(line): line for line in text.splitlines()}.items():
+            found.setdefault(kind, []).append(int(number))
+            words.setdefault(kind, line)
+    common = [CommonRemark(len(runs), runs[0], words[kind]) for kind, runs in found.items()]
+    return sorted(common, key=lambda each: -each.runs)
+
+
 def instability(study: Study, pivot: str | None) -> np.ndarray | None:
     """1 where the equilibrium of a run is unstable, 0 where it is stable, nan where that is not known."""
     found = []

@@ -47,6 +47,7 @@ class StudyRun(NamedTuple):
         found             of those that are datasets of its file: their names there, and these dimensions;
                           of a bearing of a machine both stand in its group
         labels            values of its dimensions
+        remarks           those on it
     """
 
     path: Path
@@ -61,6 +62,7 @@ class StudyRun(NamedTuple):
     values: dict[str, Any] = {}
     found: dict[str, tuple[str, tuple[str, ...]]] = {}
     labels: dict[str, Sequence[Any]] = {}
+    remarks: Sequence[str] = ()
 
 
 def one_run(path: Path) -> StudyRun:
@@ -123,6 +125,7 @@ def measured(path: Path, run: Run) -> StudyRun:
         found,
         {name: value(run, name).tolist() for name in (*known, *(f"{group}pad" for group in groups))}
         | {f"{group}revolution": range(1 - count, 1) for group, count in counts.items()},
+        run.remarks,
     )
 
 

@@ -51,7 +51,11 @@ OWN = {
 #: Meanings of the dimensions that the runs' files do not have.
 COUNTED = {"run": "number of the run", "revolution": "revolutions before the last Poincare point"}
 #: Texts of a run with their meaning.
-TEXTS = {"reason": "reason of the failure", "file": "result file, relative to the folder of this file"}
+TEXTS = {
+    "reason": "reason of the failure",
+    "remarks": "what is unusual in the run, or leaves the range of the model, a line each",
+    "file": "result file, relative to the folder of this file",
+}
 
 
 def write(target: Path, runs: Sequence[StudyRun], missing: Sequence[int]) -> None:
@@ -96,7 +100,10 @@ def fill(file: h5py.File, runs: Sequence[StudyRun], missing: Sequence[int], fold
     for one in found:
         put(file, one.name, one.values, RUN, one.units, one.long_name)
     paths = [os.path.relpath(each.path.resolve(), folder) for each in runs]
-    for name, texts in (("reason", [each.reason for each in runs]), ("file", paths)):
+    columns_of_texts = {"reason": [each.reason for each in runs], "file": paths}
+    if any(each.remarks for each in runs):
+        columns_of_texts["remarks"] = ["\n".join(each.remarks) for each in runs]
+    for name, texts in columns_of_texts.items():
         put(file, name, texts, RUN, "", TEXTS[name], coordinates)
     put(file, "status", [each.status for each in runs], RUN, *OWN["status"][1:], coordinates)
     for name, (dimensions, unit, meant) in columns.items():

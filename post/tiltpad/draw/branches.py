@@ -18,7 +18,7 @@ from tiltpad.calculate.response import DIRECTIONS, Peak
 from tiltpad.calculate.response import response as response_of
 from tiltpad.calculate.selection import SPEED, needs
 from tiltpad.draw import layout, plots
-from tiltpad.draw.vibrations import parts, title
+from tiltpad.draw.vibrations import parts
 from tiltpad.files import units
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -80,7 +80,7 @@ def response(
     panels["phase"].set(ylabel="phase lag, order 1 (deg)", xlabel=units.Shown(text, 1, unit).label)
     whose = [f"station {own.station}"] if own.station else []
     whose += [f"pivots {one.pivot}"] if one.pivot else []
-    layout.heading(fig, entries, ", ".join(each for each in (title(runs), *whose) if each))
+    layout.heading(fig, entries, ", ".join(each for each in (layout.title(runs), *whose) if each))
     return fig
 
 
@@ -126,7 +126,7 @@ def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | No
     words = [literal(": ".join(branches.KINDS.get(each, (each, "")))) for each in kinds]
     marks += [(each, MARK | {"color": "0.3"}) for each in words]
     marks += [("marches", MARCHED | {"markersize": 5})] if len(found) < len(runs) else []
-    layout.heading(fig, [*names, *marks], title(found))
+    layout.heading(fig, [*names, *marks], layout.title(found))
     return fig
 
 

@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import ConnectionPatch, Rectangle
 
 from tiltpad.calculate import differences, signals
-from tiltpad.files.read import Run, needs_run
+from tiltpad.files.read import Bearing, Run, needs_run
 from tiltpad.files.study import Study
 from tiltpad.files.units import literal
 
@@ -129,7 +129,12 @@ def spread(fig: Figure) -> None:
 
 
 def labels(runs: Sequence[Run | Study]) -> list[str]:
-    """Different names for runs: their titles, else the differences of their inputs, else their files."""
+    """Different names for runs: their titles, else the differences of their inputs, else their files.
+
+    Bearings of one machine have their own names; its title stands above the picture.
+    """
+    if machine_of(runs):
+        return [f"bearing {run.name}" for run in runs if isinstance(run, Bearing)]
     titles = [run.title for run in runs]
     stems = [Path(run.path).stem for run in runs]
     inputs = [run.input for run in runs if isinstance(run, Run)]
@@ -137,6 +142,20 @@ def labels(runs: Sequence[Run | Study]) -> list[str]:
         if len(set(texts)) == len(runs) and all(0 < len(text) <= LONGEST_LABEL for text in texts):
             return texts
     return [run.path for run in runs]
+
+
+def machine_of(runs: Sequence[Run | Study]) -> Run | None:
+    """The machine of which several runs are the bearings; None where they are not."""
+    machines = [run.machine if isinstance(run, Bearing) else None for run in runs]
+    return machines[0] if len(runs) > 1 and all(each is machines[0] for each in machines) else None
+
+
+def title(runs: Sequence[Run | Study]) -> str:
+    """Of one run its own; of the bearings of a machine that of the machine; else empty."""
+    if len(runs) == 1:
+        return runs[0].title or Path(runs[0].path).stem
+    machine = machine_of(runs)
+    return machine.title if machine else ""
 
 
 def colors(runs: Sequence[Run]) -> list[str]:
@@ -189,7 +208,7 @@ def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str
     if len(runs) > 1:
         names = [plain(name, width(fig)) for name in labels(runs)]
         looks = [own | {"color": color} for color in colors(runs)]
-        heading(fig, [*zip(names, looks, strict=True), *marks], "")
+        heading(fig, [*zip(names, looks, strict=True), *marks], title(runs))
     else:
         heading(fig, marks, runs[0].title)
 

@@ -81,20 +81,30 @@ def station_figures(run: Run) -> str:
 
 
 def mode_table(run: Run) -> str:
-    """The modes that vibrate, for all pivots, with the sense of their whirl."""
+    """The modes that vibrate, for all pivots, with the sense of their whirl.
+
+    Those whose damping is mostly that of the reduction are left out, as on the console.
+    """
     if "modes" not in run:
         return ""
     rows: list[Sequence[str]] = []
     notes: list[str] = []
+    left_out = 0
     for number, pivot in enumerate(str(each) for each in run["pivot"]):
         found = station_modes(run, pivot)
-        for k in np.flatnonzero((found.frequency > 0) | (found.damping_ratio < 0)):
+        for k in np.flatnonzero(found.own & ((found.frequency > 0) | (found.damping_ratio < 0))):
             values = (SHOWN["damping_ratio"].factor * found.damping_ratio[k], found.log_decrement[k])
             sense = in_words(found.whirl[k])
             rows.append((f"{pivot}, {sense}", f"{found.frequency[k]:.5g}", *map(digits, values)))
         if "modes/threshold_rpm" in run and np.isfinite(speed := run["modes/threshold_rpm"][number]):
             notes.append(f"{pivot} pivots: {speed:.1f} rpm")
+        left_out += int((~found.own).sum())
     note = f"<p>Threshold speed of stability: {'; '.join(notes)}.</p>" if notes else ""
+    if left_out:
+        note += (
+            f"<p>Not listed: {left_out} with the damping that high modes of the shaft are given "
+            "(reduction%damp_above).</p>"
+        )
     heads = ("pivots, whirl of the shaft", "frequency (Hz)", "damping ratio (%)", "logarithmic decrement")
     return table(heads, rows) + note
 

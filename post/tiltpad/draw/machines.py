@@ -252,7 +252,8 @@ def shapes(
     run = runs[0]
     found = of_stations.station_modes(run, pivot)
     order = np.argsort(np.where(found.frequency > 0, found.frequency, np.inf), kind="stable")
-    slow = [k for k in order if found.frequency[k] > 0 and found.damping_ratio[k] < DAMPED][:MOST_MODES]
+    drawn = found.own & (found.frequency > 0) & (found.damping_ratio < DAMPED)
+    slow = [k for k in order if drawn[k]][:MOST_MODES]
     if not slow:
         raise NotInRunError(f"{run.path}: no mode with a damping ratio below {DAMPED:g} in this run")
     x = of_stations.positions(run)

@@ -17,8 +17,7 @@ from tiltpad.calculate.selection import is_number, matching, selected, varying
 from tiltpad.calculate.sensitivity import SALTELLI, Sensitivity, sensitivity, some
 from tiltpad.calculate.statistics import beyond, quantiles, with_infinite
 from tiltpad.draw.diagrams import AT_EDGE, EDGE, axis
-from tiltpad.draw.layout import COLUMN, PAGE, cloud, grid, heading, labels, of_several, remark
-from tiltpad.draw.vibrations import title
+from tiltpad.draw.layout import COLUMN, PAGE, cloud, grid, heading, labels, of_several, remark, title
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study

@@ -10,6 +10,7 @@ import numpy as np
 from tiltpad.calculate.critical_speeds import CriticalSpeed, critical_speeds
 from tiltpad.calculate.results import key_results
 from tiltpad.calculate.selection import distinct, sampled, written
+from tiltpad.calculate.statistics import common_remarks
 from tiltpad.draw import figures
 from tiltpad.draw.diagrams import label
 from tiltpad.draw.layout import not_run_yet
@@ -37,6 +38,7 @@ def study_report(study: Study, operating: tuple[float, float] | None = None) -> 
         *(sample(study) if sampled(study, whole) else [section("Curves", "".join(curves(study)))]),
         section("Critical speeds", critical(study, operating)),
         section("Runs that were not done", failures(study)),
+        section("Remarks", remarks(study)),
         section("Runs", runs(study)),
         section("Input of the first run", f"<pre>{escape(by.get('input', '').strip())}</pre>"),
     ]
@@ -95,6 +97,12 @@ def failures(study: Study) -> str:
         for each in study.failures(ROWS)
     ]
     return table(("run", *named(study), "end", "reason"), rows, words=True) + more(int(study.failed.sum()))
+
+
+def remarks(study: Study) -> str:
+    """A row for each remark, in the words of the first run that has it."""
+    rows = [(f"{each.runs}", f"{each.first}", each.words) for each in common_remarks(study)[:ROWS]]
+    return table(("runs", "first run", "remark on it"), rows, words=True)
 
 
 def more(rows: int) -> str:

@@ -5,7 +5,6 @@ Every function takes results of the task coefficients or studies of them, and re
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
@@ -19,7 +18,7 @@ from tiltpad.calculate.modes import Modes, modes, of_journal
 from tiltpad.calculate.response import STATION
 from tiltpad.calculate.selection import axis_of, needs, selected, varying, written
 from tiltpad.draw.diagrams import mark_failed
-from tiltpad.draw.layout import COLUMN, DASHES, PAGE, dots, heading, labels, of_several, part_color
+from tiltpad.draw.layout import COLUMN, DASHES, PAGE, dots, heading, labels, of_several, part_color, title
 from tiltpad.files import units
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -355,7 +354,3 @@ def names(found: Sequence[Part]) -> list[tuple[str, dict[str, Any]]]:
     """Entries of the legend, with the colours of the parts."""
     colors = [part_color(k, len(found)) for k in range(len(found))]
     return [(literal(one.text), {"color": own}) for one, own in zip(found, colors, strict=True) if one.text]
-
-
-def title(sources: Sequence[Run | Study]) -> str:
-    return (sources[0].title or Path(sources[0].path).stem) if len(sources) == 1 else ""

@@ -16,7 +16,7 @@ from tiltpad.calculate.selection import selected
 from tiltpad.draw import layout
 from tiltpad.draw.branches import parameter_of
 from tiltpad.draw.diagrams import mark_failed
-from tiltpad.draw.vibrations import axis_label, parts, title
+from tiltpad.draw.vibrations import axis_label, parts
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
@@ -79,7 +79,9 @@ def finish(
     entries = [(f"pad {k}", {"color": layout.part_color(i, len(pads))}) for i, k in enumerate(pads)]
     entries += [("maximum", {"color": "0.3"}), ("mean", {"color": "0.3", "linestyle": "-."})]
     layout.heading(
-        fig, [*entries, *((each["label"], without_label(each)) for each in (SHAFT, DRAIN))], title(runs)
+        fig,
+        [*entries, *((each["label"], without_label(each)) for each in (SHAFT, DRAIN))],
+        layout.title(runs),
     )
 
 
@@ -158,7 +160,7 @@ def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
         [*texts, *more[1]],
         loc="outside upper center",
         ncols=5,
-        title=layout.plain(title(runs), layout.width(fig)) or None,
+        title=layout.plain(layout.title(runs), layout.width(fig)) or None,
     )
     return fig
 

@@ -362,7 +362,7 @@ class Bearing(Run):
     """
 
     def __init__(self, machine: Run, name: str):
-        self.machine, self.group = machine, f"bearings/{name}/"
+        self.machine, self.name, self.group = machine, name, f"bearings/{name}/"
         self.path, self.file, self.size, self.former = (
             machine.path,
             machine.file,
@@ -385,7 +385,7 @@ class Bearing(Run):
     @property
     def remarks(self) -> list[str]:
         """Those on the bearing."""
-        before = f"bearing '{self.group.split('/')[1]}': "
+        before = f"bearing '{self.name}': "
         every = self.machine.remarks
         return [each.removeprefix(before) for each in every if each.startswith(before)]
 
