@@ -161,13 +161,13 @@ contains
       if (.not. cavitates) found = whole
       associate (gap => self%gap, d => self%directions, surface => speed*self%gap%journal_radius, &
          & r => finer(found(1), found(2)))
-         at_edge = oil%weights(gap, gap%leading_angle)
+         call oil%find_weights(gap, d%leading(1:1), d%leading(2:2), at_edge)
          loss%force = r%force
          if (.not. cavitates) loss%force = fourier%force
          loss%couette = surface**2*sliding_shear(gap, motion, oil) - r%lacking
          loss%pressure = r%heat
          loss%wedge = r%wedge
-         loss%inlet = surface*at_edge%sliding/2*gap%thickness(motion, d%leading(1), d%leading(2))*gap%axial_length &
+         loss%inlet = surface*at_edge%sliding(1)/2*gap%thickness(motion, d%leading(1), d%leading(2))*gap%axial_length &
             & + r%inlet
          loss%outlet = r%outlet
          loss%side = r%side

@@ -8,7 +8,7 @@
 !> 12 mu f2, f1 and f0/mu, mu the pad's viscosity, are functions of the place on the arc: polynomials of it, from -1 at
 !> the leading to 1 at the trailing edge, two of them of the logarithm.
 module film_oils
-   use kinds, only: wp
+   use kinds, only: wp, pi
    use pad_gap, only: pad_gap_type
    implicit none (type, external)
    private
@@ -29,17 +29,24 @@ module film_oils
       real(wp) :: sliding(0:weights_degree) = [0.5_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
       real(wp) :: shear(0:weights_degree) = 0
    contains
-      procedure :: weights => weights_at
+      procedure :: find_weights
       procedure :: shear_weight
       procedure :: coefficients
+      procedure :: differs
    end type film_oil
 
-   !> At an angle: 12 mu f2, 2 f1.
+   !> By place on the arc.
    type :: arc_weights
-      real(wp) :: flow = 1, sliding = 1
-      !> Derivatives over the angle, 1/rad and its powers: of ln(12 mu f2), 1st to 3rd, and of 2 f1, 1st and 2nd.
-      real(wp) :: flow_slopes(3) = 0, sliding_slopes(2) = 0
+      !> 1/sqrt(12 mu f2); 2 f1.
+      real(wp), allocatable :: ease(:), sliding(:)
+      !> Derivatives over the angle, 1/rad and its powers, (place, order): of ln(12 mu f2) and of 2 f1.
+      real(wp), allocatable :: flow_slopes(:, :), sliding_slopes(:, :)
    end type arc_weights
+
+   !> Series of atan; halvings of the exponent, whose own series is short then.
+   integer, parameter :: atan_terms = 14, halvings = 5
+   real(wp), parameter :: of_atan(0:atan_terms - 1) = [1.0_wp, -1/3.0_wp, 1/5.0_wp, -1/7.0_wp, 1/9.0_wp, -1/11.0_wp, &
+      & 1/13.0_wp, -1/15.0_wp, 1/17.0_wp, -1/19.0_wp, 1/21.0_wp, -1/23.0_wp, 1/25.0_wp, -1/27.0_wp]
 
 contains
 
@@ -69,53 +76,97 @@ contains
       if (self%varies) coefficients = reshape([self%flow, self%sliding, self%shear], shape(coefficients))
    end function coefficients
 
-   !> The weights at an angle from the pivot, rad.
-   elemental type(arc_weights) function weights_at(self, gap, phi) result(weights)
+   !> Whether the polynomials are others.
+   pure logical function differs(self, other)
       class(film_oil), intent(in) :: self
+      type(film_oil), intent(in) :: other
+      differs = any(abs(self%coefficients() - other%coefficients()) > 0)
+   end function differs
+
+   !> The weights at places whose angles from the pivot have these sines and cosines; as many as there were before.
+   pure subroutine find_weights(oil, gap, sine, cosine, weights)
+      class(film_oil), intent(in) :: oil
       type(pad_gap_type), intent(in) :: gap
-      real(wp), intent(in) :: phi
-      real(wp) :: flow(0:3), sliding(0:3), unit
-      if (.not. self%varies) return
-      unit = -2/gap%arc()
-      flow = derivatives(self%flow, place(gap, phi))
-      sliding = 2*derivatives(self%sliding, place(gap, phi))
-      weights%flow = exp(flow(0))
-      weights%sliding = sliding(0)
-      weights%flow_slopes = flow(1:)*[unit, unit**2, unit**3]
-      weights%sliding_slopes = sliding(1:2)*[unit, unit**2]
-   end function weights_at
+      real(wp), intent(in) :: sine(:), cosine(:)
+      type(arc_weights), intent(inout) :: weights
+      real(wp) :: x(size(sine))
+      associate (n => size(sine), w => weights)
+         if (.not. allocated(w%ease)) allocate (w%ease(n), w%sliding(n), w%flow_slopes(n, 3), w%sliding_slopes(n, 2))
+         call find_places(n, gap, sine, cosine, x)
+         call evaluate(n, -2/gap%arc(), oil%flow, oil%sliding, x, w%ease, w%sliding, w%flow_slopes, w%sliding_slopes)
+      end associate
+   end subroutine find_weights
+
+   !> Places on the arc, from -1 to 1. A quarter of the angle from the middle has a tangent below 0.42 on arcs up to half
+   !> a circle, where the series serves to 1e-12.
+   pure subroutine find_places(n, gap, sine, cosine, x)
+      integer, intent(in) :: n
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: sine(n), cosine(n)
+      real(wp), intent(out) :: x(n)
+      real(wp) :: middle(2), factor, t, angle
+      integer :: i, k
+      if (gap%arc() > pi) then
+         x = place(gap, atan2(sine, cosine))
+         return
+      end if
+      angle = 0.5_wp*(gap%leading_angle - gap%trailing_angle)
+      middle = [sin(angle), cos(angle)]
+      factor = -8/gap%arc()
+      !$omp simd private(t, angle, k)
+      do i = 1, n
+         t = (sine(i)*middle(2) - cosine(i)*middle(1))/(1 + cosine(i)*middle(2) + sine(i)*middle(1))
+         t = t/(1 + sqrt(1 + t**2))
+         angle = of_atan(atan_terms - 1)
+         do k = atan_terms - 2, 0, -1
+            angle = angle*t**2 + of_atan(k)
+         end do
+         x(i) = factor*angle*t
+      end do
+   end subroutine find_places
+
+   !> The weights at places x of an arc on which the angle is -2 x/unit.
+   pure subroutine evaluate(n, unit, flow, sliding, x, ease, g, flow_slopes, sliding_slopes)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: unit, flow(0:4), sliding(0:4), x(n)
+      real(wp), intent(out) :: ease(n), g(n), flow_slopes(n, 3), sliding_slopes(n, 2)
+      real(wp) :: y
+      integer :: i, k
+      !$omp simd private(y, k)
+      do i = 1, n
+         y = -(flow(0) + x(i)*(flow(1) + x(i)*(flow(2) + x(i)*(flow(3) + x(i)*flow(4)))))/2**(halvings + 1)
+         y = 1 + y*(1 + y/2*(1 + y/3*(1 + y/4*(1 + y/5*(1 + y/6*(1 + y/7*(1 + y/8*(1 + y/9))))))))
+         do k = 1, halvings
+            y = y*y
+         end do
+         ease(i) = y
+         flow_slopes(i, 1) = unit*(flow(1) + x(i)*(2*flow(2) + x(i)*(3*flow(3) + x(i)*4*flow(4))))
+         flow_slopes(i, 2) = unit**2*(2*flow(2) + x(i)*(6*flow(3) + x(i)*12*flow(4)))
+         flow_slopes(i, 3) = unit**3*(6*flow(3) + x(i)*24*flow(4))
+         g(i) = 2*(sliding(0) + x(i)*(sliding(1) + x(i)*(sliding(2) + x(i)*(sliding(3) + x(i)*sliding(4)))))
+         sliding_slopes(i, 1) = 2*unit*(sliding(1) + x(i)*(2*sliding(2) + x(i)*(3*sliding(3) + x(i)*4*sliding(4))))
+         sliding_slopes(i, 2) = 2*unit**2*(2*sliding(2) + x(i)*(6*sliding(3) + x(i)*12*sliding(4)))
+      end do
+   end subroutine evaluate
 
    !> f0/mu at an angle from the pivot, rad.
    elemental real(wp) function shear_weight(self, gap, phi) result(weight)
       class(film_oil), intent(in) :: self
       type(pad_gap_type), intent(in) :: gap
       real(wp), intent(in) :: phi
-      real(wp) :: shear(0:3)
+      real(wp) :: x
       weight = 1
       if (.not. self%varies) return
-      shear = derivatives(self%shear, place(gap, phi))
-      weight = exp(shear(0))
+      x = place(gap, phi)
+      associate (c => self%shear)
+         weight = exp(c(0) + x*(c(1) + x*(c(2) + x*(c(3) + x*c(4)))))
+      end associate
    end function shear_weight
 
    !> The place on the arc, from -1 to 1, at an angle from the pivot, rad.
-   pure real(wp) function place(gap, phi)
+   elemental real(wp) function place(gap, phi)
       type(pad_gap_type), intent(in) :: gap
       real(wp), intent(in) :: phi
       place = (gap%leading_angle - gap%trailing_angle - 2*phi)/gap%arc()
    end function place
-
-   !> The polynomial with coefficients c at x and its first three derivatives, by Horner's rule.
-   pure function derivatives(c, x) result(d)
-      real(wp), intent(in) :: c(0:weights_degree), x
-      real(wp) :: d(0:3)
-      integer :: i
-      d = 0
-      do i = weights_degree, 0, -1
-         d(3) = d(3)*x + d(2)
-         d(2) = d(2)*x + d(1)
-         d(1) = d(1)*x + d(0)
-         d(0) = d(0)*x + c(i)
-      end do
-      d(2:) = d(2:)*[2, 6]
-   end function derivatives
 end module film_oils

@@ -69,20 +69,22 @@ contains
             i = min(max(int(angle) - 1, 0), n - 3)
             pressure(:, j) = gap%ambient_pressure + matmul(smooth(:, i:i + 3), cubic_weights(angle - i))
             if (abs(rise) > 0) pressure(:, j) = pressure(:, j) + rise*(pad%h(n)/h)**1.5_wp/pad%ease(n) &
-               & /sqrt(uneven(pad, phi(j))) &
+               & *ease(pad, phi(j)) &
                & *layer(position, (gap%leading_angle - phi(j))*gap%pad_radius()/gap%axial_length)
          end do
       end associate
    end function field_of_modes
 
-   !> 12 mu f2 at an angle.
-   pure real(wp) function uneven(pad, phi)
+   !> 1/sqrt(12 mu f2) at an angle.
+   pure real(wp) function ease(pad, phi)
       type(fourier_pad_type), intent(in) :: pad
       real(wp), intent(in) :: phi
       type(arc_weights) :: weights
-      weights = pad%oil%weights(pad%gap, phi)
-      uneven = weights%flow
-   end function uneven
+      ease = 1
+      if (.not. pad%oil%varies) return
+      call pad%oil%find_weights(pad%gap, [sin(phi)], [cos(phi)], weights)
+      ease = weights%ease(1)
+   end function ease
 
    !> What of the layer's amplitude is left at a node: it falls as (h^3 12 mu f2)^(-1/2).
    pure real(wp) function even_layer(pad, i)
@@ -158,8 +160,8 @@ contains
          falling = 1.5_wp*(pad%e(2)*pad%sine(n) - pad%e(1)*pad%cosine(n))/h(n)
          steeper = falling/1.5_wp
          if (oil%varies) then
-            steeper = steeper + pad%weights(n + 1)%flow_slopes(1)/2
-            falling = falling + pad%weights(n + 1)%flow_slopes(1)/2
+            steeper = steeper + pad%weights%flow_slopes(n + 1, 1)/2
+            falling = falling + pad%weights%flow_slopes(n + 1, 1)/2
          end if
          ! a film half as thick as long has no layer at its edge
          flows(1) = pad%radius*4/pi &

@@ -155,7 +155,7 @@ contains
          slope = pad%e(2)*sine(n) - pad%e(1)*cosine(n)
          edge = tail(3)*[pad%narrow(0)/h(0), pad%narrow(n)/h(n)]*[pad%ease(0), pad%ease(n)]
          edge(1) = edge(1) + rise*(tail(1) + tail(2)*1.5_wp*slope/h(n))
-         if (pad%oil%varies) edge(1) = edge(1) + rise*tail(2)*pad%weights(n + 1)%flow_slopes(1)/2
+         if (pad%oil%varies) edge(1) = edge(1) + rise*tail(2)*pad%weights%flow_slopes(n + 1, 1)/2
          force = pad%d*force + edge(0)*[sine(0), cosine(0)] + edge(1)*[sine(n), cosine(n)] &
             & - tail(2)*rise*[cosine(n), -sine(n)] &
             & + gap%ambient_pressure*gap%axial_length*[cosine(0) - cosine(n), sine(n) - sine(0)]

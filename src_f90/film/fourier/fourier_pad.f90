@@ -51,7 +51,7 @@ module fourier_pad
       !> root of 12 mu f2, upside down, with which q counts; its weights, where it varies.
       type(film_oil) :: oil
       real(wp), allocatable, dimension(:) :: lift, ease
-      type(arc_weights), allocatable :: weights(:)
+      type(arc_weights) :: weights
       !> By slot, node and block: a = 1 - d^2 V/12, factors f of the elimination, q.
       real(wp), allocatable :: a(:, :, :), f(:, :, :), q(:, :, :)
       !> What q by (slot, node, block) and -s/H^2 by node count along the width: c and tail(2), less the part of the
@@ -138,25 +138,39 @@ contains
    pure subroutine set_uneven(pad, oil)
       type(fourier_pad_type), intent(inout) :: pad
       type(film_oil), intent(in) :: oil
+      call oil%find_weights(pad%gap, pad%sine, pad%cosine, pad%weights)
+      associate (w => pad%weights)
+         call set_uneven_nodes(pad%n, pad%d, pad%e, pad%w, pad%wedge, pad%squeeze, pad%h, pad%sine, pad%cosine, w%ease, &
+            & w%sliding, w%flow_slopes, w%sliding_slopes, pad%ease, pad%s, pad%narrow, pad%base, pad%load)
+      end associate
+   end subroutine set_uneven
+
+   !> The same from weights at the nodes, with whose ease their own begins.
+   pure subroutine set_uneven_nodes(n, d, e, w, wedge, squeeze, h, sine, cosine, of_oil, sliding, p, g, ease, s, narrow, &
+      & base, load)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: d, e(2), w(2), wedge, squeeze
+      real(wp), dimension(0:n), intent(in) :: h, sine, cosine, of_oil, sliding
+      !> Derivatives of ln(12 mu f2) and of 2 f1.
+      real(wp), intent(in) :: p(0:n, 3), g(0:n, 2)
+      real(wp), dimension(0:n), intent(inout) :: base, load
+      real(wp), dimension(0:n), intent(out) :: ease, s, narrow
       real(wp) :: unit, slope
       integer :: i
-      pad%weights = oil%weights(pad%gap, atan2(pad%sine, pad%cosine))
-      unit = pad%d**2/12
-      do i = 0, pad%n
-         associate (w => pad%weights(i + 1), h => pad%h(i), sine => pad%sine(i), cosine => pad%cosine(i))
-            slope = pad%e(2)*sine - pad%e(1)*cosine
-            pad%base(i) = pad%base(i) - unit*h*(1.5_wp*slope*w%flow_slopes(1) &
-               & + h*(w%flow_slopes(2)/2 + w%flow_slopes(1)**2/4))
-            pad%ease(i) = 1/sqrt(w%flow)
-            pad%s(i) = pad%ease(i)*(pad%wedge*(slope*w%sliding + h*w%sliding_slopes(1)) &
-               & + pad%squeeze*(pad%w(1)*sine + pad%w(2)*cosine))
-            pad%narrow(i) = pad%s(i)/h**2
-         end associate
+      unit = d**2/12
+      !$omp simd private(slope)
+      do i = 0, n
+         slope = e(2)*sine(i) - e(1)*cosine(i)
+         base(i) = base(i) - unit*h(i)*(1.5_wp*slope*p(i, 1) + h(i)*(p(i, 2)/2 + p(i, 1)**2/4))
+         ease(i) = of_oil(i)
+         s(i) = ease(i)*(wedge*(slope*sliding(i) + h(i)*g(i, 1)) + squeeze*(w(1)*sine(i) + w(2)*cosine(i)))
+         narrow(i) = s(i)/h(i)**2
       end do
-      do i = 1, pad%n - 1
-         pad%load(i) = unit*(pad%s(i - 1) + 10*pad%s(i) + pad%s(i + 1))
+      !$omp simd
+      do i = 1, n - 1
+         load(i) = unit*(s(i - 1) + 10*s(i) + s(i + 1))
       end do
-   end subroutine set_uneven
+   end subroutine set_uneven_nodes
 
    !> What the scheme takes from the film at the nodes.
    pure subroutine set_nodes(n, d, e, source, h, sine, cosine, s, narrow, base, rate, load)

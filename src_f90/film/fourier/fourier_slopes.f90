@@ -131,38 +131,58 @@ contains
       !> At the nodes, as in from_nodes; shifts and stretch.
       real(wp), dimension(0:pad%n), intent(in) :: solved, along, over_v, by_s, by_h, by_phi
       real(wp), intent(in) :: shift(0:pad%n, 2), stretch(2)
-      real(wp) :: derivatives(4)
-      real(wp) :: slope, bend, of_v, of_s, over_s, over_h, over_slope, over_phi, by_log_d, layer
+      real(wp) :: derivatives(4), over_s(0:pad%n), over_h(0:pad%n), layer
       integer :: i
-      derivatives = 0
-      by_log_d = 0
-      do i = 0, pad%n
-         associate (weights => pad%weights(i + 1), h => pad%h(i), sine => pad%sine(i), cosine => pad%cosine(i), &
-            & p => pad%weights(i + 1)%flow_slopes, w => pad%w)
-            slope = pad%e(2)*sine - pad%e(1)*cosine
-            bend = p(2)/2 + p(1)**2/4
-            of_v = pad%d**2/12*over_v(i)
-            over_s = by_s(i)
-            over_h = by_h(i)
-            if (i == 0 .or. i == pad%n) then
-               ! the layers of the modes left out, which are there without the ease
-               layer = -pad%axial%tail(3)*pad%radius*merge(sine, cosine, m == 1)/h**3*(pad%ease(i) - 1)
-               over_s = over_s + layer
-               over_h = over_h - 3*layer*pad%s(i)/h
-            end if
-            of_s = pad%ease(i)*over_s
-            by_log_d = by_log_d + 2*of_v*h*(1.5_wp*slope*p(1) + h*bend)
-            over_h = over_h + of_v*(1.5_wp*slope*p(1) + 2*h*bend) + of_s*pad%wedge*weights%sliding_slopes(1)
-            over_slope = of_v*1.5_wp*h*p(1) + of_s*pad%wedge*weights%sliding
-            over_phi = by_phi(i) - p(1)/2*(along(i)*(solved(i) - pad%narrow_share(i)*pad%narrow(i)) + over_s*pad%s(i)) &
-               & + of_v*h*(1.5_wp*slope*p(2) + h*(p(3) + p(1)*p(2))/2) &
-               & + of_s*(pad%wedge*(slope*weights%sliding_slopes(1) + h*weights%sliding_slopes(2)) &
-               & + pad%squeeze*(w(1)*cosine - w(2)*sine)) &
-               & + over_h*slope + over_slope*(1 - h)
-            derivatives = derivatives + [over_phi*shift(i, :) - over_h*[sine, cosine] + over_slope*[-cosine, sine], &
-               & of_s*[sine, cosine]]
-         end associate
+      over_s = by_s
+      over_h = by_h
+      ! the layers of the modes left out, which are there without the ease
+      do i = 0, pad%n, pad%n
+         layer = -pad%axial%tail(3)*pad%radius*merge(pad%sine(i), pad%cosine(i), m == 1)/pad%h(i)**3*(pad%ease(i) - 1)
+         over_s(i) = over_s(i) + layer
+         over_h(i) = over_h(i) - 3*layer*pad%s(i)/pad%h(i)
       end do
-      derivatives(:2) = derivatives(:2) + stretch*by_log_d
+      associate (of => pad%weights)
+         call add_uneven(pad%n, pad%d, pad%e, pad%w, pad%wedge, pad%squeeze, pad%h, pad%sine, pad%cosine, pad%s, pad%ease, &
+            & of%sliding, of%flow_slopes, of%sliding_slopes, along*(solved - pad%narrow_share*pad%narrow), over_v, over_s, &
+            & over_h, by_phi, shift, stretch, derivatives)
+      end associate
    end function uneven_sum
+
+   !> That sum.
+   pure subroutine add_uneven(n, d, e, w, wedge, squeeze, h, sine, cosine, s, ease, sliding, p, g, held, over_v, over_s, &
+      & over_h, by_phi, shift, stretch, derivatives)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: d, e(2), w(2), wedge, squeeze
+      real(wp), dimension(0:n), intent(in) :: h, sine, cosine, s, ease, sliding, held, over_v, over_s, over_h, by_phi
+      real(wp), intent(in) :: p(0:n, 3), g(0:n, 2), shift(0:n, 2), stretch(2)
+      real(wp), intent(out) :: derivatives(4)
+      real(wp) :: slope, bend, of_v, of_s, of_h, of_slope, of_phi, by_log_d, over_y, over_z, over_vy, over_vz
+      integer :: i
+      by_log_d = 0
+      over_y = 0
+      over_z = 0
+      over_vy = 0
+      over_vz = 0
+      !$omp simd private(slope, bend, of_v, of_s, of_h, of_slope, of_phi) &
+      !$omp& reduction(+:over_y, over_z, over_vy, over_vz, by_log_d)
+      do i = 0, n
+         slope = e(2)*sine(i) - e(1)*cosine(i)
+         bend = p(i, 2)/2 + p(i, 1)**2/4
+         of_v = d**2/12*over_v(i)
+         of_s = ease(i)*over_s(i)
+         by_log_d = by_log_d + 2*of_v*h(i)*(1.5_wp*slope*p(i, 1) + h(i)*bend)
+         of_h = over_h(i) + of_v*(1.5_wp*slope*p(i, 1) + 2*h(i)*bend) + of_s*wedge*g(i, 1)
+         of_slope = of_v*1.5_wp*h(i)*p(i, 1) + of_s*wedge*sliding(i)
+         of_phi = by_phi(i) - p(i, 1)/2*(held(i) + over_s(i)*s(i)) &
+            & + of_v*h(i)*(1.5_wp*slope*p(i, 2) + h(i)*(p(i, 3) + p(i, 1)*p(i, 2))/2) &
+            & + of_s*(wedge*(slope*g(i, 1) + h(i)*g(i, 2)) + squeeze*(w(1)*cosine(i) - w(2)*sine(i))) &
+            & + of_h*slope + of_slope*(1 - h(i))
+         over_y = over_y + of_phi*shift(i, 1) - of_h*sine(i) - of_slope*cosine(i)
+         over_z = over_z + of_phi*shift(i, 2) - of_h*cosine(i) + of_slope*sine(i)
+         over_vy = over_vy + of_s*sine(i)
+         over_vz = over_vz + of_s*cosine(i)
+      end do
+      derivatives = [over_y, over_z, over_vy, over_vz]
+      derivatives(:2) = derivatives(:2) + stretch*by_log_d
+   end subroutine add_uneven
 end module fourier_slopes

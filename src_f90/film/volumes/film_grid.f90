@@ -44,9 +44,9 @@ module film_grid
       real(wp) :: supply, ambient
       !> Sine, cosine and film thickness, m, at the cell centres and at the cell faces (0:columns).
       real(wp), allocatable :: sin_cell(:), cos_cell(:), sin_face(:), cos_face(:), h_cell(:), h_face(:)
-      !> 12 mu f2, 2 f1 and f0/mu of the oil at the same points; whether any is not 1.
+      !> 12 mu f2, 2 f1 and f0/mu at the same points, and the oil whose they are.
       real(wp), allocatable :: flow_cell(:), sliding_cell(:), shear_cell(:), flow_face(:), sliding_face(:)
-      logical :: uneven = .false.
+      type(film_oil) :: oil
       !> Conductances through the faces along the arc (0:columns), and between uniform rows of a column.
       real(wp), allocatable :: along(:), beside(:)
       !> Factors of the difference of h over a cell and of dh/dt in the right-hand side.
@@ -144,7 +144,9 @@ contains
          self%squeeze = 12*oil%viscosity*self%gap%pad_radius()**2
          self%h_cell(:) = self%gap%thickness(motion, self%sin_cell, self%cos_cell)
          self%h_face(:) = self%gap%thickness(motion, self%sin_face, self%cos_face)
-         if (oil%varies .or. self%uneven) call weigh(self, oil)
+         if (oil%varies .or. self%oil%varies) then
+            if (oil%differs(self%oil)) call weigh(self, oil)
+         end if
          self%along(:) = self%flow_face*self%h_face**3/(self%d_phi**2*self%between)
          self%beside(:) = self%flow_cell*self%width*self%h_cell**3*(self%gap%pad_radius()/self%d_z)**2
          self%source(:) = self%wedge*(self%sliding_face(1:n)*self%h_face(1:n) &
@@ -160,15 +162,15 @@ contains
    pure subroutine weigh(grid, oil)
       type(film_grid_type), intent(inout) :: grid
       type(film_oil), intent(in) :: oil
-      type(arc_weights) :: at_cell(grid%columns), at_face(0:grid%columns)
-      at_cell = oil%weights(grid%gap, grid%middle(1:grid%columns))
-      at_face = oil%weights(grid%gap, atan2(grid%sin_face, grid%cos_face))
-      grid%flow_cell(:) = at_cell%flow
+      type(arc_weights) :: at_cell, at_face
+      call oil%find_weights(grid%gap, grid%sin_cell, grid%cos_cell, at_cell)
+      call oil%find_weights(grid%gap, grid%sin_face, grid%cos_face, at_face)
+      grid%flow_cell(:) = 1/at_cell%ease**2
       grid%sliding_cell(:) = at_cell%sliding
       grid%shear_cell(:) = oil%shear_weight(grid%gap, grid%middle(1:grid%columns))
-      grid%flow_face(:) = at_face%flow
+      grid%flow_face(:) = 1/at_face%ease**2
       grid%sliding_face(:) = at_face%sliding
-      grid%uneven = oil%varies
+      grid%oil = oil
    end subroutine weigh
 
    !> What a row of mean height counts in the two forces, (column, force), m^2: area of two mirrored cells, in
