@@ -80,7 +80,8 @@ contains
    pure logical function differs(self, other)
       class(film_oil), intent(in) :: self
       type(film_oil), intent(in) :: other
-      differs = any(abs(self%coefficients() - other%coefficients()) > 0)
+      differs = self%varies .neqv. other%varies
+      if (self%varies .and. other%varies) differs = any(abs(self%coefficients() - other%coefficients()) > 0)
    end function differs
 
    !> The weights at places whose angles from the pivot have these sines and cosines; as many as there were before.
@@ -97,8 +98,8 @@ contains
       end associate
    end subroutine find_weights
 
-   !> Places on the arc, from -1 to 1. A quarter of the angle from the middle has a tangent below 0.42 on arcs up to half
-   !> a circle, where the series serves to 1e-12.
+   !> Places on the arc, from -1 to 1. A quarter of the angle from the middle has a tangent below 0.42 on arcs up to
+   !> half a circle, where the series serves to 1e-12.
    pure subroutine find_places(n, gap, sine, cosine, x)
       integer, intent(in) :: n
       type(pad_gap_type), intent(in) :: gap

@@ -140,14 +140,14 @@ contains
       type(film_oil), intent(in) :: oil
       call oil%find_weights(pad%gap, pad%sine, pad%cosine, pad%weights)
       associate (w => pad%weights)
-         call set_uneven_nodes(pad%n, pad%d, pad%e, pad%w, pad%wedge, pad%squeeze, pad%h, pad%sine, pad%cosine, w%ease, &
-            & w%sliding, w%flow_slopes, w%sliding_slopes, pad%ease, pad%s, pad%narrow, pad%base, pad%load)
+         call set_uneven_nodes(pad%n, pad%d, pad%e, pad%w, pad%wedge, pad%squeeze, pad%h, pad%sine, pad%cosine, &
+            & w%ease, w%sliding, w%flow_slopes, w%sliding_slopes, pad%ease, pad%s, pad%narrow, pad%base, pad%load)
       end associate
    end subroutine set_uneven
 
    !> The same from weights at the nodes, with whose ease their own begins.
-   pure subroutine set_uneven_nodes(n, d, e, w, wedge, squeeze, h, sine, cosine, of_oil, sliding, p, g, ease, s, narrow, &
-      & base, load)
+   pure subroutine set_uneven_nodes(n, d, e, w, wedge, squeeze, h, sine, cosine, of_oil, sliding, p, g, ease, s, &
+      & narrow, base, load)
       integer, intent(in) :: n
       real(wp), intent(in) :: d, e(2), w(2), wedge, squeeze
       real(wp), dimension(0:n), intent(in) :: h, sine, cosine, of_oil, sliding

@@ -142,15 +142,15 @@ contains
          over_h(i) = over_h(i) - 3*layer*pad%s(i)/pad%h(i)
       end do
       associate (of => pad%weights)
-         call add_uneven(pad%n, pad%d, pad%e, pad%w, pad%wedge, pad%squeeze, pad%h, pad%sine, pad%cosine, pad%s, pad%ease, &
-            & of%sliding, of%flow_slopes, of%sliding_slopes, along*(solved - pad%narrow_share*pad%narrow), over_v, over_s, &
-            & over_h, by_phi, shift, stretch, derivatives)
+         call add_uneven(pad%n, pad%d, pad%e, pad%w, pad%wedge, pad%squeeze, pad%h, pad%sine, pad%cosine, pad%s, &
+            & pad%ease, of%sliding, of%flow_slopes, of%sliding_slopes, &
+            & along*(solved - pad%narrow_share*pad%narrow), over_v, over_s, over_h, by_phi, shift, stretch, derivatives)
       end associate
    end function uneven_sum
 
    !> That sum.
-   pure subroutine add_uneven(n, d, e, w, wedge, squeeze, h, sine, cosine, s, ease, sliding, p, g, held, over_v, over_s, &
-      & over_h, by_phi, shift, stretch, derivatives)
+   pure subroutine add_uneven(n, d, e, w, wedge, squeeze, h, sine, cosine, s, ease, sliding, p, g, held, over_v, &
+      & over_s, over_h, by_phi, shift, stretch, derivatives)
       integer, intent(in) :: n
       real(wp), intent(in) :: d, e(2), w(2), wedge, squeeze
       real(wp), dimension(0:n), intent(in) :: h, sine, cosine, s, ease, sliding, held, over_v, over_s, over_h, by_phi

@@ -144,9 +144,7 @@ contains
          self%squeeze = 12*oil%viscosity*self%gap%pad_radius()**2
          self%h_cell(:) = self%gap%thickness(motion, self%sin_cell, self%cos_cell)
          self%h_face(:) = self%gap%thickness(motion, self%sin_face, self%cos_face)
-         if (oil%varies .or. self%oil%varies) then
-            if (oil%differs(self%oil)) call weigh(self, oil)
-         end if
+         if (oil%differs(self%oil)) call weigh(self, oil)
          self%along(:) = self%flow_face*self%h_face**3/(self%d_phi**2*self%between)
          self%beside(:) = self%flow_cell*self%width*self%h_cell**3*(self%gap%pad_radius()/self%d_z)**2
          self%source(:) = self%wedge*(self%sliding_face(1:n)*self%h_face(1:n) &
