@@ -4,7 +4,7 @@
 module film_equilibrium
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, numerics_error, asked_to_stop
+   use errors, only: error_type, raise, numerics_error, asked_to_stop, asked
    use anderson, only: anderson_type
    use film_solver, only: film_motion
    use film_streams, only: film_stream, find_stream
@@ -22,6 +22,10 @@ module film_equilibrium
    !> Largest change of a temperature at the end, K; most rounds.
    real(wp), parameter :: agreement = 1e-6_wp
    integer, parameter :: most_rounds = 60
+   !> Change of a temperature, K, that Newton's method must follow; its most iterations for a step, of which it needs
+   !> about five where it comes to an end.
+   real(wp), parameter :: least_change = 0.1_wp
+   integer, parameter :: most_iterations = 50
    !> While temperatures change by more than this, K, only a part of their change is made.
    real(wp), parameter :: large_change = 15, part = 0.6_wp
 
@@ -41,17 +45,28 @@ contains
       type(film_profile) :: profiles(size(films%fields, 2), size(films%fields, 3))
       type(film_stream) :: streams(size(films%fields, 3))
       type(anderson_type) :: acceleration
-      real(wp), allocatable :: wanted(:, :, :), x(:)
-      real(wp) :: change
+      real(wp), allocatable :: wanted(:, :, :), settled(:, :, :), x(:)
+      real(wp) :: change, before(size(y))
       integer :: i, round
       logical :: ok
       allocate (wanted, mold=films%fields)
+      settled = films%fields
       do round = 1, most_rounds
-         do i = 1, size(streams)
-            call oil_of_field(model%inputs%oil, films%heat(i)%zeta, films%fields(:, :, i), profiles(:, i), model%oil(i))
+         before = y
+         do
+            do i = 1, size(streams)
+               call oil_of_field(model%inputs%oil, films%heat(i)%zeta, films%fields(:, :, i), profiles(:, i), &
+                  & model%oil(i))
+            end do
+            call solve_equilibrium(model, y, residual, error, give_up, held, merge(most_iterations, huge(1), round > 1))
+            if (.not. allocated(error)) exit
+            ! Newton's method may follow a part of the step
+            if (asked(give_up) .or. .not. maxval(abs(films%fields - settled)) > least_change) return
+            call acceleration%forget()
+            films%fields = settled + (films%fields - settled)/4
+            y = before
          end do
-         call solve_equilibrium(model, y, residual, error, give_up, held)
-         if (allocated(error)) return
+         settled = films%fields
          call find_streams(model, y, size(profiles, 1), streams, ok)
          if (ok) call solve_network(model%inputs%oil, new_grooves(model%inputs), films, streams, profiles, &
             & model%point%speed(0.0_wp)*model%inputs%bearing%journal_radius, wanted, ok)

@@ -29,8 +29,8 @@ MARCHES = (
     ("temperatures, VG 46", ("oil%grade=46", "thermal%model=pad"), 1.05),
     ("temperatures along the films, VG 46", ("oil%grade=46", *FILM[1]), 1.3),
 )
-#: Time of an equilibrium with temperatures over that of one without, and what temperatures along the films may add to
-#: that of one without, s.
+#: Time of an equilibrium with temperatures over that of one without, and what temperatures along the films
+#: may add to that of one without, s.
 RATIO, FILM_SECONDS = 3.0, 0.04
 
 
