@@ -92,7 +92,7 @@ contains
       integer, intent(in), optional :: modes
       type(rotor_matrices_type) :: rotor
       type(error_type), allocatable :: error
-      call find_rotor(machine, gravity, speed, rotor, error, modes)
+      call find_rotor(machine, gravity, speed, 1.0_wp, rotor, error, modes)
       call expect_no_error(error, 'a rotor is found')
    end function rotor_of
 

@@ -79,7 +79,7 @@ contains
       if (run%inputs%is_machine()) then
          call find_rotor_response(fine, found, response, error)
          if (allocated(error)) return
-         call put_rotor_response(run%file, found, response)
+         call put_rotor_response(run%file, found, response, run%inputs%sense())
       end if
       call put_modes(run%file, found)
       call put_thresholds(run%file, found)

@@ -244,7 +244,8 @@ contains
       do i = 1, size(pads)
          associate (b => inputs%bearing, p => inputs%pads, v => inputs%pivot, pad => pads(i), &
             & position => pads(i)%position)
-            position%angle = p%pivot_angle_deg(i)*degree
+            position%mirrored = inputs%sense() < 0
+            position%angle = merge(180 - p%pivot_angle_deg(i), p%pivot_angle_deg(i), position%mirrored)*degree
             position%sin_angle = sin(position%angle)
             position%cos_angle = cos(position%angle)
             position%pivot_radius = b%journal_radius + b%assembled_clearance(i) + p%pivot_distance(i)

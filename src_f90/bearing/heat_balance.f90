@@ -25,7 +25,7 @@ module heat_balance
       real(wp) :: shaft = 0, drain = 0
    end type oil_temperatures_type
 
-   !> The groove before a pad: the pad upstream, at the next larger angle; which share of the oil that leaves it may
+   !> The groove before a pad: the pad upstream, the next one against the rotation; which share of the oil that leaves it may
    !> come across.
    type :: groove_type
       integer :: upstream = 0
@@ -93,7 +93,7 @@ contains
          do i = 1, size(grooves)
             nearest = huge(nearest)
             do k = 1, size(grooves)
-               turn = modulo(p%pivot_angle_deg(k) - p%pivot_angle_deg(i), 360.0_wp)
+               turn = modulo(inputs%sense()*(p%pivot_angle_deg(k) - p%pivot_angle_deg(i)), 360.0_wp)
                ! a pad alone is upstream of itself
                if (k == i) turn = 360
                if (turn >= nearest) cycle

@@ -1,11 +1,12 @@
-!> From the state of journal and pad to the motion of the journal seen from the pad (docs/theory/film.md).
+!> From the state of journal and pad to the motion of the journal seen from the pad (docs/theory/film.md). A bearing
+!> whose shaft turns anticlockwise is seen in a mirror, z for -z, in which it turns clockwise.
 module kinematics
    use kinds, only: wp
    use film_solver, only: film_motion
    use abstract_rotor, only: journal_motion
    implicit none (type, external)
    private
-   public :: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global
+   public :: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global, in_mirror
    public :: columns, journal_columns, tilt_column, tilt_rate_column, deflection_column
    public :: position_columns, rate_columns
 
@@ -31,6 +32,8 @@ module kinematics
       real(wp) :: angle, sin_angle, cos_angle
       !> R_J + c_r + kappa: radius of the undeformed pivot; R + kappa: from the pivot to the arc centre, m.
       real(wp) :: pivot_radius, centre_distance
+      !> Whether all this is seen in the mirror.
+      logical :: mirrored = .false.
    end type pad_position
 
    !> The pad frame at one instant: directions, and the journal from the pivot.
@@ -39,9 +42,20 @@ module kinematics
       real(wp) :: s, c
       !> r = O_J - P along y' and z', m.
       real(wp) :: along, outward
+      !> Whether all this is seen in the mirror.
+      logical :: mirrored
    end type pad_frame
 
 contains
+
+   !> A vector along global y and z as it is seen in the mirror, or back; where there is none it stays.
+   pure function in_mirror(mirrored, vector) result(seen)
+      logical, intent(in) :: mirrored
+      real(wp), intent(in) :: vector(2)
+      real(wp) :: seen(2)
+      seen = vector
+      if (mirrored) seen(2) = -seen(2)
+   end function in_mirror
 
    !> The frame of a pad in a state.
    pure type(pad_frame) function frame_of(position, journal, pad) result(frame)
@@ -49,11 +63,13 @@ contains
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pad
       real(wp) :: r(2)
-      r = journal%position - (position%pivot_radius + pad%pivot_deflection)*[position%sin_angle, position%cos_angle]
+      r = in_mirror(position%mirrored, journal%position) &
+         & - (position%pivot_radius + pad%pivot_deflection)*[position%sin_angle, position%cos_angle]
       frame%s = sin(position%angle - pad%tilt)
       frame%c = cos(position%angle - pad%tilt)
       frame%along = r(1)*frame%c - r(2)*frame%s
       frame%outward = r(1)*frame%s + r(2)*frame%c
+      frame%mirrored = position%mirrored
    end function frame_of
 
    !> The motion of the journal seen from the pad.
@@ -63,7 +79,8 @@ contains
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pad
       real(wp) :: w(2)
-      w = journal%velocity - pad%pivot_deflection_rate*[position%sin_angle, position%cos_angle]
+      w = in_mirror(position%mirrored, journal%velocity) &
+         & - pad%pivot_deflection_rate*[position%sin_angle, position%cos_angle]
       motion%position = [frame%along, frame%outward + position%centre_distance]
       motion%velocity = [w(1)*frame%c - w(2)*frame%s + pad%tilt_rate*frame%outward, &
          & w(1)*frame%s + w(2)*frame%c - pad%tilt_rate*frame%along]
@@ -92,6 +109,7 @@ contains
       derivatives(3:4, 2) = tilt_rate*[frame%c, frame%s]
       ! journal velocity
       derivatives(3:4, 3:4) = derivatives(1:2, 1:2)
+      if (frame%mirrored) derivatives(:, 2:journal_columns:2) = -derivatives(:, 2:journal_columns:2)
       ! tilt: d y' = z' d delta, d z' = -y' d delta
       derivatives(:, tilt_column) = [frame%outward, -frame%along, w_z - tilt_rate*frame%along, &
          & -w_y - tilt_rate*frame%outward]
@@ -106,6 +124,7 @@ contains
       type(pad_frame), intent(in) :: frame
       real(wp), intent(in) :: vector(2)
       real(wp) :: global(2)
-      global = [vector(1)*frame%c + vector(2)*frame%s, vector(2)*frame%c - vector(1)*frame%s]
+      global = in_mirror(frame%mirrored, [vector(1)*frame%c + vector(2)*frame%s, &
+         & vector(2)*frame%c - vector(1)*frame%s])
    end function to_global
 end module kinematics

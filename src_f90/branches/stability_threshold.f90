@@ -43,7 +43,7 @@ contains
       call find_parameter(moving%inputs, 'operation%speed_rpm', speed, error)
       associate (first => model%point%speed_rpm, given => model%inputs%coefficients)
          call begin_equilibria(problem, varied_bearing_type(moving, speed), y, first, first)
-         problem%cross_stiffness = given%cross_stiffness
+         problem%cross_stiffness = model%point%sense*given%cross_stiffness
          allocate (found%thresholds(size(found%bearings)), source=ieee_value(first, ieee_quiet_nan))
          options = branch_options(first_step=longest, max_step=longest, high=given%threshold_up_to_rpm)
          if (present(give_up)) options%give_up => give_up

@@ -80,7 +80,7 @@ contains
       real(wp) :: along, across
       point = operating_point_type(inputs)
       along = dot_product(point%load, journal)
-      across = point%load(1)*journal(2) - point%load(2)*journal(1)
+      across = inputs%sense()*(point%load(1)*journal(2) - point%load(2)*journal(1))
       attitude_angle = 0
       if (abs(along) + abs(across) > 0) attitude_angle = atan2(across, along)
    end function attitude_angle

@@ -46,6 +46,7 @@ module case_groups
    type :: operation_type
       !> Speed at the start and at the end (linear in between; set in a complete case), and how long, s.
       real(wp) :: speed_rpm = 6500, final_speed_rpm = unset, duration = 2
+      character(len=:), allocatable :: rotation
    end type operation_type
 
    type :: bearing_type

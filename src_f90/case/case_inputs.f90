@@ -46,6 +46,7 @@ module case_inputs
       procedure :: tilting_radial
       procedure :: highest_speed
       procedure :: unbalance
+      procedure :: sense
       procedure :: is_steady
       procedure :: is_disturbed
       procedure :: set_final_speed
@@ -62,6 +63,7 @@ contains
       type(case_type) :: inputs
       inputs%about%title = ''
       inputs%about%task = 'march'
+      inputs%operation%rotation = 'clockwise'
       inputs%oil%law = 'constant'
       inputs%thermal%model = 'none'
       inputs%thermal%march = 'frozen'
@@ -110,6 +112,12 @@ contains
       class(case_type), intent(inout) :: self
       if (.not. is_set(self%operation%final_speed_rpm)) self%operation%final_speed_rpm = self%operation%speed_rpm
    end subroutine set_final_speed
+
+   !> 1 where the shaft turns clockwise, from +y towards +z; -1 where it turns from +y towards -z.
+   pure real(wp) function sense(self)
+      class(case_type), intent(in) :: self
+      sense = merge(-1.0_wp, 1.0_wp, self%operation%rotation == 'anticlockwise')
+   end function sense
 
    !> Whether the speed stays the same.
    pure logical function is_steady(self)

@@ -56,8 +56,10 @@ contains
    end subroutine make_excitations
 
    !> Finds what its force needs and what follows from its variables.
-   elemental subroutine prepare(self)
+   elemental subroutine prepare(self, sense)
       class(excitation_type), intent(inout) :: self
+      !> Of the shaft: 1 clockwise, -1 anticlockwise.
+      real(wp), intent(in) :: sense
       real(wp) :: towards
       select case (self%kind)
       case ('step')
@@ -72,7 +74,7 @@ contains
       towards = self%direction_deg*degree
       self%rotates = self%rotating /= 'no'
       self%along = [cos(towards), sin(towards)]
-      self%across = merge(1, -1, self%rotating == 'forward')*[-sin(towards), cos(towards)]
+      self%across = merge(sense, -sense, self%rotating == 'forward')*[-sin(towards), cos(towards)]
    end subroutine prepare
 
    !> Whether it acts at time t, s.

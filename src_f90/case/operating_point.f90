@@ -15,6 +15,8 @@ module operating_point
       real(wp) :: load(2) = 0
       !> Unbalance, kg m.
       real(wp) :: unbalance = 0
+      !> 1: the shaft turns clockwise; -1: anticlockwise.
+      real(wp) :: sense = 1
       !> Forces over time; not allocated where there are none.
       type(excitation_type), allocatable :: excitations(:)
       !> False: the pivots are without friction; the films do not cavitate, whatever their condition.
@@ -45,9 +47,10 @@ contains
          point%load = r%static_load - [r%mass*r%gravity, 0.0_wp]
       end associate
       point%unbalance = inputs%unbalance()
+      point%sense = inputs%sense()
       if (size(inputs%excitations) == 0) return
       point%excitations = inputs%excitations
-      call point%excitations%prepare()
+      call point%excitations%prepare(point%sense)
    end function point_of_case
 
    !> Shaft speed at time t, rad/s.
@@ -82,9 +85,8 @@ contains
    pure function excitation_forces(self, t) result(forces)
       class(operating_point_type), intent(in) :: self
       real(wp), intent(in) :: t
-      real(wp), allocatable :: forces(:, :)
+      real(wp) :: forces(2, excitation_count(self))
       integer :: i
-      allocate (forces(2, excitation_count(self)))
       do i = 1, size(forces, 2)
          forces(:, i) = self%excitations(i)%force(t, self%shaft_angle(t) - self%shaft_angle(self%excitations(i)%start))
       end do
@@ -94,17 +96,17 @@ contains
    pure function excitation_rates(self, t) result(rates)
       class(operating_point_type), intent(in) :: self
       real(wp), intent(in) :: t
-      real(wp), allocatable :: rates(:, :)
+      real(wp) :: rates(2, excitation_count(self))
       integer :: i
-      allocate (rates(2, excitation_count(self)))
       do i = 1, size(rates, 2)
          rates(:, i) = self%excitations(i)%force_rate(t, &
             & self%shaft_angle(t) - self%shaft_angle(self%excitations(i)%start), self%speed(t))
       end do
    end function excitation_rates
 
+   !> Number of its excitations.
    pure integer function excitation_count(self)
-      class(operating_point_type), intent(in) :: self
+      type(operating_point_type), intent(in) :: self
       excitation_count = 0
       if (allocated(self%excitations)) excitation_count = size(self%excitations)
    end function excitation_count

@@ -30,7 +30,7 @@ contains
          end do
          if (allocated(inputs%machine%given)) then
             associate (g => inputs%machine%given)
-               lines = line('rotor%file', mark([g%total_mass, g%weighed], mark([g%mass], mark([g%damping], &
+               lines = lines//line('rotor%file', mark([g%total_mass, g%weighed], mark([g%mass], mark([g%damping], &
                   & mark([g%gyroscopic], mark([g%stiffness], mark([g%station], mark([g%slope], 0_i8))))))))
             end associate
          end if

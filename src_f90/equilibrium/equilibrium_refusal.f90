@@ -2,6 +2,7 @@
 module equilibrium_refusal
    use kinds, only: wp, degree, pi
    use text, only: to_text
+   use kinematics, only: in_mirror
    use equations_of_motion, only: machine_model
    use force_balance, only: masses, force_derivatives, find_vibrations
    implicit none (type, external)
@@ -152,8 +153,8 @@ contains
       integer :: i, k
       load_on_pads = .true.
       if (.not. norm2(model%point%load) > 0) return
-      load = model%point%load/norm2(model%point%load)
       associate (pads => model%bearings(1)%pads)
+         load = in_mirror(pads(1)%position%mirrored, model%point%load/norm2(model%point%load))
          angles = pads%position%angle
          if (.not. model%layout%bearings(1)%tilting) then
             angles = [angles - pads%gap%trailing_angle, angles + pads%gap%leading_angle]

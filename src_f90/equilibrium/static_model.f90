@@ -8,7 +8,7 @@ module static_model
    use operating_point, only: operating_point_type
    use factories, only: converged_films, quick_films
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_frame, pad_state, frame_of
+   use kinematics, only: pad_frame, pad_state, frame_of, in_mirror
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: machine_model, new_machine_model
    use errors, only: error_type, stopped, asked_to_stop
@@ -146,6 +146,7 @@ contains
          middle = -out(1)/size(pads)*[sum(pads%position%sin_angle), sum(pads%position%cos_angle)] &
             & - [dot_product(out - out(1), pads%position%sin_angle), &
             & dot_product(out - out(1), pads%position%cos_angle)]/size(pads)
+         middle = in_mirror(pads(1)%position%mirrored, middle)
       end associate
    end function middle_of_bores
 

@@ -135,6 +135,9 @@ contains
       call v%number(inputs%operation%speed_rpm, 'speed_rpm', 1e-3_wp, 1e6_wp, 'rpm', 'shaft speed at the start')
       call v%number(inputs%operation%final_speed_rpm, 'final_speed_rpm', 0.0_wp, 1e6_wp, 'rpm', &
          & 'shaft speed at the end; it changes linearly; if left out, speed_rpm')
+      call v%word(inputs%operation%rotation, 'rotation', 'clockwise anticlockwise', &
+         & 'seen with y up and z to the right: clockwise, from +y to +z; anticlockwise, from +y to -z: oil then ' &
+         & //'enters a pad at its smaller angle, and pads%pivot_ratio counts from there')
       call v%number(inputs%operation%duration, 'duration', 1e-9_wp, 1e6_wp, 's', 'simulated time')
    end subroutine list_operation
 

@@ -121,7 +121,7 @@ contains
       real(wp), intent(in) :: at
       real(wp) :: from_trailing(size(inputs%pads%arc_deg))
       associate (p => inputs%pads)
-         from_trailing = modulo(at - p%pivot_angle_deg + (1 - p%pivot_ratio)*p%arc_deg, 360.0_wp)
+         from_trailing = modulo(inputs%sense()*(at - p%pivot_angle_deg) + (1 - p%pivot_ratio)*p%arc_deg, 360.0_wp)
          carries_at = any(from_trailing >= beside_edge .and. p%arc_deg - from_trailing >= beside_edge)
       end associate
    end function carries_at

@@ -89,7 +89,7 @@ contains
                      if (.not. ok) exit each_bearing
                   end do
                end do each_bearing
-               if (ok) call find_modes(found%with_rotor(i), given%cross_stiffness, position_lengths(model), &
+               if (ok) call find_modes(found%with_rotor(i), model%point%sense*given%cross_stiffness, position_lengths(model), &
                   & found%modes(i), ok)
                if (.not. ok) then
                   call raise(error, numerics_error, 'the linear equations of the pads with '//found%bearings(i)%pivot &
@@ -241,7 +241,8 @@ contains
       allocate (values(2*size(kept)))
       if (present(shapes)) allocate (shapes(size(kept), 2*size(kept)))
       stiffness = bearing%stiffness(kept, kept)
-      ! what is displaced along y is pushed along z, and what is displaced along z against y: forward
+      ! what is displaced along y is pushed along z, and what is displaced along z against y: forward where the shaft
+      ! turns clockwise
       stiffness(1, 2) = stiffness(1, 2) + cross_stiffness
       stiffness(2, 1) = stiffness(2, 1) - cross_stiffness
       call find_vibrations(bearing%mass(kept, kept), -stiffness, -bearing%damping(kept, kept), values, ok, shapes)

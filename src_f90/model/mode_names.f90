@@ -17,7 +17,7 @@ module mode_names
 contains
 
    !> The name of a mode of this shape: by its largest part, as its positions are displaced times the lengths that stand
-   !> for 1 rad of a tilt. A vibration of the rotor goes forward, in the sense of rotation from +y to +z, or backward.
+   !> for 1 rad of a tilt. A vibration of the rotor goes forward, in the sense of rotation, or backward.
    pure function mode_name(model, shape, lengths, vibrates) result(name)
       type(machine_model), intent(in) :: model
       complex(wp), intent(in) :: shape(:)
@@ -83,9 +83,9 @@ contains
       complex(wp) :: stations(2, model%rotor%stations)
       if (model%rotor%stations > 0) then
          stations = at_stations(model, shape)
-         goes_forward = aimag(sum(conjg(stations(1, :))*stations(2, :))) < 0
+         goes_forward = model%point%sense*aimag(sum(conjg(stations(1, :))*stations(2, :))) < 0
       else
-         goes_forward = aimag(conjg(shape(1))*shape(2)) < 0
+         goes_forward = model%point%sense*aimag(conjg(shape(1))*shape(2)) < 0
       end if
    end function goes_forward
 

@@ -70,6 +70,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
       logical :: same
       integer :: b
+      if (there%operation%rotation /= here%operation%rotation) then
+         call raise(error, system_error, path//': its shaft turns '//there%operation%rotation//', and that of this case ' &
+            & //here%operation%rotation//'; no start for it')
+         return
+      end if
       same = there%is_machine() .eqv. here%is_machine()
       if (same .and. here%is_machine()) same = there%bearing_count() == here%bearing_count()
       if (.not. same) then

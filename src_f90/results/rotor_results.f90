@@ -12,11 +12,12 @@ module rotor_results
 
 contains
 
-   !> Writes the response of a rotor whose coefficients and modes were written.
-   subroutine put_rotor_response(file, coefficients, found)
+   !> Writes the response of a rotor whose coefficients and modes were written; it turns in the sense 1, clockwise, or -1.
+   subroutine put_rotor_response(file, coefficients, found, sense)
       class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: coefficients
       type(rotor_response_type), intent(in) :: found
+      real(wp), intent(in) :: sense
       integer :: i, n
       call file%put_labels('pivot', coefficients%bearings%pivot, 'how the pivots behave')
       call file%put_list('mode', [(real(i, wp), i=1, 2*size(coefficients%bearings(1)%moves))], '1', 'mode number', &
@@ -29,7 +30,7 @@ contains
       call file%put_table('response/amplitude', amplitude(found%unbalance), 'm', 'major semi-axis of the whirl of ' &
          & //'the station under the unbalance', 'pivot station')
       call put_parts(file, found%of_reduction, 2*size(coefficients%bearings(1)%moves))
-      call put_station_shapes(file, found%shapes, 2*size(coefficients%bearings(1)%moves))
+      call put_station_shapes(file, found%shapes, 2*size(coefficients%bearings(1)%moves), sense)
       n = maxval([(size(found%synchronous(i)%eigenvalue), i=1, size(found%synchronous))])
       call file%put_list('synchronous_mode', [(real(i, wp), i=1, n)], '1', 'mode number', 'synchronous_mode')
       call put_mode_values(file, 'synchronous', 'pivot synchronous_mode', found%synchronous, n)
@@ -64,10 +65,11 @@ contains
    end function amplitude
 
    !> Stations in the modes, and whether these whirl forward; n modes.
-   subroutine put_station_shapes(file, shapes, n)
+   subroutine put_station_shapes(file, shapes, n, sense)
       class(record_type), intent(inout) :: file
       complex(wp), intent(in) :: shapes(:, :, :, :)
       integer, intent(in) :: n
+      real(wp), intent(in) :: sense
       complex(wp) :: all_shapes(2, size(shapes, 2), n, size(shapes, 4))
       real(wp), dimension(n, size(shapes, 4)) :: forward, backward
       character(len=*), parameter :: direction(2) = ['y', 'z']
@@ -84,7 +86,7 @@ contains
       end do
       forward = sum(abs(all_shapes(1, :, :, :) + (0, 1)*all_shapes(2, :, :, :))**2, 1)
       backward = sum(abs(all_shapes(1, :, :, :) - (0, 1)*all_shapes(2, :, :, :))**2, 1)
-      call file%put_table('modes/whirl', (forward - backward)/max(forward + backward, tiny(1.0_wp)), '1', &
+      call file%put_table('modes/whirl', sense*(forward - backward)/max(forward + backward, tiny(1.0_wp)), '1', &
          & 'sense of the whirl of the stations: 1 forward, -1 backward', 'pivot mode')
    end subroutine put_station_shapes
 end module rotor_results

@@ -85,7 +85,7 @@ contains
          problem%stiffness = rate**2*c%mass + rate*(c%damping + speed*c%gyroscopic) + c%stiffness
          allocate (problem%loads(size(c%mass, 1), 2))
          problem%loads(:, 1) = c%weighed
-         moments = unbalances(machine, size(c%station, 1))
+         moments = unbalances(machine, size(c%station, 1), c%sense)
          problem%loads(:, 2) = matmul(moments(1, :), c%station)
          rows = station_rows([machine%bearings%station, machine%discs%station])
          problem%observed = c%station(rows, :)

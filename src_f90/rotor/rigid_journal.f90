@@ -73,11 +73,13 @@ contains
       real(wp), intent(in) :: states(:)
       type(operating_point_type), intent(in) :: point
       real(wp), intent(in) :: t
-      real(wp) :: force(self%positions), phase, speed, direction(2)
+      real(wp) :: force(self%positions), phase, speed, direction(2), turning(2)
       phase = point%shaft_angle(t)
       speed = point%speed(t)
       direction = [cos(phase), sin(phase)]
-      force = point%load + point%unbalance*(speed**2*direction + point%acceleration*[direction(2), -direction(1)])
+      turning = speed**2*direction + point%acceleration*[direction(2), -direction(1)]
+      turning(2) = point%sense*turning(2)
+      force = point%load + point%unbalance*turning
       if (allocated(point%excitations)) force = force + point%excitation_force(t)
    end function force
 
@@ -88,7 +90,7 @@ contains
       real(wp), intent(in) :: t
       real(wp) :: turn(self%positions), phase
       phase = point%shaft_angle(t)
-      turn = point%unbalance*point%speed(t)**3*[-sin(phase), cos(phase)]
+      turn = point%unbalance*point%speed(t)**3*[-sin(phase), point%sense*cos(phase)]
       if (allocated(point%excitations)) turn = turn + sum(point%excitation_rates(t), dim=2)
    end function turn
 

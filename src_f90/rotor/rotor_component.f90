@@ -12,7 +12,9 @@ module rotor_component
    type :: rotor_component_type
       !> 2: the displacements go in pairs, along y and z, and both planes have the same mass and stiffness; else 1.
       integer :: planes = 1
-      !> (n, n); G stands for a shaft that turns from y to z.
+      !> The sense in which the shaft turns: 1 clockwise, from y to z, -1 anticlockwise.
+      real(wp) :: sense = 1
+      !> (n, n); G stands for a shaft that turns in this sense.
       real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness
       !> Deflections and slopes of the shaft at its stations: matmul(station, q) is y and z of station 1, y and z of
       !> station 2, ... (2*stations, n). Slopes are 0 where nothing is known of them.
@@ -21,11 +23,21 @@ module rotor_component
       real(wp), allocatable :: weighed(:)
       !> kg
       real(wp) :: total_mass = 0
+   contains
+      procedure :: turn_in
    end type rotor_component_type
 
 contains
 
-   !> The shaft of a machine with its discs.
+   !> Has the shaft turn in a sense: 1 clockwise, -1 anticlockwise.
+   pure subroutine turn_in(self, sense)
+      class(rotor_component_type), intent(inout) :: self
+      real(wp), intent(in) :: sense
+      self%gyroscopic = sense*self%sense*self%gyroscopic
+      self%sense = sense
+   end subroutine turn_in
+
+   !> The shaft of a machine with its discs, turning clockwise.
    pure function shaft_component(machine) result(component)
       type(machine_type), intent(in) :: machine
       type(rotor_component_type) :: component
@@ -52,7 +64,7 @@ contains
       component%total_mass = sum(component%weighed(1::4))
    end function shaft_component
 
-   !> A rotor of matrices that are given.
+   !> A rotor of matrices that are given, turning clockwise.
    pure function given_component(given) result(component)
       type(given_rotor_type), intent(in) :: given
       type(rotor_component_type) :: component

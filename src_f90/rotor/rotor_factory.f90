@@ -38,7 +38,8 @@ contains
             modes = size(before%matrices%mode_frequency)
          end select
       end if
-      call find_rotor(inputs%machine, inputs%rotor%gravity, highest_speed(inputs), matrices, error, modes)
+      call find_rotor(inputs%machine, inputs%rotor%gravity, highest_speed(inputs), inputs%sense(), matrices, error, &
+         & modes)
       if (allocated(error)) then
          refusal = error%message
          return

@@ -61,7 +61,8 @@ contains
       r%load = matmul(matmul(force - matmul(component%stiffness, deflection), basis), into)
       deflection = deflection + fixed%residual_deflection(force, modes)
       basis = matmul(basis, into)
-      r%unbalance = transpose(matmul(unbalances(machine, size(component%station, 1)), matmul(component%station, basis)))
+      r%unbalance = transpose(matmul(unbalances(machine, size(component%station, 1), component%sense), &
+         & matmul(component%station, basis)))
       r%station = matmul(component%station, basis)
       r%station_offset = matmul(component%station, deflection)
       r%slope = matmul(component%slope, basis)

@@ -17,10 +17,11 @@ module shaft_in_bearings
 
 contains
 
-   !> The equations of a machine's rotor, under gravity, m/s^2, for runs up to a speed, rad/s.
-   subroutine find_rotor(machine, gravity, highest_speed, matrices, error, modes)
+   !> The equations of a machine's rotor, under gravity, m/s^2, for runs up to a speed, rad/s, in the sense 1, clockwise,
+   !> or -1.
+   subroutine find_rotor(machine, gravity, highest_speed, sense, matrices, error, modes)
       type(machine_type), intent(in) :: machine
-      real(wp), intent(in) :: gravity, highest_speed
+      real(wp), intent(in) :: gravity, highest_speed, sense
       type(rotor_matrices_type), intent(out) :: matrices
       type(error_type), allocatable, intent(out) :: error
       !> Modes with the journals held that are kept, in a plane of a shaft; left out, they are chosen.
@@ -40,6 +41,7 @@ contains
          call raise(error, input_error, 'rotor%file = '''//machine%rotor_file//''': is not read here')
       end if
       if (allocated(error)) return
+      call component%turn_in(sense)
       border = journal_displacements(machine, component)
       call find_fixed_interface(component, border, fixed, held)
       if (.not. held) call raise(error, input_error, 'machine: its bearings (at the stations ' &

@@ -22,11 +22,12 @@ contains
       end do
    end function static_forces
 
-   !> Moments of its unbalances, kg m: their forces at the shaft angle phi are Omega**2*(moments(1, :)*cos(phi)
+   !> Moments of its unbalances, kg m, on a shaft that turns clockwise (sense = 1) or anticlockwise (-1): their forces at the shaft angle phi are Omega**2*(moments(1, :)*cos(phi)
    !> + moments(2, :)*sin(phi)).
-   pure function unbalances(machine, n) result(moments)
+   pure function unbalances(machine, n, sense) result(moments)
       type(machine_type), intent(in) :: machine
       integer, intent(in) :: n
+      real(wp), intent(in) :: sense
       real(wp) :: moments(2, n), y, z
       integer :: i, at
       moments = 0
@@ -36,7 +37,7 @@ contains
             y = u%moment*cos(u%angle_deg*degree)
             z = u%moment*sin(u%angle_deg*degree)
             moments(:, at - 1) = moments(:, at - 1) + [y, -z]
-            moments(:, at) = moments(:, at) + [z, y]
+            moments(:, at) = moments(:, at) + sense*[z, y]
          end associate
       end do
    end function unbalances

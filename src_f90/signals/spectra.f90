@@ -76,7 +76,7 @@ contains
    end function hann_amplitude
 
    !> Amplitudes of a complex signal y + i z of n samples at the frequencies k/(n dt), k = -((n-1)/2) ..
-   !> n/2, in that order: positive frequencies turn from y towards z (forward whirl), negative ones back.
+   !> n/2, in that order: positive frequencies turn from y towards z, negative ones back.
    function full_amplitude(signal) result(amplitude)
       complex(wp), intent(in) :: signal(:)
       real(wp) :: amplitude(-((size(signal) - 1)/2):size(signal)/2)

@@ -38,6 +38,7 @@ CASES = {
     "--set operation%duration=0.2",
     "sor": "--set film%solver='sor' --set operation%duration=0.02",
     "late": "--set output%start_time=0.02",
+    "anticlockwise": "--set operation%rotation='anticlockwise' --set rotor%static_load=0,4000",
     "warm_runup": "--set oil%grade=46 --set thermal%model='pad' --set thermal%march='groove' "
     "--set oil%groove_volume=1e-5 --set operation%final_speed_rpm=5000 --set operation%duration=0.2",
     "warm": "--set oil%grade=46 --set thermal%model='pad' --set operation%duration=0.3",

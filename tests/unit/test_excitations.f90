@@ -132,7 +132,7 @@ contains
          x%kind = 'table'
          x%time = [0.0_wp, 0.1_wp, 0.3_wp, 0.5_wp]
          x%table = reshape([1.0_wp, 2.0_wp, 3.0_wp, 0.0_wp, -1.0_wp, 4.0_wp, -1.0_wp, 5.0_wp], [2, 4])
-         call x%prepare()
+         call x%prepare(1.0_wp)
       end associate
    end function table_point
 

@@ -151,7 +151,7 @@ contains
       character(len=*), intent(in) :: words
       type(rotor_matrices_type) :: rotor
       type(error_type), allocatable :: error
-      call find_rotor(machine, 9.81_wp, 600.0_wp, rotor, error)
+      call find_rotor(machine, 9.81_wp, 600.0_wp, 1.0_wp, rotor, error)
       call expect_error(error, input_error, words, words)
    end subroutine refused
 end program test_rotor_file

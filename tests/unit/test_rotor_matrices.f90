@@ -339,11 +339,11 @@ contains
       type(error_type), allocatable :: error
       machine = turbine()
       call put_bearings(machine, [2])
-      call find_rotor(machine, gravity, 600.0_wp, rotor, error)
+      call find_rotor(machine, gravity, 600.0_wp, 1.0_wp, rotor, error)
       call expect_error(error, input_error, 'do not hold the shaft', 'one bearing')
       machine = turbine()
       machine%shaft%bore(4) = machine%shaft%diameter(4)
-      call find_rotor(machine, gravity, 600.0_wp, rotor, error)
+      call find_rotor(machine, gravity, 600.0_wp, 1.0_wp, rotor, error)
       call expect_error(error, input_error, 'do not hold the shaft', 'a section without stiffness')
    end subroutine try_refusals
 end program test_rotor_matrices

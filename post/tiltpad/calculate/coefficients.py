@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tiltpad.calculate import rotation
 from tiltpad.calculate.selection import selected
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -36,7 +37,7 @@ class Coefficients(NamedTuple):
         parameters         of a study: values of its parameters by name, (run,) each
 
     Rows are directions of the force on the journal, columns directions of its motion: y (up), z. The shaft
-    turns from +y to +z. Runs of a study that have no equilibrium are nan.
+    turns from +y to +z, or to -z (operation%rotation). Runs of a study that have no equilibrium are nan.
     """
 
     pivot: str
@@ -144,7 +145,7 @@ def series(
         speed = np.round(source.speed * 30 / np.pi, 9)
         place = chosen[np.argsort((source[over] if over else speed)[chosen], kind="stable")]
         speed, parameters = speed[place], {name: source[name][place] for name in source.parameters}
-    values = {}
+    values = {"sense": rotation.senses(source)[place]}
     for name in GROUPS[group]:
         path = f"{group}/{name}" if single else name
         if name in SOME and path not in source:

@@ -1,6 +1,6 @@
 """Where pads and journal are in a bearing, and the film between them.
 
-Lengths are in m, angles in rad, counted from +z towards +y; the shaft turns from +y to +z, towards smaller
+Lengths are in m, angles in rad, counted from +z towards +y; a shaft that turns clockwise turns towards smaller
 angles. A `case` is the resolved input: groups of variables, as run.input.
 """
 
@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tiltpad.calculate import library
+from tiltpad.calculate.rotation import sense
 from tiltpad.files import namelist
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -81,12 +82,14 @@ def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:
     arc, ratio = np.radians(of_pads(case, "pads%arc_deg")), of_pads(case, "pads%pivot_ratio")
     assembled, machined = (of_pads(case, f"bearing%{name}_clearance") for name in ("assembled", "machined"))
     back = of_pads(case, "pads%pivot_distance")
+    turning = sense(case)
     phi = np.linspace(-(1 - ratio) * arc, ratio * arc, points).T
-    # the journal from the pivot, in the pad's own directions (docs/theory/film.md)
-    own, reach = pivot - state.tilt, radius + assembled + back + state.pivot_deflection
+    # the journal from the pivot, in the pad's own directions (docs/theory/film.md); what turns anticlockwise is
+    # mirrored
+    own, reach = pivot - turning * state.tilt, radius + assembled + back + state.pivot_deflection
     y = state.journal[0] - reach * np.sin(pivot)
     z = state.journal[1] - reach * np.cos(pivot)
-    along = y * np.cos(own) - z * np.sin(own)
+    along = turning * (y * np.cos(own) - z * np.sin(own))
     outward = y * np.sin(own) + z * np.cos(own) + radius + machined + back
     thickness = machined[:, None] - along[:, None] * np.sin(phi) - outward[:, None] * np.cos(phi)
-    return Surfaces(own[:, None] + phi, thickness, pivot)
+    return Surfaces(own[:, None] + turning * phi, thickness, pivot)

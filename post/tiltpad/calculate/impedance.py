@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from tiltpad.calculate.coefficients import Coefficients
+from tiltpad.calculate.rotation import sense
 from tiltpad.calculate.signals import last_revolutions, needs_revolutions
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run, needs_run
@@ -79,7 +80,7 @@ def amplitudes(run: Run, ratio: float) -> tuple[np.ndarray, np.ndarray]:
     given = [run.values(f"excitation_{axis}", part)[:-1].sum(axis=1) for axis in "yz"]
     force = np.array([np.mean(turning * each) for each in given])
     if ratio == 1:
-        force = force + unbalance(run) * np.array([1, -1j])
+        force = force + unbalance(run) * np.array([1, -1j * sense(run.input)])
     return motion, force + run.input["rotor"]["mass"] * frequency**2 * motion
 
 

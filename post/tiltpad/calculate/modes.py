@@ -28,8 +28,8 @@ class Modes(NamedTuple):
                          "shaft, forward", ... or "pads", likewise; empty where there is no mode
         position         names of the positions: y, z, tilt_1, pivot_deflection_1, ...; of a machine those of
                          its stations: y_1, z_1, y_2, ...
-        whirl            likewise as frequency, from -1 (circular backward) to 1 (forward, from +y to +z): of
-                         the journal, of a machine of all stations
+        whirl            likewise as frequency, from -1 (circular backward) to 1 (forward, as the shaft
+                         turns): of the journal, of a machine of all stations
         threshold_rpm    lowest speed at which a mode turns unstable, nan where there is none, or none was
                          looked for; of a study (run,)
         parameters       of a study: values of its parameters by name, (run,) each
@@ -72,7 +72,8 @@ def modes(
         position = np.array([f"{axis}_{station:g}" for station in source["station"] for axis in "yz"])
     else:
         values["shape"] = values["shape_real"] + 1j * values["shape_imag"]
-        values["whirl"], position = whirl(values["shape"]), source["position_row"]
+        values["whirl"] = values["sense"][:, None] * whirl(values["shape"])
+        position = source["position_row"]
     order = tracked(values["eigenvalue"], values["shape"])
     names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement", "shape", "whirl")
     own: dict[str, Any] = {name: placed(values[name], order) for name in names}
@@ -148,7 +149,7 @@ def paired(apart: np.ndarray) -> np.ndarray:
 
 
 def whirl(shape: np.ndarray) -> np.ndarray:
-    """Sense of the whirl of the journal, 1 in that of the rotation (+y to +z), -1 against it: (..., mode)."""
+    """Sense of the whirl of the journal, 1 clockwise (+y to +z), -1 anticlockwise: (..., mode)."""
     y, z = (shape[..., k] for k in range(JOURNAL))
     size = np.abs(y) ** 2 + np.abs(z) ** 2
     return -2 * (np.conj(y) * z).imag / np.where(size > 0, size, 1)

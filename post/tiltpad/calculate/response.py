@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tiltpad.calculate.coefficients import place_of_pivot
+from tiltpad.calculate.rotation import senses
 from tiltpad.calculate.selection import SPEED, axis_of, selected, varying
 from tiltpad.calculate.signals import at_angle, steady
 from tiltpad.calculate.spectra import order_track
@@ -130,7 +131,7 @@ def response(
     else:
         parameter, values, amplitude, phase = of_branch(source) if source.is_branch else of_runup(source)
     there = np.isfinite(amplitude).all(axis=1)
-    phase[there] = aligned(phase[there])
+    phase[there] = aligned(phase[there], int(senses(source)[0]))
     peaks = []
     if parameter == SPEED and there.sum() > 2:
         way = values[there]
@@ -186,11 +187,14 @@ def busiest(whirl: np.ndarray) -> int:
     return int(np.argmax(largest)) + 1
 
 
-def aligned(phase: np.ndarray) -> np.ndarray:
-    """Phases of y and z, (n, 2), without jumps: z next to where a forward whirl has it, y + pi/2."""
+def aligned(phase: np.ndarray, sense: int = 1) -> np.ndarray:
+    """Phases of y and z, (n, 2), without jumps: z next to where a forward whirl has it, y + pi/2.
+
+    Of a shaft that turns anticlockwise, sense -1, that is y - pi/2.
+    """
     whole = np.unwrap(phase, axis=0)
     for k in range(min(1, len(whole)) * whole.shape[1]):
-        near = np.pi / 2 if k == 0 else whole[0, 0] + np.pi / 2
+        near = np.pi / 2 if k == 0 else whole[0, 0] + sense * np.pi / 2
         whole[:, k] -= 2 * np.pi * np.round((whole[0, k] - near) / (2 * np.pi))
     return whole
 

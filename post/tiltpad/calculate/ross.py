@@ -5,6 +5,7 @@ of its own reads the file that `path` names.
 
 ROSS has the axes x and y, y up, and its shafts turn from +x to +y. This program's shaft turns from +y to +z:
 ROSS's x is -z, so that k_xx = K_zz, k_xy = -K_zy, k_yx = -K_yz, k_yy = K_yy, and likewise for the damping.
+Of a shaft that turns anticlockwise, from +y to -z, it is z, and k_xy = K_zy, k_yx = K_yz.
 """
 
 import os
@@ -20,8 +21,8 @@ from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 from tiltpad.files.writing import write
 
-#: Row and column (0: y, 1: z) of ROSS's elements, and their signs.
-ELEMENTS = {"xx": (1, 1, 1), "xy": (1, 0, -1), "yx": (0, 1, -1), "yy": (0, 0, 1)}
+#: Row and column (0: y, 1: z) of ROSS's elements, and whether their signs follow its x.
+ELEMENTS = {"xx": (1, 1, False), "xy": (1, 0, True), "yx": (0, 1, True), "yy": (0, 0, False)}
 #: What tables may go over.
 OVER = ("speed", "frequency", "both")
 #: Number of whirl frequencies of a table over both, where none are given.
@@ -75,10 +76,11 @@ def to_ross(
 def tables(found: Series, whirl: np.ndarray, over: str) -> dict[str, np.ndarray]:
     """ROSS's kxx, ... cyy: (speed,), (frequency,) or (speed, frequency)."""
     part: Any = {"speed": (slice(None), 0), "frequency": 0, "both": ()}[over]
+    x = -found.values["sense"][:, None]
     return {
-        letter + name: sign * values[..., row, column][part]
+        letter + name: ((x if crossed else 1) * values[..., row, column])[part]
         for letter, values in zip("kc", at_frequencies(found, whirl), strict=True)
-        for name, (row, column, sign) in ELEMENTS.items()
+        for name, (row, column, crossed) in ELEMENTS.items()
     }
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from tiltpad.calculate import signals
+from tiltpad.calculate.rotation import sense
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 
@@ -49,10 +50,12 @@ def one_sided(
 def full(run: Run, last: float = 10) -> tuple[np.ndarray, np.ndarray]:
     """Frequency (k,), Hz, rising, and amplitude (k,), m, of y + i z over the last revolutions.
 
-    The speed must be constant. Forward whirl is at positive frequencies, backward whirl at negative ones.
+    The speed must be constant. Forward whirl is at positive frequencies, backward whirl at negative ones: of
+    shafts that turn anticlockwise it is y - i z.
     """
     part, interval = sampled_evenly(run, last)
-    values = run.values("journal_y", part) + 1j * run.values("journal_z", part)
+    turning = 1j * sense(run.input)
+    values = run.values("journal_y", part) + turning * run.values("journal_z", part)
     amplitude = np.abs(np.fft.fft(values)) / len(values)
     return np.fft.fftshift(np.fft.fftfreq(len(values), interval)), np.fft.fftshift(amplitude)
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from tiltpad.calculate import rotation
 from tiltpad.calculate.coefficients import Coefficients, coefficients
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
@@ -16,7 +17,7 @@ from tiltpad.files.writing import write
 
 #: Elements of the matrices in the order of the columns.
 ELEMENTS = ("yy", "yz", "zy", "zz")
-HEAD = "Stiffness in N/m, damping in N s/m; y is up, the shaft turns from +y to +z."
+HEAD = "Stiffness in N/m, damping in N s/m; y is up, the shaft turns"
 
 
 def write_coefficients(
@@ -39,7 +40,7 @@ def write_coefficients(
         csv.writer(text, lineterminator="\n").writerows(table(found))
         write(target, text.getvalue())
     elif target.suffix == ".toml":
-        write(target, "\n".join(sections(found)))
+        write(target, "\n".join(sections(found, turning(source))))
     else:
         raise ValueError(f"{target}: the name must end in .csv or .toml")
 
@@ -65,9 +66,15 @@ def table(found: list[Coefficients]) -> list[list[Any]]:
     return rows
 
 
-def sections(found: list[Coefficients]) -> list[str]:
+def turning(source: Run | Study) -> str:
+    """How the shaft turns, in words."""
+    found = set(rotation.senses(source).tolist())
+    return rotation.ends(found.pop()) if len(found) == 1 else "as its rotation says"
+
+
+def sections(found: list[Coefficients], turns: str) -> list[str]:
     """Lines of the TOML file: a section for each pivot, with nested arrays as in `coefficients`."""
-    lines = [f"# {HEAD}", "# Arrays: (speed, frequency ratio, row, column)."]
+    lines = [f"# {HEAD} {turns}.", "# Arrays: (speed, frequency ratio, row, column)."]
     for one in found:
         shape = (-1, len(one.frequency_ratio), 2, 2)
         arrays = {name: np.asarray(each) for name, each in one.parameters.items()}

@@ -18,6 +18,7 @@ from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon
 
 from tiltpad.calculate import geometry, signals
 from tiltpad.calculate.geometry import Case, State
+from tiltpad.calculate.rotation import sense
 from tiltpad.calculate.selection import ArgumentError
 from tiltpad.draw.layout import PAGE, plain, width
 from tiltpad.draw.plots import STYLE, polar
@@ -37,6 +38,19 @@ FAR = 10.0
 ROOM = 30
 #: What pads can do, in words.
 MOTIONS = {"tilting_radial": "tilting, radially elastic", "tilting_only": "tilting", "fixed": "fixed"}
+#: How shaft and angles turn, by the sense of the shaft.
+TURNING = {
+    1: (
+        "The shaft turns clockwise, from $+y$ to $+z$.",
+        "Angles count the other way, from $+z$ to $+y$:",
+        "oil enters a pad at its larger angle (leading edge).",
+    ),
+    -1: (
+        "The shaft turns anticlockwise, from $+y$ to $-z$.",
+        "Angles count the same way, from $+z$ to $+y$:",
+        "oil enters a pad at its smaller angle (leading edge).",
+    ),
+}
 NOTE = {"fontsize": "small", "color": "0.2", "ha": "center", "va": "center"}
 
 
@@ -56,7 +70,7 @@ def bearing(case: Run | Case) -> Figure:
     drawing = Drawing(ax, groups, state)
     mark_angles(ax, groups)
     mark_edges(ax, drawing)
-    mark_rotation(ax)
+    mark_rotation(ax, sense(groups))
     mark_load(ax, groups)
     beside.axis("off")
     beside.text(0, 1, figures_of(groups, state), va="top", fontsize="small", linespacing=1.5)
@@ -131,10 +145,10 @@ def mark_edges(ax: Axes, drawing: Drawing) -> None:
         ax.annotate(name.replace(" ", "\n"), inside, out, arrowprops=line, **NOTE | {"fontsize": "x-small"})
 
 
-def mark_rotation(ax: Axes) -> None:
-    """From +y towards +z: clockwise."""
-    turn = {"connectionstyle": "arc3,rad=-0.3", "arrowstyle": "-|>", "mutation_scale": 11, "color": "C0"}
-    ax.add_patch(FancyArrowPatch(polar(0.7, 140), polar(0.7, 102), **turn, zorder=3))
+def mark_rotation(ax: Axes, sense: int) -> None:
+    """Clockwise (sense 1), from +y towards +z, or anticlockwise."""
+    turn = {"connectionstyle": f"arc3,rad={-0.3 * sense}", "arrowstyle": "-|>", "mutation_scale": 11, "color": "C0"}
+    ax.add_patch(FancyArrowPatch(*(polar(0.7, each) for each in (140, 102)[::sense]), **turn, zorder=3))
     ax.text(*polar(0.47, 132), "rotation", **NOTE | {"color": "C0"}, zorder=3)
 
 
@@ -187,9 +201,7 @@ def figures_of(case: Case, state: State) -> str:
         f"Clearances are {times:.0f} times larger than the journal",
         f"has them. Shown: {where}.",
         "",
-        "The shaft turns clockwise, from $+y$ to $+z$.",
-        "Angles count the other way, from $+z$ to $+y$:",
-        "oil enters a pad at its larger angle (leading edge).",
+        *TURNING[sense(case)],
     ]
     return "\n".join(lines)
 
@@ -237,7 +249,7 @@ def moving(run: Run, last: float) -> tuple[Figure, Any, Sequence[State]]:
     fig = plt.figure(figsize=(PAGE, 3.7))
     left, right = fig.subplots(1, 2, width_ratios=(1.15, 1))
     drawing = Drawing(left, run.input, states[0])
-    mark_rotation(left)
+    mark_rotation(left, sense(run.input))
     y, z = SHOWN["journal_y"].factor * np.array([state.journal for state in whole]).T
     right.plot(z, y, color="0.75", linewidth=0.8)
     (trail,) = right.plot([], [], color="C0")

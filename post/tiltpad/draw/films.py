@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from tiltpad.calculate import geometry, library
+from tiltpad.calculate.rotation import sense
 from tiltpad.draw import layout, plots
 from tiltpad.draw.orbits import bearings
 from tiltpad.files.read import Run
@@ -82,8 +83,11 @@ def film(
         )
     upper.set(ylabel="film thickness (µm)")
     upper.set_ylim(bottom=0)
+    senses = {sense(run.input) for run in runs}
+    moves = f"; the surface of the journal moves to the {'left' if senses == {1} else 'right'}"
+    moves = moves if len(senses) == 1 else ""
     lower.set(
-        xlabel="angle from $+z$ towards $+y$ (deg); the surface of the journal moves to the left",
+        xlabel=f"angle from $+z$ towards $+y$ (deg){moves}",
         ylabel="pressure in the\nmiddle (MPa)",
     )
     lower.xaxis.set_major_locator(plt.MaxNLocator(12, steps=[1, 1.5, 3, 5, 10]))

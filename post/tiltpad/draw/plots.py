@@ -17,6 +17,7 @@ from matplotlib.patches import Arc, Circle, FancyArrowPatch
 from matplotlib.ticker import MaxNLocator
 
 from tiltpad.calculate import behaviour, geometry, library, pivots, signals, spectra
+from tiltpad.calculate.rotation import sense
 from tiltpad.files.read import Run, needs_run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
@@ -115,10 +116,11 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
         ax.add_patch(Circle((0, 0), radius, fill=False, linewidth=0.8, color="0.3"))
     note = {"ha": "center", "fontsize": "small", "color": "0.3"}
     arc, ratio = (geometry.of_pads(run.input, f"pads%{name}") for name in ("arc_deg", "pivot_ratio"))
-    found = behaviour.marks(run) if marks else {}
+    found, turning = behaviour.marks(run) if marks else {}, sense(run.input)
     for pad, angle in enumerate(np.degrees(run.pivot_angle)):
         mark = found.get(pad + 1, "")
-        ends = {"theta1": angle - (1 - ratio[pad]) * arc[pad], "theta2": angle + ratio[pad] * arc[pad]}
+        below = 1 - ratio[pad] if turning > 0 else ratio[pad]
+        ends = {"theta1": angle - below * arc[pad], "theta2": angle + (1 - below) * arc[pad]}
         inner = assembled[pad] if tilting else machined[pad]
         middle = polar(assembled[pad] - inner, angle)
         if not tilting:
@@ -134,8 +136,8 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
         if mark:
             small = note | {"fontsize": "x-small", "color": "C3" if "rubs" in mark else "0.3"}
             ax.text(*polar(0.86 * radius, angle), mark, **small, va="center")
-    turn = {"connectionstyle": "arc3,rad=-0.32", "arrowstyle": "-|>", "mutation_scale": 9, "color": "0.3"}
-    ax.add_patch(FancyArrowPatch(polar(0.72 * radius, 125), polar(0.72 * radius, 55), **turn))
+    turn = {"connectionstyle": f"arc3,rad={-0.32 * turning}", "arrowstyle": "-|>", "mutation_scale": 9, "color": "0.3"}
+    ax.add_patch(FancyArrowPatch(*(polar(0.72 * radius, each) for each in (125, 55)[::turning]), **turn))
     ax.text(0, 0.5 * radius, "rotation", **note, va="center")
     ax.plot([-radius, 0], [0, 0], linewidth=0.6, color="0.3")
     ax.text(-0.5 * radius, 0.02 * radius, f"$c_r$ = {radius:g} µm", **note, va="bottom")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tiltpad.calculate import signals, summary
+from tiltpad.calculate import rotation, signals, summary
 from tiltpad.calculate.coefficients import coefficients
 from tiltpad.calculate.library import MissingLibraryError
 from tiltpad.calculate.modes import modes, of_journal
@@ -163,7 +163,8 @@ def coefficient_table(run: Run) -> str:
         for letter, name in (("K", "stiffness"), ("C", "damping"))
         for element in ("yy", "yz", "zy", "zz")
     ]
-    note = "The frequency is that of the whirl over the shaft's; y is up, the shaft turns from +y to +z."
+    note = "The frequency is that of the whirl over the shaft's; y is up, the shaft turns "
+    note += f"{rotation.ends(rotation.sense(run.input))}."
     if "equilibrium/viscosity" in run:
         note += " The viscosities are those of the equilibrium."
     return table(("pivots, frequency", *heads), rows) + f"<p>{note}</p>"

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from tiltpad.calculate import differences, signals, spectra
 from tiltpad.calculate.response import Peak, aligned, peaks_of
+from tiltpad.calculate.rotation import sense
 from tiltpad.draw import layout, plots
 from tiltpad.draw.branches import in_words as critical
 from tiltpad.files.read import Run
@@ -21,7 +22,8 @@ ORDERS = (1, 2, 3)
 #: From where the phase is counted.
 PHASE = (
     "Phase lag: the shaft turns by this angle from where the unbalance points along +y to where the journal "
-    "is farthest along the axis. Forward whirl has z a quarter turn behind y."
+    "is farthest along the axis. Forward whirl has z a quarter turn behind y where the shaft turns clockwise, ahead of it where it turns "
+    "anticlockwise."
 )
 
 
@@ -92,7 +94,7 @@ def orders(
                 plots.order_track(run, ax, name, ORDERS[k], column, scale, track, **layout.look(i, k, runs))
             words[name, column].append(mark_peak(ax, *tracks[0][:2], name, layout.look(i, 0, runs)["color"]))
             lags.append(-tracks[0][2])
-        lag = aligned(np.column_stack(lags[:2]))
+        lag = aligned(np.column_stack(lags[:2]), sense(run.input))
         for k, (name, _) in enumerate(names[:2]):
             own = layout.look(i, 0, runs) | {"linestyle": layout.DASHES[k]}
             plots.order_phase(run, panels["phase"], name, track=(speed, lag[:, k], -lag[:, k]), **own)
