@@ -25,8 +25,8 @@ module heat_balance
       real(wp) :: shaft = 0, drain = 0
    end type oil_temperatures_type
 
-   !> The groove before a pad: the pad upstream, the next one against the rotation; which share of the oil that leaves it may
-   !> come across.
+   !> The groove before a pad: the pad upstream, the next one against the rotation; which share of the oil that leaves
+   !> it may come across.
    type :: groove_type
       integer :: upstream = 0
       real(wp) :: carry_over = 0

@@ -89,8 +89,8 @@ contains
                      if (.not. ok) exit each_bearing
                   end do
                end do each_bearing
-               if (ok) call find_modes(found%with_rotor(i), model%point%sense*given%cross_stiffness, position_lengths(model), &
-                  & found%modes(i), ok)
+               if (ok) call find_modes(found%with_rotor(i), model%point%sense*given%cross_stiffness, &
+                  & position_lengths(model), found%modes(i), ok)
                if (.not. ok) then
                   call raise(error, numerics_error, 'the linear equations of the pads with '//found%bearings(i)%pivot &
                      & //' pivots are singular')

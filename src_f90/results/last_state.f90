@@ -71,8 +71,8 @@ contains
       logical :: same
       integer :: b
       if (there%operation%rotation /= here%operation%rotation) then
-         call raise(error, system_error, path//': its shaft turns '//there%operation%rotation//', and that of this case ' &
-            & //here%operation%rotation//'; no start for it')
+         call raise(error, system_error, path//': its shaft turns '//there%operation%rotation &
+            & //', and that of this case '//here%operation%rotation//'; no start for it')
          return
       end if
       same = there%is_machine() .eqv. here%is_machine()

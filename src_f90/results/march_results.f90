@@ -201,7 +201,8 @@ contains
       call put('full_frequency', [(k*step, k=-((n - 1)/2), n/2)], 'Hz', 'frequency, positive for forward whirl', &
          & 'full_frequency')
       call put('journal_full', full_amplitude(cmplx(y(1, :), inputs%sense()*z(1, :), wp)), 'm', &
-         & 'amplitude of journal_y + i journal_z, with -journal_z where the shaft turns anticlockwise', 'full_frequency')
+         & 'amplitude of journal_y + i journal_z, or - i journal_z where the shaft turns anticlockwise', &
+         & 'full_frequency')
       call file%put_count('spectrum/revolutions', int(revolutions, i8), 'revolutions covered')
    contains
       subroutine put(name, values, units, long_name, over)

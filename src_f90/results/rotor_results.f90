@@ -12,7 +12,8 @@ module rotor_results
 
 contains
 
-   !> Writes the response of a rotor whose coefficients and modes were written; it turns in the sense 1, clockwise, or -1.
+   !> Writes the response of a rotor whose coefficients and modes were written; it turns in the sense 1, clockwise,
+   !> or -1.
    subroutine put_rotor_response(file, coefficients, found, sense)
       class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: coefficients

@@ -17,8 +17,8 @@ module shaft_in_bearings
 
 contains
 
-   !> The equations of a machine's rotor, under gravity, m/s^2, for runs up to a speed, rad/s, in the sense 1, clockwise,
-   !> or -1.
+   !> The equations of a machine's rotor, under gravity, m/s^2, for runs up to a speed, rad/s, in the sense 1,
+   !> clockwise, or -1.
    subroutine find_rotor(machine, gravity, highest_speed, sense, matrices, error, modes)
       type(machine_type), intent(in) :: machine
       real(wp), intent(in) :: gravity, highest_speed, sense

@@ -22,8 +22,8 @@ contains
       end do
    end function static_forces
 
-   !> Moments of its unbalances, kg m, on a shaft that turns clockwise (sense = 1) or anticlockwise (-1): their forces at the shaft angle phi are Omega**2*(moments(1, :)*cos(phi)
-   !> + moments(2, :)*sin(phi)).
+   !> Moments of its unbalances, kg m, on a shaft that turns clockwise (sense = 1) or anticlockwise (-1): their forces
+   !> at the shaft angle phi are Omega**2*(moments(1, :)*cos(phi) + moments(2, :)*sin(phi)).
    pure function unbalances(machine, n, sense) result(moments)
       type(machine_type), intent(in) :: machine
       integer, intent(in) :: n

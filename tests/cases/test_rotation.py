@@ -12,7 +12,10 @@ BEARING = """&rotor mass=2000, static_load=1000,{aside:g} /
 &bearing machined_clearance=1e-4,1.1e-4,1e-4,0.95e-4 /
 &output samples_per_revolution=60 /
 """
-SHAKEN = "&excitation kind='harmonic', amplitude=500, frequency_ratio=0.5, rotating='forward', direction_deg={to} /\n"
+SHAKEN = (
+    "&excitation kind='harmonic', amplitude=500, frequency_ratio=0.5, rotating='forward',"
+    " direction_deg={to} /\n"
+)
 TABLE = "&excitation kind='table', file='{table}' /\n"
 EQUAL = {"angles": (-45, 225), "others": "arc_deg=69.3, pivot_ratio=0.5"}
 EQUAL_PADS = BEARING.replace("machined_clearance=1e-4,1.1e-4,1e-4,0.95e-4", "machined_clearance=1e-4")
@@ -54,7 +57,7 @@ CASES = {
 NEGATIVE = ("journal_z", "journal_vz", "excitation_z", "station_z", "station_slope_z", "poincare_z", "mean_z",
             "bearing_load_z", "bearing_offset_z", "z_real", "z_imag")  # fmt: skip
 SWAPPED = {"journal_z_max": "journal_z_min", "station_z_max": "station_z_min", "highest_z": "lowest_z"}
-#: Eigenvalues and vectors are those of LAPACK, whose rotations are others in a mirror: compared by their size.
+#: Eigenvalues are those of LAPACK, whose rotations are others in a mirror: equal to rounding.
 OF_LAPACK = ("eigenvalue", "modes/", "synchronous/", "least_damping", "whirl", "multiplier", "bifurcations")
 
 
@@ -134,7 +137,10 @@ def test_modes_and_attitude_angle_follow_the_sense_and_the_pads_their_edges(run,
     names, angles = {}, {}
     for each in ("own", "mirrored", "other"):
         with h5py.File(tmp_path / f"{each}.h5") as file:
-            names[each], angles[each] = list(file["modes/name"].asstr()[0]), file["equilibrium/attitude_angle"][()]
+            names[each], angles[each] = (
+                list(file["modes/name"].asstr()[0]),
+                file["equilibrium/attitude_angle"][()],
+            )
     assert names["own"] == names["mirrored"]
     assert any("forward" in each for each in names["own"])
     assert angles["own"] == angles["mirrored"]

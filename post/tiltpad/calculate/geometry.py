@@ -1,7 +1,7 @@
 """Where pads and journal are in a bearing, and the film between them.
 
-Lengths are in m, angles in rad, counted from +z towards +y; a shaft that turns clockwise turns towards smaller
-angles. A `case` is the resolved input: groups of variables, as run.input.
+Lengths are in m, angles in rad, counted from +z towards +y; a shaft that turns clockwise turns towards
+smaller angles. A `case` is the resolved input: groups of variables, as run.input.
 """
 
 from collections.abc import Mapping
@@ -84,8 +84,7 @@ def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:
     back = of_pads(case, "pads%pivot_distance")
     turning = sense(case)
     phi = np.linspace(-(1 - ratio) * arc, ratio * arc, points).T
-    # the journal from the pivot, in the pad's own directions (docs/theory/film.md); what turns anticlockwise is
-    # mirrored
+    # the journal from the pivot, in the pad's own directions (docs/theory/film.md), or in a mirror
     own, reach = pivot - turning * state.tilt, radius + assembled + back + state.pivot_deflection
     y = state.journal[0] - reach * np.sin(pivot)
     z = state.journal[1] - reach * np.cos(pivot)

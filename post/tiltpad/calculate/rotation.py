@@ -1,4 +1,4 @@
-"""The sense in which shafts turn, of runs and studies: 1 clockwise, from +y to +z, -1 anticlockwise, from +y to -z."""
+"""The sense in which shafts turn: 1 clockwise, from +y to +z; -1 anticlockwise, from +y to -z."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -22,7 +22,9 @@ def senses(source: Run | Study) -> np.ndarray:
     """The sense of a run, (1,), or of the runs of a study, (run,)."""
     if isinstance(source, Run):
         return np.array([sense(source.input)])
-    for variable, name in zip(f"{source.attributes.get('variables', '')}".split("\n"), source.parameters, strict=False):
+    for variable, name in zip(
+        f"{source.attributes.get('variables', '')}".split("\n"), source.parameters, strict=False
+    ):
         if variable == VARIABLE:
             return np.where(source[name] == ANTICLOCKWISE, -1, 1)
     groups = namelist.parse(f"{source.attributes['input']}")

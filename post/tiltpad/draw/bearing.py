@@ -147,7 +147,12 @@ def mark_edges(ax: Axes, drawing: Drawing) -> None:
 
 def mark_rotation(ax: Axes, sense: int) -> None:
     """Clockwise (sense 1), from +y towards +z, or anticlockwise."""
-    turn = {"connectionstyle": f"arc3,rad={-0.3 * sense}", "arrowstyle": "-|>", "mutation_scale": 11, "color": "C0"}
+    turn = {
+        "connectionstyle": f"arc3,rad={-0.3 * sense}",
+        "arrowstyle": "-|>",
+        "mutation_scale": 11,
+        "color": "C0",
+    }
     ax.add_patch(FancyArrowPatch(*(polar(0.7, each) for each in (140, 102)[::sense]), **turn, zorder=3))
     ax.text(*polar(0.47, 132), "rotation", **NOTE | {"color": "C0"}, zorder=3)
 

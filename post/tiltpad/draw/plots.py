@@ -136,7 +136,12 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
         if mark:
             small = note | {"fontsize": "x-small", "color": "C3" if "rubs" in mark else "0.3"}
             ax.text(*polar(0.86 * radius, angle), mark, **small, va="center")
-    turn = {"connectionstyle": f"arc3,rad={-0.32 * turning}", "arrowstyle": "-|>", "mutation_scale": 9, "color": "0.3"}
+    turn = {
+        "connectionstyle": f"arc3,rad={-0.32 * turning}",
+        "arrowstyle": "-|>",
+        "mutation_scale": 9,
+        "color": "0.3",
+    }
     ax.add_patch(FancyArrowPatch(*(polar(0.72 * radius, each) for each in (125, 55)[::turning]), **turn))
     ax.text(0, 0.5 * radius, "rotation", **note, va="center")
     ax.plot([-radius, 0], [0, 0], linewidth=0.6, color="0.3")

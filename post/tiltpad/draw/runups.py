@@ -22,8 +22,8 @@ ORDERS = (1, 2, 3)
 #: From where the phase is counted.
 PHASE = (
     "Phase lag: the shaft turns by this angle from where the unbalance points along +y to where the journal "
-    "is farthest along the axis. Forward whirl has z a quarter turn behind y where the shaft turns clockwise, ahead of it where it turns "
-    "anticlockwise."
+    "is farthest along the axis. Forward whirl has z a quarter turn behind y, or ahead of y where the shaft "
+    "turns anticlockwise."
 )
 
 
