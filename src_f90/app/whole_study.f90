@@ -4,10 +4,13 @@ module whole_study
    use errors, only: error_type, raise, input_error
    use case_inputs, only: case_type
    use result_size, only: size_note, is_huge
-   use assignments, only: assignment_type, target_text
+   use assignments, only: assignment_type, token_type, target_text
    use parameter_study, only: study_type, run_tag
    use namelist_writer, only: namelist_of
+   use number_columns, only: read_tables
    use files, only: is_regular
+   use read_files, only: file_marks
+   use rotor_file, only: read_rotor
    use processes, only: processors, is_terminal
    use working_file, only: clear_leftovers
    use record, only: record_type
@@ -32,6 +35,10 @@ module whole_study
       procedure :: perform
       procedure :: own_file
    end type case_runner_type
+
+   !> Variables that decide which files a run reads.
+   character(len=*), parameter :: deciding(3) = ['file', 'kind', 'law ']
+   character(len=*), parameter :: newline = achar(10)
 
 contains
 
@@ -206,7 +213,7 @@ contains
       end if
    end function own_file
 
-   !> The checksums of a study are those of its first run's case and of the runs' values.
+   !> The checksums of a study are those of its first run's case, of files that runs read, and of the runs' values.
    subroutine mark_study(study)
       type(study_type), intent(inout) :: study
       type(case_type) :: first
@@ -218,7 +225,45 @@ contains
          ! others may be good, and run by --run
          call study%mark('')
       else
-         call study%mark(namelist_of(first))
+         call study%mark(namelist_of(first)//marks_of_files(study))
       end if
    end subroutine mark_study
+
+   !> Checksums of the files of rotors, pivots and excitations that runs read: of the first run, and of those in which a
+   !> value that decides which file is read stands for the first or the last time. Empty where there are none.
+   function marks_of_files(study) result(marks)
+      type(study_type), intent(in) :: study
+      character(len=:), allocatable :: marks, seen
+      type(assignment_type), allocatable :: varied(:)
+      type(token_type) :: token
+      integer :: i, k, way
+      varied = study%variables()
+      marks = marks_of_run(study, 1)
+      do i = 1, size(varied)
+         if (all(varied(i)%name /= deciding)) cycle
+         do way = 1, -1, -2
+            seen = newline
+            do k = merge(1, study%runs, way > 0), merge(study%runs, 1, way > 0), way
+               call study%value(i, k, token)
+               if (index(seen, newline//token%text//newline) > 0) cycle
+               seen = seen//token%text//newline
+               marks = marks//marks_of_run(study, k)
+            end do
+         end do
+      end do
+   end function marks_of_files
+
+   !> Those of one run; empty where it is not possible or a file cannot be read, as its row says.
+   function marks_of_run(study, k) result(marks)
+      type(study_type), intent(in) :: study
+      integer, intent(in) :: k
+      character(len=:), allocatable :: marks
+      type(case_type) :: inputs
+      type(error_type), allocatable :: error
+      marks = ''
+      call study%inputs(k, inputs, error)
+      if (.not. allocated(error) .and. inputs%is_machine()) call read_rotor(inputs%machine, error)
+      if (.not. allocated(error)) call read_tables(inputs, error)
+      if (.not. allocated(error)) marks = file_marks(inputs)
+   end function marks_of_run
 end module whole_study

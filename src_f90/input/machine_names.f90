@@ -5,7 +5,7 @@ module machine_names
    implicit none (type, external)
    private
    public :: counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable, group_heading
-   public :: identifier_of, is_name, longest_bearing
+   public :: identifier_of, is_name, is_spelled, longest_bearing
 
    !> Groups of what there may be several of on a rotor, and of each bearing.
    character(len=*), parameter :: several = ' disc unbalance load excitation '
@@ -86,4 +86,18 @@ contains
       is_name = len(name) > 0 .and. len(name) <= longest_bearing .and. verify(name, letters//'0123456789_') == 0
       if (is_name) is_name = index(letters, name(1:1)) > 0
    end function is_name
+
+   !> Whether a group is spelled as one: alone, with a number, disc(2), or with the name of a bearing, pads:drive_end,
+   !> where there are such groups of its kind.
+   pure logical function is_spelled(group)
+      character(len=*), intent(in) :: group
+      character(len=:), allocatable :: kind, number
+      kind = kind_of(group)
+      is_spelled = kind == group
+      if (index(group, ':') > 0) is_spelled = may_have_bearing(kind) .and. is_name(bearing_of(group))
+      if (index(group, '(') /= len(kind) + 1) return
+      number = group(len(kind) + 2:max(len(group) - 1, len(kind) + 1))
+      is_spelled = is_counted(kind) .and. group == kind//'('//number//')' .and. number /= '' &
+         & .and. verify(number, '0123456789') == 0
+   end function is_spelled
 end module machine_names

@@ -18,6 +18,20 @@ module number_columns
    !> Longest file, bytes.
    integer, parameter :: longest_file = 100000000
    character(len=*), parameter :: newline = achar(10), carriage = achar(13)
+   !> Least time between two rows, s.
+   real(wp), parameter :: shortest_time = 1e-9_wp
+
+   !> A column, and what is allowed of its numbers, in this unit.
+   type :: column_type
+      character(len=10) :: name
+      real(wp) :: low, high
+      character(len=1) :: unit
+   end type column_type
+
+   type(column_type), parameter :: of_pivots(2) = [column_type('deflection', 0.0_wp, 0.1_wp, 'm'), &
+      & column_type('force', 0.0_wp, 1e12_wp, 'N')]
+   type(column_type), parameter :: of_excitations(3) = [column_type('time', 0.0_wp, 1e6_wp, 's'), &
+      & column_type('force_y', -1e12_wp, 1e12_wp, 'N'), column_type('force_z', -1e12_wp, 1e12_wp, 'N')]
 
 contains
 
@@ -45,19 +59,18 @@ contains
       character(len=*), intent(in) :: variable
       type(pivot_type), intent(inout) :: pivot
       type(error_type), allocatable, intent(inout) :: error
-      character(len=10), parameter :: names(2) = [character(len=10) :: 'deflection', 'force']
       real(wp), allocatable :: numbers(:, :)
       real(wp) :: before(2)
       integer :: i, k, first
       if (pivot%law /= 'table') return
-      call read_columns(pivot%file, names, numbers, error)
+      call read_columns(pivot%file, of_pivots, numbers, error)
       if (.not. allocated(error)) then
          first = merge(2, 1, all(abs(numbers(:, 1)) <= 0))
          before = 0
          do k = first, size(numbers, 2)
             do i = 1, 2
                if (.not. numbers(i, k) > before(i)) call refuse(pivot%file//' line '//to_text(k + 1)//': ' &
-                  & //trim(names(i))//' = '//to_text(numbers(i, k))//': must be above '//to_text(before(i)) &
+                  & //trim(of_pivots(i)%name)//' = '//to_text(numbers(i, k))//': must be above '//to_text(before(i)) &
                   & //trim(merge(repeat(' ', 25), ', that of the line before', k == first)), error)
             end do
             before = numbers(:, k)
@@ -78,16 +91,14 @@ contains
       do i = 1, size(inputs%excitations)
          associate (x => inputs%excitations(i))
             if (x%kind /= 'table') cycle
-            call read_columns(x%file, [character(len=7) :: 'time', 'force_y', 'force_z'], numbers, error)
+            call read_columns(x%file, of_excitations, numbers, error)
             if (.not. allocated(error)) then
                x%time = numbers(1, :)
                x%table = numbers(2:, :)
-               if (x%time(1) < 0) call raise(error, input_error, x%file//' line 2: time = '//to_text(x%time(1)) &
-                  & //': must be at least 0, the start of the excitation')
                do k = 2, size(x%time)
-                  if (.not. x%time(k) > x%time(k - 1)) call raise(error, input_error, x%file//' line '//to_text(k + 1) &
-                     & //': time = '//to_text(x%time(k))//': must be above that of the line before, ' &
-                     & //to_text(x%time(k - 1)))
+                  if (.not. x%time(k) - x%time(k - 1) >= shortest_time) call raise(error, input_error, x%file &
+                     & //' line '//to_text(k + 1)//': time = '//to_text(x%time(k))//': must be ' &
+                     & //to_text(shortest_time)//' s or more above that of the line before, '//to_text(x%time(k - 1)))
                end do
             end if
             call add_context(error, 'excitation('//to_text(i)//')%file')
@@ -96,9 +107,10 @@ contains
       end do
    end subroutine read_excitations
 
-   !> Numbers of a file, (column, row), two rows at least. Its columns must have these names in this order.
-   subroutine read_columns(file, names, numbers, error)
-      character(len=*), intent(in) :: file, names(:)
+   !> Numbers of a file, (column, row), two rows at least. Its columns must be these in this order.
+   subroutine read_columns(file, columns, numbers, error)
+      character(len=*), intent(in) :: file
+      type(column_type), intent(in) :: columns(:)
       real(wp), allocatable, intent(out) :: numbers(:, :)
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: text, line
@@ -115,7 +127,7 @@ contains
       ! a UTF-8 byte order mark
       if (index(text, char(239)//char(187)//char(191)) == 1) at = 4
       last = verify(text, ' '//newline//carriage//achar(9), back=.true.)
-      allocate (rows(size(names), 64))
+      allocate (rows(size(columns), 64))
       row = -1
       do while (at <= last)
          length = index(text(at:last), newline) - 1
@@ -123,16 +135,16 @@ contains
          line = text(at:at + length - 1)
          at = at + length + 1
          row = row + 1
-         if (row > size(rows, 2)) rows = reshape(rows, [size(names), 2*size(rows, 2)], pad=rows)
+         if (row > size(rows, 2)) rows = reshape(rows, [size(columns), 2*size(rows, 2)], pad=rows)
          if (row == 0) then
-            call check_names(line, file, names, error)
+            call check_names(line, file, columns%name, error)
          else
-            call read_row(line, file//' line '//to_text(row + 1), names, rows(:, row), error)
+            call read_row(line, file//' line '//to_text(row + 1), columns, rows(:, row), error)
          end if
          if (allocated(error)) return
       end do
       if (row < 2) call raise(error, input_error, file//': has '//to_text(max(0, row))//' rows of numbers; it needs ' &
-         & //'a line of names, '//listed(names)//', and two rows or more')
+         & //'a line of names, '//listed(columns%name)//', and two rows or more')
       numbers = rows(:, :max(0, row))
    end subroutine read_columns
 
@@ -154,8 +166,9 @@ contains
    end subroutine check_names
 
    !> A number for each column.
-   subroutine read_row(line, origin, names, numbers, error)
-      character(len=*), intent(in) :: line, origin, names(:)
+   subroutine read_row(line, origin, columns, numbers, error)
+      character(len=*), intent(in) :: line, origin
+      type(column_type), intent(in) :: columns(:)
       real(wp), intent(out) :: numbers(:)
       type(error_type), allocatable, intent(inout) :: error
       type(cell_type) :: cell
@@ -163,18 +176,23 @@ contains
       logical :: ok
       at = 1
       numbers = 0
-      do i = 1, size(names)
+      do i = 1, size(columns)
          call next_cell(without_return(line), at, cell)
          call read_number(lower_case(content(line, cell)), numbers(i), ok)
          if (ok) ok = ieee_is_finite(numbers(i))
          if (.not. ok) then
-            call raise(error, input_error, origin//': '//trim(names(i))//' = '//shortened(content(line, cell)) &
-               & //': must be a finite number; commas separate the columns, and decimals have a point')
+            call raise(error, input_error, origin//': '//trim(columns(i)%name)//' = ' &
+               & //shortened(content(line, cell))//': must be a finite number; commas separate the columns, and ' &
+               & //'decimals have a point')
             return
          end if
+         if (numbers(i) >= columns(i)%low .and. numbers(i) <= columns(i)%high) cycle
+         call raise(error, input_error, origin//': '//trim(columns(i)%name)//' = '//to_text(numbers(i))//': must be ' &
+            & //to_text(columns(i)%low)//' to '//to_text(columns(i)%high)//' '//columns(i)%unit)
+         return
       end do
       if (at <= len(without_return(line)) + 1) call raise(error, input_error, origin//': has more than ' &
-         & //to_text(size(names))//' numbers; the columns are '//listed(names))
+         & //to_text(size(columns))//' numbers; the columns are '//listed(columns%name))
    end subroutine read_row
 
    !> A line without a carriage return at its end.

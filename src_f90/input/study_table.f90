@@ -9,7 +9,7 @@ module study_table
    use case_fields, only: list_all_variables
    use variable_names, only: meant_variable, meant_group, group_names
    use assignments, only: assignment_type, token_type, target_text, split_subscript
-   use machine_names, only: kind_of
+   use machine_names, only: kind_of, is_spelled
    use text_scanner, only: control_character
    use csv_line, only: cell_type, next_cell, content
    use input_file, only: read_input
@@ -217,7 +217,8 @@ contains
       else if (.not. ok .or. new%group == '' .or. new%name == '' .or. index(name, ' ') > 0) then
          fault = ''''//shortened(name)//''': expected a variable, group%name or group%name(element)' &
             & //meant_variable('', new%name)
-      else if (all([(known%variables(i)%group /= kind_of(new%group), i=1, known%count)])) then
+      else if (all([(known%variables(i)%group /= kind_of(new%group), i=1, known%count)]) &
+         & .or. .not. is_spelled(new%group)) then
          fault = 'unknown group '//shortened(new%group)//meant_group(kind_of(new%group))//'; known:'//group_names()
       else
          variable = known%find(kind_of(new%group), new%name)

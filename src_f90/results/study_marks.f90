@@ -56,7 +56,8 @@ contains
          call study%tag(runs, last)
          if (marks == '' .or. first%marks == '') return
          if (word(first%marks, 1) /= word(marks, 1)) then
-            call raise(error, system_error, path//': is the study of another case')
+            call raise(error, system_error, path//': is the study of another case, or of files that have ' &
+               & //'changed since')
          else if (word(last%marks, 2) /= word(marks, 2)) then
             call raise(error, system_error, path//': is of another study: its runs have other values')
          end if

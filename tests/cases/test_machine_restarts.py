@@ -128,6 +128,30 @@ def test_a_file_that_has_changed_is_no_way_on(start, tiltpad, tmp_path, case, ma
         assert file.attrs["complete"] == 1
 
 
+@pytest.mark.parametrize(
+    ("case", "make", "varied"),
+    [
+        (GIVEN, write_rotor, "sweep%operation%speed_rpm=600,700"),
+        (TABLE, write_force, "sweep%operation%speed_rpm=600,700"),
+        (TABLE, write_force, "sweep%excitation(1)%file='other.csv','force.csv'"),
+    ],
+    ids=["rotor", "table", "second table"],
+)
+def test_a_study_does_not_go_on_with_other_files(tiltpad, tmp_path, case, make, varied):
+    """Its rows would be of two rotors; the same numbers, written anew, are the same."""
+    make(tmp_path, 0.5)
+    if (tmp_path / "force.csv").exists():
+        (tmp_path / "force.csv").rename(tmp_path / "other.csv")
+    make(tmp_path, 0.0)
+    (tmp_path / "case.nml").write_text(case.replace("1000", "0.01"))
+    tiltpad("case.nml", "-q", overrides=[varied], cwd=tmp_path, status=0)
+    make(tmp_path, 1e-15)
+    line = tiltpad("case.nml", "-q", overrides=[varied], cwd=tmp_path, status=3).stderr
+    assert "case.h5: is the study of another case, or of files that have changed since" in line
+    make(tmp_path, 0.0)
+    tiltpad("case.nml", "-q", overrides=[varied], cwd=tmp_path, status=0)
+
+
 @pytest.fixture(scope="module")
 def orbit(tiltpad, tmp_path_factory):
     """A folder with first.h5, a march that has come to its orbit."""

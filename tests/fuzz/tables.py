@@ -11,7 +11,10 @@ from reader import CONTROL, Refused
 from reference import Variable
 from spelling import BOM, cased
 
-NAME = re.compile(rb"(\w+%\w+)(?:\(([0-9]{1,9})\))?", re.ASCII)
+NAME = re.compile(rb"(\w+)(\([0-9]+\)|:[a-z]\w{0,29})?%(\w+)(?:\(([0-9]{1,9})\))?", re.ASCII)
+#: Groups of which a machine has several, and those of its bearings.
+COUNTED = b"disc unbalance load excitation".split()
+OF_BEARINGS = b"bearing support oil pads pivot friction asperity film".split()
 CELL = re.compile(rb'[ \t]*+(?:"((?:[^"]|"")*+)"|((?!")[^,]*?))[ \t]*(?:,|\Z)')
 NUMBER = re.compile(rb"[-+.0-9eEdD]*")
 # cells of a table that is right in itself, whatever its variables take; and what breaks one
@@ -78,18 +81,27 @@ def read(text: bytes, variables: dict[str, Variable]) -> bytes:
         raise Refused("empty")
     head, *rows = (cells(line.removesuffix(b"\r")) for line in lines)
     found = [NAME.fullmatch(name.lower()) for name in head]
-    names = [each and variables.get(each[1].decode("latin-1")) for each in found]
-    if not all(names) or not all(each[2] is None or 0 < int(each[2]) < 10000 for each in found):
+    names = [each and variable(each, variables) for each in found]
+    if not all(names) or not all(each[4] is None or 0 < int(each[4]) < 10000 for each in found):
         raise Refused("no variable")
     if not rows or any(len(row) != len(head) or not all(row) for row in rows):
         raise Refused("rows")
     said = [b"%d" % len(rows)]
     for each in found:
-        said.append(each[1] + (b"(%d)" % int(each[2]) if each[2] else b""))
+        element = b"(%d)" % int(each[4]) if each[4] else b""
+        said.append(each[1] + (each[2] or b"") + b"%" + each[3] + element)
     for k, row in enumerate(rows, 1):
         if k <= SHOWN or k == len(rows):
             said += [value(cell, of.is_text) for cell, of in zip(row, names, strict=True)]
     return b"".join(each + b"\0" for each in said)
+
+
+def variable(name: re.Match, variables: dict[str, Variable]) -> Variable | None:
+    """The variable of a name, whose group may have a number or the name of a bearing."""
+    group, which, own = name[1], name[2] or b"", name[3]
+    if which and group not in (COUNTED if which.startswith(b"(") else OF_BEARINGS):
+        return None
+    return variables.get((group + b"%" + own).decode("latin-1"))
 
 
 def cells(line: bytes) -> list[bytes]:

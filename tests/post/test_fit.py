@@ -78,7 +78,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
 
 
 def test_three_parameters_come_back_from_a_noisy_orbit(orbit):
-    """From far away; errors over their covariance are chi-squared of 3 (docs/verify_fits.py: 20 seeds)."""
+    """From far away; errors over their covariance are chi-squared of 3 (docs/verify_fits.py: 60 seeds)."""
     fit = tiltpad.fit(CASE, noisy(orbit), FREE)
     error = fit.values - list(TRUE.values())
     assert error @ np.linalg.inv(fit.covariance) @ error < stats.chi2(3).ppf(0.999)

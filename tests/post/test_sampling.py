@@ -103,6 +103,7 @@ def test_groups_of_a_machine_are_sampled(tmp_path):
             np.testing.assert_array_equal(study[name], values[:, k])
         most = {}
         for bearing, own in study.bearings.items():
+            assert all(len(own[name]) for name in own.names())
             found = tiltpad.sensitivity(own, "equilibrium_journal_y")
             most[bearing] = found.inputs[int(np.argmax(found.first))]
     assert most == {"left": "pads_left_arc_deg_1", "right": "pivot_right_radius_difference"}

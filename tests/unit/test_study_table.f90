@@ -115,6 +115,11 @@ contains
       call expect_wrong('rotor%mass;rotor%gravity'//newline//'1;2', 'column 1: commas must separate the columns')
       call expect_wrong('rotor%mass'//achar(9)//'rotor%gravity'//newline//'1 2', 'not semicolons or tabs')
       call expect_wrong('"rotor%mass,rotor%gravity'//newline//'1,2', 'column 1: the quote is not closed')
+      call expect_wrong('pivot(%file'//newline//'a.csv', 'unknown group pivot(')
+      call expect_wrong('rotor:left%mass'//newline//'1', 'unknown group rotor:left')
+      call expect_wrong('excitation()%amplitude'//newline//'1', 'unknown group excitation()')
+      call expect_table('excitation(2)%amplitude,pads:left%mass(3)'//newline//'1,2', &
+         & 'excitation(2)%amplitude | pads:left%mass(3) | 1 | 2')
       call expect_wrong(repeat('rotor%mass,', 1000)//'rotor%mass'//newline//'1', 'column 1001: more than 1000 columns')
    end subroutine names
 

@@ -22,8 +22,10 @@ REVOLUTIONS = 50
 #: States that Poincare points are kept of.
 POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}
 
-#: The group of the groups of a machine's bearings; how names begin that are of a machine as a whole alone.
+#: The group of the groups of a machine's bearings; how names begin that are of a machine as a whole alone, also
+#: behind EQUILIBRIUM.
 BEARINGS, OF_MACHINES = "bearings", ("station", "bearing", "response", "synchronous")
+EQUILIBRIUM = "equilibrium_"
 
 #: Most bytes of a column of a study that is still being run: a thousand values of a hundred thousand runs.
 UNWRITTEN = 800_000_000
@@ -248,7 +250,8 @@ class BearingStudy(Study):
     def names(self, group: str = "") -> list[str]:
         """Names of the datasets of the bearing, and of the machine as a whole."""
         if group not in self.listed:
-            shared = {name for name in self.machine.names() if not name.startswith(OF_MACHINES)}
+            every = self.machine.names()
+            shared = {each for each in every if not each.removeprefix(EQUILIBRIUM).startswith(OF_MACHINES)}
             self.listed[group] = [] if group else sorted(shared.union(self.inner(self.group)))
         return self.listed[group]
 
