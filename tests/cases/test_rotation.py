@@ -45,6 +45,7 @@ CASES = {
     "equilibrium": (BEARING, PADS, ("case%task='equilibrium'", "film%solver='direct'")),
     "coefficients": (BEARING, PADS, (COEFFICIENTS, *THRESHOLD)),
     "warm": (BEARING, PADS, (COEFFICIENTS, *WARM)),
+    "warm march": (BEARING, PADS, (*WARM, "operation%duration=0.004")),
     "periodic": (BEARING + SHAKEN, PADS, ("case%task='periodic'",)),
     "orbits": (BEARING, PADS, (*SPEEDS, "branch%last=6700")),
     "equilibria": (BEARING, PADS, (*SPEEDS, "branch%last=6700", "branch%of='equilibrium'")),

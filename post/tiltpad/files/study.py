@@ -22,8 +22,8 @@ REVOLUTIONS = 50
 #: States that Poincare points are kept of.
 POINTS = {"poincare_y": "journal_y", "poincare_z": "journal_z", "poincare_tilt": "pad_tilt"}
 
-#: The group of the groups of a machine's bearings; how names begin that are of a machine as a whole alone, also
-#: behind EQUILIBRIUM.
+#: The group of the groups of a machine's bearings; how names begin that are of a machine as a whole alone,
+#: also behind EQUILIBRIUM.
 BEARINGS, OF_MACHINES = "bearings", ("station", "bearing", "response", "synchronous")
 EQUILIBRIUM = "equilibrium_"
 
