@@ -7,6 +7,7 @@ module case_run
    use ode_model, only: integrator_counts_type
    use film_solver, only: film_counters
    use equations_of_motion, only: machine_model
+   use bearing_shape, only: bearing_shape_type
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
    use provenance, only: running
@@ -36,6 +37,8 @@ module case_run
       logical :: computed = .false.
       type(run_file_type) :: file
       type(machine_model) :: model
+      !> What its equilibrium has made of the bearing, where that changes its shape.
+      type(bearing_shape_type), allocatable :: shape
       !> Remarks that were printed last, a line each.
       character(len=:), allocatable :: remarks
       !> Of all samples of each bearing.

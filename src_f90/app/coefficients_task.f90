@@ -95,8 +95,13 @@ contains
       type(case_type), intent(in) :: inputs
       !> Whether the damping of a mode is that of the reduction, (mode, pivot).
       logical, intent(in) :: of_reduction(:, :)
+      character(len=:), allocatable :: kept
       integer :: b, i, k
-      if (inputs%thermal%model /= 'none') print '(a)', 'stiffness and damping at the viscosities of this equilibrium:'
+      kept = ''
+      if (inputs%thermal%model /= 'none') kept = 'viscosities'
+      if (inputs%changes_shape() .and. kept /= '') kept = kept//' and '
+      if (inputs%changes_shape()) kept = kept//'clearances'
+      if (kept /= '') print '(a)', 'stiffness and damping at the '//kept//' of this equilibrium:'
       associate (ratios => inputs%coefficients%frequency_ratio)
          do i = 1, size(found%bearings)
             print '(a)', pivots_of(found, i, inputs)//':'

@@ -11,6 +11,7 @@ module equilibrium_notes
       & put_film_temperatures
    use oil_results, only: put_oil
    use machine_results, only: put_machine_equilibrium
+   use shape_results, only: put_shape, print_shape
    use case_run, only: case_run_type
    use run_summary, only: print_shaft, print_equilibrium, stability_text, print_figures, print_temperatures, &
       & print_misalignment, bearing_title
@@ -29,7 +30,9 @@ contains
       run%model%oil = static%oil
       run%computed = .true.
       if (.not. run%inputs%is_machine()) then
+         if (allocated(run%shape)) call put_shape(run%file, run%shape)
          call note_bearing(run, run%model, static, 1, 'equilibrium: ', .not. run%quiet)
+         if (allocated(run%shape) .and. .not. run%quiet) call print_shape(run%inputs, run%shape)
          call put_stability(run%file, static)
          call run%note_remarks(shown=.true.)
          return

@@ -2,6 +2,8 @@
 module run_start
    use kinds, only: wp
    use text, only: to_text
+   use case_inputs, only: case_type
+   use bearing_shape, only: bearing_shape_type
    use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
    use files, only: real_path
    use read_files, only: file_marks, marks_name
@@ -17,6 +19,7 @@ module run_start
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
    use machine_results, only: put_machine
+   use shape_results, only: put_shape, read_shape
    use march_results, only: put_excitations, put_viscosity_history
    use oil_results, only: put_oil, read_oil
    use stop_signals, only: stop_requested, stop_reason
@@ -26,7 +29,7 @@ module run_start
    use run_summary, only: print_start
    implicit none (type, external)
    private
-   public :: start_at_equilibrium, seek_equilibrium, make_start, take_oil, restore_oil, continue_from_checkpoint
+   public :: start_at_equilibrium, seek_equilibrium, make_start, take_oil, restore_shape, restore_oil, continue_from_checkpoint
 
 contains
 
@@ -65,7 +68,32 @@ contains
       if (allocated(error)) return
       call find_equilibrium(run%model, static, error, stop_requested)
       call say_nothing_computed(error)
+      if (.not. allocated(error)) call take_shape(run, static%shape)
    end subroutine seek_equilibrium
+
+   !> Gives the model of a run the shape of its equilibrium, where that changes it; all that follows keeps it.
+   subroutine take_shape(run, shape)
+      type(case_run_type), intent(inout) :: run
+      type(bearing_shape_type), allocatable, intent(in) :: shape
+      type(case_type) :: inputs
+      if (.not. allocated(shape)) return
+      inputs = run%model%inputs
+      call shape%apply(inputs)
+      call run%model%adopt(inputs, .true.)
+      run%shape = shape
+   end subroutine take_shape
+
+   !> Gives the model the shape that a result of the run has, if it has one; before its oil.
+   subroutine restore_shape(run, file, error)
+      type(case_run_type), intent(inout) :: run
+      class(run_file_type), intent(in) :: file
+      type(error_type), allocatable, intent(inout) :: error
+      type(bearing_shape_type), allocatable :: shape
+      if (.not. run%inputs%changes_shape()) return
+      call read_shape(file, run%inputs, shape, error)
+      call add_context(error, run%path)
+      if (.not. allocated(error)) call take_shape(run, shape)
+   end subroutine restore_shape
 
    !> What an error says of a signal that stops a run before its march.
    subroutine say_nothing_computed(error)
@@ -99,6 +127,7 @@ contains
             if (from == 'file') call start_from_file(run, rotor, pads, error)
             if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, .false., error, equilibrium_state)
             if (.not. allocated(error)) call create_file(run, error)
+            if (allocated(run%shape)) call put_shape(run%file, run%shape)
             if (from == 'partial' .and. .not. allocated(error)) call start_partially(run, rotor, pads, error)
             if (allocated(error)) return
             call note_oil(run)
@@ -134,7 +163,8 @@ contains
       end do
    end subroutine note_oil
 
-   !> Gives warm oil the viscosities of the equilibrium, which it keeps in a march that starts elsewhere.
+   !> Gives warm oil the viscosities, and the bearing the shape, of the equilibrium, which it keeps in a march that
+   !> starts elsewhere.
    subroutine take_oil(run, partly, error, equilibrium_state)
       type(case_run_type), intent(inout) :: run
       !> Whether it is the equilibrium of the pads that have one.
@@ -145,21 +175,22 @@ contains
       type(equilibrium_type) :: static
       real(wp), allocatable :: y(:)
       logical, allocatable :: held(:)
-      if (.not. has_warm_oil(run%model)) return
+      if (.not. (has_warm_oil(run%model) .or. run%inputs%changes_shape())) return
       if (partly) then
          call find_partial_equilibrium(run%model, static, held, error, stop_requested)
       else
          call find_equilibrium(run%model, static, error, stop_requested)
       end if
       if (.not. allocated(error)) then
+         call take_shape(run, static%shape)
          run%model%oil = static%oil
          y = run%model%static_state(static%rotor, static%tilt, static%pivot_deflection)
          call let_grooves_warm(run, y, error)
          if (present(equilibrium_state)) equilibrium_state = y
       else if (error%status == stopped) then
-         error%message = stop_reason()//' while the temperatures of the oil were sought'
+         error%message = stop_reason()//' while the equilibrium was sought'
       else
-         call add_context(error, 'the oil takes the temperatures of the equilibrium')
+         call add_context(error, 'oil and shape are those of the equilibrium')
       end if
    end subroutine take_oil
 
@@ -212,6 +243,7 @@ contains
       allocate (y(run%model%n))
       run%earlier = run%statistics()
       call run%file%resume(run%inputs, t, run%earlier, error, y)
+      if (.not. allocated(error)) call restore_shape(run, run%file, error)
       if (.not. allocated(error)) call restore_oil(run, run%file, error)
       if (allocated(error)) return
       run%computed = .true.

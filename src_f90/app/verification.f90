@@ -20,7 +20,7 @@ module verification
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use oil_results, only: read_oil
-   use run_start, only: restore_oil
+   use run_start, only: restore_shape, restore_oil
    implicit none (type, external)
    private
    public :: check_verification, verify_films, sample_of
@@ -71,6 +71,7 @@ contains
       if (allocated(error)) return
       call file%reopen(run%inputs, error)
       if (.not. allocated(error)) call file%begin_series('time', 0_i8)
+      if (.not. allocated(error) .and. remade) call restore_shape(run, file, error)
       if (.not. allocated(error) .and. remade .and. file%samples > 0) call restore_oil(run, file, error)
       if (.not. allocated(error)) then
          if (file%samples > 0) then
@@ -108,7 +109,7 @@ contains
       integer :: n, k
       n = int(min(int(run%verified_states, i8), file%samples))
       allocate (time(n), found(size(pads), n))
-      comparison = new_film_comparison(run%inputs)
+      comparison = new_film_comparison(run%model%inputs)
       do k = 1, n
          sample = sample_of(k, n, file%samples, run%inputs%output%samples_per_revolution)
          call file%part_of_samples('time', sample, 1, at)
@@ -163,7 +164,7 @@ contains
       if (static%layout%bearings(1)%radial) call file%get_list('equilibrium/pivot_deflection', pads%pivot_deflection)
       if (has_warm_oil(static)) call read_oil(file, 'equilibrium/', static%oil, error)
       if (allocated(error)) return
-      comparison = new_film_comparison(run%inputs)
+      comparison = new_film_comparison(run%model%inputs)
       call comparison%compare(static, 0.0_wp, static%static_state(journal, pads%tilt, pads%pivot_deflection), &
          & found(:, 1))
    end subroutine verify_equilibrium

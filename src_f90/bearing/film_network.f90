@@ -24,6 +24,8 @@ module film_network
       type(oil_temperatures_type) :: oil
       !> Heat that each film gives to the shaft and to its pad, W.
       real(wp), allocatable :: to_shaft(:), to_pad(:)
+      !> Pads that keep their temperatures.
+      logical, allocatable :: kept(:)
    end type warm_films_type
 
 contains
@@ -42,6 +44,7 @@ contains
          if (is_set(oil%back_temperature)) films%heat%back_temperature = oil%back_temperature
          allocate (films%fields(solid_layers + layers, inputs%thermal%stations, size(temperature)))
          allocate (films%surfaces(inputs%thermal%stations, size(temperature)))
+         allocate (films%kept(size(temperature)), source=.false.)
          do i = 1, size(temperature)
             films%fields(:, :, i) = temperature(i)
             films%surfaces(:, i) = temperature(i)

@@ -7,6 +7,7 @@ module case_checks
    use case_inputs, only: case_type
    use excitation_checks, only: check_excitations
    use machine_checks, only: check_machine
+   use shape_checks, only: check_shape
    implicit none (type, external)
    private
    public :: check_case
@@ -37,6 +38,7 @@ contains
       call check_output(inputs, error)
       call check_tasks(inputs, error)
       call check_film_temperatures(inputs, error)
+      call check_shape(inputs, error)
       call check_branch(inputs, error)
       call check_excitations(inputs, error)
    end subroutine check_case

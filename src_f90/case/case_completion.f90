@@ -171,7 +171,7 @@ contains
             call require_range('centre_radial', p%centre_radial(i), centre_range, error)
          end if
          p%density(i) = unset
-         if (inputs%thermal%model == 'film') then
+         if (needs_thickness(inputs)) then
             call fill(p%thickness(i), p%pivot_distance(i))
          else
             p%thickness(i) = unset
@@ -190,12 +190,18 @@ contains
                & //to_text(p%mass(i))//' is given too; give one of them (pad '//to_text(i)//')')
          else if (is_set(p%thickness(i)) .and. is_set(p%mass(i)) .and. is_set(p%inertia(i)) &
             & .and. is_set(p%centre_tangential(i)) .and. is_set(p%centre_radial(i)) &
-            & .and. inputs%thermal%model /= 'film') then
+            & .and. .not. needs_thickness(inputs)) then
             call raise(error, input_error, 'pads%thickness = '//to_text(p%thickness(i))//': has no effect where ' &
                & //'mass, inertia, centre_tangential and centre_radial are given (pad '//to_text(i)//')')
          end if
       end associate
    end subroutine refuse_surplus
+
+   !> Whether heat flows through the pads, or they bend.
+   pure logical function needs_thickness(inputs)
+      type(case_type), intent(in) :: inputs
+      needs_thickness = inputs%thermal%model == 'film' .or. inputs%pads%bending /= 'none'
+   end function needs_thickness
 
    !> True where a pad has the size of the paper's, clearances apart.
    pure logical function has_size_of(inputs, i, paper)

@@ -56,6 +56,10 @@ module case_groups
       real(wp), allocatable :: machined_clearance(:), assembled_clearance(:), preload(:), axial_length(:)
       !> Of the oil, where its law is 'constant'; else unset in a complete case.
       real(wp) :: viscosity = 19e-3_wp
+      !> C, at which the clearances were measured (unset: they are those in operation); linear expansion of shaft and
+      !> housing, 1/K, that of steel; temperature of the housing (unset: that of the supply).
+      real(wp) :: clearance_temperature = unset, shaft_expansion = 11e-6_wp, housing_expansion = 11e-6_wp
+      real(wp) :: housing_temperature = unset
       real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
    end type bearing_type
 
@@ -100,6 +104,11 @@ module case_groups
       !> W/(m K); it counts, with the thickness, where films have temperatures.
       real(wp), allocatable :: conductivity(:)
       character(len=:), allocatable :: motion
+      !> What bends the pads; their modulus, Pa, ratio of Poisson and linear expansion, 1/K.
+      character(len=:), allocatable :: bending
+      real(wp), allocatable :: elastic_modulus(:), poisson_ratio(:), expansion(:)
+      !> C; unset: from the temperatures of the films.
+      real(wp), allocatable :: temperature(:)
    end type pads_type
 
    type :: pivot_type

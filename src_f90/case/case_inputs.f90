@@ -42,6 +42,7 @@ module case_inputs
       procedure :: clearance
       procedure :: moves
       procedure :: seeks_orbits
+      procedure :: changes_shape
       procedure :: tilting
       procedure :: tilting_radial
       procedure :: highest_speed
@@ -84,6 +85,11 @@ contains
       inputs%pads%thickness = [unset, unset]
       inputs%pads%conductivity = [50.0_wp, 50.0_wp]
       inputs%pads%motion = 'tilting_radial'
+      inputs%pads%bending = 'none'
+      inputs%pads%elastic_modulus = [2.1e11_wp, 2.1e11_wp]
+      inputs%pads%poisson_ratio = [0.3_wp, 0.3_wp]
+      inputs%pads%expansion = [11e-6_wp, 11e-6_wp]
+      inputs%pads%temperature = [unset, unset]
       inputs%pivot%law = 'fang'
       inputs%pivot%file = ''
       inputs%pivot%socket_radius = [13e-3_wp, 13e-3_wp]
@@ -212,6 +218,12 @@ contains
       class(case_type), intent(in) :: self
       clearance = minval(self%bearing%assembled_clearance)
    end function clearance
+
+   !> Whether the equilibrium changes clearances: pads bend, or shaft, pads and housing expand.
+   pure logical function changes_shape(self)
+      class(case_type), intent(in) :: self
+      changes_shape = self%pads%bending /= 'none' .or. is_set(self%bearing%clearance_temperature)
+   end function changes_shape
 
    !> False for pads that are fixed: lobes of a plain bearing.
    pure logical function tilting(self)

@@ -6,6 +6,7 @@ module equilibrium
    use static_model, only: equilibrium_type, make_static
    use thermal_equilibrium, only: settle
    use bearing_equilibrium, only: find_bearing_equilibrium
+   use shape_equilibrium, only: settle_shape
    use load_shares, only: share_loads
    implicit none (type, external)
    private
@@ -27,6 +28,7 @@ contains
          call share_loads(static, found, error, give_up)
       else
          call find_bearing_equilibrium(model, found, error, give_up)
+         if (.not. allocated(error) .and. model%inputs%changes_shape()) call settle_shape(model, found, error, give_up)
       end if
    end subroutine find_equilibrium
 

@@ -26,6 +26,10 @@ module film_equilibrium
    !> about five where it comes to an end.
    real(wp), parameter :: least_change = 0.1_wp
    integer, parameter :: most_iterations = 50
+   !> Rounds after which the pad that still changes most keeps its temperatures if they change by less than this, K: an
+   !> unloaded pad whose film ruptures leaps with the cells that do.
+   integer, parameter :: patience = 15
+   real(wp), parameter :: largest_leap = 0.3_wp
    !> While temperatures change by more than this, K, only a part of their change is made.
    real(wp), parameter :: large_change = 15, part = 0.6_wp
 
@@ -46,7 +50,7 @@ contains
       type(film_stream) :: streams(size(films%fields, 3))
       type(anderson_type) :: acceleration
       real(wp), allocatable :: wanted(:, :, :), settled(:, :, :), x(:)
-      real(wp) :: change, before(size(y))
+      real(wp) :: changes(size(streams)), change, before(size(y))
       integer :: i, round
       logical :: ok
       allocate (wanted, mold=films%fields)
@@ -74,8 +78,17 @@ contains
             call raise(error, numerics_error, 'the heat of the films finds no balance')
             return
          end if
-         change = maxval(abs(wanted - films%fields))
+         do i = 1, size(streams)
+            if (films%kept(i)) wanted(:, :, i) = films%fields(:, :, i)
+         end do
+         changes = maxval(maxval(abs(wanted - films%fields), 1), 1)
+         change = maxval(changes)
          if (change <= agreement) return
+         if (mod(round, patience) == 0 .and. change <= largest_leap) then
+            films%kept(maxloc(changes)) = .true.
+            call acceleration%forget()
+            cycle
+         end if
          if (change > large_change) then
             call acceleration%forget()
             films%fields = films%fields + part*(wanted - films%fields)

@@ -5,6 +5,7 @@ module static_model
    use case_inputs, only: case_type
    use film_solver, only: film_oil
    use film_network, only: warm_films_type
+   use bearing_shape, only: bearing_shape_type
    use operating_point, only: operating_point_type
    use factories, only: converged_films, quick_films
    use abstract_rotor, only: journal_motion
@@ -27,6 +28,8 @@ module static_model
       !> The oil of every pad's film; its temperatures where films have them along and across.
       type(film_oil), allocatable :: oil(:)
       type(warm_films_type), allocatable :: films
+      !> Where it changes the shape of the bearing.
+      type(bearing_shape_type), allocatable :: shape
       !> Largest unbalanced force over the reference force (pseudo_transient).
       real(wp) :: residual = huge(1.0_wp)
       type(stability_type) :: stability

@@ -27,6 +27,16 @@ contains
          & 'pad length L along the shaft')
       call v%number(bearing%viscosity, 'viscosity', viscosity_range(1), viscosity_range(2), 'Pa s', &
          & 'dynamic viscosity of the oil where oil%law is constant')
+      call v%number(bearing%clearance_temperature, 'clearance_temperature', temperature_range(1), &
+         & temperature_range(2), 'C', 'temperature at which the clearances were measured: shaft, pads and housing ' &
+         & //'expand from there; if left out, the clearances are those in operation')
+      call v%number(bearing%shaft_expansion, 'shaft_expansion', 0.0_wp, 1e-3_wp, '1/K', &
+         & 'linear expansion of the shaft, which has oil%shaft_temperature or, if that is left out, the temperature ' &
+         & //'of the solution; 11e-6: steel')
+      call v%number(bearing%housing_expansion, 'housing_expansion', 0.0_wp, 1e-3_wp, '1/K', &
+         & 'linear expansion of the housing')
+      call v%number(bearing%housing_temperature, 'housing_temperature', temperature_range(1), &
+         & temperature_range(2), 'C', 'temperature of the housing; if left out, oil%supply_temperature')
       call v%number(bearing%supply_pressure, 'supply_pressure', -1e9_wp, 1e9_wp, 'Pa', &
          & 'pressure at the leading edges')
       call v%number(bearing%ambient_pressure, 'ambient_pressure', -1e9_wp, 1e9_wp, 'Pa', &
@@ -113,6 +123,18 @@ contains
       call v%each(pads%conductivity, 'pads', 'conductivity', 1e-3_wp, 1e4_wp, 'W/(m K)', &
          & 'for thermal%model = film: thermal conductivity of the pad, through the thickness pads%thickness, or else ' &
          & //'pivot_distance')
+      call v%word(pads%bending, 'bending', 'none elastic thermal both', &
+         & 'what bends pads that tilt: none; elastic: the pressure of the films; thermal: the heat that flows ' &
+         & //'through them, with thermal%model = film; both; pads are as thick as pads%thickness, or else ' &
+         & //'pivot_distance')
+      call v%each(pads%elastic_modulus, 'pads', 'elastic_modulus', 1e6_wp, 1e13_wp, 'Pa', &
+         & 'Young''s modulus of the pad; 210 GPa: steel')
+      call v%each(pads%poisson_ratio, 'pads', 'poisson_ratio', 0.0_wp, 0.5_wp, '1', 'its Poisson''s ratio')
+      call v%each(pads%expansion, 'pads', 'expansion', 0.0_wp, 1e-3_wp, '1/K', &
+         & 'linear expansion of the pad; 11e-6: steel')
+      call v%each(pads%temperature, 'pads', 'temperature', temperature_range(1), temperature_range(2), 'C', &
+         & 'for bearing%clearance_temperature: mean temperature of the pad; if left out, that of ' &
+         & //'thermal%model = film')
       call v%word(pads%motion, 'motion', 'tilting_radial tilting_only fixed', &
          & 'tilting_radial: the pads tilt and move radially on their pivots; tilting_only: they only tilt; fixed: ' &
          & //'neither, lobes of a plain bearing')

@@ -1,0 +1,139 @@
+!> The shape of a bearing in operation: radii and clearances after its pads have bent and shaft, pads and housing have
+!> expanded (docs/theory/heat.md, *Bent pads* and *Warm clearances*).
+module bearing_shape
+   use kinds, only: wp
+   use text, only: to_text, fixed_text
+   use errors, only: error_type, raise, numerics_error
+   use case_groups, only: is_set
+   use case_inputs, only: case_type
+   implicit none (type, external)
+   private
+   public :: bearing_shape_type, bending_type, part_temperatures_type, new_shape
+
+   !> By how much bending changes the machined clearance of each pad, m.
+   type :: bending_type
+      real(wp), allocatable :: elastic(:), thermal(:)
+   end type bending_type
+
+   !> C; not allocated where nothing expands.
+   type :: part_temperatures_type
+      real(wp) :: shaft = 0, housing = 0
+      real(wp), allocatable :: pads(:)
+   end type part_temperatures_type
+
+   type :: bearing_shape_type
+      !> m; but for the radius one a pad.
+      real(wp) :: journal_radius = 0
+      real(wp), allocatable :: machined_clearance(:), assembled_clearance(:), pivot_distance(:)
+      !> What has made it.
+      type(bending_type) :: bending
+      type(part_temperatures_type) :: temperatures
+   contains
+      procedure :: apply
+      procedure :: lengths
+      procedure :: set_lengths
+      procedure :: check
+   end type bearing_shape_type
+
+contains
+
+   !> The shape of a case whose pads bend, with these temperatures of its parts.
+   pure type(bearing_shape_type) function new_shape(inputs, bending, temperatures) result(shape)
+      type(case_type), intent(in) :: inputs
+      type(bending_type), intent(in) :: bending
+      type(part_temperatures_type), intent(in) :: temperatures
+      real(wp) :: of_shaft, of_housing
+      real(wp), dimension(inputs%pad_count()) :: of_pads
+      of_shaft = 1
+      of_housing = 1
+      of_pads = 1
+      associate (b => inputs%bearing, p => inputs%pads, t => temperatures)
+         if (allocated(t%pads)) then
+            of_shaft = 1 + b%shaft_expansion*(t%shaft - b%clearance_temperature)
+            of_housing = 1 + b%housing_expansion*(t%housing - b%clearance_temperature)
+            of_pads = 1 + p%expansion*(t%pads - b%clearance_temperature)
+         end if
+         shape%journal_radius = of_shaft*b%journal_radius
+         shape%machined_clearance = of_pads*(b%journal_radius + b%machined_clearance) + bending%elastic &
+            & + bending%thermal - shape%journal_radius
+         shape%pivot_distance = of_pads*p%pivot_distance
+         shape%assembled_clearance = of_housing*(b%journal_radius + b%assembled_clearance + p%pivot_distance) &
+            & - shape%pivot_distance - shape%journal_radius
+      end associate
+      shape%bending = bending
+      shape%temperatures = temperatures
+   end function new_shape
+
+   !> Gives a case the shape.
+   pure subroutine apply(self, inputs)
+      class(bearing_shape_type), intent(in) :: self
+      type(case_type), intent(inout) :: inputs
+      inputs%bearing%journal_radius = self%journal_radius
+      inputs%bearing%machined_clearance = self%machined_clearance
+      inputs%bearing%assembled_clearance = self%assembled_clearance
+      inputs%pads%pivot_distance = self%pivot_distance
+   end subroutine apply
+
+   !> Its lengths in a row, m.
+   pure function lengths(self)
+      class(bearing_shape_type), intent(in) :: self
+      real(wp), allocatable :: lengths(:)
+      lengths = [self%journal_radius, self%machined_clearance, self%assembled_clearance, self%pivot_distance]
+   end function lengths
+
+   !> Gives it lengths in this order.
+   pure subroutine set_lengths(self, lengths)
+      class(bearing_shape_type), intent(inout) :: self
+      real(wp), intent(in) :: lengths(:)
+      associate (n => size(self%pivot_distance))
+         self%journal_radius = lengths(1)
+         self%machined_clearance = lengths(2:n + 1)
+         self%assembled_clearance = lengths(n + 2:2*n + 1)
+         self%pivot_distance = lengths(2*n + 2:)
+      end associate
+   end subroutine set_lengths
+
+   !> Refuses a shape of a case whose clearance is gone, or of which a pad bends by more than its clearance.
+   subroutine check(self, inputs, error)
+      class(bearing_shape_type), intent(in) :: self
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+      do i = 1, size(self%machined_clearance)
+         associate (bent => self%bending%elastic(i) + self%bending%thermal(i), &
+            & c => inputs%bearing%machined_clearance(i))
+            if (abs(bent) > c) then
+               call raise(error, numerics_error, 'pad '//to_text(i)//' bends by '//micro(bent)//' um, more than its ' &
+                  & //'clearance of '//micro(c)//' um: '//micro(self%bending%elastic(i))//' um by pressure, ' &
+                  & //micro(self%bending%thermal(i))//' um by heat; it is too thin (pads%thickness = ' &
+                  & //to_text(inputs%pads%thickness(i))//' m)')
+            else if (.not. self%machined_clearance(i) > 0) then
+               call raise(error, numerics_error, gone('bearing%machined_clearance', c, self%machined_clearance(i)))
+            else if (.not. self%assembled_clearance(i) > 0) then
+               call raise(error, numerics_error, gone('bearing%assembled_clearance', &
+                  & inputs%bearing%assembled_clearance(i), self%assembled_clearance(i)))
+            end if
+         end associate
+         if (allocated(error)) return
+      end do
+   contains
+      function gone(name, cold, warm) result(message)
+         character(len=*), intent(in) :: name
+         real(wp), intent(in) :: cold, warm
+         character(len=:), allocatable :: message
+         message = 'the clearance of pad '//to_text(i)//' is gone: '//name//' = '//micro(cold)//' um becomes ' &
+            & //micro(warm)//' um'
+         if (.not. is_set(inputs%bearing%clearance_temperature)) return
+         associate (t => self%temperatures)
+            message = message//' with the shaft at '//fixed_text(t%shaft, 1)//' C, the pad at ' &
+               & //fixed_text(t%pads(i), 1)//' C and the housing at '//fixed_text(t%housing, 1)//' C'
+         end associate
+      end function gone
+
+      function micro(x)
+         real(wp), intent(in) :: x
+         character(len=:), allocatable :: micro
+         micro = fixed_text(1e6_wp*x, 1)
+      end function micro
+   end subroutine check
+end module bearing_shape

@@ -1,0 +1,89 @@
+!> What file and console have of the shape of a bearing in operation.
+module shape_results
+   use kinds, only: wp
+   use text, only: to_text, fixed_text
+   use errors, only: error_type, raise, system_error
+   use record, only: record_type
+   use case_inputs, only: case_type
+   use bearing_shape, only: bearing_shape_type, bending_type, part_temperatures_type, new_shape
+   use summary_group, only: put_figure
+   implicit none (type, external)
+   private
+   public :: put_shape, read_shape, print_shape
+
+contains
+
+   !> Writes radius, clearances and what has changed them.
+   subroutine put_shape(file, shape)
+      class(record_type), intent(inout) :: file
+      type(bearing_shape_type), intent(in) :: shape
+      call file%put_real('shape/journal_radius', shape%journal_radius, 'm', 'radius of the journal in operation')
+      call list('machined_clearance', shape%machined_clearance, 'm', 'clearance between bore and journal in operation')
+      call list('assembled_clearance', shape%assembled_clearance, 'm', 'clearance at the pivots in operation')
+      call list('pivot_distance', shape%pivot_distance, 'm', 'distance from the bore to the pivot in operation')
+      call list('elastic_bending', shape%bending%elastic, 'm', &
+         & 'change of the machined clearance as the pressure bends the pad')
+      call list('thermal_bending', shape%bending%thermal, 'm', 'change of the machined clearance as heat bends the pad')
+      call put_figure(file, 'equilibrium_bearing_clearance', minval(shape%assembled_clearance), 'm', &
+         & 'bearing clearance in operation')
+      associate (t => shape%temperatures)
+         if (.not. allocated(t%pads)) return
+         call file%put_real('shape/shaft_temperature', t%shaft, 'degC', 'temperature of the shaft that expands')
+         call file%put_real('shape/housing_temperature', t%housing, 'degC', 'temperature of the housing that expands')
+         call list('pad_temperature', t%pads, 'degC', 'temperature of the pad that expands')
+      end associate
+   contains
+      subroutine list(name, values, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), intent(in) :: values(:)
+         call file%put_list('shape/'//name, values, units, long_name, 'pad')
+      end subroutine list
+   end subroutine put_shape
+
+   !> The lengths of the shape that a file of this case has, without what has made it; an error where it has none.
+   subroutine read_shape(file, inputs, shape, error)
+      class(record_type), intent(in) :: file
+      type(case_type), intent(in) :: inputs
+      type(bearing_shape_type), allocatable, intent(out) :: shape
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp) :: none(inputs%pad_count())
+      none = 0
+      shape = new_shape(inputs, bending_type(none, none), part_temperatures_type())
+      shape%journal_radius = file%get_real('shape/journal_radius')
+      call file%get_list('shape/machined_clearance', shape%machined_clearance)
+      call file%get_list('shape/assembled_clearance', shape%assembled_clearance)
+      call file%get_list('shape/pivot_distance', shape%pivot_distance)
+      associate (lengths => shape%lengths())
+         if (.not. (all(lengths > 0) .and. all(lengths < huge(lengths)))) call raise(error, system_error, &
+            & 'damaged: shape is not that of a bearing')
+      end associate
+   end subroutine read_shape
+
+   !> The clearances of a case and those in operation.
+   subroutine print_shape(inputs, shape)
+      type(case_type), intent(in) :: inputs
+      type(bearing_shape_type), intent(in) :: shape
+      character(len=:), allocatable :: bends
+      integer :: i
+      associate (b => inputs%bearing, t => shape%temperatures)
+         do i = 1, size(shape%machined_clearance)
+            bends = ''
+            if (inputs%pads%bending /= 'none') bends = ', bends by '//micro(shape%bending%elastic(i)) &
+               & //' um by pressure and '//micro(shape%bending%thermal(i))//' um by heat'
+            if (allocated(t%pads)) bends = bends//', at '//fixed_text(t%pads(i), 1)//' C'
+            print '(a)', '  pad '//to_text(i)//': machined clearance '//micro(b%machined_clearance(i))//' um becomes ' &
+               & //micro(shape%machined_clearance(i))//', assembled '//micro(b%assembled_clearance(i))//' um ' &
+               & //micro(shape%assembled_clearance(i))//bends
+         end do
+         if (allocated(t%pads)) print '(a)', '  all pads: from '//fixed_text(b%clearance_temperature, 1) &
+            & //' C on, the shaft expands to '//fixed_text(t%shaft, 1)//' C and the housing to ' &
+            & //fixed_text(t%housing, 1)//' C'
+      end associate
+   contains
+      function micro(x)
+         real(wp), intent(in) :: x
+         character(len=:), allocatable :: micro
+         micro = fixed_text(1e6_wp*x, 2)
+      end function micro
+   end subroutine print_shape
+end module shape_results
