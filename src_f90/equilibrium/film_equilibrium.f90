@@ -78,17 +78,18 @@ contains
             call raise(error, numerics_error, 'the heat of the films finds no balance')
             return
          end if
-         do i = 1, size(streams)
-            if (films%kept(i)) wanted(:, :, i) = films%fields(:, :, i)
-         end do
          changes = maxval(maxval(abs(wanted - films%fields), 1), 1)
-         change = maxval(changes)
+         films%kept = films%kept .and. changes <= largest_leap
+         change = maxval(changes, mask=.not. films%kept)
          if (change <= agreement) return
          if (mod(round, patience) == 0 .and. change <= largest_leap) then
-            films%kept(maxloc(changes)) = .true.
+            films%kept(maxloc(changes, mask=.not. films%kept)) = .true.
             call acceleration%forget()
             cycle
          end if
+         do i = 1, size(streams)
+            if (films%kept(i)) wanted(:, :, i) = films%fields(:, :, i)
+         end do
          if (change > large_change) then
             call acceleration%forget()
             films%fields = films%fields + part*(wanted - films%fields)

@@ -68,16 +68,15 @@ contains
       associate (b => inputs%bearing, t => shape%temperatures)
          do i = 1, size(shape%machined_clearance)
             bends = ''
-            if (inputs%pads%bending /= 'none') bends = ', bends by '//micro(shape%bending%elastic(i)) &
+            if (inputs%pads%bending /= 'none') bends = '; bends by '//micro(shape%bending%elastic(i)) &
                & //' um by pressure and '//micro(shape%bending%thermal(i))//' um by heat'
-            if (allocated(t%pads)) bends = bends//', at '//fixed_text(t%pads(i), 1)//' C'
-            print '(a)', '  pad '//to_text(i)//': machined clearance '//micro(b%machined_clearance(i))//' um becomes ' &
-               & //micro(shape%machined_clearance(i))//', assembled '//micro(b%assembled_clearance(i))//' um ' &
-               & //micro(shape%assembled_clearance(i))//bends
+            if (allocated(t%pads)) bends = bends//'; at '//fixed_text(t%pads(i), 1)//' C'
+            print '(a)', '  pad '//to_text(i)//': machined clearance '//micro(b%machined_clearance(i))//' um, in operation ' &
+               & //micro(shape%machined_clearance(i))//'; assembled '//micro(b%assembled_clearance(i)) &
+               & //' um, in operation '//micro(shape%assembled_clearance(i))//bends
          end do
-         if (allocated(t%pads)) print '(a)', '  all pads: from '//fixed_text(b%clearance_temperature, 1) &
-            & //' C on, the shaft expands to '//fixed_text(t%shaft, 1)//' C and the housing to ' &
-            & //fixed_text(t%housing, 1)//' C'
+         if (allocated(t%pads)) print '(a)', '  all pads: clearances of '//fixed_text(b%clearance_temperature, 1) &
+            & //' C, the shaft at '//fixed_text(t%shaft, 1)//' C and the housing at '//fixed_text(t%housing, 1)//' C'
       end associate
    contains
       function micro(x)

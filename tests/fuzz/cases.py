@@ -34,6 +34,8 @@ TOGETHER = (
 )
 #: What others follow from; drawn where these are not given.
 INSTEAD = ("bearing%preload", "pads%density", "pads%thickness")
+#: What changes the shape of the bearing; not drawn: it needs much else of the case.
+SHAPE = ("bearing%clearance_temperature", "pads%bending", "pads%temperature")
 ALONE = ("rotor%balance_speed_rpm", "film%circumferential_cells", "film%axial_cells")
 #: Where a march starts; the values of the pads are not drawn.
 START = (
@@ -59,7 +61,7 @@ OF_MARCH = ("operation%final_speed_rpm", "output%start_time", "integration%stop_
 SPECIAL = {
     "case%task",
     "pivot%file",
-    *(key for group in (*TOGETHER, ALONE, INSTEAD, START, OIL) for key in group),
+    *(key for group in (*TOGETHER, ALONE, INSTEAD, SHAPE, START, OIL) for key in group),
 }
 #: Circumferential times squared axial cells of all pads.
 MOST_IN_BLOCKS = 2e8
@@ -293,8 +295,12 @@ def pads(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
     radial = each(lambda: dice.choice((0.0, dice.uniform(-1, 1))))
     inertia = each(lambda: log_between(dice, 2.1 * max(mass), 1e6))
     distance = each(lambda: number(dice, variables["pads%pivot_distance"]))
-    conductivity = each(lambda: number(dice, variables["pads%conductivity"]))
+    solid = (
+        each(lambda key=key: number(dice, variables[f"pads%{key}"]))
+        for key in ("conductivity", "elastic_modulus", "poisson_ratio", "expansion")
+    )
     motion = dice.choice(variables["pads%motion"].choices).encode()
-    values = (tuple(angles), arc, ratio, distance, mass, inertia, tangential, radial, conductivity, (motion,))
-    keys = (key for key, variable in variables.items() if variable.group == "pads" and key not in INSTEAD)
+    values = (tuple(angles), arc, ratio, distance, mass, inertia, tangential, radial, *solid, (motion,))
+    left = {*INSTEAD, *SHAPE}
+    keys = (key for key, variable in variables.items() if variable.group == "pads" and key not in left)
     return dict(zip(keys, values, strict=True))

@@ -18,7 +18,8 @@ STEADY = 0.05
 
 def characteristic_scale(run: Run, name: str) -> float:
     """Bearing clearance for journal positions, clearance over pad radius for tilts; 0 for others."""
-    radius = run.input["bearing"]["journal_radius"] + min(of_pads(run.input, "bearing%machined_clearance"))
+    case = run.in_operation
+    radius = case["bearing"]["journal_radius"] + min(of_pads(case, "bearing%machined_clearance"))
     return {"journal": run.clearance, "pad": run.clearance / radius}.get(name.split("_")[0], 0.0)
 
 

@@ -56,7 +56,7 @@ def at_rest(run: Run) -> State:
     try:
         return at_time(run, None)
     except NotInRunError:
-        return at_time(run, float(run.values("time", -1))) if run.samples else centred(run.input)
+        return at_time(run, float(run.values("time", -1))) if run.samples else centred(run.in_operation)
 
 
 def at_time(run: Run, time: float | None) -> State:

@@ -267,7 +267,7 @@ def elementwise(name: str, case: Run | str, pad: int, *arguments: float | np.nda
 
 def called(name: str, case: Run | str, *arguments: Any) -> list[Any]:
     """The results of a routine of the library for a case; an error of the library is raised."""
-    text, source = (case.attributes["input"], case.path) if isinstance(case, Run) else (case, "case")
+    text, source = (case.operating_text, case.path) if isinstance(case, Run) else (case, "case")
     *results, status, message = routine(name)(text.encode(), source.encode(), *arguments)
     if status:
         raise LibraryError(message.decode(errors="replace").strip(), int(status))

@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon
 
@@ -20,7 +21,7 @@ from tiltpad.calculate import geometry, signals
 from tiltpad.calculate.geometry import Case, State
 from tiltpad.calculate.rotation import sense
 from tiltpad.calculate.selection import ArgumentError
-from tiltpad.draw.layout import PAGE, plain, width
+from tiltpad.draw.layout import PAGE, WARMTH, plain, width
 from tiltpad.draw.plots import STYLE, polar
 from tiltpad.files.archive import RunError
 from tiltpad.files.archive import plain as printable
@@ -30,6 +31,8 @@ from tiltpad.files.writing import replacing
 
 #: Bearing clearance and thickness of the pads in the picture, over the journal's radius.
 CLEARANCE, BACK = 0.16, 0.22
+#: Points along the surface of a pad.
+POINTS = 91
 #: Frames of a movie in a second, and in a revolution of the shaft.
 RATE, FRAMES = 25, 50
 #: Farther from the middle than anything that is seen.
@@ -60,7 +63,7 @@ def bearing(case: Run | Case) -> Figure:
     A result shows the journal and the tilt of the pads at its equilibrium, or its last sample.
     """
     run = case if isinstance(case, Run) else None
-    groups = case.input if isinstance(case, Run) else case
+    groups = case.in_operation if isinstance(case, Run) else case
     if isinstance(groups["bearing"], list):
         names = ", ".join(str(each["name"]) for each in groups["bearing"])
         raise ArgumentError("a machine: choose one of its bearings by {bearing}: {names}", names=names)
@@ -72,6 +75,9 @@ def bearing(case: Run | Case) -> Figure:
     mark_edges(ax, drawing)
     mark_rotation(ax, sense(groups))
     mark_load(ax, groups)
+    if run and run.has_film_temperatures and "equilibrium/surface_temperature" in run:
+        shown = drawing.show_temperatures(run)
+        fig.colorbar(shown, ax=ax, location="bottom", label="pad surfaces and shaft (°C)", shrink=0.7)
     beside.axis("off")
     beside.text(0, 1, figures_of(groups, state), va="top", fontsize="small", linespacing=1.5)
     fig.suptitle(plain(str(groups["case"].get("title", "")), width(fig)))
@@ -83,10 +89,12 @@ class Drawing:
 
     def __init__(self, ax: Axes, case: Case, state: State):
         self.assembled = geometry.of_pads(case, "bearing%assembled_clearance")
+        self.ax = ax
         self.case, self.scale = case, CLEARANCE / self.assembled.min()
         fixed = case["pads"]["motion"] == "fixed"
         count = len(geometry.of_pads(case, "pads%pivot_angle_deg"))
         self.middles = [np.zeros((1, 2))] * count
+        self.outlines = [np.zeros((2, POINTS, 2))] * count
         look = {"closed": True, "facecolor": "0.82", "edgecolor": "0.25", "linewidth": 0.8}
         self.pads = [ax.add_patch(Polygon(np.zeros((3, 2)), **look)) for _ in range(count)]
         pivots = {"radius": 0.045, "facecolor": "0.25", "linewidth": 0}
@@ -102,7 +110,7 @@ class Drawing:
 
     def move(self, state: State) -> None:
         """Puts journal and pads where they are in a state."""
-        found = geometry.surfaces(self.case, state)
+        found = geometry.surfaces(self.case, state, POINTS)
         middle = self.scale * state.journal[::-1]
         self.journal.center = middle
         self.centre.set_data(*np.reshape(middle, (2, 1)))
@@ -113,10 +121,31 @@ class Drawing:
             pad.set_xy(np.concatenate([inner, outer[::-1]]))
             # a text far away cannot be drawn
             self.middles[k] = np.clip((inner + outer) / 2, -FAR, FAR)
+            self.outlines[k] = np.clip(np.stack([inner, outer]), -FAR, FAR)
             self.numbers[k].set_position(self.middles[k][len(inner) // 2])
         for k, pivot in enumerate(self.pivots):
             away = 1 + BACK + 0.045 + self.scale * (self.assembled[k] + state.pivot_deflection[k])
             pivot.center = polar(away, np.degrees(found.pivot[k]))
+
+
+    def show_temperatures(self, run: Run) -> PolyCollection:
+        """Colours the pads, where they stand, by the temperatures of their surfaces, the journal by its own."""
+        surfaces, shaft = run["equilibrium/surface_temperature"], float(run["equilibrium/shaft_temperature"])
+        between = (np.arange(POINTS - 1) + 0.5) / (POINTS - 1)
+        parts, warmth = [], []
+        for (inner, outer), surface in zip(self.outlines, surfaces, strict=True):
+            parts.append(np.stack([inner[:-1], inner[1:], outer[1:], outer[:-1]], axis=1))
+            # points go from the trailing to the leading edge
+            warmth.append(np.interp(between, 1 - run["film_arc"][::-1], surface[::-1]))
+        shown = PolyCollection(
+            np.concatenate(parts), array=np.concatenate(warmth), cmap=WARMTH, edgecolors="face", zorder=1.5
+        )
+        shown.set_clim(min(shaft, surfaces.min()), max(shaft, surfaces.max()))
+        self.ax.add_collection(shown)
+        self.journal.set_facecolor(shown.to_rgba(shaft))
+        for pad in self.pads:
+            pad.set(facecolor="none", zorder=1.6)
+        return shown
 
 
 def mark_angles(ax: Axes, case: Case) -> None:
@@ -253,7 +282,7 @@ def moving(run: Run, last: float) -> tuple[Figure, Any, Sequence[State]]:
     states = whole[:-1:every]
     fig = plt.figure(figsize=(PAGE, 3.7))
     left, right = fig.subplots(1, 2, width_ratios=(1.15, 1))
-    drawing = Drawing(left, run.input, states[0])
+    drawing = Drawing(left, run.in_operation, states[0])
     mark_rotation(left, sense(run.input))
     y, z = SHOWN["journal_y"].factor * np.array([state.journal for state in whole]).T
     right.plot(z, y, color="0.75", linewidth=0.8)

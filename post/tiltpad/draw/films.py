@@ -69,7 +69,7 @@ def film(
     fig = plt.figure(figsize=(layout.PAGE, 3.8))
     upper, lower = fig.subplots(2, 1, sharex=True)
     for i, run in enumerate(runs):
-        found = geometry.surfaces(run.input, geometry.at_time(run, time))
+        found = geometry.surfaces(run.in_operation, geometry.at_time(run, time))
         around = library.pressure(run, time, along=found.angle.shape[1], across=np.zeros(1))
         for k in (k for k in pads if k <= run.pads):
             line = layout.look(i, 0, runs) | {"linestyle": layout.DASHES[0]}

@@ -24,6 +24,8 @@ from tiltpad.files.units import literal
 Name = TypeVar("Name", bound=Hashable)
 COLUMN, PAGE = 3.35, 6.9  # widths in a paper, inches
 LONGEST_LABEL = 90  # characters
+#: Colours of temperatures.
+WARMTH = "YlOrRd"
 #: Dashes of the parts of runs; no bearing of practice has more pads.
 DASHES = (
     *("-", "--", ":", "-.", (0, (7, 1.5, 1, 1.5, 1, 1.5)), (0, (9, 3)), (0, (1, 4))),

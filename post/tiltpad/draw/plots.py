@@ -108,7 +108,7 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
     factor = SHOWN["journal_y"].factor
     radius = reach = factor * run.clearance
     assembled, machined = (
-        factor * geometry.of_pads(run.input, f"bearing%{name}_clearance")
+        factor * geometry.of_pads(run.in_operation, f"bearing%{name}_clearance")
         for name in ("assembled", "machined")
     )
     tilting = run.input["pads"]["motion"] != "fixed"

@@ -11,12 +11,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tiltpad.calculate import geometry
 from tiltpad.calculate.heat import heat_balance
 from tiltpad.calculate.selection import selected
 from tiltpad.draw import layout
 from tiltpad.draw.branches import parameter_of
 from tiltpad.draw.diagrams import mark_failed
-from tiltpad.draw.vibrations import axis_label, parts
+from tiltpad.draw.vibrations import Part, axis_label, parts
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
@@ -44,7 +45,11 @@ def temperatures(
     over: str | None = None,
     where: Mapping[str, Any] | None = None,
 ) -> Figure:
-    """Temperatures and viscosities over a parameter, of studies or a branch; of results the heat balances."""
+    """Temperatures and viscosities over a parameter, of studies or a branch; of results the heat balances.
+
+    A study that varies more than one parameter has lines for its middle run, and bands of all. Of results with
+    temperatures along and across films, a pad that is chosen shows those of its film.
+    """
     results = [each for each in runs if isinstance(each, Run)]
     branch = next((each for each in results if each.is_branch), None)
     if branch and len(runs) == 1:
@@ -57,15 +62,37 @@ def temperatures(
         if isinstance(each, Study) and "pad_equilibrium_mean_temperature" not in each:
             raise NotInRunError(f"{each.path}: no temperatures in this study: thermal%model is 'none'")
     found = parts(runs, None, over, where)
-    if len(found) > 1:
+    if len(runs) > 1:
         names = "; ".join(one.text for one in found)
-        raise ValueError(f"a picture of temperatures has a line for each pad: choose by where: {names}")
-    (one,) = found
+        raise ValueError(f"a picture of temperatures has a line for each pad: one study, not {names}")
+    middle = found[len(found) // 2]
     fig, panels = layout.stacked(["temperature", "viscosity"])
-    study = cast(Study, one.source)
-    pads = over_parameter(study, one.where, one.over, pad, panels["temperature"], panels["viscosity"])
+    study = cast(Study, middle.source)
+    pads = over_parameter(study, middle.where, middle.over, pad, panels["temperature"], panels["viscosity"])
     finish(fig, panels, pads, axis_label(found), runs)
+    if len(found) > 1:
+        draw_bands([of_part(each) for each in found], pads, panels["temperature"], panels["viscosity"])
+        words = f"lines: {middle.text}; bands: {found[0].text} to {found[-1].text}"
+        panels["temperature"].set_title(layout.plain(words, layout.width(fig)), fontsize="small")
     return fig
+
+
+def draw_bands(
+    members: Sequence[tuple[np.ndarray, dict[str, np.ndarray]]], pads: Sequence[int], upper: Axes, lower: Axes
+) -> None:
+    """Between the least and the largest of the runs at each place: maximum temperatures and viscosities."""
+    place = members[0][0]
+    if any(len(x) != len(place) or (x != place).any() for x, _ in members):
+        raise ValueError("bands need the same values along the axis for each of the other parameters")
+    for ax, name, unit in (
+        (upper, "maximum_temperature", "temperature"),
+        (lower, "viscosity", "viscosity"),
+    ):
+        values = SHOWN[unit].factor * np.array([found[name] for _, found in members])
+        for i, k in enumerate(pads):
+            own = values[:, :, k - 1]
+            color = layout.part_color(i, len(pads))
+            ax.fill_between(place, own.min(0), own.max(0), color=color, alpha=0.25, linewidth=0)
 
 
 def finish(
@@ -111,15 +138,26 @@ def draw(
     upper.plot(x, found["drain_temperature"], **DRAIN)
 
 
+def of_part(part: Part) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """What `along` gives of the runs of a part."""
+    return along(cast(Study, part.source), part.where, part.over)
+
+
+def along(
+    study: Study, where: Mapping[str, Any] | None, over: str
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Values of a parameter in their order, and what the runs there have of what is drawn."""
+    place = study[over]
+    order = np.flatnonzero(selected(study, where) & np.isfinite(place))
+    order = order[np.argsort(place[order], kind="stable")]
+    return place[order], {name: study[f"{pads}equilibrium_{name}"][order] for name, pads in DRAWN.items()}
+
+
 def over_parameter(
     study: Study, where: Mapping[str, Any], over: str, pad: int | None, upper: Axes, lower: Axes
 ) -> list[int]:
     """Draws temperatures and viscosities of the runs over a parameter; gives the pads."""
-    place = study[over]
-    order = np.flatnonzero(selected(study, where) & np.isfinite(place))
-    order = order[np.argsort(place[order], kind="stable")]
-    x = place[order]
-    found = {name: study[f"{pads}equilibrium_{name}"][order] for name, pads in DRAWN.items()}
+    x, found = along(study, where, over)
     mean = found["mean_temperature"]
     pads = list(range(1, mean.shape[1] + 1))
     if pad is not None and pad not in pads:
@@ -135,6 +173,8 @@ def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
     """For each result its temperatures, viscosities and the heat of its pads, or the temperatures
     along their surfaces, in a row."""
     pads = layout.shown_pads(runs, pad)
+    if pad is not None and all(run.has_film_temperatures for run in runs):
+        return of_films(runs, pad)
     fig = plt.figure(figsize=(layout.PAGE, 0.6 + 2.4 * len(runs)))
     rows = fig.subplots(len(runs), 2, squeeze=False)
     names = layout.labels(runs) if len(runs) > 1 else [""]
@@ -163,6 +203,37 @@ def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
         title=layout.plain(layout.title(runs), layout.width(fig)) or None,
     )
     return fig
+
+
+def of_films(runs: Sequence[Run], pad: int) -> Figure:
+    """For each result the temperatures in the film of a pad, between pad and journal."""
+    fig = plt.figure(figsize=(layout.PAGE, 0.5 + 2.4 * len(runs)))
+    rows = fig.subplots(len(runs), 1, squeeze=False)[:, 0]
+    names = layout.labels(runs) if len(runs) > 1 else [f"{runs[0].title}, pad {pad}".removeprefix(", ")]
+    for ax, run, name in zip(rows, runs, names, strict=True):
+        shown = film_of_pad(run, ax, pad)
+        fig.colorbar(shown, ax=ax, label=SHOWN["temperature"].label)
+        ax.set_title(layout.plain(name, layout.width(fig)))
+    rows[-1].set_xlabel("place on the arc, from the leading to the trailing edge")
+    return fig
+
+
+def film_of_pad(run: Run, ax: Axes, pad: int) -> Any:
+    """Temperatures in a pad's film at the equilibrium over its true thickness: the pad below, the journal above."""
+    film = geometry.surfaces(run.in_operation, geometry.at_rest(run)).thickness[pad - 1]
+    place, height = run["film_arc"], run["film_height"]
+    # thicknesses are given from the trailing edge on
+    thickness = np.interp(1 - place, np.linspace(0, 1, len(film)), film)
+    walls = np.concatenate([[0], height, [1]])
+    surface, shaft = run["equilibrium/surface_temperature"][pad - 1], float(run["equilibrium/shaft_temperature"])
+    field = run["equilibrium/film_temperature"][pad - 1]
+    field = np.column_stack([surface, field, np.full(len(place), shaft)])
+    factor = SHOWN["min_film_thickness"].factor
+    shown = ax.contourf(
+        np.broadcast_to(place, field.T.shape), factor * np.outer(walls, thickness), field.T, 20, cmap=layout.WARMTH
+    )
+    ax.set(ylabel="height in the film (µm)", ylim=(0, None))
+    return shown
 
 
 def temperatures_of_pads(run: Run, ax: Axes, pads: Sequence[int]) -> Axes:

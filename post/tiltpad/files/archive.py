@@ -70,6 +70,7 @@ class Archive:
         "rotor",
         "response",
         "synchronous",
+        "shape",
     )
     #: Kinds of numpy's types that its datasets may have.
     KINDS = "fiu"

@@ -116,6 +116,14 @@ def of_bearing(text: str, name: str, load: Sequence[float] = (0, 0)) -> str:
     return "".join(kept)
 
 
+def with_values(text: str, values: Mapping[str, Any]) -> str:
+    """The namelist text of a result with other values of variables, each of which one group alone has."""
+    for name, value in values.items():
+        line = rf"\g<1>{written(value)}"
+        text = re.sub(rf"^([ \t]+{name} = ).*$", line, text, flags=re.MULTILINE)
+    return text
+
+
 def count(value: Any) -> int:
     return len(value) if isinstance(value, tuple) else 1
 

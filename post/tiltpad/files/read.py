@@ -28,6 +28,8 @@ TASKS = {"coefficients": "coefficients", "modes": "coefficients", "periodic": "p
 OF_MACHINES = ("station", "bearing", "rotor", "response", "synchronous")
 #: What a run of one bearing has as attributes.
 OF_EACH = ("pads", "clearance")
+#: Variables of the input that bending and expansion change, and that the group `shape` has in operation.
+OF_SHAPE = ("journal_radius", "machined_clearance", "assembled_clearance", "pivot_distance")
 #: What only pads that tilt have.
 OF_TILTING = ("pad_tilt", "pivot_load", "friction_moment")
 #: Series of branches, by which a run without them is told that it is none.
@@ -161,6 +163,22 @@ class Run(Archive):
             return namelist.resolved(self.attributes["input"])
 
     @cached_property
+    def operating_text(self) -> str:
+        """The text of the namelist with the radius and clearances in operation, where the run has such."""
+        text = str(self.attributes["input"])
+        if "shape" not in self.names():
+            return text
+        shape = self["shape"]
+        with reading(self.path, "shape"):
+            return namelist.with_values(text, {name: shape[name] for name in OF_SHAPE})
+
+    @cached_property
+    def in_operation(self) -> dict[str, dict[str, Any]]:
+        """The resolved namelist with the radius and clearances in operation: bent pads, warm parts."""
+        with reading(self.path, "attribute 'input'"):
+            return namelist.resolved(self.operating_text)
+
+    @cached_property
     def bearings(self) -> "Bearings":
         """The bearings of a machine by their names, each as the run of one bearing; else empty."""
         return Bearings(self)
@@ -172,9 +190,9 @@ class Run(Archive):
 
     @property
     def clearance(self) -> float:
-        """Bearing clearance c_r, m; of pads that differ the smallest."""
+        """Bearing clearance c_r in operation, m; of pads that differ the smallest."""
         self.needs_one_bearing("clearance")
-        return min(namelist.of_pads(self.input, "bearing%assembled_clearance"))
+        return min(namelist.of_pads(self.in_operation, "bearing%assembled_clearance"))
 
     @property
     def pads(self) -> int:

@@ -92,6 +92,8 @@ UNITS = {
     **{"mass": "kg", "unbalance": "kg m", "inertia": "kg m²", "characteristic_load": "N", "static_load": "N"},
     **{"balance_grade": "mm/s", "gravity": "m/s²", "viscosity": "Pa s"},
     **dict.fromkeys(("supply_temperature", "shaft_temperature", "reference_temperature"), "°C"),
+    **dict.fromkeys(("clearance_temperature", "housing_temperature", "temperature"), "°C"),
+    **dict.fromkeys(("shaft_expansion", "housing_expansion", "expansion"), "1/K"),
     **{"at_temperature": "°C", "temperature_exponent": "1/K", "reference_viscosity": "Pa s"},
     **{"kinematic_viscosity": "m²/s", "density_at_15": "kg/m³", "density_slope": "kg/(m³ K)"},
     **{
