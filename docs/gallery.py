@@ -47,6 +47,7 @@ RUNS = {
     "machine": (MACHINE, ()),
     "machine_modes": (MACHINE, ("case%task=coefficients",)),
     "warm": ("input/examples/warm_five_pads.nml", ()),
+    "bent": ("input/examples/bent_pads.nml", ()),
 }
 #: Studies: name, which is that of the folder, case, and what is varied.
 STUDIES = {
@@ -79,6 +80,14 @@ STUDIES = {
         ),
     ),
     "warm_speeds": ("input/examples/warm_five_pads.nml", ("sweep%operation%speed_rpm=250:5250:250",)),
+    "carry_over": (
+        "input/examples/bent_pads.nml",
+        (
+            "case%task=equilibrium",
+            "sweep%oil%carry_over=0.7,0.8,0.9",
+            "sweep%operation%speed_rpm=2000:4000:500",
+        ),
+    ),
     "tolerances": ("input/examples/tolerances.nml", ()),
     "whirl": (
         "input/examples/five_pads.nml",
@@ -129,6 +138,14 @@ PICTURES = (
     ("campbell", "whirl", "", "frequencies of the modes, free pivots"),
     ("temperatures", "warm", "", "temperatures of the pads, and where their heat goes"),
     ("temperatures", "warm_speeds", "", "temperatures and viscosities over speed, with VG 46"),
+    ("temperatures", "bent", "--pad 2", "temperatures in a film: the journal is above"),
+    ("bearing", "bent", "", "temperatures of the pads and the shaft"),
+    (
+        "temperatures",
+        "carry_over",
+        "--over speed_rpm",
+        "bands: what the carry-over of oil, which is hardly known, changes",
+    ),
     ("tornado", "tolerances", "--show threshold_rpm --pivot stuck", "which input matters"),
     ("distribution", "tolerances", "", "results of bearings as they are made, with percentiles"),
     ("scatter", "tolerances", "", "results over the inputs, a point for each bearing"),

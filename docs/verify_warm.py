@@ -138,6 +138,38 @@ def fields(program, folder):
             yield row(name, quantity, f"{value:.5g}", f"{reference:.5g}", part)
 
 
+#: Bearings whose pads bend, and their thickness, m.
+BENDING = {
+    "Fillon, 4000 rpm": ("Fillon, 4000 rpm", 20e-3),
+    "five pads, 9000 rpm": ("five pads, 9000 rpm", 14e-3),
+}
+
+
+def bending(program, folder):
+    """Rows of bearings whose pads bend: the pad that bends most, stiffness and damping beside straight pads."""
+    cases = {name: (*FIELDS[of][:2], thickness) for name, (of, thickness) in BENDING.items()}
+    turbine = (EXAMPLES / "bent_pads.nml").read_text().replace("clearance_temperature = 20", "")
+    cases["turbine, 3600 rpm"] = (turbine, (), 50e-3)
+    for name, (text, changes, thickness) in cases.items():
+        case, k, c = Path(folder) / "bent.nml", {}, {}
+        case.write_text(text)
+        more = (*changes, "case%task=coefficients", f"pads%thickness={thickness}")
+        for kind in ("none", "elastic", "both"):
+            with run(program, case, folder, *more, f"pads%bending={kind}") as found:
+                at = tiltpad.coefficients(found, "free")
+                k[kind], c[kind] = at.stiffness[0, 0, 0], at.damping[0, 0, 0]
+                if kind == "both":
+                    most = found["shape/elastic_bending"].argmax()
+                    bent = [1e6 * found[f"shape/{each}_bending"][most] for each in ("elastic", "thermal")]
+                    clearance = 1e6 * np.atleast_1d(found.input["bearing"]["machined_clearance"])[0]
+        changed = (
+            f"{100 * (each[kind] / each['none'] - 1):+.1f}"
+            for kind in ("elastic", "both")
+            for each in (k, c)
+        )
+        yield row(name, f"{1e3 * thickness:.0f}", f"{clearance:.1f}", *(f"{x:.1f}" for x in bent), *changed)
+
+
 def measured(program, folder):
     """Rows of maximum temperatures against measurements; draws them."""
     case, curve = fillon(folder), {}
@@ -157,9 +189,18 @@ def measured(program, folder):
         ax.legend()
         fig.savefig(IMAGES / "fillon.png")
         plt.close(fig)
+    film = ("thermal%model=film", "pads%pivot_distance=20e-3", *FIELDS["Fillon, 4000 rpm"][1])
+    kinds = {
+        "along and across": film,
+        "bent": (*film, "pads%bending=both"),
+        "bent and warm": (*film, "pads%bending=both", "bearing%clearance_temperature=20"),
+    }
     for speed, *others in zip(SPEEDS, MEASURED, TEHD, ACROSS, PEER, strict=True):
-        here = curve[speed]
-        yield row(speed, *others, f"{here:.1f}", f"{here - others[0]:+.1f}")
+        here = [curve[speed]]
+        for changes in kinds.values():
+            with run(program, case, folder, f"operation%speed_rpm={speed}", *changes) as found:
+                here.append(found["equilibrium/maximum_temperature"].max())
+        yield row(speed, *others, *(f"{each:.1f}" for each in here), f"{here[-1] - others[0]:+.1f}")
 
 
 def heat(program, folder):
@@ -223,4 +264,4 @@ def vibration(program, folder):
         yield row(unbalance, f"{1e6 * size:.1f}", f"{size / clearance:.2f}", *(cells if unbalance else "---"))
 
 
-TABLES = (walther, warm_bearings, measured, heat, fields, vibration)
+TABLES = (walther, warm_bearings, measured, heat, fields, bending, vibration)

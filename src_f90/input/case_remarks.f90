@@ -97,7 +97,7 @@ contains
       if (specific_load(inputs) > highest_usual_load .and. all(inputs%pads%bending /= ['elastic', 'both   '])) &
          & lines = lines//'specific load ' &
          & //fixed_text(1e-6_wp*specific_load(inputs), 2)//' MPa: above '//to_text(1e-6_wp*highest_usual_load) &
-         & //' MPa, where pads bend under their pressure, which pads%bending would follow; most bearings carry 1 to 3 MPa' &
+         & //' MPa, where pads bend under their pressure (pads%bending); most bearings carry 1 to 3 MPa' &
          & //newline
       if (inputs%tilting()) return
       associate (at => direction_of_load(inputs))

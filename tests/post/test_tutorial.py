@@ -66,6 +66,7 @@ def test_every_command_of_the_tutorial_does_what_it_says(
         ("five_pads", "five.nml"),
         ("offset_preload", "bearing.nml"),
         ("overhung", "rotor.nml"),
+        ("bent_pads", "large.nml"),
     ):
         assert (root / f"input/examples/{example}.nml").read_text().endswith((tmp_path / own).read_text())
     for words in (*figures(tmp_path), *machine(tmp_path)):
@@ -106,6 +107,16 @@ def figures(folder):
     with result("cross.h5") as run:
         k = 1e-6 * tiltpad.coefficients(run, "free").stiffness[0]
         yield f"cross-coupled stiffness of {k[0, 1]:.0f} and {k[1, 0]:.0f} MN/m"
+    with result("large.h5") as run, result("stiff.h5") as stiff:
+        bent = {name: [f"{1e6 * x:.0f}" for x in run[f"shape/{name}"][:2]] for name in run["shape"]}
+        yield "bend by {} and {} um under".format(*bent["elastic_bending"])
+        yield "pressure, and by {} and {} um as heat".format(*bent["thermal_bending"])
+        yield "400 um becomes {} and {} um".format(*bent["machined_clearance"])
+        yield "240 um become {} and {} um".format(*bent["assembled_clearance"])
+        damping = [tiltpad.coefficients(each, "free").damping[0, 0, 0] for each in (stiff, run)]
+        yield f"the damping is {100 * (damping[0] / damping[1] - 1):.0f} % higher"
+        housing = 11e-6 * (0.15 + 240e-6 + 0.05)
+        yield f"here by {1e6 * housing:.1f} um a kelvin"
     for size in ("small", "large"):
         k = 1e-6 * tiltpad.impedance([result(f"{size}_{axis}.h5") for axis in "yz"]).stiffness[0]
         yield f"{k[0, 0]:.0f} MN/m in the vertical and {k[0, 1]:.0f} MN/m across"
