@@ -211,7 +211,7 @@ L = 50.8 mm, 10 kN between two of them and VG 32; the third is that of the paper
 |---|---|---|---|---|
 {fields}
 
-Bearings whose pads bend: thickness of the pads, their machined clearance, by how much pressure and heat change it at
+Bearings whose pads bend: thickness of the pads, their clearance, by how much pressure and heat change it at
 the pad that bends most, and what stiffness and damping K_yy and C_yy are beside those of straight pads, in %: as the
 pads bend by pressure alone, and by both. The last bearing is that of input/examples/bent_pads.nml with the clearances
 of the input.

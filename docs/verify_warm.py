@@ -146,7 +146,7 @@ BENDING = {
 
 
 def bending(program, folder):
-    """Rows of bearings whose pads bend: the pad that bends most, stiffness and damping beside straight pads."""
+    """Rows of bearings whose pads bend: the pad that bends most, and what changes."""
     cases = {name: (*FIELDS[of][:2], thickness) for name, (of, thickness) in BENDING.items()}
     turbine = (EXAMPLES / "bent_pads.nml").read_text().replace("clearance_temperature = 20", "")
     cases["turbine, 3600 rpm"] = (turbine, (), 50e-3)
@@ -163,9 +163,7 @@ def bending(program, folder):
                     bent = [1e6 * found[f"shape/{each}_bending"][most] for each in ("elastic", "thermal")]
                     clearance = 1e6 * np.atleast_1d(found.input["bearing"]["machined_clearance"])[0]
         changed = (
-            f"{100 * (each[kind] / each['none'] - 1):+.1f}"
-            for kind in ("elastic", "both")
-            for each in (k, c)
+            f"{100 * (each[kind] / each['none'] - 1):+.1f}" for kind in ("elastic", "both") for each in (k, c)
         )
         yield row(name, f"{1e3 * thickness:.0f}", f"{clearance:.1f}", *(f"{x:.1f}" for x in bent), *changed)
 

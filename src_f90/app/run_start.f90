@@ -29,7 +29,8 @@ module run_start
    use run_summary, only: print_start
    implicit none (type, external)
    private
-   public :: start_at_equilibrium, seek_equilibrium, make_start, take_oil, restore_shape, restore_oil, continue_from_checkpoint
+   public :: start_at_equilibrium, seek_equilibrium, make_start, take_oil, restore_shape, restore_oil
+   public :: continue_from_checkpoint
 
 contains
 

@@ -10,7 +10,7 @@ module bearing_shape
    private
    public :: bearing_shape_type, bending_type, part_temperatures_type, new_shape
 
-   !> By how much bending changes the machined clearance of each pad, m.
+   !> By how much bending changes the clearance of each pad, m.
    type :: bending_type
       real(wp), allocatable :: elastic(:), thermal(:)
    end type bending_type

@@ -48,7 +48,7 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       call require(inputs%about%task /= 'branch', what(inputs)//': is not for case%task = ''branch''; a study of ' &
-         & //'equilibria (sweep) finds the shape of each', error)
+         & //'equilibria finds the shape of each', error)
       call require(.not. inputs%coefficients%threshold_up_to_rpm > 0, 'coefficients%threshold_up_to_rpm = ' &
          & //to_text(inputs%coefficients%threshold_up_to_rpm)//': is not for '//what(inputs)//'; a study of ' &
          & //'coefficients over the speed finds the shape at each', error)

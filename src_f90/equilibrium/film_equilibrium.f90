@@ -27,8 +27,8 @@ module film_equilibrium
    real(wp), parameter :: least_change = 0.1_wp
    integer, parameter :: most_iterations = 50
    !> Rounds after which the pad that still changes most keeps its temperatures if they change by less than this, K: an
-   !> unloaded pad whose film ruptures leaps with the cells that do.
-   integer, parameter :: patience = 15
+   !> unloaded pad whose film cavitates leaps with the cells that do.
+   integer, parameter :: leaps_after = 15
    real(wp), parameter :: largest_leap = 0.3_wp
    !> While temperatures change by more than this, K, only a part of their change is made.
    real(wp), parameter :: large_change = 15, part = 0.6_wp
@@ -82,7 +82,7 @@ contains
          films%kept = films%kept .and. changes <= largest_leap
          change = maxval(changes, mask=.not. films%kept)
          if (change <= agreement) return
-         if (mod(round, patience) == 0 .and. change <= largest_leap) then
+         if (mod(round, leaps_after) == 0 .and. change <= largest_leap) then
             films%kept(maxloc(changes, mask=.not. films%kept)) = .true.
             call acceleration%forget()
             cycle

@@ -63,7 +63,7 @@ contains
                call acceleration%advance(x, wanted%lengths())
             end if
             call shape%set_lengths(x)
-            call come_to_rest(static, shape, cold, y, found, error, give_up)
+            call find_equilibrium_in(static, shape, cold, y, found, error, give_up)
             if (allocated(error)) exit
          end do
          if (allocated(error)) then
@@ -83,7 +83,7 @@ contains
    end subroutine settle_shape
 
    !> Equilibrium of the model in a shape, from the last state, oil and temperatures.
-   subroutine come_to_rest(static, shape, cold, y, found, error, give_up)
+   subroutine find_equilibrium_in(static, shape, cold, y, found, error, give_up)
       type(machine_model), intent(inout) :: static
       type(bearing_shape_type), intent(in) :: shape
       type(case_type), intent(in) :: cold
@@ -103,7 +103,7 @@ contains
       else
          call solve_thermal_equilibrium(static, y, found%residual, error, give_up)
       end if
-   end subroutine come_to_rest
+   end subroutine find_equilibrium_in
 
    !> The reason of a shape, where a search in one on the way to it has failed.
    subroutine explain(wanted, cold, error)

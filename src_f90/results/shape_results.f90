@@ -22,8 +22,8 @@ contains
       call list('assembled_clearance', shape%assembled_clearance, 'm', 'clearance at the pivots in operation')
       call list('pivot_distance', shape%pivot_distance, 'm', 'distance from the bore to the pivot in operation')
       call list('elastic_bending', shape%bending%elastic, 'm', &
-         & 'change of the machined clearance as the pressure bends the pad')
-      call list('thermal_bending', shape%bending%thermal, 'm', 'change of the machined clearance as heat bends the pad')
+         & 'change of the pad clearance as the pressure bends the pad')
+      call list('thermal_bending', shape%bending%thermal, 'm', 'change of the pad clearance as heat bends the pad')
       call put_figure(file, 'equilibrium_bearing_clearance', minval(shape%assembled_clearance), 'm', &
          & 'bearing clearance in operation')
       associate (t => shape%temperatures)
@@ -71,9 +71,9 @@ contains
             if (inputs%pads%bending /= 'none') bends = '; bends by '//micro(shape%bending%elastic(i)) &
                & //' um by pressure and '//micro(shape%bending%thermal(i))//' um by heat'
             if (allocated(t%pads)) bends = bends//'; at '//fixed_text(t%pads(i), 1)//' C'
-            print '(a)', '  pad '//to_text(i)//': machined clearance '//micro(b%machined_clearance(i))//' um, in operation ' &
-               & //micro(shape%machined_clearance(i))//'; assembled '//micro(b%assembled_clearance(i)) &
-               & //' um, in operation '//micro(shape%assembled_clearance(i))//bends
+            print '(a)', '  pad '//to_text(i)//': pad clearance '//micro(b%machined_clearance(i)) &
+               & //' um, in operation '//micro(shape%machined_clearance(i))//'; at the pivot ' &
+               & //micro(b%assembled_clearance(i))//' um, in operation '//micro(shape%assembled_clearance(i))//bends
          end do
          if (allocated(t%pads)) print '(a)', '  all pads: clearances of '//fixed_text(b%clearance_temperature, 1) &
             & //' C, the shaft at '//fixed_text(t%shaft, 1)//' C and the housing at '//fixed_text(t%housing, 1)//' C'

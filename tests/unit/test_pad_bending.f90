@@ -86,7 +86,7 @@ contains
          & (edge**2*cos(edge)/2 + edge*sin(edge)/2 - cos(edge)*sin(edge)**2)/4, 1e-9_wp, 'cos phi')
    end subroutine across
 
-   !> An even gradient changes the radius by R_m^2 alpha dT/dr, however many stations there are and wherever the pivot is.
+   !> An even gradient changes the radius by R_m^2 alpha dT/dr, whatever the number of stations.
    subroutine even_heat()
       integer :: n
       do n = 5, 40, 7

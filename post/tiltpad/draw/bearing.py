@@ -127,9 +127,8 @@ class Drawing:
             away = 1 + BACK + 0.045 + self.scale * (self.assembled[k] + state.pivot_deflection[k])
             pivot.center = polar(away, np.degrees(found.pivot[k]))
 
-
     def show_temperatures(self, run: Run) -> PolyCollection:
-        """Colours the pads, where they stand, by the temperatures of their surfaces, the journal by its own."""
+        """Colours the pads by the temperatures of their surfaces, and the journal by its own."""
         surfaces, shaft = run["equilibrium/surface_temperature"], float(run["equilibrium/shaft_temperature"])
         between = (np.arange(POINTS - 1) + 0.5) / (POINTS - 1)
         parts, warmth = [], []

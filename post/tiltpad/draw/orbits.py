@@ -91,7 +91,9 @@ def bearings(runs: Sequence[Run]) -> list[list[int]]:
     found: dict[Any, list[int]] = {}
     for i, run in enumerate(runs):
         key = tuple(
-            of_pads(run.in_operation, f"{group}%{name}") for group, names in GEOMETRY.items() for name in names
+            of_pads(run.in_operation, f"{group}%{name}")
+            for group, names in GEOMETRY.items()
+            for name in names
         )
         found.setdefault((run.input["pads"]["motion"] == "fixed", *key), []).append(i)
     return list(found.values())

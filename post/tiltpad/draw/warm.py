@@ -47,8 +47,8 @@ def temperatures(
 ) -> Figure:
     """Temperatures and viscosities over a parameter, of studies or a branch; of results the heat balances.
 
-    A study that varies more than one parameter has lines for its middle run, and bands of all. Of results with
-    temperatures along and across films, a pad that is chosen shows those of its film.
+    A study that varies more than one parameter has lines for its middle run, and bands of all. Of results
+    with temperatures along and across films, a pad that is chosen shows those of its film.
     """
     results = [each for each in runs if isinstance(each, Run)]
     branch = next((each for each in results if each.is_branch), None)
@@ -78,17 +78,20 @@ def temperatures(
 
 
 def draw_bands(
-    members: Sequence[tuple[np.ndarray, dict[str, np.ndarray]]], pads: Sequence[int], upper: Axes, lower: Axes
+    runs_there: Sequence[tuple[np.ndarray, dict[str, np.ndarray]]],
+    pads: Sequence[int],
+    upper: Axes,
+    lower: Axes,
 ) -> None:
     """Between the least and the largest of the runs at each place: maximum temperatures and viscosities."""
-    place = members[0][0]
-    if any(len(x) != len(place) or (x != place).any() for x, _ in members):
+    place = runs_there[0][0]
+    if any(len(x) != len(place) or (x != place).any() for x, _ in runs_there):
         raise ValueError("bands need the same values along the axis for each of the other parameters")
     for ax, name, unit in (
         (upper, "maximum_temperature", "temperature"),
         (lower, "viscosity", "viscosity"),
     ):
-        values = SHOWN[unit].factor * np.array([found[name] for _, found in members])
+        values = SHOWN[unit].factor * np.array([found[name] for _, found in runs_there])
         for i, k in enumerate(pads):
             own = values[:, :, k - 1]
             color = layout.part_color(i, len(pads))
@@ -143,9 +146,7 @@ def of_part(part: Part) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     return along(cast(Study, part.source), part.where, part.over)
 
 
-def along(
-    study: Study, where: Mapping[str, Any] | None, over: str
-) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+def along(study: Study, where: Mapping[str, Any], over: str) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Values of a parameter in their order, and what the runs there have of what is drawn."""
     place = study[over]
     order = np.flatnonzero(selected(study, where) & np.isfinite(place))
@@ -219,18 +220,25 @@ def of_films(runs: Sequence[Run], pad: int) -> Figure:
 
 
 def film_of_pad(run: Run, ax: Axes, pad: int) -> Any:
-    """Temperatures in a pad's film at the equilibrium over its true thickness: the pad below, the journal above."""
+    """Temperatures in a pad's film at the equilibrium, over its thickness from the pad to the journal."""
     film = geometry.surfaces(run.in_operation, geometry.at_rest(run)).thickness[pad - 1]
     place, height = run["film_arc"], run["film_height"]
     # thicknesses are given from the trailing edge on
     thickness = np.interp(1 - place, np.linspace(0, 1, len(film)), film)
     walls = np.concatenate([[0], height, [1]])
-    surface, shaft = run["equilibrium/surface_temperature"][pad - 1], float(run["equilibrium/shaft_temperature"])
+    surface, shaft = (
+        run["equilibrium/surface_temperature"][pad - 1],
+        float(run["equilibrium/shaft_temperature"]),
+    )
     field = run["equilibrium/film_temperature"][pad - 1]
     field = np.column_stack([surface, field, np.full(len(place), shaft)])
     factor = SHOWN["min_film_thickness"].factor
     shown = ax.contourf(
-        np.broadcast_to(place, field.T.shape), factor * np.outer(walls, thickness), field.T, 20, cmap=layout.WARMTH
+        np.broadcast_to(place, field.T.shape),
+        factor * np.outer(walls, thickness),
+        field.T,
+        20,
+        cmap=layout.WARMTH,
     )
     ax.set(ylabel="height in the film (µm)", ylim=(0, None))
     return shown
