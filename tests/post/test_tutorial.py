@@ -20,6 +20,8 @@ HERE = {
     "tiltpad-report": command.report,
     "tiltpad-collect": command.collect,
 }
+#: What the shape of a bearing has of each pad.
+OF_PADS = ("elastic_bending", "thermal_bending", "machined_clearance", "assembled_clearance")
 SAVED = re.compile(r"Save this text as `([\w.]+)`")
 
 
@@ -108,7 +110,7 @@ def figures(folder):
         k = 1e-6 * tiltpad.coefficients(run, "free").stiffness[0]
         yield f"cross-coupled stiffness of {k[0, 1]:.0f} and {k[1, 0]:.0f} MN/m"
     with result("large.h5") as run, result("stiff.h5") as stiff:
-        bent = {name: [f"{1e6 * x:.0f}" for x in run[f"shape/{name}"][:2]] for name in run["shape"]}
+        bent = {name: [f"{1e6 * x:.0f}" for x in run[f"shape/{name}"][:2]] for name in OF_PADS}
         yield "bend by {} and {} um under".format(*bent["elastic_bending"])
         yield "pressure, and by {} and {} um as heat".format(*bent["thermal_bending"])
         yield "400 um becomes {} and {} um".format(*bent["machined_clearance"])
