@@ -49,7 +49,7 @@ contains
       type(film_profile) :: profiles(size(films%fields, 2), size(films%fields, 3))
       type(film_stream) :: streams(size(films%fields, 3))
       type(anderson_type) :: acceleration
-      real(wp), allocatable :: wanted(:, :, :), settled(:, :, :), x(:)
+      real(wp), allocatable :: wanted(:, :, :), settled(:, :, :)
       real(wp) :: changes(size(streams)), change, before(size(y))
       integer :: i, round
       logical :: ok
@@ -90,18 +90,27 @@ contains
          do i = 1, size(streams)
             if (films%kept(i)) wanted(:, :, i) = films%fields(:, :, i)
          end do
-         if (change > large_change) then
-            call acceleration%forget()
-            films%fields = films%fields + part*(wanted - films%fields)
-         else
-            x = reshape(films%fields, [size(films%fields)])
-            call acceleration%advance(x, reshape(wanted, [size(wanted)]))
-            films%fields = reshape(x, shape(films%fields))
-         end if
+         call advance(films%fields, wanted, change, acceleration)
       end do
       call raise(error, numerics_error, 'the temperatures of the films do not settle: after '//to_text(most_rounds) &
          & //' rounds they still change by '//to_text(change)//' K')
    end subroutine solve_warm_films
+
+   !> The next temperatures after a round that would lead to those wanted, with this largest change, K.
+   subroutine advance(fields, wanted, change, acceleration)
+      real(wp), intent(inout) :: fields(:, :, :)
+      real(wp), intent(in) :: wanted(:, :, :), change
+      type(anderson_type), intent(inout) :: acceleration
+      real(wp) :: x(size(fields))
+      if (change > large_change) then
+         call acceleration%forget()
+         fields = fields + part*(wanted - fields)
+      else
+         x = reshape(fields, [size(fields)])
+         call acceleration%advance(x, reshape(wanted, [size(wanted)]))
+         fields = reshape(x, shape(fields))
+      end if
+   end subroutine advance
 
    !> The streams of all films in the state y.
    subroutine find_streams(model, y, stations, streams, ok)
