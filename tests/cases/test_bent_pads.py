@@ -253,6 +253,14 @@ def test_a_march_keeps_the_shape(run, tiltpad, tmp_path):
         assert (found["summary/pad_film_error_max"] < 1e-3).all()
 
 
+def test_a_shaft_that_turns_the_other_way_bends_the_mirrored_pads(run):
+    """The mirror image of a bearing has the same shape, each pad in its place."""
+    mirrored = ("operation%rotation=anticlockwise", "pads%pivot_angle_deg=225,-45")
+    with run(BOTH, WARM[0], name="one") as one, run(BOTH, WARM[0], *mirrored, name="other") as other:
+        for name in one["shape"]:
+            np.testing.assert_allclose(one[f"shape/{name}"], other[f"shape/{name}"], rtol=1e-12)
+
+
 def test_an_orbit_keeps_the_shape(run):
     with (
         run(ELASTIC, "case%task=periodic", "rotor%unbalance=0.01", name="found") as found,
