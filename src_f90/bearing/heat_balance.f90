@@ -8,6 +8,8 @@
 module heat_balance
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, degree
+   use text, only: to_text
+   use errors, only: error_type, raise, numerics_error
    use linear_algebra, only: dgesv
    use case_groups, only: oil_type, is_set
    use case_inputs, only: case_type
@@ -15,7 +17,7 @@ module heat_balance
    use bearing_losses, only: pad_loss
    implicit none (type, external)
    private
-   public :: heat_balance_type, oil_temperatures_type, groove_type, new_heat_balance, new_grooves
+   public :: heat_balance_type, oil_temperatures_type, groove_type, new_heat_balance, new_grooves, check_boiling
 
    !> Of the oil, C.
    type :: oil_temperatures_type
@@ -67,6 +69,10 @@ module heat_balance
    !> Relative change of the viscosities at which they have settled; most rounds of Newton's method.
    real(wp), parameter :: settled = 1e-13_wp
    integer, parameter :: most_rounds = 200
+   !> Mineral oils boil and crack from about here on, C.
+   real(wp), parameter :: boiling = 300
+   !> Highest temperature that is named, C: no law of viscosity goes further.
+   real(wp), parameter :: beyond = 500
 
 contains
 
@@ -183,6 +189,18 @@ contains
          wanted = viscosity(self%oil, mean)
       end associate
    end subroutine viscosities
+
+   !> Refuses oil that boils.
+   subroutine check_boiling(oil, error)
+      type(oil_temperatures_type), intent(in) :: oil
+      type(error_type), allocatable, intent(out) :: error
+      integer :: hottest
+      hottest = maxloc(oil%outlet, dim=1)
+      if (oil%outlet(hottest) > boiling) call raise(error, numerics_error, 'the oil would leave pad ' &
+         & //to_text(hottest)//' at '//to_text(nint(min(oil%outlet(hottest), beyond)))//' C or more, above ' &
+         & //to_text(nint(boiling))//' C, where mineral oil boils: film and asperities make more heat than its flow ' &
+         & //'carries off; try cooler or more oil, less load or more clearance')
+   end subroutine check_boiling
 
    !> Temperatures, C, of what enters the groove before each pad, and the time, s, in which it renews the oil of groove
    !> and, half of it, film: oil passes the film with half the speed of the journal's surface.

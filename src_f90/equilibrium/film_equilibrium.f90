@@ -71,11 +71,13 @@ contains
             y = before
          end do
          settled = films%fields
-         call find_streams(model, y, size(profiles, 1), streams, ok)
-         if (ok) call solve_network(model%inputs%oil, new_grooves(model%inputs), films, streams, profiles, &
+         call find_streams(model, y, size(profiles, 1), streams, ok, i)
+         if (.not. ok) call raise(error, numerics_error, 'the flow in the film of pad '//to_text(i)//' is not found')
+         if (allocated(error)) return
+         call solve_network(model%inputs%oil, new_grooves(model%inputs), films, streams, profiles, &
             & model%point%speed(0.0_wp)*model%inputs%bearing%journal_radius, wanted, ok)
          if (.not. ok) then
-            call raise(error, numerics_error, 'the heat of the films finds no balance')
+            call raise(error, numerics_error, 'the heat of the films finds no balance: nothing carries it off')
             return
          end if
          changes = maxval(maxval(abs(wanted - films%fields), 1), 1)
@@ -92,8 +94,10 @@ contains
          end do
          call advance(films%fields, wanted, change, acceleration)
       end do
-      call raise(error, numerics_error, 'the temperatures of the films do not settle: after '//to_text(most_rounds) &
-         & //' rounds they still change by '//to_text(change)//' K')
+      call raise(error, numerics_error, 'the temperatures in the film of pad ' &
+         & //to_text(maxloc(changes, 1, .not. films%kept))//' do not settle at ' &
+         & //to_text(model%point%speed_rpm)//' rpm: after '//to_text(most_rounds)//' rounds they still change by ' &
+         & //to_text(change)//' K')
    end subroutine solve_warm_films
 
    !> The next temperatures after a round that would lead to those wanted, with this largest change, K.
@@ -112,17 +116,17 @@ contains
       end if
    end subroutine advance
 
-   !> The streams of all films in the state y.
-   subroutine find_streams(model, y, stations, streams, ok)
+   !> The streams of all films in the state y; `ok` is false where that of a pad, the i-th, is not found.
+   subroutine find_streams(model, y, stations, streams, ok, i)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       integer, intent(in) :: stations
       type(film_stream), intent(out) :: streams(:)
       logical, intent(out) :: ok
+      integer, intent(out) :: i
       type(pad_state) :: pads(size(streams))
       type(film_motion) :: motion
       type(asperity_load) :: asperity
-      integer :: i
       pads = model%layout%bearings(1)%pad_states(y)
       associate (bearing => model%bearings(1), journal => model%rotor%journal(y(:model%rotor%states), 1), &
          & speed => model%point%speed(0.0_wp))

@@ -4,13 +4,12 @@
 module heat_balance_equations
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
    use kinds, only: wp
-   use text, only: to_text
    use errors, only: error_type, raise, add_context, numerics_error
    use case_inputs, only: case_type
    use bearing_numbers, only: eccentricity_ratio, attitude_angle
    use pad_gap, only: pad_gap_type
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
-   use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance
+   use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance, check_boiling
    use equations_of_motion, only: machine_model
    use bearing_samples, only: bearing_sample, take_sample
    use force_balance, only: forces
@@ -38,10 +37,6 @@ module heat_balance_equations
    !> K: no oil becomes as warm; where it would, hardly any flows.
    real(wp), parameter :: largest_rise = 1e4_wp
 
-   !> Mineral oils boil and crack from about here on, C.
-   real(wp), parameter :: boiling = 300
-   !> Highest temperature that is named, C: no law of viscosity goes further.
-   real(wp), parameter :: beyond = 500
    !> The difference of positions over the thinnest film, and of the logarithms of viscosities. Losses and flows are
    !> known to 1e-5; what they miss changes slowly.
    real(wp), parameter :: difference = 1e-3_wp
@@ -288,7 +283,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(oil_temperatures_type), intent(in), optional :: kept(:)
       type(oil_temperatures_type) :: oil(size(model%bearings))
-      integer :: b, hottest
+      integer :: b
       logical :: ok
       ok = balance%balanced
       if (ok) call take_temperatures(model, balance, oil, ok, kept)
@@ -299,12 +294,8 @@ contains
          return
       end if
       do b = 1, size(oil)
-         hottest = maxloc(oil(b)%outlet, dim=1)
-         if (oil(b)%outlet(hottest) <= boiling) cycle
-         call raise(error, numerics_error, 'the oil would leave pad '//to_text(hottest)//' at ' &
-            & //to_text(nint(min(oil(b)%outlet(hottest), beyond)))//' C or more, above '//to_text(nint(boiling)) &
-            & //' C, where mineral oil boils: film and asperities make more heat than its flow carries off; try ' &
-            & //'cooler or more oil, less load or more clearance')
+         call check_boiling(oil(b), error)
+         if (.not. allocated(error)) cycle
          if (model%inputs%is_machine()) call add_context(error, &
             & 'bearing '''//model%inputs%machine%bearings(b)%name//'''')
          return

@@ -8,7 +8,7 @@ module thermal_equilibrium
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, asked_to_stop, asked
    use film_oils, only: even_oil
-   use heat_balance, only: oil_temperatures_type
+   use heat_balance, only: oil_temperatures_type, check_boiling
    use oil_properties, only: viscosity
    use equations_of_motion, only: machine_model
    use force_balance, only: stability_at
@@ -104,6 +104,7 @@ contains
       call find_temperatures(model, y, balance, oil)
       found = new_warm_films(model%inputs, oil(1)%mean)
       call solve_warm_films(model, y, found, residual, error, give_up, held)
+      if (.not. allocated(error)) call check_boiling(found%oil, error)
       if (present(films)) call move_alloc(found, films)
    end subroutine solve_thermal_equilibrium
 

@@ -188,3 +188,12 @@ def test_oil_that_does_not_thin_is_even(run, tmp_path):
         for name in ("journal_y", "journal_z", "pad_tilt"):
             size = np.ptp(cold[name][:])
             assert np.abs(case[name][:] - cold[name][:]).max() < 1e-6 * size, name
+
+
+def test_oil_that_boils_names_its_pad(tiltpad, tmp_path):
+    """Thin oil under asperities, at 100 rpm."""
+    text = REST.replace("grade=46", "grade=10, supply_temperature=80") + "&rotor mass=6000 /\n"
+    (tmp_path / "case.nml").write_text(text + "&operation speed_rpm=100 /\n")
+    refused = tiltpad("case.nml", cwd=tmp_path, status=2).stderr
+    assert "the oil would leave pad 1 at" in refused
+    assert "where mineral oil boils" in refused

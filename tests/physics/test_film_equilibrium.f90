@@ -26,8 +26,15 @@ program test_film_equilibrium
       & //'&pads motion = ''tilting_only'', pivot_angle_deg = -54, 18, 90, 162, 234, arc_deg = 60,' &
       & //' pivot_distance = 14e-3, mass = 0.33856, inertia = 0.00013605, centre_radial = -9.3406e-3/' &
       & //'&oil kinematic_viscosity = 32e-6, 5.362e-6, density_at_15 = 870, density_slope = -0.64/'
-   character(len=*), parameter :: paper = '&pads motion = ''tilting_only''/ &asperity model = ''none''/' &
-      & //'&oil kinematic_viscosity = 46e-6, 6.8e-6, density_at_15 = 870, density_slope = -0.64/'
+   character(len=*), parameter :: oil_46 = '&asperity model = ''none''/ &oil kinematic_viscosity = 46e-6, 6.8e-6,' &
+      & //' density_at_15 = 870, density_slope = -0.64/'
+   character(len=*), parameter :: paper = '&pads motion = ''tilting_only''/'//oil_46
+   character(len=*), parameter :: turbine = '&rotor mass = 13761.4679/ &bearing journal_radius = 150e-3,' &
+      & //' axial_length = 225e-3, machined_clearance = 300e-6, assembled_clearance = 225e-6/' &
+      & //'&pads motion = ''tilting_only'', pivot_angle_deg = -54, 18, 90, 162, 234, arc_deg = 58,' &
+      & //' pivot_distance = 50e-3, mass = 1e-3, inertia = 1e-6, centre_radial = -10e-3/' &
+      & //'&oil kinematic_viscosity = 32e-6, 5.362e-6, density_at_15 = 870, density_slope = -0.64,' &
+      & //' supply_temperature = 45/'
 
    if (runs('fillon')) call compare('&operation speed_rpm = 4000/'//fillon//by_default, [101.3527_wp, 100.5888_wp, &
       & 31.20765_wp, 31.21365_wp], [53.8387_wp, 51.52844_wp, 68.40364_wp, 68.18969_wp], 54.26248_wp, 2164.421_wp, &
@@ -37,6 +44,19 @@ program test_film_equilibrium
       & 58.98248_wp, 6078.02_wp, [510.8134_wp, 288.5922_wp], [0.3927633_wp, 0.2695076_wp])
    if (runs('paper')) call compare('&operation speed_rpm = 6500/'//paper//by_default, [42.04612_wp, 35.95983_wp], &
       & [74.78506_wp, 85.03676_wp], 56.42648_wp, 5260.808_wp, [563.0279_wp, 564.112_wp], [0.9732254_wp, 0.9749136_wp])
+   if (runs('fillon_slow')) call compare('&operation speed_rpm = 2000/'//fillon//by_default, &
+      & [24.665_wp], [47.59027_wp, 45.09628_wp, 56.02802_wp, 56.11084_wp], 49.78081_wp, 767.1565_wp, &
+      & [395.0035_wp, 396.0086_wp], [1.168024_wp, 1.170735_wp])
+   if (runs('paper_fast')) call compare('&operation speed_rpm = 9000/'//paper//by_default, &
+      & [39.21781_wp], [85.16684_wp, 94.40161_wp], 56.93096_wp, 8658.48_wp, &
+      & [541.6325_wp, 542.5506_wp], [0.7384655_wp, 0.7394649_wp])
+   if (runs('paper_radial')) call compare('&operation speed_rpm = 6500/ &pads motion = ''tilting_radial''/'//oil_46 &
+      & //by_default, &
+      & [35.95736_wp], [74.78645_wp, 85.03874_wp], 56.42793_wp, 5260.884_wp, &
+      & [550.8762_wp, 552.1652_wp], [0.6245691_wp, 0.6258954_wp])
+   if (runs('turbine')) call compare('&operation speed_rpm = 3600/'//turbine//by_default, &
+      & [57.63662_wp], [92.48449_wp, 60.44657_wp, 55.90911_wp, 60.31878_wp, 96.4541_wp], 56.58478_wp, 47209.89_wp, &
+      & [2867.495_wp, 1537.477_wp], [4.887067_wp, 2.961607_wp])
    if (runs('even_oil')) call even_oil()
    if (runs('order')) call order()
    call report()
