@@ -203,7 +203,8 @@ run: build python
 	@mkdir -p build/run
 	$(B)/bin/tiltpad input/paper/steady_lugre.nml --overwrite --output build/run/steady_lugre.h5
 	@for plot in orbit spectrum hysteresis; do \
-	   $(venv_python) $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; done
+	   $(venv_python) $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; \
+	   echo "picture: build/run/$$plot.png"; done
 
 test: build python build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B)/stress/global_search
 	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input

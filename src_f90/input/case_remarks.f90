@@ -11,13 +11,15 @@ module case_remarks
    use namelist_writer, only: lines_of
    implicit none (type, external)
    private
-   public :: remarks_on_case, remarks_on_load, of_bearing, behind, newline
+   public :: remarks_on_case, remarks_on_load, remark_on_unbalance, of_bearing, behind, newline
 
    character(len=*), parameter :: newline = achar(10)
    !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
    real(wp), parameter :: compared_up_to = 35
    !> Radius of a journal, m, beyond which inches may be meant, and temperature of a supply, C, beyond which kelvin may.
    real(wp), parameter :: largest_usual = 1, warmest_supply = 150
+   !> Viscosity, Pa s, below that of any oil, and arc, deg, below that of any pad.
+   real(wp), parameter :: thinnest_oil = 1e-4_wp, shortest_arc = 10
    !> Specific load, Pa, that few bearings have.
    real(wp), parameter :: highest_usual_load = 5e6_wp
    !> From the edge of a fixed pad on this angle, deg, carries little.
@@ -69,9 +71,14 @@ contains
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
       lines = ''
-      associate (b => inputs%bearing, t => inputs%oil%supply_temperature)
+      associate (b => inputs%bearing, p => inputs%pads, t => inputs%oil%supply_temperature)
          if (b%journal_radius > largest_usual) lines = lines//'bearing%journal_radius = '//to_text(b%journal_radius) &
             & //': all lengths are in metres; an inch is 0.0254'//newline
+         if (inputs%oil%law == 'constant' .and. b%viscosity < thinnest_oil) lines = lines//'bearing%viscosity = ' &
+            & //to_text(b%viscosity)//': thinner than oils are; it is in Pa s: 1 cP is 0.001, and a reyn is 6895' &
+            & //newline
+         if (any(p%arc_deg < shortest_arc)) lines = lines//'pads%arc_deg = '//to_text(minval(p%arc_deg)) &
+            & //': angles are in degrees'//newline
          if (t > warmest_supply) lines = lines//'oil%supply_temperature = '//to_text(t)//': temperatures are in ' &
             & //'degrees Celsius; '//to_text(t)//' K are '//fixed_text(t - 273.15_wp, 2)//' C'//newline
       end associate
@@ -132,12 +139,18 @@ contains
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
       lines = ''
-      associate (eccentricity => inputs%unbalance()/inputs%rotor%mass, c => inputs%clearance())
-         if (inputs%moves() .and. eccentricity > c) lines = lines//'mass eccentricity ' &
-            & //to_text(1e6_wp*eccentricity)//' um (unbalance over rotor%mass): more than the bearing clearance of ' &
-            & //to_text(1e6_wp*c)//' um; the unbalance is in kg m'//newline
-      end associate
+      if (inputs%moves()) lines = remark_on_unbalance(inputs%unbalance()/inputs%rotor%mass, inputs%clearance())
    end function on_rigid_journal
+
+   !> What an unbalance over the mass of its rotor, m, says where it is more than the clearance, m; else empty.
+   function remark_on_unbalance(eccentricity, clearance) result(line)
+      real(wp), intent(in) :: eccentricity, clearance
+      character(len=:), allocatable :: line
+      line = ''
+      if (eccentricity > clearance) line = 'mass eccentricity '//to_text(1e6_wp*eccentricity) &
+         & //' um (unbalance over the mass of the rotor): more than the bearing clearance of ' &
+         & //to_text(1e6_wp*clearance)//' um; the unbalance is in kg m'//newline
+   end function remark_on_unbalance
 
    !> Groups that the task of a case does not use, and what they say.
    function on_idle_groups(inputs) result(lines)

@@ -18,7 +18,7 @@ module variable_names
       & '--member', '--run'], [2, 6])
 
    !> Names as data sheets and other programs have them, each with what is meant, in pairs.
-   character(len=*), parameter :: common_names(2, 10) = reshape([character(len=47) :: &
+   character(len=*), parameter :: common_names(2, 16) = reshape([character(len=47) :: &
       & 'radial_clearance', 'bearing%assembled_clearance', &
       & 'bearing_clearance', 'bearing%assembled_clearance', &
       & 'diametral_clearance', 'bearing%assembled_clearance, half of it', &
@@ -28,7 +28,13 @@ module variable_names
       & 'shaft_diameter', 'bearing%journal_radius, half of it', &
       & 'width', 'bearing%axial_length', &
       & 'length', 'bearing%axial_length', &
-      & 'load', 'rotor%static_load along y and z, or rotor%mass'], [2, 10])
+      & 'pivot_offset', 'pads%pivot_ratio', &
+      & 'number', 'pads%pivot_angle_deg, one for each pad', &
+      & 'number_of_pads', 'pads%pivot_angle_deg, one for each pad', &
+      & 'clearance_ratio', 'bearing%assembled_clearance', &
+      & 'weight', 'rotor%mass in kg', &
+      & 'elastic_modulus', 'young_modulus', &
+      & 'load', 'rotor%static_load along y and z, or rotor%mass'], [2, 16])
 
 contains
 

@@ -5,7 +5,7 @@ module result_remarks
    use kinds, only: wp, degree, pi
    use text, only: to_text, fixed_text
    use case_inputs, only: case_type
-   use case_remarks, only: remarks_on_case, remarks_on_load, of_bearing, newline
+   use case_remarks, only: remarks_on_case, remarks_on_load, remark_on_unbalance, of_bearing, newline
    use equilibrium_refusal, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
    use record, only: record_type
@@ -24,6 +24,8 @@ module result_remarks
    real(wp), parameter :: largest_rise = 50, warm_metal = 120
    !> Films thinner than this number of roughnesses touch; part of the minimum thickness that a slope may change.
    real(wp), parameter :: roughnesses = 3, visible_slope = 0.2_wp
+   !> Part of the clearance by which few pivots give way.
+   real(wp), parameter :: soft_pivot = 0.2_wp
    !> Part of a pad's inflow that may be missing in its balance.
    real(wp), parameter :: visible_flow = 0.02_wp
    !> Error of amplitudes by the damping of high modes of a shaft, and the multiple of the highest speed from which on
@@ -41,7 +43,7 @@ contains
       type(case_type) :: alone
       real(wp) :: loads(2, inputs%bearing_count())
       integer :: b
-      all = remarks_on_case(inputs)//on_damping(inputs, file)
+      all = remarks_on_case(inputs)//on_damping(inputs, file)//on_unbalances(inputs, file)
       call file%get_list('equilibrium/bearing_load_y', loads(1, :))
       call file%get_list('equilibrium/bearing_load_z', loads(2, :))
       do b = 1, inputs%bearing_count()
@@ -53,7 +55,7 @@ contains
          else
             alone = inputs
          end if
-         if (part%has('equilibrium/journal_y')) own = own//on_equilibrium(alone, part)
+         if (part%has('equilibrium/journal_y')) own = own//on_equilibrium(alone, part)//on_pivots(alone, part)
          all = all//of_bearing(inputs, b, own//on_motion(alone, part))
       end do
       if (.not. file%has('periodic/closed')) return
@@ -76,6 +78,21 @@ contains
             & //' changes less, and takes more steps in a march'//newline
       end associate
    end function on_damping
+
+   !> The largest unbalance of a machine, over the mass of its rotor, against the smallest clearance.
+   function on_unbalances(inputs, file) result(remark)
+      type(case_type), intent(in) :: inputs
+      class(run_file_type), intent(inout) :: file
+      character(len=:), allocatable :: remark
+      real(wp) :: clearance
+      integer :: b
+      remark = ''
+      if (.not. file%has('rotor/total_mass') .or. size(inputs%machine%unbalances) == 0) return
+      clearance = minval([(minval(inputs%machine%bearings(b)%bearing%assembled_clearance), b=1, &
+         & inputs%bearing_count())])
+      remark = remark_on_unbalance(maxval(inputs%machine%unbalances%moment)/file%get_real('rotor/total_mass'), &
+         & clearance)
+   end function on_unbalances
 
    !> Writes the list; a list that was there is replaced.
    subroutine put_remarks(file, all)
@@ -159,9 +176,29 @@ contains
          end if
       end associate
       if (figure(file, 'misalignment') > visible_slope) said = said//'the slope of the shaft changes the film by ' &
-         & //fixed_text(100*figure(file, 'misalignment'), 0)//' % of its minimum thickness from the middle of the ' &
+         & //to_text(nint(100*figure(file, 'misalignment')))//' % of its minimum thickness from the middle of the ' &
          & //'bearing to its end, which is left out'//newline
    end function on_equilibrium
+
+   !> On pivots that give way by much of the clearance: those of another bearing may be too small.
+   function on_pivots(inputs, file) result(said)
+      type(case_type), intent(in) :: inputs
+      type(bearing_file_type), intent(inout) :: file
+      character(len=:), allocatable :: said
+      real(wp) :: deflection(inputs%pad_count())
+      said = ''
+      if (.not. file%has('equilibrium/pivot_deflection')) return
+      call file%get_list('equilibrium/pivot_deflection', deflection)
+      associate (soft => deflection > soft_pivot*inputs%bearing%assembled_clearance)
+         if (.not. any(soft)) return
+         said = 'at the equilibrium '//trim(merge('the pivot ', 'the pivots', count(soft) == 1))//' of '//listed(soft) &
+            & //trim(merge(' gives', ' give ', count(soft) == 1))//' way by '//micro(maxval(deflection, mask=soft)) &
+            & //' um, more than '//to_text(soft_pivot)//' of the clearance'
+         if (inputs%pivot%law /= 'table') said = said//'; is pivot%socket_radius = ' &
+            & //to_text(maxval(inputs%pivot%socket_radius))//' m that of this bearing?'
+         said = said//newline
+      end associate
+   end function on_pivots
 
    !> On the motion: contact in the whole run, and lift-off, flutter, rubbing and whirl in the last revolutions.
    function on_motion(inputs, file) result(said)

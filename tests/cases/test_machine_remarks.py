@@ -49,6 +49,14 @@ def test_much_damping_of_high_modes_is_said_with_what_changes_it(run, tmp_path):
         assert file["rotor/damping_error"][()] < 0.01 < before
 
 
+def test_an_unbalance_in_g_mm_is_said(run):
+    said = run(HEAVY, "case%task=equilibrium", "unbalance(1)%moment=10").stdout
+    assert re.search(
+        r"remark: mass eccentricity \S+ um \(unbalance over the mass of the rotor\): more than", said
+    )
+    assert "mass eccentricity" not in run(HEAVY, "case%task=equilibrium", more=("--overwrite",)).stdout
+
+
 def test_the_part_of_the_reduction_is_what_its_damping_adds(run, tmp_path):
     """Of a small damping ratio: what a mode decays faster than without.
 

@@ -14,13 +14,18 @@ REMARKS = {
     "units": (
         ("bearing%viscosity=19e-6",),
         [
+            "bearing%viscosity = 1.9e-5: thinner than oils are; it is in Pa s: 1 cP is 0.001",
             "film of pads 1, 2 is",
             "eccentricity ratio 1.531: at pads 1, 2",
             "the oil warms by",
             "Reynolds number",
         ],
     ),
-    "loaded": (("rotor%mass=6000",), ["specific load 5.90 MPa"]),
+    "loaded": (("rotor%mass=6000",), ["specific load 5.90 MPa", "pads 1, 2 give way by"]),
+    "small pivots": (
+        ("pivot%socket_radius=0.004",),
+        ["is pivot%socket_radius = 0.004 m that of this bearing?"],
+    ),
     "unloaded": (
         ("pads%pivot_angle_deg=-90,0,90,180", "pads%arc_deg=70", "bearing%preload=0"),
         ["at the equilibrium pads 2, 3, 4 carry no load"],

@@ -1,5 +1,7 @@
 """Where a march starts: each start leads to the same orbit, and begins where it says, or is refused."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
@@ -214,3 +216,32 @@ def test_a_resumed_run_does_not_start_again(start, tiltpad, tmp_path):
     with h5py.File(output) as file, h5py.File(tmp_path / "whole.h5") as whole:
         assert file["checkpoint/time"][()] > reached
         assert file["journal_y"][0] == first == whole["journal_y"][0]
+
+
+@pytest.mark.parametrize(
+    ("settings", "why", "start"),
+    [
+        # films that pull leave no equilibrium to pads without load
+        (("film%cavitation=none",), r"pads? [\d, ]+ ha\w+ no equilibrium \(unloaded\)", "partial"),
+        # a pivot before the middle of a pad whose bore is that of the journal's circle
+        (
+            ("pads%pivot_ratio=0.45",),
+            r"statically unstable \(divergence\): a small motion of pad 2",
+            "centred",
+        ),
+    ],
+)
+def test_a_refusal_of_unloaded_pads_offers_a_start_that_works(tiltpad, tmp_path, settings, why, start):
+    """Four pads without preload, the load on one of them: it names pads and cause, and the march goes."""
+    (tmp_path / "case.nml").write_text(
+        "&bearing journal_radius=0.0635, assembled_clearance=95.25e-6, axial_length=0.0635, preload=0, "
+        "viscosity=15.17e-3 /\n&pads pivot_angle_deg=-90,0,90,180, arc_deg=75, motion='tilting_only', "
+        "density=7850, thickness=15.24e-3 /\n&rotor mass=680.4, unbalance=1e-3 /\n"
+        "&operation speed_rpm=10000, duration=0.002 /"
+    )
+    for task, advice in (("march", ""), ("equilibrium", "case%task = 'march', ")):
+        done = tiltpad("case.nml", overrides=(f"case%task={task}", *settings), cwd=tmp_path, status=2)
+        assert re.search(why, done.stderr), done.stderr
+        assert f"a march from another start ({advice}start%from = '{start}')" in done.stderr
+    go_on = (*settings, f"start%from={start}")
+    tiltpad("case.nml", "--overwrite", overrides=go_on, cwd=tmp_path, status=0)

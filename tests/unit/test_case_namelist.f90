@@ -60,6 +60,10 @@ contains
          & 'bearing%assembled_clearance = 0.076: must be at most 0.1 of bearing%journal_radius = 0.0499 (both in m; ' &
          & //'pad 1); 7.6e-5?')
       call expect_refused('&bearing machined_clearance = 0.1 /', '(both in m; pad 1); 1e-4?')
+      call expect_refused('&bearing viscosity = 19 /', 'must be 1e-6 to 10 Pa s; 0.019?')
+      call expect_refused('&oil kinematic_viscosity = 46, 6.8 /', 'must be 5e-7 to 1 m^2/s; 4.6e-5?')
+      call expect_refused('&rotor weight = 1500 /', '(did you mean rotor%mass in kg?)')
+      call expect_refused('&pads pivot_offset = 0.5 /', '(did you mean pads%pivot_ratio?)')
       call expect_refused('&bearing radial_clearance = 1e-4 /', '(did you mean bearing%assembled_clearance?)')
       call expect_refused('&bearing diameter = 0.1 /', '(did you mean bearing%journal_radius, half of it?)')
       call expect_refused('&pads arc_deg(0) = 60 /', 'pads%arc_deg(0): elements count from 1')

@@ -36,6 +36,8 @@ contains
       ! 80 um of 2000 kg are 0.16 kg m
       call expect_remark('&rotor unbalance = 0.159 /', '')
       call expect_remark('&rotor unbalance = 0.161 /', 'mass eccentricity 80.5 um')
+      call expect_remark('&pads arc_deg = 1.309 /', 'pads%arc_deg = 1.309: angles are in degrees')
+      call expect_remark('&bearing viscosity = 2.2e-6 /', 'bearing%viscosity = 2.2e-6: thinner than oils are')
       call expect_remark('&rotor unbalance = 0.161 / &case task = equilibrium /', '')
    end subroutine units
 
