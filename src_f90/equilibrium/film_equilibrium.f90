@@ -76,10 +76,8 @@ contains
          if (allocated(error)) return
          call solve_network(model%inputs%oil, new_grooves(model%inputs), films, streams, profiles, &
             & model%point%speed(0.0_wp)*model%inputs%bearing%journal_radius, wanted, ok)
-         if (.not. ok) then
-            call raise(error, numerics_error, 'the heat of the films finds no balance: nothing carries it off')
-            return
-         end if
+         if (.not. ok) call raise(error, numerics_error, 'nothing carries off the heat of the films')
+         if (allocated(error)) return
          changes = maxval(maxval(abs(wanted - films%fields), 1), 1)
          films%kept = films%kept .and. changes <= largest_leap
          change = maxval(changes, mask=.not. films%kept)
