@@ -50,7 +50,7 @@ contains
       inputs = case_of(text)
       width = merge(2 + pads, 2, inputs%tilting())
       file%filed = .false.
-      call file%start(inputs, '', error)
+      call file%start(inputs, error)
       call expect_no_error(error, 'a run')
       call file%begin_series('time', size(angle, kind=i8))
       call file%declare('shaft_angle', 1, '', 'rad', 'angle')
