@@ -18,7 +18,8 @@ module variable_names
       & '--member', '--run'], [2, 6])
 
    !> Names as data sheets and other programs have them, each with what is meant, in pairs.
-   character(len=*), parameter :: common_names(2, 16) = reshape([character(len=47) :: &
+   character(len=*), parameter :: common_names(2, 17) = reshape([character(len=47) :: &
+      & 'clearance', 'machined_clearance or assembled_clearance', &
       & 'radial_clearance', 'bearing%assembled_clearance', &
       & 'bearing_clearance', 'bearing%assembled_clearance', &
       & 'diametral_clearance', 'bearing%assembled_clearance, half of it', &
@@ -34,7 +35,7 @@ module variable_names
       & 'clearance_ratio', 'bearing%assembled_clearance', &
       & 'weight', 'rotor%mass in kg', &
       & 'elastic_modulus', 'young_modulus', &
-      & 'load', 'rotor%static_load along y and z, or rotor%mass'], [2, 16])
+      & 'load', 'rotor%static_load along y and z, or rotor%mass'], [2, 17])
 
 contains
 
