@@ -102,7 +102,7 @@ def test_another_study_is_refused(tiltpad, case):
     tiltpad("case.nml", "-q", cwd=folder, status=0)
     before = (folder / "case.h5").read_bytes()
     for change, reason in (
-        ("rotor%gravity=9", "is the study of another case"),
+        ("rotor%gravity=9", "is the study of another case, or of files that have changed since"),
         ("sweep%rotor%mass=1001,1002,1004", "is of another study: its runs have other values"),
         ("sweep%rotor%mass=1001,1002", "is of a study with 3 runs; this one has 2"),
     ):

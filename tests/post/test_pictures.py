@@ -23,6 +23,8 @@ def with_input(run, **values):
     other.input = copy.deepcopy(run.input)
     for group, own in values.items():
         other.input[group].update(own)
+    # nothing bends or expands
+    other.in_operation = other.input
     return other
 
 
