@@ -100,7 +100,8 @@ def completed(root, program, tmp_path_factory):
         ("tiltpad --over\t", "tiltpad --overwrite "),
         (
             "tiltpad case.nml --set operation%\x0f",
-            "tiltpad case.nml --set operation%duration= operation%final_speed_rpm= operation%rotation= operation%speed_rpm= ",
+            "tiltpad case.nml --set operation%duration= operation%final_speed_rpm= operation%rotation= "
+            "operation%speed_rpm= ",
         ),
         ("tiltpad --set sweep%rotor%ma\t", "tiltpad --set sweep%rotor%mass="),
         ("tiltpad --set friction%model=\x0f", "tiltpad --set friction%model=bengisu_akay lugre none "),
