@@ -2,7 +2,7 @@
 module run_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, pi, degree
-   use text, only: to_text, fixed_text, list_text
+   use text, only: to_text, fixed_text, micro, list_text
    use case_inputs, only: case_type
    use result_size, only: size_note
    use case_remarks, only: behind
@@ -260,13 +260,7 @@ contains
       end function duration
    end subroutine print_cost
 
-   !> Metres as micrometres, radians as milliradians, pascals as megapascals.
-   function micro(x)
-      real(wp), intent(in) :: x
-      character(len=:), allocatable :: micro
-      micro = fixed_text(1e6_wp*x, 3)
-   end function micro
-
+   !> Radians as milliradians, pascals as megapascals.
    function milli(x)
       real(wp), intent(in) :: x
       character(len=:), allocatable :: milli

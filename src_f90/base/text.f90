@@ -3,7 +3,7 @@ module text
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: to_text, list_text, exact_text, fixed_text, whole_number, lower_case, printable, shortened, replaced
+   public :: to_text, list_text, exact_text, fixed_text, micro, whole_number, lower_case, printable, shortened, replaced
    public :: is_utf8, checksum, find_similar, did_you_mean, unlike
 
    !> The score of a word that no known one is like.
@@ -145,6 +145,15 @@ contains
       write (buffer, '(ss,f40.'//decimals_in_format(decimals)//')') x
       string = trim(adjustl(buffer))
    end function fixed_text
+
+   !> Metres as micrometres, with three decimals or this number of them.
+   pure function micro(x, decimals) result(string)
+      real(wp), intent(in) :: x
+      integer, intent(in), optional :: decimals
+      character(len=:), allocatable :: string
+      string = fixed_text(1e6_wp*x, 3)
+      if (present(decimals)) string = fixed_text(1e6_wp*x, decimals)
+   end function micro
 
    pure function lower_case(string) result(lower)
       character(len=*), intent(in) :: string

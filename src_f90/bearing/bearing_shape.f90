@@ -2,7 +2,7 @@
 !> expanded (docs/theory/heat.md, *Bent pads* and *Warm clearances*).
 module bearing_shape
    use kinds, only: wp
-   use text, only: to_text, fixed_text
+   use text, only: to_text, fixed_text, micro
    use errors, only: error_type, raise, numerics_error
    use case_groups, only: is_set
    use case_inputs, only: case_type
@@ -103,9 +103,10 @@ contains
          associate (bent => self%bending%elastic(i) + self%bending%thermal(i), &
             & c => inputs%bearing%machined_clearance(i))
             if (abs(bent) > c) then
-               call raise(error, numerics_error, 'pad '//to_text(i)//' bends by '//micro(bent)//' um, more than its ' &
-                  & //'clearance of '//micro(c)//' um: '//micro(self%bending%elastic(i))//' um by pressure, ' &
-                  & //micro(self%bending%thermal(i))//' um by heat; it is too thin (pads%thickness = ' &
+               call raise(error, numerics_error, 'pad '//to_text(i)//' bends by '//micro(bent, 1)//' um, more than ' &
+                  & //'its clearance of '//micro(c, 1)//' um: '//micro(self%bending%elastic(i), 1) &
+                  & //' um by pressure, ' &
+                  & //micro(self%bending%thermal(i), 1)//' um by heat; it is too thin (pads%thickness = ' &
                   & //to_text(inputs%pads%thickness(i))//' m)')
             else if (.not. self%machined_clearance(i) > 0) then
                call raise(error, numerics_error, gone('bearing%machined_clearance', c, self%machined_clearance(i)))
@@ -121,19 +122,13 @@ contains
          character(len=*), intent(in) :: name
          real(wp), intent(in) :: cold, warm
          character(len=:), allocatable :: message
-         message = 'the clearance of pad '//to_text(i)//' is gone: '//name//' = '//micro(cold)//' um becomes ' &
-            & //micro(warm)//' um'
+         message = 'the clearance of pad '//to_text(i)//' is gone: '//name//' = '//micro(cold, 1)//' um becomes ' &
+            & //micro(warm, 1)//' um'
          if (.not. is_set(inputs%bearing%clearance_temperature)) return
          associate (t => self%temperatures)
             message = message//' with the shaft at '//fixed_text(t%shaft, 1)//' C, the pad at ' &
                & //fixed_text(t%pads(i), 1)//' C and the housing at '//fixed_text(t%housing, 1)//' C'
          end associate
       end function gone
-
-      function micro(x)
-         real(wp), intent(in) :: x
-         character(len=:), allocatable :: micro
-         micro = fixed_text(1e6_wp*x, 1)
-      end function micro
    end subroutine check
 end module bearing_shape

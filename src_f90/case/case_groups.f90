@@ -106,7 +106,7 @@ module case_groups
       character(len=:), allocatable :: motion
       !> What bends the pads; their modulus, Pa, ratio of Poisson and linear expansion, 1/K.
       character(len=:), allocatable :: bending
-      real(wp), allocatable :: elastic_modulus(:), poisson_ratio(:), expansion(:)
+      real(wp), allocatable :: young_modulus(:), poisson_ratio(:), expansion(:)
       !> C; unset: from the temperatures of the films.
       real(wp), allocatable :: temperature(:)
    end type pads_type

@@ -86,7 +86,7 @@ contains
       inputs%pads%conductivity = [50.0_wp, 50.0_wp]
       inputs%pads%motion = 'tilting_radial'
       inputs%pads%bending = 'none'
-      inputs%pads%elastic_modulus = [2.1e11_wp, 2.1e11_wp]
+      inputs%pads%young_modulus = [2.1e11_wp, 2.1e11_wp]
       inputs%pads%poisson_ratio = [0.3_wp, 0.3_wp]
       inputs%pads%expansion = [11e-6_wp, 11e-6_wp]
       inputs%pads%temperature = [unset, unset]

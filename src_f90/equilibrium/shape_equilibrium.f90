@@ -150,7 +150,7 @@ contains
          end do
          call bearing%pressure_field(phi, z, pressure)
          do i = 1, size(elastic)
-            elastic(i) = bent_by_pressure(bearing%pads(i)%gap, p%thickness(i), p%elastic_modulus(i), &
+            elastic(i) = bent_by_pressure(bearing%pads(i)%gap, p%thickness(i), p%young_modulus(i), &
                & p%poisson_ratio(i), pressure(:, :, i) - bearing%pads(i)%gap%ambient_pressure)
          end do
       end associate

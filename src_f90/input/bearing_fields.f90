@@ -127,7 +127,7 @@ contains
          & 'what bends pads that tilt: none; elastic: the pressure of the films; thermal: the heat that flows ' &
          & //'through them, with thermal%model = film; both; pads are as thick as pads%thickness, or else ' &
          & //'pivot_distance')
-      call v%each(pads%elastic_modulus, 'pads', 'elastic_modulus', 1e6_wp, 1e13_wp, 'Pa', &
+      call v%each(pads%young_modulus, 'pads', 'young_modulus', 1e6_wp, 1e13_wp, 'Pa', &
          & 'Young''s modulus of the pad; 210 GPa: steel')
       call v%each(pads%poisson_ratio, 'pads', 'poisson_ratio', 0.0_wp, 0.5_wp, '1', 'its Poisson''s ratio')
       call v%each(pads%expansion, 'pads', 'expansion', 0.0_wp, 1e-3_wp, '1/K', &

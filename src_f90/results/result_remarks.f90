@@ -3,7 +3,7 @@
 module result_remarks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, degree, pi
-   use text, only: to_text, fixed_text
+   use text, only: to_text, fixed_text, micro
    use case_inputs, only: case_type
    use case_remarks, only: remarks_on_case, remarks_on_load, remark_on_unbalance, of_bearing, newline
    use equilibrium_refusal, only: listed
@@ -270,11 +270,4 @@ contains
          percent = fixed_text(100*share, 1)//' % of the time'
       end function percent
    end function pad_diagnosis
-
-   !> Metres as micrometres.
-   function micro(x)
-      real(wp), intent(in) :: x
-      character(len=:), allocatable :: micro
-      micro = fixed_text(1e6_wp*x, 3)
-   end function micro
 end module result_remarks

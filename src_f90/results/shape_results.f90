@@ -1,7 +1,7 @@
 !> What file and console have of the shape of a bearing in operation.
 module shape_results
    use kinds, only: wp
-   use text, only: to_text, fixed_text
+   use text, only: to_text, fixed_text, micro
    use errors, only: error_type, raise, system_error
    use record, only: record_type
    use case_inputs, only: case_type
@@ -68,21 +68,16 @@ contains
       associate (b => inputs%bearing, t => shape%temperatures)
          do i = 1, size(shape%machined_clearance)
             bends = ''
-            if (inputs%pads%bending /= 'none') bends = '; bends by '//micro(shape%bending%elastic(i)) &
-               & //' um by pressure and '//micro(shape%bending%thermal(i))//' um by heat'
+            if (inputs%pads%bending /= 'none') bends = '; bends by '//micro(shape%bending%elastic(i), 2) &
+               & //' um by pressure and '//micro(shape%bending%thermal(i), 2)//' um by heat'
             if (allocated(t%pads)) bends = bends//'; at '//fixed_text(t%pads(i), 1)//' C'
-            print '(a)', '  pad '//to_text(i)//': pad clearance '//micro(b%machined_clearance(i)) &
-               & //' um, in operation '//micro(shape%machined_clearance(i))//'; at the pivot ' &
-               & //micro(b%assembled_clearance(i))//' um, in operation '//micro(shape%assembled_clearance(i))//bends
+            print '(a)', '  pad '//to_text(i)//': pad clearance '//micro(b%machined_clearance(i), 2) &
+               & //' um, in operation '//micro(shape%machined_clearance(i), 2)//'; at the pivot ' &
+               & //micro(b%assembled_clearance(i), 2)//' um, in operation '//micro(shape%assembled_clearance(i), 2) &
+               & //bends
          end do
          if (allocated(t%pads)) print '(a)', '  all pads: clearances of '//fixed_text(b%clearance_temperature, 1) &
             & //' C, the shaft at '//fixed_text(t%shaft, 1)//' C and the housing at '//fixed_text(t%housing, 1)//' C'
       end associate
-   contains
-      function micro(x)
-         real(wp), intent(in) :: x
-         character(len=:), allocatable :: micro
-         micro = fixed_text(1e6_wp*x, 2)
-      end function micro
    end subroutine print_shape
 end module shape_results

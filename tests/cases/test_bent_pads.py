@@ -280,7 +280,7 @@ def test_an_orbit_keeps_the_shape(run):
         (("bearing%clearance_temperature=20",), "needs oil%shaft_temperature"),
         (WARM[:2], "needs pads%temperature, or thermal%model = 'film', which gives it (pad 1)"),
         (("pads%pivot_angle_deg=0", "pads%arc_deg=200"), "may reach at most 90 deg from its pivot (pad 1)"),
-        (("pads%elastic_modulus=1",), "pads%elastic_modulus"),
+        (("pads%young_modulus=1",), "pads%young_modulus"),
     ],
 )
 def test_what_is_refused(tiltpad, tmp_path, changes, words):

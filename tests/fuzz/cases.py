@@ -297,7 +297,7 @@ def pads(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
     distance = each(lambda: number(dice, variables["pads%pivot_distance"]))
     solid = (
         each(lambda key=key: number(dice, variables[f"pads%{key}"]))
-        for key in ("conductivity", "elastic_modulus", "poisson_ratio", "expansion")
+        for key in ("conductivity", "young_modulus", "poisson_ratio", "expansion")
     )
     motion = dice.choice(variables["pads%motion"].choices).encode()
     values = (tuple(angles), arc, ratio, distance, mass, inertia, tangential, radial, *solid, (motion,))
