@@ -2,8 +2,10 @@
 module branch_summary
    use kinds, only: wp
    use text, only: to_text, fixed_text
+   use case_inputs, only: case_type
    use bifurcations, only: bifurcation_type
    use run_file, only: run_file_type
+   use bearing_file, only: bearing_file_type, new_bearing_file
    implicit none (type, external)
    private
    public :: print_bifurcation, print_branch, branch_end
@@ -42,13 +44,14 @@ contains
    end function branch_end
 
    !> All branches: points, those that are stable, what warm oil does, and their ends.
-   subroutine print_branch(file, parameter, warm)
-      type(run_file_type), intent(inout) :: file
+   subroutine print_branch(file, inputs, parameter, warm)
+      type(run_file_type), intent(inout), target :: file
+      type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: parameter
       logical, intent(in) :: warm
       real(wp), allocatable, dimension(:, :) :: branch, stable, value
       character(len=:), allocatable :: ends
-      integer :: k
+      integer :: k, b
       call file%last_samples('branch', int(file%samples), branch)
       call file%last_samples('stable', int(file%samples), stable)
       call file%last_samples('parameter', int(file%samples), value)
@@ -58,7 +61,9 @@ contains
                & //precise(minval(value(1, :), mask=own))//' to '//precise(maxval(value(1, :), mask=own))//', ' &
                & //to_text(count(own .and. stable(1, :) > 0))//' of them stable' &
                & //frozen(warm)
-            if (warm) call print_oil(file, own)
+            do b = 1, merge(inputs%bearing_count(), 0, warm)
+               call print_oil(new_bearing_file(file, inputs, b), pad_title(inputs, b), own)
+            end do
          end associate
       end do
       call file%get_text('branch_ends', ends)
@@ -73,9 +78,19 @@ contains
       if (warm) text = ' at frozen viscosity'
    end function frozen
 
-   !> The range of each pad's temperatures and viscosity over the points of a branch.
-   subroutine print_oil(file, own)
-      type(run_file_type), intent(inout) :: file
+   !> What stands before the number of a pad.
+   pure function pad_title(inputs, b) result(title)
+      type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
+      character(len=:), allocatable :: title
+      title = '  pad '
+      if (inputs%is_machine()) title = '  bearing '''//inputs%machine%bearings(b)%name//''', pad '
+   end function pad_title
+
+   !> The range of the temperatures and viscosity of each pad of a bearing over the points of a branch.
+   subroutine print_oil(file, title, own)
+      type(bearing_file_type), intent(in) :: file
+      character(len=*), intent(in) :: title
       logical, intent(in) :: own(:)
       real(wp), allocatable, dimension(:, :) :: mean, highest, viscosity
       integer :: i
@@ -83,7 +98,7 @@ contains
       call file%last_samples('maximum_temperature', size(own), highest)
       call file%last_samples('viscosity', size(own), viscosity)
       do i = 1, size(mean, 1)
-         print '(a)', '  pad '//to_text(i)//': mean '//span(mean(i, :), 1)//' C, '//span(1e3_wp*viscosity(i, :), 2) &
+         print '(a)', title//to_text(i)//': mean '//span(mean(i, :), 1)//' C, '//span(1e3_wp*viscosity(i, :), 2) &
             & //' mPa s, pad at most '//fixed_text(maxval(highest(i, :), mask=own), 1)//' C'
       end do
    contains

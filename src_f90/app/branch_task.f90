@@ -65,7 +65,8 @@ contains
       end do
       call bring_up_to_date(run, b, notes)
       if (.not. allocated(error)) then
-         if (.not. run%quiet) call print_branch(run%file, b%given%parameter, has_warm_oil(run%model))
+         if (.not. run%quiet) call print_branch(run%file, run%inputs, b%given%parameter, &
+            & has_warm_oil(run%model))
       else if (error%status == stopped) then
          error%message = stop_reason()//' behind '//b%given%parameter//' = '//to_text(b%here%parameter)//', point ' &
             & //to_text(b%points)//' of branch '//to_text(b%branch)

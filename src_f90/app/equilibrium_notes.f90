@@ -125,7 +125,7 @@ contains
             call put_temperatures(file, figures%oil)
             call put_oil(file, 'equilibrium/', static%oil)
          end if
-         if (allocated(static%films)) call put_film_temperatures(file, static%films)
+         if (allocated(static%films)) call put_film_temperatures(file, static%films(1))
          if (.not. shown) return
          call print_equilibrium(title, static, inputs, .not. run%inputs%is_machine())
          call print_figures(inputs, figures)

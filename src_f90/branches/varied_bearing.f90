@@ -33,8 +33,8 @@ module varied_bearing
       real(wp) :: value = -huge(1.0_wp)
       real(wp), allocatable :: start(:), state(:)
       type(film_oil), allocatable :: oil(:)
-      !> Where films have temperatures along and across.
-      type(warm_films_type), allocatable :: films
+      !> Of each bearing, where films have temperatures along and across.
+      type(warm_films_type), allocatable :: films(:)
    end type static_state_type
 
    type :: frozen_viscosity_type
@@ -82,7 +82,7 @@ contains
       real(wp), intent(inout) :: found(:)
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: ignored
-      type(warm_films_type), allocatable :: films
+      type(warm_films_type), allocatable :: films(:)
       real(wp) :: y(self%bearing%model%n), residual
       if (is_known(self%known(2))) self%known = self%known([2, 1])
       if (.not. is_known(self%known(1))) then
@@ -118,10 +118,13 @@ contains
       type(oil_temperatures_type), intent(out) :: oil(:)
       real(wp), allocatable, intent(out) :: viscosity(:)
       type(error_type), allocatable :: ignored
+      integer :: b
       associate (model => self%bearing%model, known => self%known(1))
          viscosity = known%oil%viscosity
          if (allocated(known%films)) then
-            oil(1) = known%films%oil
+            do b = 1, size(oil)
+               oil(b) = known%films(b)%oil
+            end do
             return
          end if
          call self%bearing%set_value(known%value, .true., ignored)

@@ -261,13 +261,11 @@ contains
       end associate
    end subroutine check_tasks
 
-   !> Temperatures along and across films are those of one equilibrium of one bearing, or of some.
+   !> Temperatures along and across films are those of one equilibrium, or of some.
    subroutine check_film_temperatures(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       if (inputs%thermal%model /= 'film') return
-      call require(.not. inputs%is_machine(), 'thermal%model = ''film'': is for one bearing; machines take ''pad''', &
-         & error)
       call require(inputs%about%task /= 'branch' .or. inputs%branch%of == 'periodic', 'branch%of = ''equilibrium'': ' &
          & //'needs thermal%model = ''pad'' or ''none''; a study of the task ''equilibrium'' takes ''film''', error)
       call require(.not. inputs%coefficients%threshold_up_to_rpm > 0, 'coefficients%threshold_up_to_rpm = ' &

@@ -35,6 +35,7 @@ contains
       type(equilibrium_type) :: part
       part = found
       part%rotor = found%rotor(2*b - 1:2*b)
+      if (allocated(found%films)) part%films = found%films(b:b)
       associate (pads => model%layout%bearings(b)%all_pads())
          part%tilt = found%tilt(pads)
          part%pivot_deflection = found%pivot_deflection(pads)

@@ -1,20 +1,22 @@
-!> The equilibrium of a bearing with temperatures along and across its films: the bearing comes to equilibrium with the
-!> oil of some temperatures, the streams of its films there carry heat to others, until they agree (docs/theory/heat.md,
+!> The equilibrium of bearings with temperatures along and across their films: the rotor comes to equilibrium with the
+!> oil of some temperatures, the streams of the films there carry heat to others, until they agree (docs/theory/heat.md,
 !> *Temperature in the film*).
 module film_equilibrium
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, asked_to_stop, asked
    use anderson, only: anderson_type
+   use case_inputs, only: case_type
    use film_solver, only: film_motion
    use film_streams, only: film_stream, find_stream
    use film_profiles, only: film_profile
    use film_network, only: warm_films_type, oil_of_field, solve_network
-   use heat_balance, only: new_grooves
+   use heat_balance, only: oil_temperatures_type, new_grooves
    use asperity_contact, only: asperity_load
    use kinematics, only: pad_state, frame_of, motion_of
    use equations_of_motion, only: machine_model
-   use static_model, only: solve_equilibrium
+   use heat_balance_equations, only: check_oil
+   use static_model, only: solve_equilibrium, name_bearing
    implicit none (type, external)
    private
    public :: solve_warm_films
@@ -35,67 +37,60 @@ module film_equilibrium
 
 contains
 
-   !> Brings the state y of a model of one bearing that is near equilibrium to equilibrium, and its films to their
-   !> temperatures: the model then has their oil.
+   !> Brings the state y of a model that is near equilibrium to equilibrium, and the films of each of its bearings to
+   !> their temperatures: the model then has their oil. An error where they do not settle, or where oil boils.
    subroutine solve_warm_films(model, y, films, residual, error, give_up, held)
       type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
-      type(warm_films_type), intent(inout) :: films
+      type(warm_films_type), intent(inout) :: films(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       !> Pads that are held where they are.
       logical, intent(in), optional :: held(:)
-      type(film_profile) :: profiles(size(films%fields, 2), size(films%fields, 3))
-      type(film_stream) :: streams(size(films%fields, 3))
+      type(film_profile) :: profiles(size(films(1)%fields, 2), model%layout%pads)
       type(anderson_type) :: acceleration
-      real(wp), allocatable :: wanted(:, :, :), settled(:, :, :)
-      real(wp) :: changes(size(streams)), change, before(size(y))
+      !> Of the pads of all bearings.
+      real(wp), allocatable :: fields(:, :, :), wanted(:, :, :), settled(:, :, :)
+      real(wp) :: changes(size(profiles, 2)), change, before(size(y))
+      logical :: kept(size(profiles, 2))
       integer :: i, round
-      logical :: ok
-      allocate (wanted, mold=films%fields)
-      settled = films%fields
+      call gather(model, films, fields, kept)
+      allocate (wanted, mold=fields)
+      settled = fields
       do round = 1, most_rounds
          before = y
          do
-            do i = 1, size(streams)
-               call oil_of_field(model%inputs%oil, films%heat(i)%zeta, films%fields(:, :, i), profiles(:, i), &
-                  & model%oil(i))
-            end do
+            call set_oil(model, films, fields, profiles)
             call solve_equilibrium(model, y, residual, error, give_up, held, merge(most_iterations, huge(1), round > 1))
             if (.not. allocated(error)) exit
             ! Newton's method may follow a part of the step
-            if (asked(give_up) .or. .not. maxval(abs(films%fields - settled)) > least_change) return
+            if (asked(give_up) .or. .not. maxval(abs(fields - settled)) > least_change) return
             call acceleration%forget()
-            films%fields = settled + (films%fields - settled)/4
+            fields = settled + (fields - settled)/4
             y = before
          end do
-         settled = films%fields
-         call find_streams(model, y, size(profiles, 1), streams, ok, i)
-         if (.not. ok) call raise(error, numerics_error, 'the flow in the film of pad '//to_text(i)//' is not found')
+         settled = fields
+         call find_fields(model, y, films, profiles, wanted, error)
          if (allocated(error)) return
-         call solve_network(model%inputs%oil, new_grooves(model%inputs), films, streams, profiles, &
-            & model%point%speed(0.0_wp)*model%inputs%bearing%journal_radius, wanted, ok)
-         if (.not. ok) call raise(error, numerics_error, 'nothing carries off the heat of the films')
-         if (allocated(error)) return
-         changes = maxval(maxval(abs(wanted - films%fields), 1), 1)
-         films%kept = films%kept .and. changes <= largest_leap
-         change = maxval(changes, mask=.not. films%kept)
-         if (change <= agreement) return
+         changes = maxval(maxval(abs(wanted - fields), 1), 1)
+         kept = kept .and. changes <= largest_leap
+         change = maxval(changes, mask=.not. kept)
+         if (change <= agreement) then
+            call finish(model, films, fields, kept, error)
+            return
+         end if
          if (mod(round, leaps_after) == 0 .and. change <= largest_leap) then
-            films%kept(maxloc(changes, mask=.not. films%kept)) = .true.
+            kept(maxloc(changes, mask=.not. kept)) = .true.
             call acceleration%forget()
             cycle
          end if
-         do i = 1, size(streams)
-            if (films%kept(i)) wanted(:, :, i) = films%fields(:, :, i)
+         do i = 1, size(kept)
+            if (kept(i)) wanted(:, :, i) = fields(:, :, i)
          end do
-         call advance(films%fields, wanted, change, acceleration)
+         call advance(fields, wanted, change, acceleration)
       end do
-      call raise(error, numerics_error, 'the temperatures in the film of pad ' &
-         & //to_text(maxloc(changes, 1, .not. films%kept))//' do not settle at ' &
-         & //to_text(model%point%speed_rpm)//' rpm: after '//to_text(most_rounds)//' rounds they still change by ' &
-         & //to_text(change)//' K')
+      call refuse_unsettled(model, maxloc(changes, 1, .not. kept), change, error)
    end subroutine solve_warm_films
 
    !> The next temperatures after a round that would lead to those wanted, with this largest change, K.
@@ -114,9 +109,107 @@ contains
       end if
    end subroutine advance
 
-   !> The streams of all films in the state y; `ok` is false where that of a pad, the i-th, is not found.
-   subroutine find_streams(model, y, stations, streams, ok, i)
+   !> The temperatures of the pads of all bearings, C, (layer, station, pad), and which pads keep theirs.
+   subroutine gather(model, films, fields, kept)
       type(machine_model), intent(in) :: model
+      type(warm_films_type), intent(in) :: films(:)
+      real(wp), allocatable, intent(out) :: fields(:, :, :)
+      logical, intent(out) :: kept(:)
+      integer :: b
+      allocate (fields(size(films(1)%fields, 1), size(films(1)%fields, 2), size(kept)))
+      do b = 1, size(films)
+         associate (of => model%layout%bearings(b))
+            fields(:, :, of%other_pads + 1:of%other_pads + of%pads) = films(b)%fields
+            kept(of%other_pads + 1:of%other_pads + of%pads) = films(b)%kept
+         end associate
+      end do
+   end subroutine gather
+
+   !> Gives the films what was found for the pads of all bearings; an error where oil boils.
+   subroutine finish(model, films, fields, kept, error)
+      type(machine_model), intent(in) :: model
+      type(warm_films_type), intent(inout) :: films(:)
+      real(wp), intent(in) :: fields(:, :, :)
+      logical, intent(in) :: kept(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(oil_temperatures_type) :: oil(size(films))
+      integer :: b
+      do b = 1, size(films)
+         associate (of => model%layout%bearings(b))
+            films(b)%fields = fields(:, :, of%other_pads + 1:of%other_pads + of%pads)
+            films(b)%kept = kept(of%other_pads + 1:of%other_pads + of%pads)
+         end associate
+         oil(b) = films(b)%oil
+      end do
+      call check_oil(model, oil, error)
+   end subroutine finish
+
+   !> Gives a model the oil of these temperatures, with profiles, (station, pad).
+   subroutine set_oil(model, films, fields, profiles)
+      type(machine_model), intent(inout) :: model
+      type(warm_films_type), intent(in) :: films(:)
+      real(wp), intent(in) :: fields(:, :, :)
+      type(film_profile), intent(out) :: profiles(:, :)
+      type(case_type) :: own
+      integer :: b, i, pad
+      do b = 1, size(films)
+         own = model%inputs%of_bearing(b)
+         do i = 1, size(films(b)%heat)
+            pad = model%layout%bearings(b)%other_pads + i
+            call oil_of_field(own%oil, films(b)%heat(i)%zeta, fields(:, :, pad), profiles(:, pad), model%oil(pad))
+         end do
+      end do
+   end subroutine set_oil
+
+   !> The temperatures to which the films in the state y lead, C, (layer, station, pad).
+   subroutine find_fields(model, y, films, profiles, fields, error)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      type(warm_films_type), intent(inout) :: films(:)
+      type(film_profile), intent(in) :: profiles(:, :)
+      real(wp), intent(out) :: fields(:, :, :)
+      type(error_type), allocatable, intent(out) :: error
+      type(film_stream) :: streams(size(profiles, 2))
+      type(case_type) :: own
+      integer :: b, i
+      logical :: ok
+      do b = 1, size(films)
+         own = model%inputs%of_bearing(b)
+         associate (first => model%layout%bearings(b)%other_pads + 1, &
+            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
+            call find_streams(model, b, y, size(profiles, 1), streams(first:last), ok, i)
+            if (.not. ok) call raise(error, numerics_error, 'the flow in the film of pad '//to_text(i) &
+               & //' is not found')
+            if (.not. allocated(error)) then
+               call solve_network(own%oil, new_grooves(own), films(b), streams(first:last), profiles(:, first:last), &
+                  & model%point%speed(0.0_wp)*own%bearing%journal_radius, fields(:, :, first:last), ok)
+               if (.not. ok) call raise(error, numerics_error, 'nothing carries off the heat of the films')
+            end if
+         end associate
+         call name_bearing(model, b, error)
+         if (allocated(error)) return
+      end do
+   end subroutine find_fields
+
+   !> Says which pad, of those of all bearings, still changes by how much, K, after the last round.
+   subroutine refuse_unsettled(model, pad, change, error)
+      type(machine_model), intent(in) :: model
+      integer, intent(in) :: pad
+      real(wp), intent(in) :: change
+      type(error_type), allocatable, intent(out) :: error
+      integer :: b
+      b = count(model%layout%bearings%other_pads < pad)
+      call raise(error, numerics_error, 'the temperatures in the film of pad ' &
+         & //to_text(pad - model%layout%bearings(b)%other_pads)//' do not settle at ' &
+         & //to_text(model%point%speed_rpm)//' rpm: after '//to_text(most_rounds)//' rounds they still change by ' &
+         & //to_text(change)//' K')
+      call name_bearing(model, b, error)
+   end subroutine refuse_unsettled
+
+   !> The streams of the films of bearing b in the state y; `ok` is false where that of a pad, the i-th, is not found.
+   subroutine find_streams(model, b, y, stations, streams, ok, i)
+      type(machine_model), intent(in) :: model
+      integer, intent(in) :: b
       real(wp), intent(in) :: y(:)
       integer, intent(in) :: stations
       type(film_stream), intent(out) :: streams(:)
@@ -125,15 +218,16 @@ contains
       type(pad_state) :: pads(size(streams))
       type(film_motion) :: motion
       type(asperity_load) :: asperity
-      pads = model%layout%bearings(1)%pad_states(y)
-      associate (bearing => model%bearings(1), journal => model%rotor%journal(y(:model%rotor%states), 1), &
-         & speed => model%point%speed(0.0_wp))
+      pads = model%layout%bearings(b)%pad_states(y)
+      associate (bearing => model%bearings(b), journal => model%rotor%journal(y(:model%rotor%states), b), &
+         & speed => model%point%speed(0.0_wp), before => model%layout%bearings(b)%other_pads)
          do i = 1, size(streams)
             associate (pad => bearing%pads(i))
                motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
                call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
                if (asperity%touches) motion%position = asperity%film_position
-               call find_stream(pad%gap, bearing%film%condition, motion, model%oil(i), speed, stations, streams(i), ok)
+               call find_stream(pad%gap, bearing%film%condition, motion, model%oil(before + i), speed, stations, &
+                  & streams(i), ok)
                if (.not. ok) return
             end associate
          end do

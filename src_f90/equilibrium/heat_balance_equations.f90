@@ -4,7 +4,7 @@
 module heat_balance_equations
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
    use kinds, only: wp
-   use errors, only: error_type, raise, add_context, numerics_error
+   use errors, only: error_type, raise, numerics_error
    use case_inputs, only: case_type
    use bearing_numbers, only: eccentricity_ratio, attitude_angle
    use pad_gap, only: pad_gap_type
@@ -13,11 +13,11 @@ module heat_balance_equations
    use equations_of_motion, only: machine_model
    use bearing_samples, only: bearing_sample, take_sample
    use force_balance, only: forces
-   use static_model, only: equilibrium_type
+   use static_model, only: equilibrium_type, name_bearing
    implicit none (type, external)
    private
    public :: state_balance_type, has_warm_oil, find_losses, find_lack, find_lack_slopes, find_force_slopes, &
-      & find_temperatures, check_heat, static_figures_type, find_static_figures
+      & find_temperatures, check_heat, check_oil, static_figures_type, find_static_figures
 
    type :: static_figures_type
       !> Distance of the journal from the middle over the bearing clearance; angle from the load to the journal in the
@@ -283,7 +283,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(oil_temperatures_type), intent(in), optional :: kept(:)
       type(oil_temperatures_type) :: oil(size(model%bearings))
-      integer :: b
       logical :: ok
       ok = balance%balanced
       if (ok) call take_temperatures(model, balance, oil, ok, kept)
@@ -293,14 +292,21 @@ contains
             & //'(oil%shaft_nusselt)')
          return
       end if
+      call check_oil(model, oil, error)
+   end subroutine check_heat
+
+   !> Refuses oil that boils in one of the bearings.
+   subroutine check_oil(model, oil, error)
+      type(machine_model), intent(in) :: model
+      type(oil_temperatures_type), intent(in) :: oil(:)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: b
       do b = 1, size(oil)
          call check_boiling(oil(b), error)
-         if (.not. allocated(error)) cycle
-         if (model%inputs%is_machine()) call add_context(error, &
-            & 'bearing '''//model%inputs%machine%bearings(b)%name//'''')
-         return
+         call name_bearing(model, b, error)
+         if (allocated(error)) return
       end do
-   end subroutine check_heat
+   end subroutine check_oil
 
    !> The figures of an equilibrium of a model of one bearing.
    subroutine find_static_figures(model, static, figures)
@@ -323,7 +329,7 @@ contains
       end associate
       if (.not. has_warm_oil(model)) return
       allocate (figures%oil)
-      if (allocated(static%films)) figures%oil = static%films%oil
+      if (allocated(static%films)) figures%oil = static%films(1)%oil
       if (allocated(static%films)) return
       call balance%bearings(1)%heat%temperatures(figures%pads, static%oil%viscosity, model%point%speed(0.0_wp), &
          & figures%oil, balanced)

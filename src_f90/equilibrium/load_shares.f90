@@ -11,6 +11,8 @@ module load_shares
    use force_balance, only: bearing_derivatives, stability_at
    use static_model, only: equilibrium_type, describe, solve_equilibrium
    use thermal_equilibrium, only: settle
+   use film_network, only: warm_films_type
+   use film_equilibrium, only: solve_warm_films
    use bearing_equilibrium, only: find_bearing_equilibrium
    use bearings_alone, only: bearing_alone, part_of, bearing_loads
    implicit none (type, external)
@@ -71,7 +73,8 @@ contains
       end do
       call bear(model, shares, loads, error, give_up)
       if (.not. allocated(error)) call find_loads(model, rotor, shares, loads, error, give_up)
-      if (.not. allocated(error)) call join(model, rotor, shares, found, error, give_up)
+      if (.not. allocated(error)) call join(model, rotor, shares, .not. present(known), found, error, &
+         & give_up)
    end subroutine share_loads
 
    !> Newton's method on the displacements of the journals, from bearings that are in equilibrium under these loads. A
@@ -262,14 +265,17 @@ contains
       if (info /= 0) step = 0
    end subroutine find_step
 
-   !> The equilibrium of the machine from those of its bearings.
-   subroutine join(model, rotor, shares, found, error, give_up)
+   !> The equilibrium of the machine from those of its bearings. `warms`: the temperatures in their films, which they
+   !> found under their first loads, become those of this equilibrium; else they stay.
+   subroutine join(model, rotor, shares, warms, found, error, give_up)
       type(machine_model), intent(inout) :: model
       type(rotor_at_rest), intent(in) :: rotor
       type(share_type), intent(in) :: shares(:)
+      logical, intent(in) :: warms
       type(equilibrium_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
+      type(warm_films_type), allocatable :: films(:)
       real(wp), allocatable :: y(:), tilt(:), deflection(:)
       real(wp) :: journals(2*size(shares))
       logical :: ok
@@ -286,7 +292,16 @@ contains
       end do
       journals = journals_of(shares)
       y = model%static_state([journals, rotor%bent - matmul(rotor%follow, journals)], tilt, deflection)
-      call solve_equilibrium(model, y, found%residual, error, give_up)
+      if (warms .and. allocated(shares(1)%found%films)) then
+         allocate (films(size(shares)))
+         do b = 1, size(shares)
+            films(b) = shares(b)%found%films(1)
+         end do
+         call solve_warm_films(model, y, films, found%residual, error, give_up)
+         call move_alloc(films, found%films)
+      else
+         call solve_equilibrium(model, y, found%residual, error, give_up)
+      end if
       if (allocated(error)) return
       call describe(model, y, found)
       call stability_at(model, y, found%stability, ok)

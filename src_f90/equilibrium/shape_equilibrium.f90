@@ -125,13 +125,13 @@ contains
       type(machine_model), intent(inout) :: static
       real(wp), intent(in) :: y(:)
       !> Where films have temperatures.
-      type(warm_films_type), allocatable, intent(in) :: films
+      type(warm_films_type), allocatable, intent(in) :: films(:)
       type(bearing_shape_type), intent(out) :: shape
       type(bending_type) :: bending
       bending = no_bending(cold)
       associate (p => cold%pads)
          if (any(p%bending == ['elastic', 'both   '])) call bend_elastically(cold, static, bending%elastic)
-         if (any(p%bending == ['thermal', 'both   '])) bending%thermal = bent_films(cold, static, films)
+         if (any(p%bending == ['thermal', 'both   '])) bending%thermal = bent_films(cold, static, films(1))
       end associate
       shape = new_shape(cold, bending, temperatures_of(cold, static, y, films))
    end subroutine find_shape
@@ -176,7 +176,7 @@ contains
       type(case_type), intent(in) :: cold
       type(machine_model), intent(in) :: static
       real(wp), intent(in) :: y(:)
-      type(warm_films_type), allocatable, intent(in) :: films
+      type(warm_films_type), allocatable, intent(in) :: films(:)
       type(part_temperatures_type) :: parts
       type(state_balance_type) :: balance
       type(oil_temperatures_type) :: oil(1)
@@ -185,10 +185,10 @@ contains
          parts%housing = merge(b%housing_temperature, cold%oil%supply_temperature, is_set(b%housing_temperature))
          parts%pads = p%temperature
          if (allocated(films)) then
-            associate (solid => films%fields(:solid_layers, :, :))
+            associate (solid => films(1)%fields(:solid_layers, :, :))
                where (.not. is_set(p%temperature)) parts%pads = sum(sum(solid, 1), 1)/(size(solid, 1)*size(solid, 2))
             end associate
-            parts%shaft = films%oil%shaft
+            parts%shaft = films(1)%oil%shaft
          else if (is_set(cold%oil%shaft_temperature)) then
             parts%shaft = cold%oil%shaft_temperature
          else

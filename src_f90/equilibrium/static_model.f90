@@ -12,12 +12,13 @@ module static_model
    use kinematics, only: pad_frame, pad_state, frame_of, in_mirror
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: machine_model, new_machine_model
-   use errors, only: error_type, stopped, asked_to_stop
+   use errors, only: error_type, add_context, stopped, asked_to_stop
    use pseudo_transient, only: follow_motion, newtons
    use force_balance, only: stability_type
    implicit none (type, external)
    private
-   public :: equilibrium_type, describe, make_static, make_quick, make_fine, solve_equilibrium, start, starts
+   public :: equilibrium_type, describe, make_static, make_quick, make_fine, solve_equilibrium, start, starts, &
+      & name_bearing
 
    type :: equilibrium_type
       !> Displacements of the rotor, those of its journals, m, first; per pad of all bearings tilt, rad, pivot
@@ -25,9 +26,9 @@ module static_model
       real(wp), allocatable :: rotor(:), tilt(:), pivot_deflection(:), pivot_load(:)
       !> Per pad minimum film thickness, m, and maximum pressure, Pa.
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
-      !> The oil of every pad's film; its temperatures where films have them along and across.
+      !> The oil of every pad's film; its temperatures in each bearing, where films have them along and across.
       type(film_oil), allocatable :: oil(:)
-      type(warm_films_type), allocatable :: films
+      type(warm_films_type), allocatable :: films(:)
       !> Where it changes the shape of the bearing.
       type(bearing_shape_type), allocatable :: shape
       !> Largest unbalanced force over the reference force (pseudo_transient).
@@ -175,4 +176,13 @@ contains
       found%max_pressure = samples%max_pressure
       found%oil = model%oil
    end subroutine describe
+
+   !> Puts the name of the bearing in front of the message of a set error, where there are several bearings.
+   subroutine name_bearing(model, b, error)
+      type(machine_model), intent(in) :: model
+      integer, intent(in) :: b
+      type(error_type), allocatable, intent(inout) :: error
+      if (model%inputs%is_machine()) call add_context(error, &
+         & 'bearing '''//model%inputs%machine%bearings(b)%name//'''')
+   end subroutine name_bearing
 end module static_model

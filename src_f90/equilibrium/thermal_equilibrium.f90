@@ -8,7 +8,8 @@ module thermal_equilibrium
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, asked_to_stop, asked
    use film_oils, only: even_oil
-   use heat_balance, only: oil_temperatures_type, check_boiling
+   use case_inputs, only: case_type
+   use heat_balance, only: oil_temperatures_type
    use oil_properties, only: viscosity
    use equations_of_motion, only: machine_model
    use force_balance, only: stability_at
@@ -66,9 +67,9 @@ contains
       logical, intent(in), optional :: held(:)
       !> Where grooves and shaft keep their temperatures: these, of each bearing.
       type(oil_temperatures_type), intent(in), optional :: kept(:)
-      !> The films' temperatures, where the case wants them along and across.
-      type(warm_films_type), allocatable, intent(out), optional :: films
-      type(warm_films_type), allocatable :: found
+      !> The temperatures of the films of each bearing, where the case wants them along and across.
+      type(warm_films_type), allocatable, intent(out), optional :: films(:)
+      type(warm_films_type), allocatable :: found(:)
       type(state_balance_type) :: balance
       type(oil_temperatures_type) :: oil(size(model%bearings))
       real(wp), dimension(model%layout%pads) :: last, step
@@ -102,11 +103,24 @@ contains
       end associate
       if (allocated(error) .or. model%inputs%thermal%model /= 'film') return
       call find_temperatures(model, y, balance, oil)
-      found = new_warm_films(model%inputs, oil(1)%mean)
+      call make_films(model%inputs, oil, found)
       call solve_warm_films(model, y, found, residual, error, give_up, held)
-      if (.not. allocated(error)) call check_boiling(found%oil, error)
       if (present(films)) call move_alloc(found, films)
    end subroutine solve_thermal_equilibrium
+
+   !> Films of all bearings that have the mean temperatures of this oil.
+   subroutine make_films(inputs, oil, films)
+      type(case_type), intent(in) :: inputs
+      type(oil_temperatures_type), intent(in) :: oil(:)
+      type(warm_films_type), allocatable, intent(out) :: films(:)
+      type(case_type) :: own
+      integer :: b
+      allocate (films(size(oil)))
+      do b = 1, size(oil)
+         own = inputs%of_bearing(b)
+         films(b) = new_warm_films(own, oil(b)%mean)
+      end do
+   end subroutine make_films
 
    !> Brings an equilibrium that another model has found to that of this one, whose films differ a little; y is its
    !> state.

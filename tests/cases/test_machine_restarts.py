@@ -23,6 +23,7 @@ MACHINE = """
 MARCHES = {
     "friction": "&operation speed_rpm=3000, duration=0.3 /\n&friction model='lugre' /\n",
     "run-up": "&operation speed_rpm=2000, final_speed_rpm=4000, duration=0.5 /\n",
+    "warm films": "&operation speed_rpm=3000, duration=0.2 /\n&oil grade=46 /\n&thermal model='film' /\n",
     "last revolutions": "&operation speed_rpm=3000, duration=0.3 /\n&output keep='last_revolutions' /\n",
 }
 BRANCH = """&case task='branch' /

@@ -31,7 +31,8 @@ program test_machines
    if (runs('three_bearings')) call three_bearings()
    if (runs('descriptions')) call descriptions()
    if (runs('stiff_shaft')) call stiff_shaft()
-   if (runs('warm_oil')) call warm_oil()
+   if (runs('warm_oil')) call warm_oil('pad')
+   if (runs('warm_films')) call warm_oil('film')
    if (runs('thresholds')) call thresholds()
    call report()
 
@@ -292,7 +293,8 @@ contains
 
    !> Warm oil in the bearings of a machine is that of a rigid journal under the same load, in equilibrium and after a
    !> search with converged films.
-   subroutine warm_oil()
+   subroutine warm_oil(temperatures)
+      character(len=*), intent(in) :: temperatures
       type(case_type) :: inputs, alone
       type(bearing_coefficients_type) :: found, rigid
       type(equilibrium_type) :: static, journal
@@ -303,11 +305,13 @@ contains
       alone%film%cavitation = 'none'
       alone%oil%law = 'walther'
       alone%oil%grade = 46
-      alone%thermal%model = 'pad'
+      alone%thermal%model = temperatures
+      alone%pads%thickness = alone%pads%pivot_distance
       inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
-      inputs%thermal%model = 'pad'
+      inputs%thermal%model = temperatures
       do i = 1, 2
          inputs%machine%bearings(i)%oil = alone%oil
+         inputs%machine%bearings(i)%pads%thickness = alone%pads%thickness
       end do
       call analyse(alone, 'a rigid journal', rigid, journal)
       call analyse(inputs, 'a machine', found, static)
