@@ -7,6 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from films import CHECK, UNEQUAL
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from peers import OCTAVE, OWN, SCALED, SCIPY, SHORT, TILTPAD
 from runner import Row
 from settings import ALLOWED, DIAGRAM, FIGURES, FILM_CASES, FILM_TOLERANCE, MAIN
@@ -56,8 +57,7 @@ def diagram(rows: list[Row]) -> None:
         ax.axvline(FIGURES[case.name], **(TARGET | {"linestyle": ":"}))
         ax.set(xscale="log", yscale="log", title=case.label, xlabel="run time, s", ylabel="error")
         ax.margins(0.1)
-        ax.xaxis.set_major_formatter("{x:g}")
-        ax.xaxis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "235" else "")
+        plain_numbers(ax.xaxis)
         ax.tick_params(axis="x", which="minor", labelsize=6)
     legend = axes.flat[-1]
     legend.axis("off")
@@ -132,7 +132,14 @@ def pads(rows: list[Row]) -> None:
     ax.set(xscale="log", yscale="log", xlabel="pads", ylabel="march time, us a right-hand side")
     ax.set_xticks(counts, map(str, counts), minor=False)
     ax.set_xticks([], minor=True)
+    plain_numbers(ax.yaxis)
     ax.legend()
+
+
+def plain_numbers(axis: Axis) -> None:
+    """Writes the numbers of a logarithmic axis in full, those between the powers of ten among them."""
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "235" else "")
 
 
 def times_of(rows: list[Row]) -> tuple[np.ndarray, np.ndarray]:
