@@ -3,7 +3,8 @@ module case_checks
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: clearance_range, is_set, in_metres
+   use case_groups, only: clearance_range, is_set
+   use other_units, only: in_other_units
    use case_inputs, only: case_type
    use excitation_checks, only: check_excitations
    use machine_checks, only: check_machine
@@ -89,7 +90,8 @@ contains
             if (.not. (ratio >= clearance_range(1) .and. ratio <= clearance_range(2))) call refuse( &
                & 'bearing%machined_clearance = '//to_text(b%machined_clearance(i))//': must be ' &
                & //to_text(clearance_range(1))//' to '//to_text(clearance_range(2))//' of bearing%journal_radius = ' &
-               & //to_text(b%journal_radius)//pad//in_metres(b%machined_clearance(i), &
+               & //to_text(b%journal_radius)//pad//in_other_units(b%machined_clearance(i), &
+               & 'bearing%machined_clearance', 'm', &
                & clearance_range(1)*b%journal_radius, clearance_range(2)*b%journal_radius), error)
             if (.not. (b%assembled_clearance(i) <= 2*b%machined_clearance(i))) call refuse( &
                & 'bearing%assembled_clearance = '//to_text(b%assembled_clearance(i)) &
@@ -98,8 +100,9 @@ contains
             ratio = b%axial_length(i)/b%journal_radius
             if (.not. (ratio >= 0.02_wp .and. ratio <= 50)) call refuse('bearing%axial_length = ' &
                & //to_text(b%axial_length(i))//': must be 0.02 to 50 times bearing%journal_radius = ' &
-               & //to_text(b%journal_radius)//pad//in_metres(b%axial_length(i), 0.02_wp*b%journal_radius, &
-               & 50*b%journal_radius), error)
+               & //to_text(b%journal_radius)//pad//in_other_units(b%axial_length(i), &
+               & 'bearing%axial_length', 'm', &
+               & 0.02_wp*b%journal_radius, 50*b%journal_radius), error)
          end do
          if (.not. (b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
             & .or. inputs%film%cavitation == 'none')) call refuse('bearing%cavitation_pressure = ' &
@@ -215,8 +218,9 @@ contains
                & //': must be at most '//to_text(longest_arc)//' for pads that tilt', error)
             smallest = p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2)
             if (.not. (p%inertia(i) > smallest)) call refuse('pads%inertia = '//to_text(p%inertia(i)) &
-               & //': must exceed mass times the squared distance of the centre of gravity from the pivot, ' &
-               & //to_text(smallest)//' (pad '//to_text(i)//')', error)
+               & //': must exceed pads%mass = '//to_text(p%mass(i))//' times the squared distance of the centre of ' &
+               & //'gravity from the pivot, '//to_text(smallest)//' (pad '//to_text(i)//')' &
+               & //in_other_units(p%mass(i), 'pads%mass', 'kg', 0.0_wp, p%mass(i)*p%inertia(i)/smallest), error)
          end do
       end associate
    end subroutine check_pads

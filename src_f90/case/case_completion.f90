@@ -5,9 +5,10 @@ module case_completion
    use text, only: to_text, list_text
    use errors, only: error_type, raise, require, refuse, add_context, input_error
    use case_groups, only: bearing_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
-      & clearance_range, temperature_range, viscosity_range, in_metres
+      & clearance_range, temperature_range, viscosity_range
    use case_inputs, only: case_type
    use excitation_checks, only: complete_excitations
+   use other_units, only: in_other_units
    use oil_properties, only: reference_viscosity, density, grades
    implicit none (type, external)
    private
@@ -114,7 +115,8 @@ contains
             call raise(error, input_error, 'bearing%assembled_clearance = '//to_text(b%assembled_clearance(i)) &
                & //': must be at most '//to_text(2*clearance_range(2))//' of bearing%journal_radius = ' &
                & //to_text(b%journal_radius)//' (both in m; pad '//to_text(i)//')' &
-               & //in_metres(b%assembled_clearance(i), 0.0_wp, 2*clearance_range(2)*b%journal_radius))
+               & //in_other_units(b%assembled_clearance(i), 'bearing%assembled_clearance', 'm', 0.0_wp, &
+               & 2*clearance_range(2)*b%journal_radius))
          else if (is_set(b%preload(i)) .and. is_set(machined)) then
             call raise(error, input_error, 'bearing%preload = '//to_text(b%preload(i)) &
                & //': bearing%machined_clearance = '//to_text(machined)//' is given too; give one of them (pad ' &

@@ -3,10 +3,9 @@
 !> may be, stands in the list of variables, case_fields.
 module case_groups
    use kinds, only: wp
-   use text, only: to_text
    implicit none (type, external)
    private
-   public :: max_pads, most_ratios, unset, is_set, in_metres
+   public :: max_pads, most_ratios, unset, is_set
    public :: mass_range, inertia_range, centre_range, temperature_range, viscosity_range, clearance_range
    public :: about_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, pads_type, pivot_type, &
       & friction_type, asperity_type, start_type, film_type, integration_type, output_type, coefficients_type, &
@@ -220,12 +219,4 @@ contains
       real(wp), intent(in) :: x
       is_set = x > unset
    end function is_set
-
-   !> "; 0.0508?" behind the refusal of a length that is allowed in metres where it is meant in millimetres; else empty.
-   pure function in_metres(length, low, high) result(hint)
-      real(wp), intent(in) :: length, low, high
-      character(len=:), allocatable :: hint
-      hint = ''
-      if (1e-3_wp*length >= low .and. 1e-3_wp*length <= high) hint = '; '//to_text(1e-3_wp*length)//'?'
-   end function in_metres
 end module case_groups

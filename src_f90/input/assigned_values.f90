@@ -7,6 +7,7 @@ module assigned_values
    use errors, only: error_type, raise, input_error
    use assignments, only: assignment_type, token_type, assignment_text, study_group, is_special, read_number
    use case_groups, only: unset
+   use other_units, only: in_other_units
    use variable_table, only: variable_type
    use variable_names, only: meant_word
    implicit none (type, external)
@@ -121,27 +122,10 @@ contains
       else if (v%may_be_unset .and. v%low >= 0 .and. abs(x + 1) <= 0) then
          x = unset
       else if (x < v%low .or. x > v%high) then
-         call refuse_values(a, 'must be '//v%allowed()//in_unit(x, v), error)
+         call refuse_values(a, 'must be '//v%allowed()//in_other_units(x, a%group//'%'//a%name, v%unit, v%low, &
+            & v%high), error)
       end if
    end subroutine read_real
-
-   !> "; 0.0508?" behind the refusal of a number that is allowed where it is meant in mm, mPa s or mm^2/s; else empty.
-   pure function in_unit(x, v) result(hint)
-      real(wp), intent(in) :: x
-      type(variable_type), intent(in) :: v
-      character(len=:), allocatable :: hint
-      real(wp) :: part
-      hint = ''
-      select case (v%unit)
-      case ('m', 'Pa s')
-         part = 1e-3_wp
-      case ('m^2/s')
-         part = 1e-6_wp
-      case default
-         return
-      end select
-      if (part*x >= v%low .and. part*x <= v%high) hint = '; '//to_text(part*x)//'?'
-   end function in_unit
 
    !> How to write what has several values or a range, where one value is expected: a run for each of them.
    pure function several_runs(a) result(text)

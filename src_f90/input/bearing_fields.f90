@@ -62,7 +62,7 @@ contains
          & 'walther: kinematic viscosities at at_temperature')
       call v%numbers(oil%at_temperature, 'at_temperature', low, high, 'C', &
          & 'walther: the lower and the higher temperature of kinematic_viscosity')
-      call v%number(oil%density_at_15, 'density_at_15', 1.0_wp, 1e5_wp, 'kg/m^3', &
+      call v%number(oil%density_at_15, 'density_at_15', 100.0_wp, 1e5_wp, 'kg/m^3', &
          & 'walther: density at 15 C, which makes the kinematic viscosity a dynamic one; density if left out')
       call v%number(oil%density_slope, 'density_slope', -10.0_wp, 0.0_wp, 'kg/(m^3 K)', &
          & 'walther: change of this density with the temperature')
@@ -72,8 +72,8 @@ contains
          & 'exponential: its temperature')
       call v%number(oil%temperature_exponent, 'temperature_exponent', 0.0_wp, 1.0_wp, '1/K', &
          & 'exponential: beta of mu_ref exp(-beta (T - T_ref))')
-      call v%number(oil%density, 'density', 1.0_wp, 1e5_wp, 'kg/m^3', 'density of the heat balance, constant')
-      call v%number(oil%specific_heat, 'specific_heat', 1.0_wp, 1e6_wp, 'J/(kg K)', 'specific heat')
+      call v%number(oil%density, 'density', 100.0_wp, 1e5_wp, 'kg/m^3', 'density of the heat balance, constant')
+      call v%number(oil%specific_heat, 'specific_heat', 100.0_wp, 1e6_wp, 'J/(kg K)', 'specific heat')
       call v%number(oil%conductivity, 'conductivity', 0.0_wp, 1e3_wp, 'W/(m K)', 'thermal conductivity')
       call v%number(oil%supply_temperature, 'supply_temperature', low, high, 'C', &
          & 'temperature of the fresh oil; of all oil where there is no heat balance')
@@ -115,7 +115,7 @@ contains
          & 'position C_xi of the centre of gravity from the pivot, along the pad; likewise')
       call v%each(pads%centre_radial, 'pads', 'centre_radial', centre_range(1), centre_range(2), 'm', &
          & 'position C_eta of the centre of gravity from the pivot, outward; likewise')
-      call v%each(pads%density, 'pads', 'density', 1.0_wp, 1e5_wp, 'kg/m^3', &
+      call v%each(pads%density, 'pads', 'density', 1e3_wp, 1e5_wp, 'kg/m^3', &
          & 'instead of mass: density of the pad; steel, 7850, where it is needed and not given')
       call v%each(pads%thickness, 'pads', 'thickness', 1e-6_wp, 1.0_wp, 'm', &
          & 'radial thickness of the pad, for mass, inertia and centre of gravity; pivot_distance where it is needed ' &

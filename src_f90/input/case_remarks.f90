@@ -9,17 +9,14 @@ module case_remarks
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables
    use namelist_writer, only: lines_of
+   use unit_remarks, only: remarks_on_units, remarks_on_pads, remark_on_unbalance
    implicit none (type, external)
    private
-   public :: remarks_on_case, remarks_on_load, remark_on_unbalance, of_bearing, behind, newline
+   public :: remarks_on_case, remarks_on_load, of_bearing, behind, newline
 
    character(len=*), parameter :: newline = achar(10)
    !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
    real(wp), parameter :: compared_up_to = 35
-   !> Radius of a journal, m, beyond which inches may be meant, and temperature of a supply, C, beyond which kelvin may.
-   real(wp), parameter :: largest_usual = 1, warmest_supply = 150
-   !> Viscosity, Pa s, below that of any oil, and arc, deg, below that of any pad.
-   real(wp), parameter :: thinnest_oil = 1e-4_wp, shortest_arc = 10
    !> Specific load, Pa, that few bearings have.
    real(wp), parameter :: highest_usual_load = 5e6_wp
    !> From the edge of a fixed pad on this angle, deg, carries little.
@@ -31,15 +28,22 @@ contains
    function remarks_on_case(inputs) result(lines)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
+      type(variable_table_type) :: table
       integer :: b
       lines = ''
+      call list_variables(inputs, table)
       do b = 1, inputs%bearing_count()
          lines = lines//of_bearing(inputs, b, on_bearing(inputs%of_bearing(b)))
       end do
-      if (.not. inputs%is_machine()) lines = lines//on_rigid_journal(inputs)//remarks_on_load(inputs)
+      lines = lines//remarks_on_units(inputs, table)
+      if (.not. inputs%is_machine()) then
+         if (inputs%moves()) lines = lines//remark_on_unbalance(inputs%unbalance(), inputs%rotor%mass, &
+            & inputs%clearance())
+         lines = lines//remarks_on_load(inputs)
+      end if
       if (allocated(inputs%about%of_paper)) lines = lines//'not given, and so as in the paper''s bearing: ' &
          & //inputs%about%of_paper//newline
-      lines = lines//on_idle_groups(inputs)
+      lines = lines//on_idle_groups(inputs, table)
    end function remarks_on_case
 
    !> Lines on bearing b; in a machine its name begins each.
@@ -70,18 +74,7 @@ contains
    function on_bearing(inputs) result(lines)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
-      lines = ''
-      associate (b => inputs%bearing, p => inputs%pads, t => inputs%oil%supply_temperature)
-         if (b%journal_radius > largest_usual) lines = lines//'bearing%journal_radius = '//to_text(b%journal_radius) &
-            & //': all lengths are in metres; an inch is 0.0254'//newline
-         if (inputs%oil%law == 'constant' .and. b%viscosity < thinnest_oil) lines = lines//'bearing%viscosity = ' &
-            & //to_text(b%viscosity)//': thinner than oils are; it is in Pa s: 1 cP is 0.001, and a reyn is 6895' &
-            & //newline
-         if (any(p%arc_deg < shortest_arc)) lines = lines//'pads%arc_deg = '//to_text(minval(p%arc_deg)) &
-            & //': angles are in degrees'//newline
-         if (t > warmest_supply) lines = lines//'oil%supply_temperature = '//to_text(t)//': temperatures are in ' &
-            & //'degrees Celsius; '//to_text(t)//' K are '//fixed_text(t - 273.15_wp, 2)//' C'//newline
-      end associate
+      lines = remarks_on_pads(inputs)
       if (any(preload(inputs) < 0)) lines = lines//'negative preload '//to_text(minval(preload(inputs))) &
          & //': the bore of the pads ' &
          & //'is tighter than the clearance at the pivots; such a pad touches the journal at its edges first'//newline
@@ -134,35 +127,17 @@ contains
       end associate
    end function carries_at
 
-   !> What concerns the mass of a rigid journal and what moves it.
-   function on_rigid_journal(inputs) result(lines)
-      type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: lines
-      lines = ''
-      if (inputs%moves()) lines = remark_on_unbalance(inputs%unbalance()/inputs%rotor%mass, inputs%clearance())
-   end function on_rigid_journal
-
-   !> What an unbalance over the mass of its rotor, m, says where it is more than the clearance, m; else empty.
-   function remark_on_unbalance(eccentricity, clearance) result(line)
-      real(wp), intent(in) :: eccentricity, clearance
-      character(len=:), allocatable :: line
-      line = ''
-      if (eccentricity > clearance) line = 'mass eccentricity '//to_text(1e6_wp*eccentricity) &
-         & //' um (unbalance over the mass of the rotor): more than the bearing clearance of ' &
-         & //to_text(1e6_wp*clearance)//' um; the unbalance is in kg m'//newline
-   end function remark_on_unbalance
-
    !> Groups that the task of a case does not use, and what they say.
-   function on_idle_groups(inputs) result(lines)
+   function on_idle_groups(inputs, table) result(lines)
       type(case_type), intent(in) :: inputs
+      type(variable_table_type), intent(in) :: table
       character(len=:), allocatable :: lines
-      type(variable_table_type) :: table, defaults
+      type(variable_table_type) :: defaults
       character(len=:), allocatable :: group, names
       integer :: i
       lines = ''
       if (size(inputs%excitations) > 0 .and. .not. inputs%moves()) lines = 'excitation: has no effect with ' &
          & //'case%task = '''//inputs%about%task//''', where no force changes with time'//newline
-      call list_variables(inputs, table)
       call list_variables(case_type(), defaults)
       group = ''
       names = ''

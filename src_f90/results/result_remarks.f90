@@ -5,7 +5,8 @@ module result_remarks
    use kinds, only: wp, degree, pi
    use text, only: to_text, fixed_text, micro
    use case_inputs, only: case_type
-   use case_remarks, only: remarks_on_case, remarks_on_load, remark_on_unbalance, of_bearing, newline
+   use case_remarks, only: remarks_on_case, remarks_on_load, of_bearing, newline
+   use unit_remarks, only: remark_on_unbalance
    use equilibrium_refusal, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
    use record, only: record_type
@@ -87,10 +88,11 @@ contains
       real(wp) :: clearance
       integer :: b
       remark = ''
-      if (.not. file%has('rotor/total_mass') .or. size(inputs%machine%unbalances) == 0) return
+      if (.not. file%has('rotor/total_mass')) return
+      if (size(inputs%machine%unbalances) == 0) return
       clearance = minval([(minval(inputs%machine%bearings(b)%bearing%assembled_clearance), b=1, &
          & inputs%bearing_count())])
-      remark = remark_on_unbalance(maxval(inputs%machine%unbalances%moment)/file%get_real('rotor/total_mass'), &
+      remark = remark_on_unbalance(maxval(inputs%machine%unbalances%moment), file%get_real('rotor/total_mass'), &
          & clearance)
    end function on_unbalances
 

@@ -14,7 +14,7 @@ REMARKS = {
     "units": (
         ("bearing%viscosity=19e-6",),
         [
-            "bearing%viscosity = 1.9e-5: thinner than oils are; it is in Pa s: 1 cP is 0.001",
+            "bearing%viscosity = 1.9e-5: seldom so in Pa s; 1.9e-5 reyn are 0.131",
             "film of pads 1, 2 is",
             "eccentricity ratio 1.531: at pads 1, 2",
             "the oil warms by",

@@ -147,7 +147,8 @@ contains
    !> The inertia about the pivot is more than that of the mass in its centre, here 9.0007e-5 kg m^2.
    subroutine centre_of_gravity()
       call expect_allowed('&pads centre_tangential(2) = 3e-3, inertia(2) = 9.09e-5 /')
-      call expect_refused('&pads centre_tangential(2) = 3e-3, inertia(2) = 8.91e-5 /', 'must exceed mass times')
+      call expect_refused('&pads centre_tangential(2) = 3e-3, inertia(2) = 8.91e-5 /', &
+         & 'must exceed pads%mass = 0.8108 times')
       call expect_refused('&pads centre_tangential(2) = 3e-3, inertia(2) = 8.91e-5 /', '(pad 2)')
    end subroutine centre_of_gravity
 

@@ -168,8 +168,8 @@ contains
       call expect_refused('&pads mass(2) = 1, density = 7850 /', '(pad 2)')
       call expect_refused('&pads mass = 1, inertia = 1, centre_tangential = 0, centre_radial = 0, thickness = 0.1 /', &
          & 'pads%thickness = 0.1: has no effect')
-      call expect_refused('&bearing journal_radius = 1e-3, axial_length = 1e-3 /' &
-         & //' &pads thickness = 1e-5, density = 1 /', 'from the size of the pad: must be 1e-9 to 1e9')
+      call expect_refused('&bearing journal_radius = 1e-3, axial_length = 1e-4 /' &
+         & //' &pads thickness = 1e-6, density = 1000 /', 'from the size of the pad: must be 1e-9 to 1e9')
    end subroutine refused
 
    !> The numbers of the five-pad bearing, by hand.

@@ -54,14 +54,22 @@ contains
 
    !> What a refusal says of units, of names as data sheets have them, and of commas in numbers.
    subroutine hints()
-      call expect_refused('&bearing journal_radius = 50.8 /', 'must be 1e-4 to 10 m; 0.0508?')
-      call expect_refused('&bearing axial_length = 60 /', '(both in m; pad 1); 0.06?')
+      call expect_refused('&bearing journal_radius = 50.8 /', 'must be 1e-4 to 10 m; 50.8 mm are 0.0508')
+      call expect_refused('&bearing axial_length = 60 /', '(both in m; pad 1); 60 mm are 0.06; 60 in are 1.524')
       call expect_refused('&bearing assembled_clearance = 0.076, preload = 0.3 /', &
          & 'bearing%assembled_clearance = 0.076: must be at most 0.1 of bearing%journal_radius = 0.0499 (both in m; ' &
-         & //'pad 1); 7.6e-5?')
-      call expect_refused('&bearing machined_clearance = 0.1 /', '(both in m; pad 1); 1e-4?')
-      call expect_refused('&bearing viscosity = 19 /', 'must be 1e-6 to 10 Pa s; 0.019?')
-      call expect_refused('&oil kinematic_viscosity = 46, 6.8 /', 'must be 5e-7 to 1 m^2/s; 4.6e-5?')
+         & //'pad 1); 0.076 mm are 7.6e-5; 0.076 in are 0.0019304')
+      call expect_refused('&bearing machined_clearance = 0.1 /', '(both in m; pad 1); 0.1 mm are 1e-4')
+      call expect_refused('&bearing viscosity = 19 /', 'must be 1e-6 to 10 Pa s; 19 mPa s are 0.019')
+      call expect_refused('&oil kinematic_viscosity = 46, 6.8 /', 'must be 5e-7 to 1 m^2/s; 46 mm^2/s are 4.6e-5')
+      call expect_refused('&pads density = 7.85 /', 'must be 1000 to 100000 kg/m^3; 7.85 g/cm^3 are 7850')
+      call expect_refused('&pads density = 0.283 /', '0.283 lb/in^3 are 7833.41')
+      call expect_refused('&oil grade = 32, density = 0.87 /', 'kg/m^3; 0.87 g/cm^3 are 870')
+      call expect_refused('&oil grade = 32, density_at_15 = 54 /', 'kg/m^3; 54 lb/ft^3 are 864.999')
+      call expect_refused('&oil specific_heat = 1.95 /', 'J/(kg K); 1.95 kJ/(kg K) are 1950')
+      call expect_refused('&pads young_modulus = 210 /', 'Pa; 210 GPa are 2.1e11')
+      call expect_refused('&asperity roughness = 0.5 /', 'm; 0.5 um are 5e-7')
+      call expect_refused('&pads mass = 1500 /', '0.153015 (pad 1); 1500 g are 1.5')
       call expect_refused('&rotor weight = 1500 /', '(did you mean rotor%mass in kg?)')
       call expect_refused('&pads pivot_offset = 0.5 /', '(did you mean pads%pivot_ratio?)')
       call expect_refused('&bearing radial_clearance = 1e-4 /', '(did you mean bearing%assembled_clearance?)')

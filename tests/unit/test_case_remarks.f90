@@ -5,9 +5,12 @@ program test_case_remarks
    use case_remarks, only: remarks_on_case, behind
    use check, only: runs, expect, report
    implicit none (type, external)
-   character(len=*), parameter :: own = '&bearing journal_radius = 0.05 /'
+   character(len=*), parameter :: own = '&bearing journal_radius = 0.05 /', &
+      & machine = '&bearing name = ''left'', station = 1 / &bearing name = ''right'', station = 3 / '
 
    if (runs('units')) call units()
+   if (runs('units_of_machines')) call units_of_machines()
+   if (runs('frequencies')) call frequencies()
    if (runs('loads')) call loads()
    if (runs('lent_values')) call lent_values()
    if (runs('idle_groups')) call idle_groups()
@@ -32,14 +35,70 @@ contains
    subroutine units()
       call expect_remark('&case /', '')
       call expect_remark('&oil grade = 46, supply_temperature = 150 /', '')
-      call expect_remark('&oil grade = 46, supply_temperature = 160 /', 'degrees Celsius; 160 K are -113.15 C')
+      call expect_remark('&oil grade = 46, supply_temperature = 160 /', &
+         & 'oil%supply_temperature = 160: seldom so in C; 160 F are 71.1111')
+      call expect_remark('&oil grade = 46, supply_temperature = 313.15 /', 'seldom so in C; 313.15 K are 40')
       ! 80 um of 2000 kg are 0.16 kg m
       call expect_remark('&rotor unbalance = 0.159 /', '')
-      call expect_remark('&rotor unbalance = 0.161 /', 'mass eccentricity 80.5 um')
-      call expect_remark('&pads arc_deg = 1.309 /', 'pads%arc_deg = 1.309: angles are in degrees')
-      call expect_remark('&bearing viscosity = 2.2e-6 /', 'bearing%viscosity = 2.2e-6: thinner than oils are')
+      call expect_remark('&rotor unbalance = 0.161 /', 'um; the unbalance is in kg m; 0.161 g mm are 1.61e-7')
+      call expect_remark('&rotor unbalance = 185 /', '185 g mm are 1.85e-4; 185 oz in are 0.133215')
+      call expect_remark('&pads arc_deg = 1.309 /', 'pads%arc_deg = 1.309: seldom so in deg; 1.309 rad are 75.0002')
+      call expect_remark('&bearing viscosity = 2.2e-6 /', 'bearing%viscosity = 2.2e-6: seldom so in ' &
+         & //'Pa s; 2.2e-6 reyn are 0.0151685')
       call expect_remark('&rotor unbalance = 0.161 / &case task = equilibrium /', '')
+      call expect_remark('&bearing supply_pressure = 1.5 /', 'seldom so in Pa; 1.5 bar are 150000; 1.5 psi are 10342.1')
+      call expect_remark('&bearing supply_pressure = 1.5e5 /', '')
+      call expect_remark('&oil conductivity = 130 /', 'seldom so in W/(m K); 130 mW/(m K) are 0.13')
+      call expect_remark('&pivot young_modulus = 2*3e7 /', 'pivot%young_modulus = 3e7: seldom so in Pa; 3e7 psi are ' &
+         & //'2.06843e11')
+      call expect_remark('&pads inertia = 2000 /', 'pads%inertia = 2000: more than a pad of this size and mass has; ' &
+         & //'2000 kg mm^2 are 0.002')
+      call expect_remark('&pads mass = 1500, inertia = 3 /', 'pads%mass = 1500: more than a pad of this size weighs; ' &
+         & //'1500 g are 1.5')
    end subroutine units
+
+   !> Of a machine: the density of the shaft, which a case may set to almost nothing, and discs wider than it is long.
+   subroutine units_of_machines()
+      character(len=*), parameter :: shaft = '&shaft length = 2*0.5, diameter = 2*0.1 / '
+      character(len=*), parameter :: disc = '&disc station = 2, mass = 100, polar_inertia = 2e-3, diametral_inertia = '
+      call expect_words(machine//'&shaft length = 2*0.5, diameter = 2*0.1, density = 7.85 /', &
+         & 'shaft%density = 7.85: seldom so in kg/m^3; 7.85 g/cm^3 are 7850')
+      call expect_words(machine//shaft//disc//'1e6 /', &
+         & 'disc(1)%diametral_inertia = 1e6: more than a disc of its mass has that is not larger than the shaft is ' &
+         & //'long; 1e6 kg cm^2 are 100')
+      call expect_words(machine//shaft//disc//'99 / &support bearing = ''left'', mass = 10, ' &
+         & //'stiffness = 500, 500 /', 'support:left%stiffness = 500: seldom so in N/m; 500 N/um are 5e8')
+      call expect_words(machine//shaft//'&pads bearing = ''right'', mass = 1500, inertia = 3 /', &
+         & 'bearing ''right'': pads%mass = 1500: more than a pad of this size weighs; 1500 g are 1.5')
+      call expect(index(remarks_on_case(case_of(machine//shaft//disc//'99 /')), &
+         & ' are ') == 0, 'a machine without remarks on units')
+   end subroutine units_of_machines
+
+   !> A case has one remark with these words, beside others.
+   subroutine expect_words(text, words)
+      character(len=*), intent(in) :: text, words
+      character(len=:), allocatable :: all
+      all = remarks_on_case(case_of(text))
+      call expect(index(all, words) > 0, text//': '//all)
+   end subroutine expect_words
+
+   !> Frequencies beside the speed, 50 Hz or 314.159 rad/s.
+   subroutine frequencies()
+      character(len=*), parameter :: at = '&operation speed_rpm = 3000 / &excitation amplitude = 1, ', turns = &
+         & '; the shaft turns at 50 Hz'
+      call expect_remark(at//'frequency_hz = 50 /', '')
+      call expect_remark(at//'frequency_hz = 1200 /', '')
+      call expect_remark(at//'frequency_hz = 3000 /', 'excitation(1)%frequency_hz = 3000: 60 times the speed of the ' &
+         & //'shaft; 3000 rpm are 50'//turns)
+      call expect_remark(at//'frequency_hz = 314.2 /', 'frequency_hz = 314.2: the speed of the shaft in rad/s'//turns)
+      call expect_remark(at//'frequency_hz = 315 /', '')
+      call expect_remark(at//'frequency_ratio = 50 /', 'excitation(1)%frequency_ratio = 50: this many times')
+      call expect_remark('&case task = ''coefficients'' / &coefficients frequency_ratio = 0.5, 50 /', &
+         & 'coefficients%frequency_ratio = 50: this many times')
+      call expect_remark('&operation speed_rpm = 3000 / &rotor balance_grade = 2.5, balance_speed_rpm = 314 /', &
+         & 'rotor%balance_speed_rpm = 314: the speed of the shaft in rad/s; it is in rpm')
+      call expect_remark('&operation speed_rpm = 3000 / &rotor balance_grade = 2.5, balance_speed_rpm = 320 /', '')
+   end subroutine frequencies
 
    !> Of a bearing of 9.98e-3 m^2, whose fixed pads end at the load or carry it.
    subroutine loads()
