@@ -75,6 +75,9 @@ module other_units
       & other_unit_type('C', 'K', 1.0_wp, -273.15_wp), &
       & other_unit_type('C', 'F', 5/9.0_wp, -160/9.0_wp, custom=.true.)]
 
+   !> Numbers beyond it are mistakes of another kind.
+   real(wp), parameter :: largest = 1e30_wp
+
 contains
 
    !> "; 50.8 mm are 0.0508", of each kind of units the first in which a variable is within a range, which has the unit
@@ -90,7 +93,7 @@ contains
       found = .false.
       range = usual_size(name, unit)
       do i = 1, size(known)
-         if (known(i)%of /= unit .or. abs(x) <= 0) cycle
+         if (known(i)%of /= unit .or. abs(x) <= 0 .or. abs(x) > largest) cycle
          kind = merge(2, 1, known(i)%custom)
          associate (meant => known(i)%offset + known(i)%factor*x)
             if (found(kind) .or. meant < max(low, range%low) .or. meant > min(high, range%high)) cycle

@@ -71,7 +71,7 @@ EXPONENTS = {
     for name in names.split()
 }
 #: Powers of two, which round nothing: what remains is what a step or an iteration more or less leaves.
-NEW_UNITS = (0.5, 4, 0.25)
+NEW_UNITS = (0.5, 0.5, 0.25)
 #: Pads and journal touch.
 SLOW = {"speed_rpm": 20, "final_speed_rpm": 20}
 #: Values over those of CASE, and how closely it is the same, over the largest value: an equilibrium is solved

@@ -239,7 +239,7 @@ contains
       call expect_bad('rotor%mass', '1e', 'line 3, run 2: rotor%mass = 1e: must be a number')
       call expect_bad('rotor%mass', 'nan', 'line 3, run 2: rotor%mass = ''nan'': must be a number')
       call expect_bad('rotor%mass', '1e999', 'line 3, run 2: rotor%mass = 1e999: must be finite')
-      call expect_bad('pads%density', '2*7e3', 'line 3, run 2: pads%density = ''2*7e3'': must be a number')
+      call expect_bad('rotor%gravity', '2*7', 'line 3, run 2: rotor%gravity = ''2*7'': must be a number')
       call expect_bad('rotor%mass', '1:2:1', 'line 3, run 2: rotor%mass = ''1:2:1'': must be a number')
       call expect_bad('film%axial_cells', '4.5', 'line 3, run 2: film%axial_cells = 4.5: must be a whole number')
    end subroutine bad_values
