@@ -1,5 +1,6 @@
 """Tables of docs/verification.md on warm oil, and the picture docs/images/fillon.png."""
 
+import json
 import re
 import subprocess
 from pathlib import Path
@@ -10,7 +11,9 @@ import tiltpad
 from tiltpad.draw import plots
 from verify_runs import EXAMPLES, row, run
 
-IMAGES = Path(__file__).resolve().parent / "images"
+HERE = Path(__file__).resolve().parent
+IMAGES = HERE / "images"
+ROSS = HERE.parent / "build/venv-ross/bin/python"
 #: Fillon, Bligoud and Frene 1992.
 FILLON = """&case  task = 'equilibrium' /
 &rotor  mass = 1000, gravity = 10, unbalance = 0 /
@@ -22,6 +25,17 @@ FILLON = """&case  task = 'equilibrium' /
 &thermal  model = 'pad' /
 &pads  pivot_angle_deg = -45, 45, 135, 225, arc_deg = 75, motion = 'tilting_only' /
 """
+#: Five pads of a compressor, and an oil that peer_ross_warm.py has, too.
+FIVE = """&rotor  mass = 1000, gravity = 10, unbalance = 0 /
+&operation  speed_rpm = 9000 /
+&bearing  journal_radius = 50.8e-3, axial_length = 50.8e-3, machined_clearance = 108.5714e-6
+  assembled_clearance = 76e-6 /
+&oil  OIL /
+&thermal  model = 'film' /
+&pads  pivot_angle_deg = -54, 18, 90, 162, 234, arc_deg = 60, pivot_distance = 14e-3, motion = 'tilting_only'
+  mass = 0.33856, inertia = 0.00013605, centre_radial = -9.3406e-3 /
+"""
+EXPONENTIAL = "reference_viscosity = 0.02733, reference_temperature = 40, temperature_exponent = 0.0305"
 #: Maximum temperature of the pads, C, over the speed, rpm: measured (read from a figure, within 1 K), by the
 #: authors' TEHD model, and by an independent program with the temperature along and across the films.
 SPEEDS = (1000, 2000, 3000, 4000)
@@ -49,15 +63,9 @@ FIELDS = {
         (31.20765, 68.40364, 54.26248, 2164.421, 353.4343, 0.6087114),
     ),
     "five pads, 9000 rpm": (
-        """&rotor  mass = 1000, gravity = 10, unbalance = 0 /
-&operation  speed_rpm = 9000 /
-&bearing  journal_radius = 50.8e-3, axial_length = 50.8e-3, machined_clearance = 108.5714e-6
-  assembled_clearance = 76e-6 /
-&oil  kinematic_viscosity = 32e-6, 5.362e-6, density_at_15 = 870, density_slope = -0.64 /
-&thermal  model = 'film' /
-&pads  pivot_angle_deg = -54, 18, 90, 162, 234, arc_deg = 60, pivot_distance = 14e-3, motion = 'tilting_only'
-  mass = 0.33856, inertia = 0.00013605, centre_radial = -9.3406e-3 /
-""",
+        FIVE.replace(
+            "OIL", "kinematic_viscosity = 32e-6, 5.362e-6, density_at_15 = 870, density_slope = -0.64"
+        ),
         (),
         (27.10105, 95.05194, 58.98248, 6078.02, 510.8134, 0.3927633),
     ),
@@ -136,6 +144,32 @@ def fields(program, folder):
                 else f"{100 * (value / reference - 1):+.2f} %"
             )
             yield row(name, quantity, f"{value:.5g}", f"{reference:.5g}", part)
+
+
+def by_ross(program, folder):
+    """Rows of the five pads with each model of the oil's temperatures, here and by ROSS."""
+    if not ROSS.exists():
+        return
+    case = Path(folder) / "five.nml"
+    case.write_text(FIVE.replace("OIL", EXPONENTIAL))
+    for model, kind in (("none", "none"), ("pad", "adiabatic"), ("film", "full")):
+        with run(program, case, folder, "case%task=coefficients", f"thermal%model={model}") as found:
+            e, at = found.equilibrium, tiltpad.coefficients(found, "free")
+            warm = model != "none"
+            here = (
+                1e6 * e["min_film_thickness"].min(),
+                e["maximum_temperature"].max() if warm else None,
+                float(e["shaft_temperature"]) if warm else None,
+                float(e["total_power_loss"]),
+                *(1e-6 * each[0, i, i] for each in (at.stiffness, at.damping) for i in (0, 1)),
+            )
+        words = [ROSS, HERE / "peer_ross_warm.py", kind]
+        said = subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True).stdout
+        theirs = json.loads(said.splitlines()[-1])
+        for name, values in ((f"here, `{model}`", here), (f"ROSS, {kind}", theirs)):
+            yield row(
+                name, *("-" if each is None else f"{each:.{max(4, len(str(int(each))))}g}" for each in values)
+            )
 
 
 #: Bearings whose pads bend, and their thickness, m.
@@ -262,4 +296,4 @@ def vibration(program, folder):
         yield row(unbalance, f"{1e6 * size:.1f}", f"{size / clearance:.2f}", *(cells if unbalance else "---"))
 
 
-TABLES = (walther, warm_bearings, measured, heat, fields, bending, vibration)
+TABLES = (walther, warm_bearings, measured, heat, fields, by_ross, bending, vibration)
