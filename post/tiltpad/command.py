@@ -155,8 +155,8 @@ def tell_remarks(sources: Sequence[Run | Study]) -> None:
             name = f"{each.path}: " * (len({one.path for one in sources}) > 1)
             for line in each.remarks:
                 tell(f"{name}remark: {line}")
-        elif "remarks" in each:
-            remarked, runs = sum(map(bool, each["remarks"])), each.length("run")
+        elif remarked := int(each.remarked.sum()):
+            runs = each.length("run")
             tell(f"{each.path}: remarks on {remarked} of {runs} runs; the report of the study counts them")
 
 

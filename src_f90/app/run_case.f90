@@ -66,7 +66,7 @@ contains
       if (allocated(error)) return
       if (.not. complete .or. run%verified_states > 0) then
          if (.not. quiet) then
-            run%remarks = remarks_on_case(inputs)
+            run%remarks = remarks_on_case(run%inputs)
             call print_remarks(run%remarks)
             call print_size(inputs)
          end if

@@ -130,8 +130,7 @@ contains
       if (error%status == numerics_error) error%message = error%message//computed_in//output
    end subroutine treat_case
 
-   !> Prints the case of a study, or of one run (0: the first), whose tables of excitations are read as a run reads
-   !> them.
+   !> Prints the case of a study, or of one run (0: the first), whose tables are read as a run reads them.
    subroutine print_case(study, whole_study, run, error)
       type(study_type), intent(in) :: study
       logical, intent(in) :: whole_study
@@ -139,11 +138,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_type) :: inputs
       character(len=:), allocatable :: text
-      call study%inputs(max(1, run), inputs, error)
-      if (.not. allocated(error)) call read_tables(inputs, error)
-      if (allocated(error)) return
       if (whole_study) then
-         call study%resolved(text, error)
+         call study%inputs(max(1, run), inputs, error)
+         if (.not. allocated(error)) call read_tables(inputs, error)
+         if (.not. allocated(error)) call study%resolved(text, error)
       else
          call study%checked(max(1, run), text, error)
       end if

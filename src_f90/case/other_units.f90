@@ -22,6 +22,7 @@ module other_units
       & usual_type('m', 'bearing%assembled_clearance', 5e-6_wp, 5e-3_wp), &
       & usual_type('m', 'pivot%radius_difference', 1e-7_wp, 0.01_wp), &
       & usual_type('m', 'asperity%', 1e-8_wp, 1e-5_wp), &
+      & usual_type('m', 'deflection', 1e-8_wp, 5e-4_wp), &
       & usual_type('m', '', 2e-3_wp, 10.0_wp), &
       & usual_type('kg', 'pads%mass', 0.01_wp, 1e4_wp), &
       & usual_type('Pa s', '', 1e-4_wp, 10.0_wp, told=.true.), &
@@ -33,10 +34,12 @@ module other_units
       & usual_type('J/(kg K)', '', 1e3_wp, 5e3_wp), &
       & usual_type('kg/m^3', 'oil%', 500.0_wp, 2e3_wp), &
       & usual_type('kg/m^3', '', 1e3_wp, 2.5e4_wp, told=.true.), &
+      & usual_type('N', '', 1.0_wp, 1e8_wp), &
+      & usual_type('rpm', '', 10.0_wp, 2e5_wp), &
       & usual_type('N/m', 'support%', 1e4_wp, 1e13_wp, told=.true.)]
 
    !> A unit that data sheets have instead of that of the input, which is offset + factor times the number; `custom`
-   !> for those of inch and pound.
+   !> for those of inch and pound, and for turns a second.
    type :: other_unit_type
       character(len=13) :: of
       character(len=12) :: name
@@ -51,6 +54,12 @@ module other_units
       & other_unit_type('m', 'in', 0.0254_wp, custom=.true.), &
       & other_unit_type('m', 'mil', 2.54e-5_wp, custom=.true.), &
       & other_unit_type('kg', 'g', 1e-3_wp), &
+      & other_unit_type('kg', 't', 1e3_wp), &
+      & other_unit_type('kg', 'lb', 0.453592_wp, custom=.true.), &
+      & other_unit_type('N', 'kN', 1e3_wp), &
+      & other_unit_type('N', 'lbf', 4.44822_wp, custom=.true.), &
+      & other_unit_type('rpm', 'rad/s', 9.549297_wp), &
+      & other_unit_type('rpm', 'Hz', 60.0_wp, custom=.true.), &
       & other_unit_type('kg m', 'g mm', 1e-6_wp), &
       & other_unit_type('kg m', 'oz in', 7.2008e-4_wp, custom=.true.), &
       & other_unit_type('kg m^2', 'kg cm^2', 1e-4_wp), &

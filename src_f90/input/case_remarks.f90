@@ -1,26 +1,22 @@
 !> Remarks on a case: what is allowed and seldom meant, what the model is not made for, and what has no effect. A line
 !> each; --check shows them, and a run puts them on its list.
 module case_remarks
-   use kinds, only: wp, degree
+   use kinds, only: wp
    use text, only: to_text, fixed_text
    use case_inputs, only: case_type
-   use bearing_numbers, only: preload, load, specific_load
-   use operating_point, only: operating_point_type
+   use bearing_numbers, only: preload
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables
    use namelist_writer, only: lines_of
-   use unit_remarks, only: remarks_on_units, remarks_on_pads, remark_on_unbalance
+   use unit_remarks, only: remarks_on_units, remarks_on_pads, remark_on_unbalance, remark_on_speed
+   use load_remarks, only: remarks_on_load, remarks_on_forces
    implicit none (type, external)
    private
-   public :: remarks_on_case, remarks_on_load, of_bearing, behind, newline
+   public :: remarks_on_case, of_bearing, behind, newline
 
    character(len=*), parameter :: newline = achar(10)
    !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
    real(wp), parameter :: compared_up_to = 35
-   !> Specific load, Pa, that few bearings have.
-   real(wp), parameter :: highest_usual_load = 5e6_wp
-   !> From the edge of a fixed pad on this angle, deg, carries little.
-   real(wp), parameter :: beside_edge = 15
 
 contains
 
@@ -35,7 +31,7 @@ contains
       do b = 1, inputs%bearing_count()
          lines = lines//of_bearing(inputs, b, on_bearing(inputs%of_bearing(b)))
       end do
-      lines = lines//remarks_on_units(inputs, table)
+      lines = lines//remarks_on_units(inputs, table)//remarks_on_forces(inputs)
       if (.not. inputs%is_machine()) then
          if (inputs%moves()) lines = lines//remark_on_unbalance(inputs%unbalance(), inputs%rotor%mass, &
             & inputs%clearance())
@@ -74,7 +70,7 @@ contains
    function on_bearing(inputs) result(lines)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
-      lines = remarks_on_pads(inputs)
+      lines = remark_on_speed(inputs)//remarks_on_pads(inputs)
       if (any(preload(inputs) < 0)) lines = lines//'negative preload '//to_text(minval(preload(inputs))) &
          & //': the bore of the pads ' &
          & //'is tighter than the clearance at the pivots; such a pad touches the journal at its edges first'//newline
@@ -87,45 +83,6 @@ contains
             & //'shows trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)'//newline
       end associate
    end function on_bearing
-
-   !> What depends on the load of a bearing, its case having one.
-   function remarks_on_load(inputs) result(lines)
-      type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: lines
-      lines = ''
-      if (.not. load(inputs) > 0) return
-      if (specific_load(inputs) > highest_usual_load) then
-         lines = lines//'specific load '//fixed_text(1e-6_wp*specific_load(inputs), 2)//' MPa: above ' &
-            & //to_text(1e-6_wp*highest_usual_load)//' MPa, where pads bend under their pressure (pads%bending); ' &
-            & //'most bearings carry 1 to 3 MPa'//newline
-      end if
-      if (inputs%tilting()) return
-      associate (at => direction_of_load(inputs))
-         if (carries_at(inputs, at)) return
-         lines = lines//'the load points to '//fixed_text(at, 1)//' deg, to the end of a fixed pad or between two, ' &
-            & //'where little oil film carries; turn the pads (pads%pivot_angle_deg) for a groove out of the load' &
-            & //newline
-      end associate
-   end function remarks_on_load
-
-   !> The angle to which the load points, deg, counted as that of a pivot.
-   real(wp) function direction_of_load(inputs) result(at)
-      type(case_type), intent(in) :: inputs
-      type(operating_point_type) :: point
-      point = operating_point_type(inputs)
-      at = atan2(point%load(1), point%load(2))/degree
-   end function direction_of_load
-
-   !> Whether a fixed pad reaches past this angle, deg, on either side.
-   pure logical function carries_at(inputs, at)
-      type(case_type), intent(in) :: inputs
-      real(wp), intent(in) :: at
-      real(wp) :: from_trailing(size(inputs%pads%arc_deg))
-      associate (p => inputs%pads)
-         from_trailing = modulo(inputs%sense()*(at - p%pivot_angle_deg) + (1 - p%pivot_ratio)*p%arc_deg, 360.0_wp)
-         carries_at = any(from_trailing >= beside_edge .and. p%arc_deg - from_trailing >= beside_edge)
-      end associate
-   end function carries_at
 
    !> Groups that the task of a case does not use, and what they say.
    function on_idle_groups(inputs, table) result(lines)

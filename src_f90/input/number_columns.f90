@@ -7,6 +7,7 @@ module number_columns
    use case_groups, only: pivot_type
    use case_inputs, only: case_type
    use machine_names, only: of_bearing
+   use other_units, only: in_other_units
    use csv_line, only: cell_type, next_cell, content
    use text_scanner, only: control_character
    use input_file, only: read_input
@@ -188,7 +189,8 @@ contains
          end if
          if (numbers(i) >= columns(i)%low .and. numbers(i) <= columns(i)%high) cycle
          call raise(error, input_error, origin//': '//trim(columns(i)%name)//' = '//to_text(numbers(i))//': must be ' &
-            & //to_text(columns(i)%low)//' to '//to_text(columns(i)%high)//' '//columns(i)%unit)
+            & //to_text(columns(i)%low)//' to '//to_text(columns(i)%high)//' '//columns(i)%unit &
+            & //in_other_units(numbers(i), trim(columns(i)%name), columns(i)%unit, columns(i)%low, columns(i)%high))
          return
       end do
       if (at <= len(without_return(line)) + 1) call raise(error, input_error, origin//': has more than ' &

@@ -9,6 +9,7 @@ module parameter_study
    use case_text, only: read_text, parse_case
    use case_namelist, only: case_from_namelist, fill_case
    use namelist_writer, only: namelist_of
+   use number_columns, only: read_tables
    use checked_case, only: marked_text, derived_text
    implicit none (type, external)
    private
@@ -157,7 +158,7 @@ contains
       call self%varied%number_of_run(i, k, x, ok)
    end subroutine number
 
-   !> The k-th run's case with every default, marked, and what follows from it.
+   !> The k-th run's case with every default, marked, and what follows from it; its tables are read as a run reads them.
    subroutine checked(self, k, text, error)
       class(study_type), intent(in) :: self
       integer, intent(in) :: k
@@ -166,6 +167,7 @@ contains
       type(namelist_type) :: parsed
       type(case_type) :: inputs
       call self%inputs(k, inputs, error)
+      if (.not. allocated(error)) call read_tables(inputs, error)
       if (allocated(error)) return
       call self%namelist_of_run(k, parsed)
       text = marked_text(inputs, parsed)//derived_text(inputs)

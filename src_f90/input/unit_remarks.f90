@@ -1,6 +1,6 @@
 !> Remarks on numbers that are allowed and seldom meant in the unit of the input, with what they are in others.
 module unit_remarks
-   use kinds, only: wp, pi, degree
+   use kinds, only: wp, pi, degree, rpm
    use text, only: to_text
    use case_groups, only: is_set
    use case_inputs, only: case_type
@@ -8,7 +8,7 @@ module unit_remarks
    use variable_table, only: variable_table_type, variable_type
    implicit none (type, external)
    private
-   public :: remarks_on_units, remarks_on_pads, remark_on_unbalance
+   public :: remarks_on_units, remarks_on_pads, remark_on_unbalance, remark_on_speed
 
    character(len=*), parameter :: newline = achar(10)
 
@@ -17,6 +17,8 @@ module unit_remarks
    !> Multiple of the speed of the shaft above which frequencies seldom are, and how close to the speed in another unit
    !> a number must be, of itself, to be taken for it.
    real(wp), parameter :: highest_order = 25, closeness = 1e-3_wp
+   !> Usual surface speeds of journals at their working speed, m/s.
+   real(wp), parameter :: usual_speeds(2) = [2.0_wp, 150.0_wp]
 
 contains
 
@@ -118,6 +120,19 @@ contains
       if (inputs%about%task == 'coefficients') lines = lines//on_ratio('coefficients%frequency_ratio', &
          & maxval([0.0_wp, inputs%coefficients%frequency_ratio]))
    end function on_frequencies
+
+   !> The highest speed of a run, where the surface of the journal of a bearing is seldom so slow.
+   function remark_on_speed(inputs) result(line)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: line
+      line = ''
+      associate (turns => inputs%highest_speed()/rpm, radius => inputs%bearing%journal_radius)
+         if (inputs%highest_speed()*radius < usual_speeds(1)) line = 'surface speed ' &
+            & //to_text(inputs%highest_speed()*radius)//' m/s at '//to_text(turns)//' rpm: seldom so low' &
+            & //in_other_units(turns, 'operation%speed_rpm', 'rpm', usual_speeds(1)/radius/rpm, &
+            & usual_speeds(2)/radius/rpm)//newline
+      end associate
+   end function remark_on_speed
 
    !> A frequency, Hz, far above that of the shaft, or its speed, rad/s, in another unit.
    function on_frequency(name, frequency, speed) result(line)

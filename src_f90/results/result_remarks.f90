@@ -5,7 +5,8 @@ module result_remarks
    use kinds, only: wp, degree, pi
    use text, only: to_text, fixed_text, micro
    use case_inputs, only: case_type
-   use case_remarks, only: remarks_on_case, remarks_on_load, of_bearing, newline
+   use case_remarks, only: remarks_on_case, of_bearing, newline
+   use load_remarks, only: remarks_on_load
    use unit_remarks, only: remark_on_unbalance
    use equilibrium_refusal, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share

@@ -1,8 +1,16 @@
 """Remarks on runs: beside the figures on the console, in the file, and on the list of Python."""
 
+import sys
+from pathlib import Path
+
 import h5py
 import pytest
 from conftest import ENDLESS, shorten, wait_for_checkpoint
+
+ROOT = Path(__file__).parents[2]
+sys.path[:0] = [str(ROOT / "tests/stress"), str(ROOT / "tests/realistic")]
+from bearings import draw  # noqa: E402
+from stress_cases import text  # noqa: E402
 
 #: A plain bearing whose groove can be turned, warm oil, and remarks by what a case adds to the paper's.
 BORE = ("bearing%preload=0", "pads%motion=fixed", "pads%arc_deg=360", "rotor%mass=500")
@@ -34,8 +42,12 @@ REMARKS = {
 }
 
 
-def lines(text):
-    return [line.removeprefix("remark: ") for line in text.splitlines() if line.startswith("remark: ")]
+#: Words of the remarks on numbers that are seldom so in their unit.
+OF_UNITS = ("seldom so", "are nothing beside", "its largest", "more than a pad", "more than a disc", " rad/s")
+
+
+def lines(told):
+    return [line.removeprefix("remark: ") for line in told.splitlines() if line.startswith("remark: ")]
 
 
 def listed(path):
@@ -63,6 +75,19 @@ def test_remarks(run, tmp_path, name):
     assert len(said) == len(expected)
     assert all(words in line for words, line in zip(expected, said, strict=True))
     assert listed(tmp_path / "here.h5") == said
+
+
+def test_no_usual_bearing_is_taken_for_one_in_other_units(tiltpad, tmp_path):
+    """The examples of this repository, and bearings as designers draw them."""
+    cases = sorted((ROOT / "input").glob("*/*.nml"))
+    assert len(cases) > 30
+    for number in range(40):
+        cases.append(tmp_path / f"{number}.nml")
+        cases[-1].write_text(text(draw(11, number)))
+    for case in cases:
+        checked = tiltpad("--check", case, cwd=tmp_path, status=0).stdout
+        remarks = [line for line in checked.splitlines() if line.startswith("! remark: ")]
+        assert not [line for line in remarks for words in OF_UNITS if words in line], case
 
 
 def test_a_film_that_re_forms_says_what_its_balance_lacks(run, tmp_path):

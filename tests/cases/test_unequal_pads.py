@@ -191,7 +191,10 @@ TABLES = {
         "line 3: force = 90: must be above 100, that of the line before",
     ),
     "twice": ("deflection,force\n1e-6,100\n1e-6,200\n", "line 3: deflection = 1e-6: must be above 1e-6"),
-    "micrometres": ("deflection,force\n1,100\n2,200\n", "line 2: deflection = 1: must be 0 to 0.1 m"),
+    "micrometres": (
+        "deflection,force\n1,100\n2,200\n",
+        "deflection = 1: must be 0 to 0.1 m; 1 um are 1e-6",
+    ),
     "below zero": ("deflection,force\n-1e-6,100\n1e-6,200\n", "deflection = -1e-6: must be 0 to 0.1 m"),
     "one": ("deflection,force\n0,0\n1e-6,200\n", "has one point of force over deflection"),
     "empty": ("", "it needs a line of names, deflection, force"),
@@ -210,6 +213,34 @@ def test_a_bad_table_of_a_pivot_is_one_line(tiltpad, tmp_path, name):
     said = tiltpad("case.nml", cwd=tmp_path, status=1).stderr
     assert "pivot%file: pivot.csv" in said
     assert words in said
+
+
+#: Tables in other units, and the number that is meant.
+OTHER_UNITS = {
+    "kilonewtons": (
+        "1e-6,0.9\n1e-5,30\n",
+        "pivot%file: its largest force is 30 N, and the bearing carries 19620 N; 30 kN are 30000",
+    ),
+    "millimetres": (
+        "1e-3,900\n1e-2,30000\n",
+        "pivot%file: its largest deflection is 0.01 m, and the clearance of the bearing is 8e-5 m; "
+        "0.01 mm are 1e-5",
+    ),
+    "its own": ("1e-6,900\n1e-5,30000\n", ""),
+}
+
+
+@pytest.mark.parametrize("name", OTHER_UNITS)
+def test_a_table_of_a_pivot_in_another_unit_has_a_remark(tiltpad, tmp_path, name):
+    """Before the run, which may find no equilibrium, and with --check."""
+    rows, words = OTHER_UNITS[name]
+    (tmp_path / "pivot.csv").write_text(f"deflection,force\n{rows}")
+    (tmp_path / "case.nml").write_text("&case task='equilibrium' /\n&pivot law='table', file='pivot.csv' /\n")
+    said = tiltpad("case.nml", cwd=tmp_path, status=2 if words else 0).stdout
+    assert said.count("pivot%file") == bool(words)
+    assert not words or f"remark: {words}" in said
+    checked = tiltpad("--check", "case.nml", cwd=tmp_path, status=0).stdout
+    assert not words or f"! remark: {words}" in checked
 
 
 def test_a_table_of_the_law_is_the_law(tiltpad, tmp_path):

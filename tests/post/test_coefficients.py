@@ -255,6 +255,26 @@ def test_pictures_show_the_modes(study, run):
     assert len(figures.stability(run).axes[0].get_lines()) > 6
 
 
+def test_lines_of_modes_of_pads_have_hollow_markers(study):
+    """By what each mode is in the last run that has it; the legend says which is which."""
+    own = tiltpad.modes(study, "free")
+    fig = figures.stability(study, pivot="free")
+    last = [[name for name in names if name][-1] for names in own.name.T]
+    of_pads = [not name.startswith("journal") for name in last]
+    assert set(of_pads) == {True, False}
+    for ax in fig.axes:
+        lines = ax.get_lines()[: len(last)]
+        assert [line.get_markerfacecolor() == "white" for line in lines] == of_pads
+        assert [line.get_linestyle() == "--" for line in lines] == of_pads
+    told = {text.get_text(): line for text, line in legend_of(fig)}
+    assert told["pads"].get_markerfacecolor() == "white" != told["journal"].get_markerfacecolor()
+
+
+def legend_of(fig):
+    """Texts and lines of the legend of a picture."""
+    return [pair for each in fig.legends for pair in zip(each.get_texts(), each.get_lines(), strict=True)]
+
+
 @pytest.mark.parametrize("plot", command.VIBRATIONS)
 def test_the_command_draws_studies_and_results(study, run, tmp_path, capsys, plot):
     picture = tmp_path / "a.png"

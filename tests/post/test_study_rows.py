@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 import pytest
-from tiltpad import collect, command, read, read_study
+from tiltpad import collect, command, figures, read, read_study
 from tiltpad.calculate.statistics import common_remarks
 from tiltpad.draw.study_report import study_report
 from tiltpad.files import units
@@ -159,7 +159,7 @@ def test_a_study_of_which_little_was_run(program, tmp_path):
         assert np.nansum(study.complete) == study.done.sum()
 
 
-def test_remarks_are_counted_by_kind(tiltpad, tmp_path, capsys):
+def test_remarks_are_counted_by_kind(tiltpad, tmp_path, capsys, closed_figures):
     """Those that differ in their numbers alone are one, in the words of the first run that has it."""
     (tmp_path / "case.nml").write_text("&case task='equilibrium' / &sweep rotor%mass=1000,6000,7000,9000 /")
     tiltpad("case.nml", "-q", cwd=tmp_path, status=0)
@@ -169,6 +169,8 @@ def test_remarks_are_counted_by_kind(tiltpad, tmp_path, capsys):
         told = sum(len(each.splitlines()) for each in study.remarks)
         common = common_remarks(study)
         page = study_report(study)
+        below = figures.study(study).get_supxlabel()
+    assert below == "remarks on 3 of 4 runs; the report of the study counts them"
     assert common[0].runs == 3
     assert (common[0].first, common[0].words) == (2, first)
     assert common[0].words.startswith("specific load 5.90 MPa")

@@ -12,6 +12,7 @@ program test_case_remarks
    if (runs('units_of_machines')) call units_of_machines()
    if (runs('frequencies')) call frequencies()
    if (runs('loads')) call loads()
+   if (runs('speeds_and_forces')) call speeds_and_forces()
    if (runs('lent_values')) call lent_values()
    if (runs('idle_groups')) call idle_groups()
    if (runs('lines')) call expect(behind('- ', 'a'//achar(10)//'b'//achar(10)) == '- a'//achar(10)//'- b'//achar(10), &
@@ -116,6 +117,30 @@ contains
       call expect_remark('&pads motion = ''fixed'', pivot_angle_deg = -90, 90, arc_deg = 160 /', &
          & 'each lobe has a centre')
    end subroutine loads
+
+   !> Speeds in rad/s or Hz, loads in kN, t or lb, where the surface of the journal, of 49.9 mm, or the load would be
+   !> unusual.
+   subroutine speeds_and_forces()
+      character(len=*), parameter :: weightless = '&rotor gravity = 0, static_load = '
+      call expect_remark('&operation speed_rpm = 383 /', '')
+      call expect_remark('&operation speed_rpm = 382 /', 'seldom so low; 382 rad/s are 3647.83; 382 Hz are 22920')
+      call expect_remark('&operation speed_rpm = 50 /', 'surface speed 0.261276 m/s at 50 rpm: seldom so low; 50 ' &
+         & //'rad/s are 477.465; 50 Hz are 3000')
+      ! of a run-up the highest speed counts
+      call expect_remark('&operation speed_rpm = 50, final_speed_rpm = 3000 /', '')
+      call expect_remark('&rotor mass = 6000 /', 'MPa; 6000 lb are 2721.55')
+      call expect_remark('&rotor mass = 2, unbalance = 0 /', 'specific load 0.00196593 MPa: seldom so low; most ' &
+         & //'bearings carry 1 to 3 MPa; 2 t are 2000')
+      call expect_remark('&rotor mass = 6, unbalance = 0 /', '')
+      call expect_remark(weightless//'-20, 0 /', '3 MPa; 20 kN are 20000')
+      call expect_remark(weightless//'-50, 0 /', '')
+      call expect_remark(weightless//'0, 0 /', '')
+      call expect_remark('&rotor static_load = -3, 4 /', &
+         & 'rotor%static_load: 5 N are nothing beside the weight of 19620 N; 5 kN are 5000')
+      call expect_remark('&rotor static_load = -20, 0 /', '')
+      call expect_words(machine//'&shaft length = 2*0.5, diameter = 2*0.1 / &load station = 2, force = 0, -0.5 /', &
+         & 'load(1)%force: 0.5 N are nothing beside the weight of 604.823 N; 0.5 kN are 500'//achar(10))
+   end subroutine speeds_and_forces
 
    !> What another bearing than the paper's does not give.
    subroutine lent_values()

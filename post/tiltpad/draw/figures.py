@@ -5,6 +5,7 @@ Every function takes the runs, the number of revolutions at the end (None: its o
 """
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -175,7 +176,7 @@ def study(
     title = titles.pop() if len(titles) == 1 else ""
     fig.suptitle(layout.plain(", ".join(text for text in (title, kept) if text), layout.width(fig)))
     for each in several:
-        layout.remark_unfinished(fig, each)
+        layout.remark_unfinished(fig, each, Path(each.path).stem if len(several) > 1 else "")
     return fig
 
 

@@ -89,7 +89,10 @@ def of_several(draw: Callable[..., Figure]) -> Callable[..., Figure]:
 
 
 def remark_unfinished(fig: Figure, source: Run | Study, name: str = "") -> None:
-    """Says below the picture that a run did not come to its end, or which runs of a study, and why."""
+    """Says below the picture that a run did not come to its end, or which runs of a study, and why.
+
+    Of a study also how many of its runs have remarks.
+    """
     if isinstance(source, Run):
         said, failed = ([] if source.complete else [f"incomplete{source.end()}"]), 0
     else:
@@ -99,6 +102,9 @@ def remark_unfinished(fig: Figure, source: Run | Study, name: str = "") -> None:
         said = [textwrap.shorten(str(each), 3 * width(fig), placeholder=" ...") for each in first]
         if pending:
             remark(fig, f"{name}: " * bool(name) + f"{not_run_yet(pending)}", "C1")
+        if count := int(source.remarked.sum()):
+            text = f"remarks on {count} of {len(source.status)} runs; the report of the study counts them"
+            remark(fig, f"{name}: " * bool(name) + text)
     for text in said:
         remark(fig, f"{name}: {text}" if name else text, "C1")
     if failed > FEW_FAILURES:

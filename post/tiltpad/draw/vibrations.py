@@ -39,6 +39,13 @@ UNSTABLE = ("C1", "C3")
 KINDS = ("journal", "pads")
 
 
+#: Lines of modes of the journal, and of pads, which lie above them where both are equal.
+LOOKS: tuple[dict[str, Any], ...] = (
+    {},
+    {"linestyle": DASHES[1], "markerfacecolor": "white", "zorder": 3},
+)
+
+
 class Part(NamedTuple):
     """Results that are drawn in one colour; its fields:
 
@@ -119,7 +126,7 @@ def stability(
 ) -> Figure:
     """Damping ratio and logarithmic decrement of the modes, of results over their frequency.
 
-    Modes of pads are hollow points, or dashed lines where the mode is one of pads at the last of its runs.
+    Modes of pads are hollow points; so is a line whose mode is one of pads at the last of its runs.
     """
     found = parts(runs, pivot, over, where)
     fig = plt.figure(figsize=(COLUMN, 4.2))
@@ -139,8 +146,7 @@ def stability(
                     hollow = {} if journal[k] else {"markerfacecolor": "none"}
                     ax.plot(x[k], values[k], color=shades[k], **(dots(1) | hollow))
                 else:
-                    dashes = DASHES[0 if journal[k] else 1]
-                    ax.plot(x, values[:, k], dashes, color=shades[k], **dots(len(x)))
+                    ax.plot(x, values[:, k], color=shades[k], **(dots(len(x)) | LOOKS[not journal[k]]))
         if not single:
             missing = x[np.isnan(own.frequency).all(axis=1)]
             mark_failed(panels[1], missing, own_color if len(found) > 1 else None)
@@ -155,7 +161,7 @@ def stability(
     panels[1].set_xlabel(SHOWN["frequency"].label if isinstance(runs[0], Run) else axis_label(found))
     looks = [{"marker": "o", "linestyle": ""}, {"marker": "o", "linestyle": "", "markerfacecolor": "none"}]
     if not isinstance(runs[0], Run):
-        looks = [{"linestyle": dashes} for dashes in DASHES[:2]]
+        looks = [dots(2) | look for look in LOOKS]
     kinds = [(name, {"color": "0.3"} | look) for name, look in zip(KINDS, looks, strict=True)]
     heading(fig, [*names(found), *kinds], title(runs))
     return fig

@@ -170,6 +170,13 @@ class Study(Archive):
         """True for the runs that were run and not done, (run,)."""
         return ~self.done & ~self.pending
 
+    @property
+    def remarked(self) -> np.ndarray:
+        """True for the runs that have remarks, (run,)."""
+        if "remarks" not in self:
+            return np.zeros(len(self.status), bool)
+        return np.array([bool(each) for each in self["remarks"]])
+
     def failures(self, most: int | None = None) -> list[Failure]:
         """The runs that were run and not done, with their recorded reasons; the first `most` of them."""
         status, failed = self.status, np.flatnonzero(self.failed)[:most]
