@@ -8,6 +8,7 @@ module case_run
    use film_solver, only: film_counters
    use equations_of_motion, only: machine_model
    use bearing_shape, only: bearing_shape_type
+   use shape_results, only: put_shape
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
    use provenance, only: running
@@ -37,8 +38,8 @@ module case_run
       logical :: computed = .false.
       type(run_file_type) :: file
       type(machine_model) :: model
-      !> What its equilibrium has made of the bearing, where that changes its shape.
-      type(bearing_shape_type), allocatable :: shape
+      !> What its equilibrium has made of all bearings, where that changes the shape of one.
+      type(bearing_shape_type), allocatable :: shapes(:)
       !> Remarks that were printed last, a line each.
       character(len=:), allocatable :: remarks
       !> Of all samples of each bearing.
@@ -54,6 +55,7 @@ module case_run
    contains
       procedure :: bearing
       procedure :: statistics
+      procedure :: note_shapes
       procedure :: note_figures
       procedure :: note_remarks
       procedure :: wants_checkpoint
@@ -89,6 +91,20 @@ contains
       integer, intent(in) :: b
       bearing = new_bearing_file(self%file, self%inputs, b)
    end function bearing
+
+   !> Writes the shapes of the bearings that have changed theirs.
+   subroutine note_shapes(self)
+      class(case_run_type), intent(in) :: self
+      type(bearing_file_type) :: file
+      type(case_type) :: own
+      integer :: b
+      if (.not. allocated(self%shapes)) return
+      do b = 1, size(self%shapes)
+         own = self%inputs%of_bearing(b)
+         file = self%bearing(b)
+         if (own%changes_shape()) call put_shape(file, self%shapes(b))
+      end do
+   end subroutine note_shapes
 
    !> Writes the figures of the samples so far.
    subroutine note_figures(self)

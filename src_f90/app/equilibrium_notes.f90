@@ -11,7 +11,7 @@ module equilibrium_notes
       & put_film_temperatures
    use oil_results, only: put_oil
    use machine_results, only: put_machine_equilibrium
-   use shape_results, only: put_shape, print_shape
+   use shape_results, only: print_shape
    use case_run, only: case_run_type
    use run_summary, only: print_shaft, print_equilibrium, stability_text, print_figures, print_temperatures, &
       & print_misalignment, bearing_title
@@ -29,10 +29,9 @@ contains
       integer :: b, as
       run%model%oil = static%oil
       run%computed = .true.
+      call run%note_shapes()
       if (.not. run%inputs%is_machine()) then
-         if (allocated(run%shape)) call put_shape(run%file, run%shape)
          call note_bearing(run, run%model, static, 1, 'equilibrium: ', .not. run%quiet)
-         if (allocated(run%shape) .and. .not. run%quiet) call print_shape(run%inputs, run%shape)
          call put_stability(run%file, static)
          call run%note_remarks(shown=.true.)
          return
@@ -130,6 +129,7 @@ contains
          call print_equilibrium(title, static, inputs, .not. run%inputs%is_machine())
          call print_figures(inputs, figures)
          if (allocated(figures%oil)) call print_temperatures(figures%oil, static%oil%viscosity)
+         if (inputs%changes_shape()) call print_shape(run%inputs%of_bearing(b), run%shapes(b))
       end associate
    end subroutine note_bearing
 end module equilibrium_notes

@@ -3,7 +3,7 @@ module run_start
    use kinds, only: wp
    use text, only: to_text
    use case_inputs, only: case_type
-   use bearing_shape, only: bearing_shape_type
+   use bearing_shape, only: bearing_shape_type, cold_shapes, apply_shapes
    use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
    use files, only: real_path
    use read_files, only: file_marks, marks_name
@@ -19,7 +19,7 @@ module run_start
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
    use machine_results, only: put_machine
-   use shape_results, only: put_shape, read_shape
+   use shape_results, only: read_shape
    use march_results, only: put_excitations, put_viscosity_history
    use oil_results, only: put_oil, read_oil
    use stop_signals, only: stop_requested, stop_reason
@@ -69,31 +69,38 @@ contains
       if (allocated(error)) return
       call find_equilibrium(run%model, static, error, stop_requested)
       call say_nothing_computed(error)
-      if (.not. allocated(error)) call take_shape(run, static%shape)
+      if (.not. allocated(error)) call take_shapes(run, static%shapes)
    end subroutine seek_equilibrium
 
-   !> Gives the model of a run the shape of its equilibrium, where that changes it; all that follows keeps it.
-   subroutine take_shape(run, shape)
+   !> Gives the model of a run the shapes of its equilibrium, where that changes one; all that follows keeps them.
+   subroutine take_shapes(run, shapes)
       type(case_run_type), intent(inout) :: run
-      type(bearing_shape_type), allocatable, intent(in) :: shape
+      type(bearing_shape_type), allocatable, intent(in) :: shapes(:)
       type(case_type) :: inputs
-      if (.not. allocated(shape)) return
+      if (.not. allocated(shapes)) return
       inputs = run%model%inputs
-      call shape%apply(inputs)
+      call apply_shapes(shapes, inputs)
       call run%model%adopt(inputs, .true.)
-      run%shape = shape
-   end subroutine take_shape
+      run%shapes = shapes
+   end subroutine take_shapes
 
-   !> Gives the model the shape that a result of the run has, if it has one; before its oil.
+   !> Gives the model the shapes that a result of the run has, if it has any; before its oil.
    subroutine restore_shape(run, file, error)
       type(case_run_type), intent(inout) :: run
-      class(run_file_type), intent(in) :: file
+      class(run_file_type), intent(in), target :: file
       type(error_type), allocatable, intent(inout) :: error
-      type(bearing_shape_type), allocatable :: shape
+      type(bearing_shape_type), allocatable :: shapes(:)
+      type(case_type) :: own
+      integer :: b
       if (.not. run%inputs%changes_shape()) return
-      call read_shape(file, run%inputs, shape, error)
+      shapes = cold_shapes(run%inputs)
+      do b = 1, size(shapes)
+         own = run%inputs%of_bearing(b)
+         if (own%changes_shape() .and. .not. allocated(error)) call read_shape(new_bearing_file(file, run%inputs, b), &
+            & shapes(b), error)
+      end do
       call add_context(error, run%path)
-      if (.not. allocated(error)) call take_shape(run, shape)
+      if (.not. allocated(error)) call take_shapes(run, shapes)
    end subroutine restore_shape
 
    !> What an error says of a signal that stops a run before its march.
@@ -128,7 +135,7 @@ contains
             if (from == 'file') call start_from_file(run, rotor, pads, error)
             if (from /= 'partial' .and. .not. allocated(error)) call take_oil(run, .false., error, equilibrium_state)
             if (.not. allocated(error)) call create_file(run, error)
-            if (allocated(run%shape)) call put_shape(run%file, run%shape)
+            call run%note_shapes()
             if (from == 'partial' .and. .not. allocated(error)) call start_partially(run, rotor, pads, error)
             if (allocated(error)) return
             call note_oil(run)
@@ -183,7 +190,7 @@ contains
          call find_equilibrium(run%model, static, error, stop_requested)
       end if
       if (.not. allocated(error)) then
-         call take_shape(run, static%shape)
+         call take_shapes(run, static%shapes)
          run%model%oil = static%oil
          y = run%model%static_state(static%rotor, static%tilt, static%pivot_deflection)
          call let_grooves_warm(run, y, error)

@@ -3,12 +3,13 @@
 module bearing_shape
    use kinds, only: wp
    use text, only: to_text, fixed_text, micro
-   use errors, only: error_type, raise, numerics_error
+   use errors, only: error_type, raise, add_context, numerics_error
    use case_groups, only: is_set
    use case_inputs, only: case_type
    implicit none (type, external)
    private
    public :: bearing_shape_type, bending_type, part_temperatures_type, new_shape
+   public :: cold_shapes, apply_shapes, check_shapes, largest_change, all_lengths, set_all_lengths
 
    !> By how much bending changes the clearance of each pad, m.
    type :: bending_type
@@ -29,9 +30,9 @@ module bearing_shape
       type(bending_type) :: bending
       type(part_temperatures_type) :: temperatures
    contains
-      procedure :: apply
+      procedure, private :: apply
       procedure :: lengths
-      procedure :: set_lengths
+      procedure, private :: set_lengths
       procedure :: check
    end type bearing_shape_type
 
@@ -131,4 +132,87 @@ contains
          end associate
       end function gone
    end subroutine check
+
+   !> The shapes of all bearings of a case before anything bends or expands.
+   function cold_shapes(inputs) result(shapes)
+      type(case_type), intent(in) :: inputs
+      type(bearing_shape_type), allocatable :: shapes(:)
+      type(case_type) :: own
+      real(wp), allocatable :: none(:)
+      integer :: b
+      allocate (shapes(inputs%bearing_count()))
+      do b = 1, size(shapes)
+         own = inputs%of_bearing(b)
+         none = 0*own%bearing%machined_clearance
+         shapes(b) = new_shape(own, bending_type(none, none), part_temperatures_type())
+      end do
+   end function cold_shapes
+
+   !> Gives the bearings of a case whose shape changes these shapes.
+   subroutine apply_shapes(shapes, inputs)
+      type(bearing_shape_type), intent(in) :: shapes(:)
+      type(case_type), intent(inout) :: inputs
+      type(case_type) :: own
+      integer :: b
+      if (.not. inputs%is_machine()) then
+         call shapes(1)%apply(inputs)
+         return
+      end if
+      do b = 1, size(shapes)
+         own = inputs%of_bearing(b)
+         if (.not. own%changes_shape()) cycle
+         call shapes(b)%apply(own)
+         call inputs%set_bearing(b, own)
+      end do
+   end subroutine apply_shapes
+
+   !> Refuses shapes of a case as `check` does.
+   subroutine check_shapes(shapes, inputs, error)
+      type(bearing_shape_type), intent(in) :: shapes(:)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(out) :: error
+      type(case_type) :: own
+      integer :: b
+      do b = 1, size(shapes)
+         own = inputs%of_bearing(b)
+         call shapes(b)%check(own, error)
+         if (inputs%is_machine()) call add_context(error, 'bearing '''//inputs%machine%bearings(b)%name//'''')
+         if (allocated(error)) return
+      end do
+   end subroutine check_shapes
+
+   !> The largest change of a length from shapes to others, over the smallest clearance of its bearing.
+   pure real(wp) function largest_change(others, shapes)
+      type(bearing_shape_type), intent(in) :: others(:), shapes(:)
+      integer :: b
+      largest_change = 0
+      do b = 1, size(shapes)
+         largest_change = max(largest_change, maxval(abs(others(b)%lengths() - shapes(b)%lengths())) &
+            & /minval([shapes(b)%machined_clearance, shapes(b)%assembled_clearance]))
+      end do
+   end function largest_change
+
+   !> The lengths of all shapes in a row, m.
+   pure function all_lengths(shapes)
+      type(bearing_shape_type), intent(in) :: shapes(:)
+      real(wp), allocatable :: all_lengths(:)
+      integer :: b
+      allocate (all_lengths(0))
+      do b = 1, size(shapes)
+         all_lengths = [all_lengths, shapes(b)%lengths()]
+      end do
+   end function all_lengths
+
+   !> Gives them lengths in this order.
+   pure subroutine set_all_lengths(shapes, lengths)
+      type(bearing_shape_type), intent(inout) :: shapes(:)
+      real(wp), intent(in) :: lengths(:)
+      integer :: b, first, last
+      last = 0
+      do b = 1, size(shapes)
+         first = last + 1
+         last = last + size(shapes(b)%lengths())
+         call shapes(b)%set_lengths(lengths(first:last))
+      end do
+   end subroutine set_all_lengths
 end module bearing_shape

@@ -219,10 +219,27 @@ contains
       clearance = minval(self%bearing%assembled_clearance)
    end function clearance
 
-   !> Whether the equilibrium changes clearances: pads bend, or shaft, pads and housing expand.
+   !> Whether the equilibrium changes clearances, of a machine of any bearing: pads bend, or shaft, pads and housing
+   !> expand.
    pure logical function changes_shape(self)
       class(case_type), intent(in) :: self
-      changes_shape = self%pads%bending /= 'none' .or. is_set(self%bearing%clearance_temperature)
+      integer :: b
+      if (.not. self%is_machine()) then
+         changes_shape = changes(self%pads, self%bearing)
+         return
+      end if
+      changes_shape = .false.
+      do b = 1, size(self%machine%bearings)
+         associate (of => self%machine%bearings(b))
+            changes_shape = changes_shape .or. changes(of%pads, of%bearing)
+         end associate
+      end do
+   contains
+      pure logical function changes(pads, bearing)
+         type(pads_type), intent(in) :: pads
+         type(bearing_type), intent(in) :: bearing
+         changes = pads%bending /= 'none' .or. is_set(bearing%clearance_temperature)
+      end function changes
    end function changes_shape
 
    !> False for pads that are fixed: lobes of a plain bearing.

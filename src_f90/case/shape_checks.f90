@@ -1,7 +1,7 @@
 !> Checks of bent pads and of clearances that heat changes: which cases have them, and what they need.
 module shape_checks
    use text, only: to_text
-   use errors, only: error_type, require, refuse
+   use errors, only: error_type, require, refuse, add_context
    use kinds, only: wp
    use case_groups, only: is_set
    use case_inputs, only: case_type
@@ -23,12 +23,11 @@ contains
       do b = 1, inputs%bearing_count()
          own = inputs%of_bearing(b)
          if (.not. own%changes_shape()) cycle
-         call require(.not. inputs%is_machine(), what(own)//': is for one bearing; in a machine give each bearing ' &
-            & //'the clearances that it has when it is warm', error)
-         if (inputs%is_machine()) return
-         call check_tasks(inputs, error)
-         if (inputs%pads%bending /= 'none') call check_bending(inputs, error)
-         if (is_set(inputs%bearing%clearance_temperature)) call check_expansion(inputs, error)
+         if (allocated(error)) return
+         call check_tasks(own, error)
+         if (own%pads%bending /= 'none') call check_bending(own, error)
+         if (is_set(own%bearing%clearance_temperature)) call check_expansion(own, error)
+         if (inputs%is_machine()) call add_context(error, 'bearing '''//inputs%machine%bearings(b)%name//'''')
       end do
    end subroutine check_shape
 

@@ -36,6 +36,7 @@ contains
       part = found
       part%rotor = found%rotor(2*b - 1:2*b)
       if (allocated(found%films)) part%films = found%films(b:b)
+      if (allocated(found%shapes)) part%shapes = found%shapes(b:b)
       associate (pads => model%layout%bearings(b)%all_pads())
          part%tilt = found%tilt(pads)
          part%pivot_deflection = found%pivot_deflection(pads)

@@ -28,8 +28,8 @@ contains
          call share_loads(static, found, error, give_up)
       else
          call find_bearing_equilibrium(model, found, error, give_up)
-         if (.not. allocated(error) .and. model%inputs%changes_shape()) call settle_shape(model, found, error, give_up)
       end if
+      if (.not. allocated(error) .and. model%inputs%changes_shape()) call settle_shape(model, found, error, give_up)
    end subroutine find_equilibrium
 
    !> Brings an equilibrium that another model has found to that of this static one, whose films differ a little; y is

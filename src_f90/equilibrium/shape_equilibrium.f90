@@ -1,5 +1,5 @@
-!> The equilibrium of a bearing whose pads bend, or whose shaft, pads and housing expand: the bearing comes to
-!> equilibrium in a shape, pressures and temperatures there lead to another, until they agree (docs/theory/heat.md,
+!> The equilibrium of bearings whose pads bend, or whose shaft, pads and housing expand: the rotor comes to equilibrium
+!> in bearings of some shapes, pressures and temperatures there lead to others, until they agree (docs/theory/heat.md,
 !> *Bent pads* and *Warm clearances*).
 module shape_equilibrium
    use kinds, only: wp
@@ -8,7 +8,9 @@ module shape_equilibrium
    use anderson, only: anderson_type
    use case_groups, only: is_set
    use case_inputs, only: case_type
-   use bearing_shape, only: bearing_shape_type, bending_type, part_temperatures_type, new_shape
+   use bearing_shape, only: bearing_shape_type, bending_type, part_temperatures_type, new_shape, cold_shapes, &
+      & apply_shapes, check_shapes, largest_change, all_lengths, set_all_lengths
+   use tilting_pad_bearing, only: tilting_pad_bearing_type
    use pad_bending, only: points_along, points_across, bending_points, bent_by_pressure, bent_by_heat
    use film_energy, only: solid_layers
    use film_oils, only: film_oil
@@ -30,15 +32,15 @@ module shape_equilibrium
 
 contains
 
-   !> Brings an equilibrium of a model in the shape of its case to one in the shape that it leads to, which the record
-   !> has then; an error where there is none.
+   !> Brings an equilibrium of a model in the shapes of its case to one in the shapes that it leads to, of each bearing,
+   !> which the record has then; an error where there is none.
    subroutine settle_shape(model, found, error, give_up)
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(machine_model) :: static
-      type(bearing_shape_type) :: shape, wanted
+      type(bearing_shape_type), allocatable :: shapes(:), wanted(:)
       type(anderson_type) :: acceleration
       real(wp), allocatable :: y(:), x(:)
       real(wp) :: change
@@ -49,43 +51,42 @@ contains
       static%oil = found%oil
       call static%evaluate(0.0_wp, y, .false., ok)
       associate (cold => model%inputs)
-         shape = new_shape(cold, no_bending(cold), part_temperatures_type())
+         shapes = cold_shapes(cold)
          do round = 1, most_rounds
-            call find_shape(cold, static, y, found%films, wanted)
-            change = maxval(abs(wanted%lengths() - shape%lengths()))/minval([shape%machined_clearance, &
-               & shape%assembled_clearance])
+            call find_shapes(cold, static, y, found%films, wanted)
+            change = largest_change(wanted, shapes)
             if (change <= agreement) exit
-            x = shape%lengths()
+            x = all_lengths(shapes)
             if (change > longest_step) then
                call acceleration%forget()
-               x = x + longest_step/change*(wanted%lengths() - x)
+               x = x + longest_step/change*(all_lengths(wanted) - x)
             else
-               call acceleration%advance(x, wanted%lengths())
+               call acceleration%advance(x, all_lengths(wanted))
             end if
-            call shape%set_lengths(x)
-            call find_equilibrium_in(static, shape, cold, y, found, error, give_up)
+            call set_all_lengths(shapes, x)
+            call find_equilibrium_in(static, shapes, cold, y, found, error, give_up)
             if (allocated(error)) exit
          end do
          if (allocated(error)) then
             if (error%status /= stopped) call explain(wanted, cold, error)
             return
          end if
-         call wanted%check(cold, error)
+         call check_shapes(wanted, cold, error)
          if (.not. (allocated(error) .or. change <= agreement)) call raise(error, numerics_error, 'the shape of the ' &
             & //'bearing does not settle: after '//to_text(most_rounds)//' rounds its clearances still change by ' &
             & //to_text(100*change)//' %')
          if (allocated(error)) return
       end associate
-      found%shape = wanted
+      call move_alloc(wanted, found%shapes)
       call describe(static, y, found)
       call stability_at(static, y, found%stability, ok)
       if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
    end subroutine settle_shape
 
-   !> Equilibrium of the model in a shape, from the last state, oil and temperatures.
-   subroutine find_equilibrium_in(static, shape, cold, y, found, error, give_up)
+   !> Equilibrium of the model in these shapes, from the last state, oil and temperatures.
+   subroutine find_equilibrium_in(static, shapes, cold, y, found, error, give_up)
       type(machine_model), intent(inout) :: static
-      type(bearing_shape_type), intent(in) :: shape
+      type(bearing_shape_type), intent(in) :: shapes(:)
       type(case_type), intent(in) :: cold
       real(wp), intent(inout) :: y(:)
       type(equilibrium_type), intent(inout) :: found
@@ -94,7 +95,7 @@ contains
       type(case_type) :: inputs
       type(film_oil) :: oil(size(static%oil))
       inputs = cold
-      call shape%apply(inputs)
+      call apply_shapes(shapes, inputs)
       oil = static%oil
       call static%adopt(inputs, .true.)
       static%oil = oil
@@ -107,11 +108,11 @@ contains
 
    !> The reason of a shape, where a search in one on the way to it has failed.
    subroutine explain(wanted, cold, error)
-      type(bearing_shape_type), intent(in) :: wanted
+      type(bearing_shape_type), intent(in) :: wanted(:)
       type(case_type), intent(in) :: cold
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: reason
-      call wanted%check(cold, reason)
+      call check_shapes(wanted, cold, reason)
       if (allocated(reason)) then
          call move_alloc(reason, error)
       else
@@ -119,91 +120,97 @@ contains
       end if
    end subroutine explain
 
-   !> The shape of a case to which the state y of a model leads, where it was evaluated last.
-   subroutine find_shape(cold, static, y, films, shape)
+   !> The shapes of a case to which the state y of a model leads, where it was evaluated last.
+   subroutine find_shapes(cold, static, y, films, shapes)
       type(case_type), intent(in) :: cold
       type(machine_model), intent(inout) :: static
       real(wp), intent(in) :: y(:)
-      !> Where films have temperatures.
+      !> Of each bearing, where films have temperatures.
       type(warm_films_type), allocatable, intent(in) :: films(:)
-      type(bearing_shape_type), intent(out) :: shape
+      type(bearing_shape_type), allocatable, intent(out) :: shapes(:)
+      type(part_temperatures_type) :: parts(size(static%bearings))
       type(bending_type) :: bending
-      bending = no_bending(cold)
-      associate (p => cold%pads)
-         if (any(p%bending == ['elastic', 'both   '])) call bend_elastically(cold, static, bending%elastic)
-         if (any(p%bending == ['thermal', 'both   '])) bending%thermal = bent_films(cold, static, films(1))
-      end associate
-      shape = new_shape(cold, bending, temperatures_of(cold, static, y, films))
-   end subroutine find_shape
+      type(case_type) :: own
+      integer :: b
+      shapes = cold_shapes(cold)
+      call find_part_temperatures(cold, static, y, films, parts)
+      do b = 1, size(shapes)
+         own = cold%of_bearing(b)
+         if (.not. own%changes_shape()) cycle
+         bending = shapes(b)%bending
+         if (any(own%pads%bending == ['elastic', 'both   '])) call bend_elastically(own, static%bearings(b), &
+            & bending%elastic)
+         if (any(own%pads%bending == ['thermal', 'both   '])) bending%thermal = bent_films(own, static%bearings(b), &
+            & films(b))
+         shapes(b) = new_shape(own, bending, parts(b))
+      end do
+   end subroutine find_shapes
 
-   !> Changes of clearances by the pressure of the films, m.
-   subroutine bend_elastically(cold, static, elastic)
+   !> Changes of the clearances of a bearing by the pressure of its films, m.
+   subroutine bend_elastically(cold, bearing, elastic)
       type(case_type), intent(in) :: cold
-      type(machine_model), intent(inout) :: static
+      type(tilting_pad_bearing_type), intent(inout) :: bearing
       real(wp), intent(out) :: elastic(:)
       real(wp) :: phi(points_along, size(elastic)), z(points_across, size(elastic))
       real(wp) :: pressure(points_across, points_along, size(elastic))
       integer :: i
-      associate (bearing => static%bearings(1), p => cold%pads)
-         do i = 1, size(elastic)
-            call bending_points(bearing%pads(i)%gap, phi(:, i), z(:, i))
-         end do
-         call bearing%pressure_field(phi, z, pressure)
-         do i = 1, size(elastic)
-            elastic(i) = bent_by_pressure(bearing%pads(i)%gap, p%thickness(i), p%young_modulus(i), &
-               & p%poisson_ratio(i), pressure(:, :, i) - bearing%pads(i)%gap%ambient_pressure)
-         end do
-      end associate
+      do i = 1, size(elastic)
+         call bending_points(bearing%pads(i)%gap, phi(:, i), z(:, i))
+      end do
+      call bearing%pressure_field(phi, z, pressure)
+      do i = 1, size(elastic)
+         associate (gap => bearing%pads(i)%gap, p => cold%pads)
+            elastic(i) = bent_by_pressure(gap, p%thickness(i), p%young_modulus(i), p%poisson_ratio(i), &
+               & pressure(:, :, i) - gap%ambient_pressure)
+         end associate
+      end do
    end subroutine bend_elastically
 
-   !> Changes of clearances by the temperatures across the pads, m.
-   function bent_films(cold, static, films) result(thermal)
+   !> Changes of the clearances of a bearing by the temperatures across its pads, m.
+   function bent_films(cold, bearing, films) result(thermal)
       type(case_type), intent(in) :: cold
-      type(machine_model), intent(in) :: static
+      type(tilting_pad_bearing_type), intent(in) :: bearing
       type(warm_films_type), intent(in) :: films
       real(wp) :: thermal(cold%pad_count())
       integer :: i
       associate (p => cold%pads)
          do i = 1, size(thermal)
-            thermal(i) = bent_by_heat(static%bearings(1)%pads(i)%gap, p%thickness(i), p%expansion(i), &
+            thermal(i) = bent_by_heat(bearing%pads(i)%gap, p%thickness(i), p%expansion(i), &
                & (films%fields(solid_layers, :, i) - films%fields(1, :, i))/(p%thickness(i)*(1 - 1.0_wp/solid_layers)))
          end do
       end associate
    end function bent_films
 
-   !> Temperatures of shaft, pads and housing, given or of the state y; not allocated where nothing expands.
-   function temperatures_of(cold, static, y, films) result(parts)
+   !> Temperatures of shaft, pads and housing of each bearing, given or of the state y; those of pads are not allocated
+   !> where nothing expands.
+   subroutine find_part_temperatures(cold, static, y, films, parts)
       type(case_type), intent(in) :: cold
       type(machine_model), intent(in) :: static
       real(wp), intent(in) :: y(:)
       type(warm_films_type), allocatable, intent(in) :: films(:)
-      type(part_temperatures_type) :: parts
+      type(part_temperatures_type), intent(out) :: parts(:)
       type(state_balance_type) :: balance
-      type(oil_temperatures_type) :: oil(1)
-      if (.not. is_set(cold%bearing%clearance_temperature)) return
-      associate (b => cold%bearing, p => cold%pads)
-         parts%housing = merge(b%housing_temperature, cold%oil%supply_temperature, is_set(b%housing_temperature))
-         parts%pads = p%temperature
-         if (allocated(films)) then
-            associate (solid => films(1)%fields(:solid_layers, :, :))
-               where (.not. is_set(p%temperature)) parts%pads = sum(sum(solid, 1), 1)/(size(solid, 1)*size(solid, 2))
-            end associate
-            parts%shaft = films(1)%oil%shaft
-         else if (is_set(cold%oil%shaft_temperature)) then
-            parts%shaft = cold%oil%shaft_temperature
-         else
-            call find_temperatures(static, y, balance, oil)
-            parts%shaft = oil(1)%shaft
-         end if
-      end associate
-   end function temperatures_of
-
-   !> Pads that do not bend.
-   pure type(bending_type) function no_bending(inputs)
-      type(case_type), intent(in) :: inputs
-      real(wp) :: none(inputs%pad_count())
-      none = 0
-      no_bending%elastic = none
-      no_bending%thermal = none
-   end function no_bending
+      type(oil_temperatures_type) :: oil(size(parts))
+      type(case_type) :: own
+      integer :: b
+      do b = 1, size(parts)
+         own = cold%of_bearing(b)
+         if (.not. is_set(own%bearing%clearance_temperature)) cycle
+         associate (housing => own%bearing%housing_temperature, given => own%pads%temperature, part => parts(b))
+            part%housing = merge(housing, own%oil%supply_temperature, is_set(housing))
+            part%pads = given
+            if (allocated(films)) then
+               associate (solid => films(b)%fields(:solid_layers, :, :))
+                  where (.not. is_set(given)) part%pads = sum(sum(solid, 1), 1)/(size(solid, 1)*size(solid, 2))
+               end associate
+               part%shaft = films(b)%oil%shaft
+            else if (is_set(own%oil%shaft_temperature)) then
+               part%shaft = own%oil%shaft_temperature
+            else
+               if (.not. allocated(oil(b)%mean)) call find_temperatures(static, y, balance, oil)
+               part%shaft = oil(b)%shaft
+            end if
+         end associate
+      end do
+   end subroutine find_part_temperatures
 end module shape_equilibrium

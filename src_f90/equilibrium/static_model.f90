@@ -29,8 +29,8 @@ module static_model
       !> The oil of every pad's film; its temperatures in each bearing, where films have them along and across.
       type(film_oil), allocatable :: oil(:)
       type(warm_films_type), allocatable :: films(:)
-      !> Where it changes the shape of the bearing.
-      type(bearing_shape_type), allocatable :: shape
+      !> Of all bearings, where it changes the shape of one.
+      type(bearing_shape_type), allocatable :: shapes(:)
       !> Largest unbalanced force over the reference force (pseudo_transient).
       real(wp) :: residual = huge(1.0_wp)
       type(stability_type) :: stability

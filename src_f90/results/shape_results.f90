@@ -5,7 +5,7 @@ module shape_results
    use errors, only: error_type, raise, system_error
    use record, only: record_type
    use case_inputs, only: case_type
-   use bearing_shape, only: bearing_shape_type, bending_type, part_temperatures_type, new_shape
+   use bearing_shape, only: bearing_shape_type
    use summary_group, only: put_figure
    implicit none (type, external)
    private
@@ -40,15 +40,11 @@ contains
       end subroutine list
    end subroutine put_shape
 
-   !> The lengths of the shape that a file of this case has, without what has made it; an error where it has none.
-   subroutine read_shape(file, inputs, shape, error)
+   !> Gives a shape the lengths that the file of its bearing has; an error where it has none.
+   subroutine read_shape(file, shape, error)
       class(record_type), intent(in) :: file
-      type(case_type), intent(in) :: inputs
-      type(bearing_shape_type), allocatable, intent(out) :: shape
+      type(bearing_shape_type), intent(inout) :: shape
       type(error_type), allocatable, intent(inout) :: error
-      real(wp) :: none(inputs%pad_count())
-      none = 0
-      shape = new_shape(inputs, bending_type(none, none), part_temperatures_type())
       shape%journal_radius = file%get_real('shape/journal_radius')
       call file%get_list('shape/machined_clearance', shape%machined_clearance)
       call file%get_list('shape/assembled_clearance', shape%assembled_clearance)

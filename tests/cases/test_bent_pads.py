@@ -302,12 +302,6 @@ def test_shapes_without_clearance_are_refused(tiltpad, tmp_path, changes, words)
     assert said.startswith("tiltpad: error: pad") or "the clearance of pad" in said
 
 
-def test_a_machine_is_refused(tiltpad, tmp_path, root):
-    case, bent = root / "input/examples/turbine.nml", ("pads%bending=elastic",)
-    done = tiltpad(case, "--check", cwd=tmp_path, overrides=bent, status=1)
-    assert "is for one bearing" in done.stderr
-
-
 def test_a_study_has_the_clearance_of_each_run(tiltpad, tmp_path):
     """The shaft that is warmer leaves less."""
     (tmp_path / "study.nml").write_text(ELASTIC + "&sweep oil%shaft_temperature = 50, 60 /\n")

@@ -43,6 +43,7 @@ CASES = {
     "--set oil%groove_volume=1e-5 --set operation%final_speed_rpm=5000 --set operation%duration=0.2",
     "warm": "--set oil%grade=46 --set thermal%model='pad' --set operation%duration=0.3",
     "film_temperatures": "--set oil%grade=46 --set thermal%model='film' --set operation%duration=0.1",
+    "bent": "--set pads%bending='elastic' --set operation%duration=0.1",
 }
 KILLS = 100
 
