@@ -9,8 +9,7 @@ module branch_task
    use equilibrium, only: settle_equilibrium
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of
-   use newton_method, only: branch_point_type
-   use continuation, only: return_to
+   use newton_method, only: branch_point_type, return_to
    use bifurcations, only: bifurcation_type
    use branch_progress, only: branch_progress_type
    use orbit_figures, only: orbit_figures_type, find_orbit_figures
@@ -134,7 +133,7 @@ contains
       call add_context(error, 'with converged films')
       if (allocated(error)) return
       call note_equilibrium(run, static)
-      call b%begin_with_equilibrium(y)
+      call b%begin_with_equilibrium(y, static%films)
    end subroutine first_equilibrium
 
    !> Takes the branches up where a checkpoint has left them.
@@ -249,8 +248,8 @@ contains
          if (allocated(oil)) call b%ode%oil%temperatures(oil, viscosity)
       else
          call figures%add_state(b%static, 0.0_wp, b%equilibria%state(), 0.0_wp)
-         viscosity = b%equilibria%viscosity
-         if (allocated(oil)) call b%equilibria%temperatures(oil)
+         viscosity = [real(wp) ::]
+         if (allocated(oil)) call b%equilibria%temperatures(oil, viscosity)
       end if
       call add_point(run%file, run%model, b%branch, b%parameter, point, figures, error, oil, viscosity)
       call run%file%beat(int(wall_clock() - run%started))

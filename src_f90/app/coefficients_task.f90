@@ -46,7 +46,7 @@ contains
          call find_coefficients(fine, y, found, error)
       end if
       if (.not. allocated(error) .and. run%inputs%coefficients%threshold_up_to_rpm > 0) then
-         call find_thresholds(fine, y, found, error, stop_requested)
+         call find_thresholds(fine, y, found, error, stop_requested, static%films)
       end if
       if (allocated(error)) then
          call add_context(error, 'with converged films')

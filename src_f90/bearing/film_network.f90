@@ -14,7 +14,7 @@ module film_network
    use film_energy, only: film_heat_type, pad_heat, solve_energy, solid_layers, by_nothing, by_inlet, by_shaft
    implicit none (type, external)
    private
-   public :: warm_films_type, new_warm_films, oil_of_field, solve_network
+   public :: warm_films_type, new_warm_films, set_heat, oil_of_field, solve_network
 
    !> The films of one bearing.
    type :: warm_films_type
@@ -35,22 +35,32 @@ contains
       type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: temperature(:)
       integer :: i
-      associate (oil => inputs%oil, pads => inputs%pads, layers => inputs%thermal%layers)
-         allocate (films%heat(size(temperature)))
-         do i = 1, size(temperature)
+      call set_heat(inputs, films)
+      associate (thermal => inputs%thermal)
+         allocate (films%fields(solid_layers + thermal%layers, thermal%stations, size(temperature)))
+         allocate (films%surfaces(thermal%stations, size(temperature)))
+      end associate
+      allocate (films%kept(size(temperature)), source=.false.)
+      do i = 1, size(temperature)
+         films%fields(:, :, i) = temperature(i)
+         films%surfaces(:, i) = temperature(i)
+      end do
+   end function new_warm_films
+
+   !> Gives the films what heat meets in them, in the bearing of a case.
+   pure subroutine set_heat(inputs, films)
+      type(case_type), intent(in) :: inputs
+      type(warm_films_type), intent(inout) :: films
+      integer :: i
+      associate (oil => inputs%oil, pads => inputs%pads)
+         if (.not. allocated(films%heat)) allocate (films%heat(inputs%pad_count()))
+         do i = 1, size(films%heat)
             films%heat(i) = film_heat_type(oil%density*oil%specific_heat, oil%conductivity, pads%conductivity(i), &
-               & pads%thickness(i), oil%back_coefficient, oil%supply_temperature, layer_faces(layers))
+               & pads%thickness(i), oil%back_coefficient, oil%supply_temperature, layer_faces(inputs%thermal%layers))
          end do
          if (is_set(oil%back_temperature)) films%heat%back_temperature = oil%back_temperature
-         allocate (films%fields(solid_layers + layers, inputs%thermal%stations, size(temperature)))
-         allocate (films%surfaces(inputs%thermal%stations, size(temperature)))
-         allocate (films%kept(size(temperature)), source=.false.)
-         do i = 1, size(temperature)
-            films%fields(:, :, i) = temperature(i)
-            films%surfaces(:, i) = temperature(i)
-         end do
       end associate
-   end function new_warm_films
+   end subroutine set_heat
 
    !> Profiles of the stations of a film with these temperatures, C, (layer, station), of the pad first, and the oil
    !> that the film solvers take for it, with the viscosity of the mean temperature of the film.

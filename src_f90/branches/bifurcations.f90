@@ -4,8 +4,8 @@ module bifurcations
    use kinds, only: wp
    use errors, only: error_type, stopped
    use roots, only: root_bracket
-   use newton_method, only: branch_problem_type, branch_point_type, correct
-   use continuation, only: branch_options, return_to
+   use newton_method, only: branch_problem_type, branch_point_type, correct, return_to
+   use continuation, only: branch_options
    implicit none (type, external)
    private
    public :: bifurcation_type, find_bifurcations, kinds_of_points, kind_length

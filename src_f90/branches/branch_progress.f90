@@ -6,12 +6,13 @@ module branch_progress
    use case_groups, only: branch_type
    use case_parameter, only: case_parameter_type, find_parameter
    use equations_of_motion, only: machine_model
+   use film_network, only: warm_films_type
    use static_model, only: make_fine, make_static
    use march_settings, only: march_settings_of
    use orbit_polynomials, only: orbit_type, points
    use orbit_problem, only: orbit_problem_type, begin_orbits
-   use newton_method, only: branch_problem_type, branch_point_type, can_be_of
-   use continuation, only: branch_options, start_branch, advance, return_to
+   use newton_method, only: branch_problem_type, branch_point_type, can_be_of, return_to
+   use continuation, only: branch_options, start_branch, advance
    use bifurcations, only: bifurcation_type, find_bifurcations
    use period_doubling, only: double_period, half_apart, forget_doublings
    use varied_bearing, only: varied_bearing_type, bearing_orbits_type
@@ -122,11 +123,13 @@ contains
       call begin_orbits(self%orbits, self%ode, orbit, period_multiple, self%first, self%way)
    end subroutine begin_with_orbit
 
-   !> With the state of an equilibrium of `static`.
-   subroutine begin_with_equilibrium(self, y)
+   !> With the state of an equilibrium of `static`, and the temperatures along and across its films, if it has any.
+   subroutine begin_with_equilibrium(self, y, films)
       class(branch_progress_type), intent(inout), target :: self
       real(wp), intent(in) :: y(:)
-      call begin_equilibria(self%equilibria, varied_bearing_type(self%static, self%parameter), y, self%first, self%way)
+      type(warm_films_type), allocatable, intent(in), optional :: films(:)
+      call begin_equilibria(self%equilibria, varied_bearing_type(self%static, self%parameter), y, self%first, &
+         & self%way, films)
    end subroutine begin_with_equilibrium
 
    !> Where `go_on` will lead to the place of a checkpoint.

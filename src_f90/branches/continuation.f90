@@ -3,10 +3,10 @@
 module continuation
    use kinds, only: wp
    use errors, only: error_type, stopped
-   use newton_method, only: branch_problem_type, branch_point_type, newton_options, correct
+   use newton_method, only: branch_problem_type, branch_point_type, newton_options, correct, return_to
    implicit none (type, external)
    private
-   public :: branch_options, start_branch, advance, return_to
+   public :: branch_options, start_branch, advance
 
    type, extends(newton_options) :: branch_options
       !> First and longest step along the branch.
@@ -43,21 +43,6 @@ contains
       normal = 0
       normal(problem%n + 1) = merge(1.0_wp, -1.0_wp, upwards)
    end function across_parameter
-
-   !> Takes a problem back to a point of its branch, linearised there as it was. An error where the point comes from
-   !> elsewhere and is none of the branch.
-   subroutine return_to(problem, point, refusal)
-      class(branch_problem_type), intent(inout) :: problem
-      type(branch_point_type), intent(in) :: point
-      type(error_type), allocatable, intent(out), optional :: refusal
-      real(wp) :: matrix(problem%n, problem%n + 1), b(problem%n)
-      type(error_type), allocatable :: error
-      call problem%go_to(point%place)
-      call problem%linearize(matrix, b, error)
-      if (.not. allocated(error)) call problem%move(point%change, .true.)
-      problem%parameter = point%parameter
-      if (present(refusal)) call move_alloc(error, refusal)
-   end subroutine return_to
 
    !> From a point, at which the problem stands, to the next, where it stands then; `length` is that of the step, and
    !> becomes that for the next one. `ends` where the parameter has come to one of its bounds, or to within a shortest

@@ -2,14 +2,21 @@
 !> balance of forces, and the eigenvalues of the motion linearised there tell stability. Without friction and unbalance.
 !> With warm oil the logarithms of the viscosities are unknowns, too, and the heat balance has an equation for each. The
 !> motion keeps these viscosities.
+!>
+!> Temperatures along and across films follow instead: with those of a point the equations are those of cold oil, and
+!> the rounds of film_equilibrium lead to others, until they agree in a plane across the branch.
 module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
+   use case_inputs, only: case_type
    use linear_algebra, only: largest_first
+   use equations_of_motion, only: machine_model
    use newton_method, only: branch_problem_type, place_part_type
    use force_balance, only: forces, force_derivatives
    use pseudo_transient, only: clearances, reference_force
    use linear_bearing, only: linear_bearing_of, pivot_name, rotor_eigenvalues
+   use film_network, only: warm_films_type, new_warm_films
+   use film_equilibrium, only: film_rounds_type
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_lack, find_lack_slopes, &
       & find_force_slopes, find_temperatures, check_heat
@@ -36,10 +43,14 @@ module equilibrium_branch
       real(wp), allocatable, private :: stiffness(:, :), damping(:, :)
       !> The heat balance that was found last.
       type(state_balance_type), private :: balance
+      !> Of each bearing, where films have temperatures along and across; how they follow.
+      type(warm_films_type), allocatable, private :: films(:)
+      type(film_rounds_type), private :: rounds
    contains
       procedure :: linearize
       procedure :: move
       procedure :: predict
+      procedure :: follow
       procedure :: spectrum
       procedure :: kind => kind_of
       procedure :: get_place
@@ -55,18 +66,25 @@ module equilibrium_branch
 contains
 
    !> A problem that stands at the equilibrium y of a bearing with a static model, at a value of its parameter.
-   subroutine begin_equilibria(problem, bearing, y, parameter, unit)
+   subroutine begin_equilibria(problem, bearing, y, parameter, unit, films)
       type(equilibrium_problem_type), intent(out) :: problem
       type(varied_bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: y(:)
       !> Its natural change.
       real(wp), intent(in) :: parameter, unit
+      !> Its temperatures along and across films, where the case wants them; without these `go_to` leads to some.
+      type(warm_films_type), intent(in), optional :: films(:)
       integer, allocatable :: tilts(:)
       problem%bearing = bearing
       associate (model => bearing%model)
          problem%positions = y(model%layout%positions())
          problem%viscosity = [real(wp) ::]
-         if (has_warm_oil(model)) problem%viscosity = model%oil%viscosity
+         problem%has_followers = model%inputs%thermal%model == 'film'
+         if (problem%has_followers) then
+            call begin_films(problem, model, films)
+         else if (has_warm_oil(model)) then
+            problem%viscosity = model%oil%viscosity
+         end if
          problem%n = size(problem%positions) + size(problem%viscosity)
          problem%scale = clearances(model)
          allocate (problem%force(size(problem%positions)), source=reference_force(model))
@@ -83,6 +101,25 @@ contains
       problem%parameter = parameter
       problem%unit = unit
    end subroutine begin_equilibria
+
+   !> Readies what follows, with these films or any.
+   subroutine begin_films(problem, model, films)
+      type(equilibrium_problem_type), intent(inout) :: problem
+      type(machine_model), intent(in) :: model
+      type(warm_films_type), intent(in), optional :: films(:)
+      type(case_type) :: own
+      integer :: b
+      if (present(films)) then
+         problem%films = films
+      else
+         allocate (problem%films(size(model%bearings)))
+         do b = 1, size(problem%films)
+            own = model%inputs%of_bearing(b)
+            problem%films(b) = new_warm_films(own, spread(own%oil%supply_temperature, 1, own%pad_count()))
+         end do
+      end if
+      call problem%rounds%begin(model, problem%films)
+   end subroutine begin_films
 
    !> The state in equilibrium at the present positions.
    pure function state(self) result(y)
@@ -138,6 +175,7 @@ contains
       logical :: ok
       associate (model => self%bearing%model, n => size(self%positions))
          if (size(self%viscosity) > 0) model%oil%viscosity = self%viscosity
+         if (self%has_followers) call self%rounds%set_oil(model, self%films)
          call model%evaluate(0.0_wp, self%state(), want_derivatives, ok)
          imbalance(:n) = forces(model, 0.0_wp, self%state())
          imbalance(n + 1:) = 0
@@ -167,8 +205,28 @@ contains
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       self%anew = .true.
+      if (self%has_followers) call self%rounds%begin_anew()
       call self%move(change, .false.)
    end subroutine predict
+
+   !> Lets the temperatures of films follow; oil that boils ends the branch.
+   subroutine follow(self, again, error)
+      class(equilibrium_problem_type), intent(inout) :: self
+      logical, intent(out) :: again
+      type(error_type), allocatable, intent(out) :: error
+      logical :: agrees
+      again = .false.
+      if (.not. self%has_followers) return
+      associate (model => self%bearing%model)
+         call self%bearing%set_value(self%parameter, .false., error)
+         if (.not. allocated(error)) then
+            call self%rounds%set_oil(model, self%films)
+            call self%rounds%make(model, self%state(), self%films, agrees, error)
+            self%refused = agrees .and. allocated(error)
+            again = .not. agrees
+         end if
+      end associate
+   end subroutine follow
 
    !> The eigenvalues, 1/s, that of largest real part first; growths are per radian of the shaft.
    subroutine spectrum(self, values, growth, ok)
@@ -192,7 +250,7 @@ contains
       if (abs(value%im) > 0) then
          kind = 'hopf'
       else
-         kind = trim(merge('divergence', 'fold      ', size(self%viscosity) > 0))
+         kind = trim(merge('divergence', 'fold      ', size(self%viscosity) > 0 .or. self%has_followers))
       end if
    end function kind_of
 
@@ -205,6 +263,9 @@ contains
       place(1)%values = [self%parameter]
       place(2)%values = self%positions
       place(3)%values = self%viscosity
+      if (.not. self%has_followers) return
+      place(3) = place_part_type('temperatures', 'degC', 'temperatures of layers and stations of films and pads')
+      place(3)%values = reshape(self%rounds%fields, [size(self%rounds%fields)])
    end subroutine get_place
 
    subroutine go_to(self, place)
@@ -212,15 +273,31 @@ contains
       type(place_part_type), intent(in) :: place(:)
       self%parameter = place(1)%values(1)
       self%positions = place(2)%values
-      self%viscosity = place(3)%values
+      if (self%has_followers) then
+         self%rounds%fields = reshape(place(3)%values, shape(self%rounds%fields))
+         call self%rounds%begin_anew()
+      else
+         self%viscosity = place(3)%values
+      end if
       self%anew = .true.
    end subroutine go_to
 
-   !> Of warm oil, in each bearing.
-   subroutine temperatures(self, oil)
+   !> Of warm oil, in each bearing, and its viscosity on every pad, Pa s.
+   subroutine temperatures(self, oil, viscosity)
       class(equilibrium_problem_type), intent(inout) :: self
       type(oil_temperatures_type), intent(out) :: oil(:)
-      self%bearing%model%oil%viscosity = self%viscosity
-      call find_temperatures(self%bearing%model, self%state(), self%balance, oil)
+      real(wp), allocatable, intent(out) :: viscosity(:)
+      type(error_type), allocatable :: ignored
+      associate (model => self%bearing%model)
+         if (self%has_followers) then
+            call self%rounds%set_oil(model, self%films)
+            call self%rounds%find_oil(model, self%state(), self%films, ignored)
+            oil = self%films%oil
+         else
+            model%oil%viscosity = self%viscosity
+            call find_temperatures(model, self%state(), self%balance, oil)
+         end if
+         viscosity = model%oil%viscosity
+      end associate
    end subroutine temperatures
 end module equilibrium_branch

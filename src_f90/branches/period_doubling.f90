@@ -2,8 +2,7 @@
 module period_doubling
    use kinds, only: wp
    use linear_algebra, only: dgesv
-   use newton_method, only: branch_point_type
-   use continuation, only: return_to
+   use newton_method, only: branch_point_type, return_to
    use orbit_polynomials, only: orbit_type, points
    use orbit_problem, only: orbit_problem_type, period_multiple_at
    implicit none (type, external)

@@ -5,10 +5,11 @@ module stability_threshold
    use kinds, only: wp
    use errors, only: error_type, asked_to_stop, stopped
    use equations_of_motion, only: machine_model
+   use film_network, only: warm_films_type
    use case_parameter, only: case_parameter_type, find_parameter
    use linear_bearing, only: pivot_name, bearing_coefficients_type
-   use newton_method, only: branch_point_type
-   use continuation, only: branch_options, start_branch, advance, return_to
+   use newton_method, only: branch_point_type, return_to
+   use continuation, only: branch_options, start_branch, advance
    use bifurcations, only: bifurcation_type, find_bifurcations
    use varied_bearing, only: varied_bearing_type
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
@@ -27,12 +28,14 @@ contains
    !> For each linearised bearing the lowest speed, rpm, from that of the model up to that of its case at which an
    !> eigenvalue crosses the imaginary axis; no number where none does. The model, a static one, is in equilibrium in y.
    !> An error only of status `stopped`, where `give_up` says so.
-   subroutine find_thresholds(model, y, found, error, give_up)
+   subroutine find_thresholds(model, y, found, error, give_up, films)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(bearing_coefficients_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
+      !> Of each bearing, where films have temperatures along and across.
+      type(warm_films_type), allocatable, intent(in), optional :: films(:)
       type(machine_model), target :: moving
       type(case_parameter_type) :: speed
       type(equilibrium_problem_type) :: problem
@@ -42,7 +45,7 @@ contains
       moving%inputs%coefficients%threshold_up_to_rpm = 0
       call find_parameter(moving%inputs, 'operation%speed_rpm', speed, error)
       associate (first => model%point%speed_rpm, given => model%inputs%coefficients)
-         call begin_equilibria(problem, varied_bearing_type(moving, speed), y, first, first)
+         call begin_equilibria(problem, varied_bearing_type(moving, speed), y, first, first, films)
          problem%cross_stiffness = model%point%sense*given%cross_stiffness
          allocate (found%thresholds(size(found%bearings)), source=ieee_value(first, ieee_quiet_nan))
          options = branch_options(first_step=longest, max_step=longest, high=given%threshold_up_to_rpm)

@@ -38,7 +38,6 @@ contains
       end if
       call check_output(inputs, error)
       call check_tasks(inputs, error)
-      call check_film_temperatures(inputs, error)
       call check_shape(inputs, error)
       call check_branch(inputs, error)
       call check_excitations(inputs, error)
@@ -264,17 +263,6 @@ contains
             & //', where the search starts', error)
       end associate
    end subroutine check_tasks
-
-   !> Temperatures along and across films are those of one equilibrium, or of some.
-   subroutine check_film_temperatures(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      if (inputs%thermal%model /= 'film') return
-      call require(inputs%about%task /= 'branch' .or. inputs%branch%of == 'periodic', 'branch%of = ''equilibrium'': ' &
-         & //'needs thermal%model = ''pad'' or ''none''; a study of the task ''equilibrium'' takes ''film''', error)
-      call require(.not. inputs%coefficients%threshold_up_to_rpm > 0, 'coefficients%threshold_up_to_rpm = ' &
-         & //to_text(inputs%coefficients%threshold_up_to_rpm)//': needs thermal%model = ''pad'' or ''none''', error)
-   end subroutine check_film_temperatures
 
    !> A branch needs a parameter; `case_parameter` checks what it, its last value and its step mean.
    subroutine check_branch(inputs, error)

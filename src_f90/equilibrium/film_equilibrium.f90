@@ -10,8 +10,8 @@ module film_equilibrium
    use film_solver, only: film_motion
    use film_streams, only: film_stream, find_stream
    use film_profiles, only: film_profile
-   use film_network, only: warm_films_type, oil_of_field, solve_network
-   use heat_balance, only: oil_temperatures_type, new_grooves
+   use film_network, only: warm_films_type, set_heat, oil_of_field, solve_network
+   use heat_balance, only: new_grooves
    use asperity_contact, only: asperity_load
    use kinematics, only: pad_state, frame_of, motion_of
    use equations_of_motion, only: machine_model
@@ -19,7 +19,25 @@ module film_equilibrium
    use static_model, only: solve_equilibrium, name_bearing
    implicit none (type, external)
    private
-   public :: solve_warm_films
+   public :: film_rounds_type, solve_warm_films
+
+   !> Rounds that lead films to the temperatures of an equilibrium: what they have found.
+   type :: film_rounds_type
+      integer :: made = 0
+      !> Of the pads of all bearings: temperatures, C, (layer, station, pad), and pads that keep theirs.
+      real(wp), allocatable :: fields(:, :, :)
+      logical, allocatable :: kept(:)
+      type(anderson_type), private :: acceleration
+      !> Of the oil that the model was given last, (station, pad).
+      type(film_profile), allocatable, private :: profiles(:, :)
+   contains
+      procedure :: begin
+      procedure :: begin_anew
+      procedure :: set_oil
+      procedure :: make
+      procedure :: find_oil
+      procedure :: give
+   end type film_rounds_type
 
    !> Largest change of a temperature at the end, K; most rounds.
    real(wp), parameter :: agreement = 1e-6_wp
@@ -48,50 +66,100 @@ contains
       procedure(asked_to_stop), optional :: give_up
       !> Pads that are held where they are.
       logical, intent(in), optional :: held(:)
-      type(film_profile) :: profiles(size(films(1)%fields, 2), model%layout%pads)
-      type(anderson_type) :: acceleration
-      !> Of the pads of all bearings.
-      real(wp), allocatable :: fields(:, :, :), wanted(:, :, :), settled(:, :, :)
-      real(wp) :: changes(size(profiles, 2)), change, before(size(y))
-      logical :: kept(size(profiles, 2))
-      integer :: i, round
-      call gather(model, films, fields, kept)
-      allocate (wanted, mold=fields)
-      settled = fields
-      do round = 1, most_rounds
+      type(film_rounds_type) :: rounds
+      real(wp), allocatable :: settled(:, :, :)
+      real(wp) :: before(size(y))
+      logical :: agrees
+      call rounds%begin(model, films)
+      settled = rounds%fields
+      agrees = .false.
+      do while (.not. agrees)
          before = y
          do
-            call set_oil(model, films, fields, profiles)
-            call solve_equilibrium(model, y, residual, error, give_up, held, merge(most_iterations, huge(1), round > 1))
+            call rounds%set_oil(model, films)
+            call solve_equilibrium(model, y, residual, error, give_up, held, &
+               & merge(most_iterations, huge(1), rounds%made > 0))
             if (.not. allocated(error)) exit
             ! Newton's method may follow a part of the step
-            if (asked(give_up) .or. .not. maxval(abs(fields - settled)) > least_change) return
-            call acceleration%forget()
-            fields = settled + (fields - settled)/4
+            if (asked(give_up) .or. .not. maxval(abs(rounds%fields - settled)) > least_change) return
+            call rounds%acceleration%forget()
+            rounds%fields = settled + (rounds%fields - settled)/4
             y = before
          end do
-         settled = fields
-         call find_fields(model, y, films, profiles, wanted, error)
+         settled = rounds%fields
+         call rounds%make(model, y, films, agrees, error)
          if (allocated(error)) return
-         changes = maxval(maxval(abs(wanted - fields), 1), 1)
-         kept = kept .and. changes <= largest_leap
-         change = maxval(changes, mask=.not. kept)
-         if (change <= agreement) then
-            call finish(model, films, fields, kept, error)
-            return
-         end if
-         if (mod(round, leaps_after) == 0 .and. change <= largest_leap) then
-            kept(maxloc(changes, mask=.not. kept)) = .true.
-            call acceleration%forget()
-            cycle
-         end if
-         do i = 1, size(kept)
-            if (kept(i)) wanted(:, :, i) = fields(:, :, i)
-         end do
-         call advance(fields, wanted, change, acceleration)
       end do
-      call refuse_unsettled(model, maxloc(changes, 1, .not. kept), change, error)
+      call rounds%give(model, films)
    end subroutine solve_warm_films
+
+   !> Begins with the temperatures of these films.
+   subroutine begin(self, model, films)
+      class(film_rounds_type), intent(inout) :: self
+      type(machine_model), intent(in) :: model
+      type(warm_films_type), intent(in) :: films(:)
+      integer :: b
+      if (.not. allocated(self%fields)) then
+         associate (layers => size(films(1)%fields, 1), stations => size(films(1)%fields, 2), pads => model%layout%pads)
+            allocate (self%fields(layers, stations, pads), self%profiles(stations, pads), self%kept(pads))
+         end associate
+      end if
+      do b = 1, size(films)
+         associate (pads => model%layout%bearings(b)%all_pads())
+            self%fields(:, :, pads) = films(b)%fields
+            self%kept(pads) = films(b)%kept
+         end associate
+      end do
+      self%made = 0
+      call self%acceleration%forget()
+   end subroutine begin
+
+   !> Begins with the present temperatures at another state.
+   pure subroutine begin_anew(self)
+      class(film_rounds_type), intent(inout) :: self
+      self%made = 0
+      self%kept = .false.
+      call self%acceleration%forget()
+   end subroutine begin_anew
+
+   !> A round, with a model in equilibrium in y with the oil of the present temperatures: the films lead to others,
+   !> which may agree with these; else they are changed. An error where they do not settle, or, where they agree, oil
+   !> boils.
+   subroutine make(self, model, y, films, agrees, error)
+      class(film_rounds_type), intent(inout) :: self
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      type(warm_films_type), intent(inout) :: films(:)
+      logical, intent(out) :: agrees
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: wanted(size(self%fields, 1), size(self%fields, 2), size(self%fields, 3))
+      real(wp) :: changes(size(self%kept)), change
+      integer :: i
+      agrees = .false.
+      self%made = self%made + 1
+      call find_fields(model, y, films, self%profiles, wanted, error)
+      if (allocated(error)) return
+      changes = maxval(maxval(abs(wanted - self%fields), 1), 1)
+      self%kept = self%kept .and. changes <= largest_leap
+      change = maxval(changes, mask=.not. self%kept)
+      agrees = change <= agreement
+      if (agrees) then
+         ! elsewhere they agree in other rounds
+         self%made = 0
+         call self%acceleration%forget()
+         call check_oil(model, films%oil, error)
+      else if (self%made == most_rounds) then
+         call refuse_unsettled(model, maxloc(changes, 1, .not. self%kept), change, error)
+      else if (mod(self%made, leaps_after) == 0 .and. change <= largest_leap) then
+         self%kept(maxloc(changes, mask=.not. self%kept)) = .true.
+         call self%acceleration%forget()
+      else
+         do i = 1, size(self%kept)
+            if (self%kept(i)) wanted(:, :, i) = self%fields(:, :, i)
+         end do
+         call advance(self%fields, wanted, change, self%acceleration)
+      end if
+   end subroutine make
 
    !> The next temperatures after a round that would lead to those wanted, with this largest change, K.
    subroutine advance(fields, wanted, change, acceleration)
@@ -109,54 +177,45 @@ contains
       end if
    end subroutine advance
 
-   !> The temperatures of the pads of all bearings, C, (layer, station, pad), and which pads keep theirs.
-   subroutine gather(model, films, fields, kept)
+   !> The temperatures of the oil, those of films%oil then, to which the present temperatures lead in the state y of a
+   !> model that has their oil.
+   subroutine find_oil(self, model, y, films, error)
+      class(film_rounds_type), intent(in) :: self
       type(machine_model), intent(in) :: model
-      type(warm_films_type), intent(in) :: films(:)
-      real(wp), allocatable, intent(out) :: fields(:, :, :)
-      logical, intent(out) :: kept(:)
-      integer :: b
-      allocate (fields(size(films(1)%fields, 1), size(films(1)%fields, 2), size(kept)))
-      do b = 1, size(films)
-         associate (of => model%layout%bearings(b))
-            fields(:, :, of%other_pads + 1:of%other_pads + of%pads) = films(b)%fields
-            kept(of%other_pads + 1:of%other_pads + of%pads) = films(b)%kept
-         end associate
-      end do
-   end subroutine gather
+      real(wp), intent(in) :: y(:)
+      type(warm_films_type), intent(inout) :: films(:)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: wanted(size(self%fields, 1), size(self%fields, 2), size(self%fields, 3))
+      call find_fields(model, y, films, self%profiles, wanted, error)
+   end subroutine find_oil
 
-   !> Gives the films what was found for the pads of all bearings; an error where oil boils.
-   subroutine finish(model, films, fields, kept, error)
+   !> Gives the films the temperatures that were found, and which pads keep theirs.
+   subroutine give(self, model, films)
+      class(film_rounds_type), intent(in) :: self
       type(machine_model), intent(in) :: model
       type(warm_films_type), intent(inout) :: films(:)
-      real(wp), intent(in) :: fields(:, :, :)
-      logical, intent(in) :: kept(:)
-      type(error_type), allocatable, intent(out) :: error
-      type(oil_temperatures_type) :: oil(size(films))
       integer :: b
       do b = 1, size(films)
-         associate (of => model%layout%bearings(b))
-            films(b)%fields = fields(:, :, of%other_pads + 1:of%other_pads + of%pads)
-            films(b)%kept = kept(of%other_pads + 1:of%other_pads + of%pads)
+         associate (pads => model%layout%bearings(b)%all_pads())
+            films(b)%fields = self%fields(:, :, pads)
+            films(b)%kept = self%kept(pads)
          end associate
-         oil(b) = films(b)%oil
       end do
-      call check_oil(model, oil, error)
-   end subroutine finish
+   end subroutine give
 
-   !> Gives a model the oil of these temperatures, with profiles, (station, pad).
-   subroutine set_oil(model, films, fields, profiles)
+   !> Gives a model the oil of the present temperatures.
+   subroutine set_oil(self, model, films)
+      class(film_rounds_type), intent(inout) :: self
       type(machine_model), intent(inout) :: model
       type(warm_films_type), intent(in) :: films(:)
-      real(wp), intent(in) :: fields(:, :, :)
-      type(film_profile), intent(out) :: profiles(:, :)
       type(case_type) :: own
       integer :: b, i, pad
       do b = 1, size(films)
          own = model%inputs%of_bearing(b)
          do i = 1, size(films(b)%heat)
             pad = model%layout%bearings(b)%other_pads + i
-            call oil_of_field(own%oil, films(b)%heat(i)%zeta, fields(:, :, pad), profiles(:, pad), model%oil(pad))
+            call oil_of_field(own%oil, films(b)%heat(i)%zeta, self%fields(:, :, pad), self%profiles(:, pad), &
+               & model%oil(pad))
          end do
       end do
    end subroutine set_oil
@@ -175,6 +234,7 @@ contains
       logical :: ok
       do b = 1, size(films)
          own = model%inputs%of_bearing(b)
+         call set_heat(own, films(b))
          associate (first => model%layout%bearings(b)%other_pads + 1, &
             & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
             call find_streams(model, b, y, size(profiles, 1), streams(first:last), ok, i)

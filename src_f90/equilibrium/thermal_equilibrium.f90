@@ -108,7 +108,7 @@ contains
       if (present(films)) call move_alloc(found, films)
    end subroutine solve_thermal_equilibrium
 
-   !> Films of all bearings that have the mean temperatures of this oil.
+   !> Films of all bearings of a case that have the mean temperatures of this oil.
    subroutine make_films(inputs, oil, films)
       type(case_type), intent(in) :: inputs
       type(oil_temperatures_type), intent(in) :: oil(:)

@@ -7,7 +7,7 @@ module newton_method
    use linear_algebra, only: dgesv
    implicit none (type, external)
    private
-   public :: branch_problem_type, place_part_type, branch_point_type, newton_options, correct, can_be_of
+   public :: branch_problem_type, place_part_type, branch_point_type, newton_options, correct, return_to, can_be_of
 
    !> Numbers of a place, as a file names them.
    type :: place_part_type
@@ -28,10 +28,13 @@ module newton_method
       real(wp) :: correction = 0
       !> Whether the last error of `linearize` says that there can be no solution here: no Newton's method would help.
       logical :: refused = .false.
+      !> Whether something follows the unknowns that is frozen in the equations: `follow` lets it.
+      logical :: has_followers = .false.
    contains
       procedure(linearize_problem), deferred :: linearize
       procedure(move_problem), deferred :: move
       procedure :: predict
+      procedure :: follow
       procedure, non_overridable :: dot
       procedure(find_spectrum), deferred :: spectrum
       procedure(name_kind), deferred :: kind
@@ -119,6 +122,8 @@ module newton_method
    !> Iterations in which a correction that is longer must fall by half. Shorter ones may fall slowly, where places at
    !> which the derivatives jump go from interval to interval.
    integer, parameter :: looked_at_iterations = 8
+   !> Length of the branch to the point that tells a tangent.
+   real(wp), parameter :: beside = 1e-3_wp
 
 contains
 
@@ -147,6 +152,15 @@ contains
       call self%move(change, .false.)
    end subroutine predict
 
+   !> Lets what is frozen in the equations follow a solution of them; where that changes it, they are to be solved
+   !> `again`.
+   subroutine follow(self, again, error)
+      class(branch_problem_type), intent(inout) :: self
+      logical, intent(out) :: again
+      type(error_type), allocatable, intent(out) :: error
+      again = .false.
+   end subroutine follow
+
    !> The product of two directions.
    pure real(wp) function dot(self, a, b)
       class(branch_problem_type), intent(in) :: self
@@ -165,19 +179,82 @@ contains
       type(branch_point_type), intent(out) :: point
       type(error_type), allocatable, intent(out) :: error
       real(wp), intent(in), optional :: normal(:)
+      logical :: ok
+      call iterate(problem, options, point, error, normal)
+      if (allocated(error)) return
+      point%parameter = problem%parameter
+      call problem%spectrum(point%values, point%growth, ok)
+      if (.not. ok) then
+         call raise(error, numerics_error, 'the eigenvalues that tell stability were not found')
+      else if (present(normal) .and. problem%has_followers) then
+         call find_tangent(problem, options, normal, point, error)
+      end if
+   end subroutine correct
+
+   !> The tangent of a branch at a point where the problem stands, from that in which what follows is frozen: by the
+   !> point in a plane beside it.
+   subroutine find_tangent(problem, options, normal, point, error)
+      class(branch_problem_type), intent(inout) :: problem
+      class(newton_options), intent(in) :: options
+      real(wp), intent(in) :: normal(:)
+      type(branch_point_type), intent(inout) :: point
+      type(error_type), allocatable, intent(out) :: error
+      type(branch_point_type) :: next
+      real(wp) :: way(size(normal))
+      way = beside*point%tangent
+      call problem%move(way, .false.)
+      call iterate(problem, options, next, error, normal, way)
+      if (allocated(error)) return
+      point%tangent = way/sqrt(problem%dot(way, way))
+      call return_to(problem, point)
+   end subroutine find_tangent
+
+   !> The iterations of Newton's method, again and again until what follows the unknowns has followed. The point has the
+   !> number of those that took most, and the tangent of the equations.
+   subroutine iterate(problem, options, point, error, normal, way)
+      class(branch_problem_type), intent(inout) :: problem
+      class(newton_options), intent(in) :: options
+      type(branch_point_type), intent(out) :: point
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: normal(:)
+      !> Gains all changes.
+      real(wp), intent(inout), optional :: way(:)
       real(wp), allocatable :: matrix(:, :), b(:, :)
       real(wp) :: before, left, best, best_before
-      logical :: ok
-      integer :: n, unknowns
+      logical :: again
+      integer :: n, unknowns, most
       n = problem%n
       unknowns = merge(n + 1, n, present(normal))
       allocate (matrix(unknowns, unknowns), b(unknowns, 1 + unknowns - n))
-      before = 0
-      best = huge(best)
-      best_before = best
-      do
-         call check_progress(options, point, best, best_before, error)
+      most = 0
+      again = .true.
+      do while (again)
+         before = 0
+         best = huge(best)
+         best_before = best
+         point%iterations = 0
+         do
+            call check_progress(options, point, best, best_before, error)
+            if (.not. allocated(error)) call take_step()
+            if (allocated(error)) return
+            left = point%correction
+            ! by as much as this correction is shorter than the last, the next is shorter still
+            if (before > 0 .and. .not. present(normal)) left = left*min(1.0_wp, left/before)
+            before = point%correction
+            best = min(best, point%correction)
+            if (point%iterations == 1) best_before = best
+            if (left <= options%tolerance) exit
+         end do
+         most = max(most, point%iterations)
+         call problem%follow(again, error)
          if (allocated(error)) return
+      end do
+      point%iterations = most
+      if (present(normal)) point%tangent = b(:, 2)/sqrt(problem%dot(b(:, 2), b(:, 2)))
+
+   contains
+
+      subroutine take_step()
          point%iterations = point%iterations + 1
          call problem%get_place(point%place)
          b = 0
@@ -197,20 +274,25 @@ contains
          if (allocated(error)) return
          point%change = b(:, 1)
          call problem%move(point%change, .true.)
+         if (present(way)) way = way + point%change
          point%correction = problem%correction
-         left = point%correction
-         ! by as much as this correction is shorter than the last, the next is shorter still
-         if (before > 0 .and. .not. present(normal)) left = left*min(1.0_wp, left/before)
-         before = point%correction
-         best = min(best, point%correction)
-         if (point%iterations == 1) best_before = best
-         if (left <= options%tolerance) exit
-      end do
-      point%parameter = problem%parameter
-      if (present(normal)) point%tangent = b(:, 2)/sqrt(problem%dot(b(:, 2), b(:, 2)))
-      call problem%spectrum(point%values, point%growth, ok)
-      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues that tell stability were not found')
-   end subroutine correct
+      end subroutine take_step
+   end subroutine iterate
+
+   !> Takes a problem back to a point of its branch, linearised there as it was. An error where the point comes from
+   !> elsewhere and is none of the branch.
+   subroutine return_to(problem, point, refusal)
+      class(branch_problem_type), intent(inout) :: problem
+      type(branch_point_type), intent(in) :: point
+      type(error_type), allocatable, intent(out), optional :: refusal
+      real(wp) :: matrix(problem%n, problem%n + 1), b(problem%n)
+      type(error_type), allocatable :: error
+      call problem%go_to(point%place)
+      call problem%linearize(matrix, b, error)
+      if (.not. allocated(error)) call problem%move(point%change, .true.)
+      problem%parameter = point%parameter
+      if (present(refusal)) call move_alloc(error, refusal)
+   end subroutine return_to
 
    !> Whether to go on: not where it is asked to stop, after too many iterations, or where the correction stays long.
    subroutine check_progress(options, point, best, best_before, error)

@@ -44,6 +44,7 @@ SWITCHING = LUGRE.replace("lugre", "bengisu_akay").replace("11500", "6500").repl
 #: Warm oil: its viscosities are unknowns of equilibria, and of orbits they are those of the equilibrium.
 WARM = "&film cavitation='none' / &oil grade=46 / &thermal model='pad' /"
 THERMAL_EQUILIBRIA = EQUILIBRIA.replace("14700", "13500").replace("15300", "14100") + WARM
+UNEVEN_EQUILIBRIA = THERMAL_EQUILIBRIA.replace("'pad'", "'film'")
 WARM_ORBITS = f"""{BRANCH}&operation speed_rpm=4000 / {WARM}
 &branch parameter='oil%supply_temperature', last=41, step=0.1, max_step=0.1 /
 """
@@ -71,8 +72,28 @@ def check_same(path, reference):
 
 @pytest.mark.parametrize(
     "case",
-    [EQUILIBRIA, RELAXED, DOUBLED, LUGRE, SWITCHING, THERMAL_EQUILIBRIA, WARM_ORBITS, UNEVEN_ORBITS],
-    ids=["equilibria", "relaxed", "doubled", "lugre", "switching", "warm equilibria", "warm", "uneven"],
+    [
+        EQUILIBRIA,
+        RELAXED,
+        DOUBLED,
+        LUGRE,
+        SWITCHING,
+        THERMAL_EQUILIBRIA,
+        UNEVEN_EQUILIBRIA,
+        WARM_ORBITS,
+        UNEVEN_ORBITS,
+    ],
+    ids=[
+        "equilibria",
+        "relaxed",
+        "doubled",
+        "lugre",
+        "switching",
+        "warm equilibria",
+        "uneven equilibria",
+        "warm",
+        "uneven",
+    ],
 )
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, case, number):

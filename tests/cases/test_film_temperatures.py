@@ -88,17 +88,8 @@ def test_coefficients_and_a_study(run, tmp_path):
     ("text", "words"),
     [
         (
-            "&case task='branch' /\n"
-            "&branch of='equilibrium', parameter='operation%speed_rpm', last=7000, step=100 /\n" + FILM,
-            "branch%of = 'equilibrium': needs thermal%model = 'pad' or 'none'",
-        ),
-        (
             FILM.replace("'film'", "'film', march='groove'") + "&operation final_speed_rpm=9000 /\n",
             "thermal%march = 'groove': has no effect but with thermal%model = 'pad'",
-        ),
-        (
-            "&case task='coefficients' /\n&coefficients threshold_up_to_rpm=9000 /\n" + FILM,
-            "threshold_up_to_rpm",
         ),
         (
             REST.replace("grade=46", "carry_over=0.5"),
