@@ -80,6 +80,35 @@ def figures(folder: Path) -> Iterator[str]:
     yield f"of {stuck.runs} bearings that have a threshold speed"
 
 
+def bent(folder: Path) -> Iterator[str]:
+    """The same of pads that bend and clearances that become warm."""
+    with tiltpad.read(folder / "large.h5") as run:
+        rest, shape = run.equilibrium, run["shape"]
+        highest = rest["maximum_temperature"]
+        yield f"pads 1 and 2 reach {highest[0]:.0f} and {highest[1]:.0f} °C at their trailing edges"
+        assert (
+            rest["surface_temperature"][:2].argmax(axis=1).min() >= rest["surface_temperature"].shape[1] - 2
+        )
+        yield f"the shaft has {rest['shaft_temperature']:.0f} °C"
+        both = shape["elastic_bending"][0] + shape["thermal_bending"][0]
+        yield f"bend pad 1 by {1e6 * both:.0f} um of its pad clearance"
+    with tiltpad.read_study(folder / "thick.h5") as study:
+        thin, usual = (np.flatnonzero(np.isclose(study["thickness"], each))[0] for each in (0.03, 0.06))
+        found = tiltpad.coefficients(study, "free")
+        stiff, damp = (
+            100 * (1 - values[thin, 0, 0, 0] / values[usual, 0, 0, 0])
+            for values in (found.stiffness, found.damping)
+        )
+        films = 1e6 * study["equilibrium_min_film_thickness"]
+        yield f"{damp:.0f} % less damping and {stiff:.0f} % less stiffness than those of 60 mm"
+        yield f"films of {films[thin]:.1f} um in place of {films[usual]:.1f} um"
+    with tiltpad.read_study(folder / "housing.h5") as study:
+        cold, *_, warm = 1e6 * study["equilibrium_bearing_clearance"]
+        damping = tiltpad.coefficients(study, "free").damping[:, 0, 0, 0]
+        yield f"at {study['housing_temperature'][-1]:.0f} °C the bearing clearance is {warm:.0f} um"
+        yield f"in place of {cold:.0f} um, and the damping {100 * (1 - damping[-1] / damping[0]):.0f} % less"
+
+
 def machines(folder: Path) -> Iterator[str]:
     """The same of the machines."""
     with h5py.File(folder / "turbine_modes.h5") as run:
@@ -126,7 +155,7 @@ def main() -> None:
     for line in commands(page):
         subprocess.run(["sh", "-c", line], check=True, cwd=folder, env=os.environ | {"PATH": path})
     os.environ["TILTPAD"] = str(program)
-    found = (*figures(folder), *machines(folder), *fits(page, folder))
+    found = (*figures(folder), *bent(folder), *machines(folder), *fits(page, folder))
     wrong = [words for words in found if words not in page]
     if wrong:
         sys.exit(f"docs/examples.md: other figures now: {wrong}")

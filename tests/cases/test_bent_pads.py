@@ -1,5 +1,7 @@
 """Bent pads and warm clearances: the shape against other calculations, what keeps it, and refusals."""
 
+import importlib.util
+
 import numpy as np
 import pytest
 import tiltpad as package
@@ -309,3 +311,34 @@ def test_a_study_has_the_clearance_of_each_run(tiltpad, tmp_path):
     with package.read_study(tmp_path / "study.h5") as study:
         warm, warmer = study.equilibrium_bearing_clearance
         assert warm - warmer == pytest.approx(11e-6 * 10 * 49.9e-3, rel=1e-3)
+
+
+def test_the_page_of_examples_has_its_figures(tiltpad, root, tmp_path):
+    """The commands of the section, and what the page says of their results."""
+    spec = importlib.util.spec_from_file_location("examples", root / "docs/examples.py")
+    page_of_examples = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(page_of_examples)
+    page = (root / "docs/examples.md").read_text()
+    (tmp_path / "input").symlink_to(root / "input")
+    section = page[page.index("## A large turbine bearing") :].partition("\n## ")[0]
+    for line in page_of_examples.commands(section):
+        program, *words = line.split()
+        if program == "tiltpad":
+            tiltpad(*words, "--quiet", cwd=tmp_path, status=0)
+    assert [words for words in page_of_examples.bent(tmp_path) if words not in section] == []
+
+
+def test_films_are_verified_in_the_shape_to_the_bit(tiltpad, run, tmp_path):
+    """A run that verifies itself has the shape that it found, one that is verified later that of its file."""
+    march = ("case%task=march", "rotor%unbalance=0.01", "operation%duration=0.02")
+    with run(BOTH, WARM[0], *march, name="later"):
+        pass
+    words = ("later.nml", "-o", "once.h5", "--verify", "3")
+    tiltpad(*words, overrides=(WARM[0], *march), cwd=tmp_path, status=0)
+    tiltpad("--resume", "later.h5", "--verify", "3", cwd=tmp_path, status=0)
+    with package.read(tmp_path / "once.h5") as once, package.read(tmp_path / "later.h5") as later:
+        names = [name for name in once.names("summary") if "film_error" in name]
+        assert names == [name for name in later.names("summary") if "film_error" in name]
+        for name in names:
+            np.testing.assert_array_equal(once[f"summary/{name}"], later[f"summary/{name}"])
+        assert (once["summary/pad_film_error_max"] > 0).all()
