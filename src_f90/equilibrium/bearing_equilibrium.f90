@@ -55,6 +55,7 @@ contains
             call make_static(warm, warm%point%cavitation, static)
             y = static%static_state(found%rotor, found%tilt, found%pivot_deflection)
             call solve_thermal_equilibrium(static, y, found%residual, error, give_up, films=found%films)
+            if (allocated(error) .and. .not. allocated(found%films)) call name_way(model, error)
          end if
          if (allocated(error)) then
             if (error%status == stopped) return
@@ -67,6 +68,17 @@ contains
       call note_partial(model, traces, give_up)
       call raise(error, numerics_error, refusal(model, traces))
    end subroutine find_bearing_equilibrium
+
+   !> Adds to an error how temperatures along and across films may be reached where one a pad, with which their search
+   !> begins, has no balance.
+   subroutine name_way(model, error)
+      type(machine_model), intent(in) :: model
+      type(error_type), intent(inout) :: error
+      if (model%inputs%thermal%model /= 'film' .or. error%status == stopped) return
+      error%message = error%message//' (so it is with one temperature a pad, with which the search begins; where ' &
+         & //'temperatures along and across the films have a balance, case%task = ''branch'' of equilibria may lead ' &
+         & //'there from a smaller load or another value of what makes the heat)'
+   end subroutine name_way
 
    !> The equilibrium with the viscosities that the model has.
    subroutine find_isothermal(model, found, error, give_up)

@@ -118,3 +118,6 @@ def test_heat_that_ends_a_branch(run, tmp_path):
     assert 20000 < last < 60000
     assert f"branch 1 ends at rotor%mass = {last:.5f}" in said
     assert f"the oil would leave pad {hottest} at" in said
+    refusal = run(THIN, "case%task='equilibrium'", "rotor%mass=10000", name="alone", status=2).stderr
+    assert "the oil would leave pad" in refusal
+    assert "one temperature a pad, with which the search begins" in refusal

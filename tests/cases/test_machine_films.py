@@ -55,6 +55,23 @@ def test_each_bearing_has_the_fields_of_its_films(solve):
         assert warm["right"] > 44.9
 
 
+def test_a_branch_over_speed_has_the_temperatures_of_each_bearing(solve):
+    """Up and down: the first point of either is the equilibrium that is sought there."""
+    over = "case%task='branch'", "branch%of='equilibrium'", "branch%parameter='operation%speed_rpm'"
+    up = solve(MACHINE, *over, "branch%last=5000", "branch%step=250", name="up")
+    down = solve(
+        MACHINE, *over, "operation%speed_rpm=5000", "branch%last=4000", "branch%step=-250", name="down"
+    )
+    with up, down:
+        for name in PADS:
+            for here, there in ((0, -1), (-1, 0)):
+                for each in ("inlet_temperature", "mean_temperature", "maximum_temperature"):
+                    one, other = (run.bearings[name][each][k] for run, k in ((up, here), (down, there)))
+                    np.testing.assert_allclose(one, other, atol=1e-5, err_msg=each)
+            mean = up.bearings[name]["mean_temperature"]
+            assert (np.diff(mean, axis=0).max(axis=1) > 0.1).all()
+
+
 def test_the_input_of_a_run_gives_its_numbers_again(solve):
     with solve(REST) as first, solve(str(first.attributes["input"]), name="again") as again:
         for name in PADS:
