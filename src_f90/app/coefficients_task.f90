@@ -217,7 +217,7 @@ contains
       real(wp), intent(in) :: threshold, sought_up_to, speed
       if (ieee_is_nan(threshold)) then
          print '(a)', '  no eigenvalue crosses the axis from '//to_text(speed)//' rpm up to ' &
-            & //fixed_text(sought_up_to, 2)//' rpm'
+            & //to_text(sought_up_to)//' rpm'
       else
          print '(a)', '  threshold speed: above '//to_text(speed)//' rpm an eigenvalue crosses the axis at ' &
             & //fixed_text(threshold, 2)//' rpm'

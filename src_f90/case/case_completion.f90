@@ -129,7 +129,8 @@ contains
                   & //to_text(machined)//' with bearing%assembled_clearance = ' &
                   & //to_text(b%assembled_clearance(i))//'; it must be '//to_text(clearance_range(1))//' to ' &
                   & //to_text(clearance_range(2))//' of bearing%journal_radius = '//to_text(b%journal_radius) &
-                  & //' (all in m; pad '//to_text(i)//')')
+                  & //' (all in m; pad '//to_text(i)//')'//in_other_units(b%assembled_clearance(i), &
+                  & 'bearing%assembled_clearance', 'm', 0.0_wp, clearance_range(2)*b%journal_radius/5))
             end associate
          else
             call fill(machined, paper%bearing%machined_clearance(1))

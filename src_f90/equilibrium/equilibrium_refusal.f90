@@ -92,7 +92,8 @@ contains
          cause = 'the load points past the only pad; turn the load ('//of_load//') or the pad ' &
             & //'(pads%pivot_angle_deg)'
       else if (pads == 1) then
-         cause = 'one pad: the journal rolls off it; add a second pad (pads%pivot_angle_deg)'
+         cause = 'one pad: the journal rolls off it; add a second pad (pads%pivot_angle_deg) or fix ' &
+            & //'it (pads%motion = ''fixed'')'
       else if (.not. load_on_pads(model)) then
          cause = 'the load points to '//to_text(load_angle(model))//' deg, where no pad is; turn the load ' &
             & //'('//of_load//') or add a pad there (pads%pivot_angle_deg)'

@@ -8,7 +8,8 @@ module case_remarks
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables
    use namelist_writer, only: lines_of
-   use unit_remarks, only: remarks_on_units, remarks_on_pads, remark_on_unbalance, remark_on_speed
+   use unit_remarks, only: remarks_on_units, remarks_on_pads, remark_on_unbalance, remark_on_speed, &
+      & remark_on_clearance
    use load_remarks, only: remarks_on_load, remarks_on_forces
    implicit none (type, external)
    private
@@ -70,7 +71,7 @@ contains
    function on_bearing(inputs) result(lines)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
-      lines = remark_on_speed(inputs)//remarks_on_pads(inputs)
+      lines = remark_on_speed(inputs)//remark_on_clearance(inputs%bearing)//remarks_on_pads(inputs)
       if (any(preload(inputs) < 0)) lines = lines//'negative preload '//to_text(minval(preload(inputs))) &
          & //': the bore of the pads ' &
          & //'is tighter than the clearance at the pivots; such a pad touches the journal at its edges first'//newline

@@ -2,18 +2,21 @@
 module unit_remarks
    use kinds, only: wp, pi, degree, rpm
    use text, only: to_text
-   use case_groups, only: is_set
+   use case_groups, only: is_set, bearing_type
    use case_inputs, only: case_type
    use other_units, only: in_other_units, usual_size, usual_type
    use variable_table, only: variable_table_type, variable_type
    implicit none (type, external)
    private
-   public :: remarks_on_units, remarks_on_pads, remark_on_unbalance, remark_on_speed
+   public :: remarks_on_units, remarks_on_pads, remark_on_unbalance, remark_on_speed, &
+      & remark_on_clearance
 
    character(len=*), parameter :: newline = achar(10)
 
    !> Density, kg/m^3, that no pad has; its radius of gyration about the pivot over the radius of the journal.
    real(wp), parameter :: densest = 1e5_wp, widest = 5
+   !> Bearing clearance over the radius of the journal that no bearing has.
+   real(wp), parameter :: widest_clearance = 0.01_wp
    !> Multiple of the speed of the shaft above which frequencies seldom are, and how close to the speed in another unit
    !> a number must be, of itself, to be taken for it.
    real(wp), parameter :: highest_order = 25, closeness = 1e-3_wp
@@ -55,6 +58,18 @@ contains
          end associate
       end do
    end function remark_on_number
+
+   !> On a clearance that no pad has, beside the radius of the journal.
+   function remark_on_clearance(b) result(line)
+      type(bearing_type), intent(in) :: b
+      character(len=:), allocatable :: line
+      line = ''
+      associate (c => minval(b%assembled_clearance), largest => widest_clearance*b%journal_radius)
+         if (c > largest) line = 'bearing%assembled_clearance = '//to_text(c)//': '//to_text(c/b%journal_radius) &
+            & //' of the radius of the journal; usual are 0.001 to 0.003' &
+            & //in_other_units(c, 'bearing%assembled_clearance', 'm', 0.0_wp, largest)//newline
+      end associate
+   end function remark_on_clearance
 
    !> On masses and moments of inertia of a bearing that no pad of its size has.
    function remarks_on_pads(inputs) result(lines)

@@ -250,12 +250,12 @@ contains
       end associate
    end function on_contact
 
-   !> "carries no load (mean 12 N); it flutters at 0.48 of the shaft speed, ..."; empty for a pad like others.
+   !> "carries next to no load (mean 12 N); it flutters at 0.48 of the shaft speed, ..."; empty for a pad like others.
    function pad_diagnosis(pad) result(words)
       type(pad_behaviour_type), intent(in) :: pad
       character(len=:), allocatable :: words
       words = ''
-      if (pad%unloaded) call say('carries no load (mean '//fixed_text(pad%load, 1)//' N)')
+      if (pad%unloaded) call say('carries next to no load (mean '//fixed_text(pad%load, 1)//' N)')
       if (pad%lifted > 0) call say('is lifted off its pivot '//percent(pad%lifted))
       if (pad%flutters) call say('flutters at '//fixed_text(pad%order, 3)//' of the shaft speed, amplitude of the ' &
          & //'tilt '//fixed_text(1e3_wp*pad%amplitude, 4)//' mrad')

@@ -1,6 +1,7 @@
 """Whole runs with fixed pads: starts, studies, what is written, what is refused."""
 
 import h5py
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import tiltpad as package
@@ -156,6 +157,19 @@ def test_coefficients_have_the_journal_alone(tiltpad, run):
         mode = file["modes/eigenvalue_real"][0, 0]
         assert mode == pytest.approx(file["equilibrium/eigenvalue_real"], rel=1e-9)
         assert 6500 < file["modes/threshold_rpm"][0] < 7000
+
+
+def test_pictures_of_fixed_pads_name_no_pivots(tiltpad, run):
+    varied = ("sweep%operation%speed_rpm=3000,5000", "case%task=coefficients")
+    tiltpad("case.nml", "-q", "-o", "whirl", overrides=varied, cwd=run.folder, status=0)
+    with package.read_study(run.folder / "whirl.h5") as study:
+        assert package.diagrams.diagram(study).get_ylabel() == "least damping ratio (%)"
+        names = ("coefficients", "stability", "campbell")
+        legends = [package.figures.FIGURES[name]([study]).legends[0] for name in names]
+        texts = [each.get_text() for legend in legends for each in (*legend.get_texts(), legend.get_title())]
+    assert texts
+    assert not [text for text in texts if "locked" in text or "pivot" in text]
+    plt.close("all")
 
 
 def wide_arcs(tiltpad, folder, load, *films):

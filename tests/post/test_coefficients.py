@@ -161,6 +161,23 @@ def test_a_pad_without_load_that_vibrates_is_no_instability_of_the_journal(tiltp
         assert found.frequency[:2] == pytest.approx([6500 / 120] * 2, rel=0.02)
         ring, other = figures.stability(case, pivot="free").axes[0].get_lines()[:2]
         assert ring.get_markerfacecolor() == other.get_markerfacecolor() == "none"
+    # modes that do not vibrate fill no table
+    listed = [line for line in said.splitlines() if line.startswith("    mode ")]
+    assert listed
+    assert not any(" 0.0000 Hz" in line for line in listed)
+    speeds = ("sweep%operation%speed_rpm=6000,6500",)
+    tiltpad("case.nml", "-q", "-o", "speeds", overrides=speeds, cwd=tmp_path, status=0)
+    with package.read_study(tmp_path / "speeds.h5") as study:
+        ax = figures.campbell(study, pivot="free").axes[0]
+        of_journal, of_pads = ax.collections[-2:]
+        own = package.modes(study, "free")
+        assert len(of_journal.get_offsets()) == 0
+        drawn = of_pads.get_offsets()[:, 1]
+        assert set(drawn) == set(own.frequency[own.damping_ratio < 0])
+        assert len(drawn) >= 2
+    assert {text.get_text() for text in ax.figure.legends[0].get_texts()} >= {
+        "journal unstable", "pad unstable"
+    }  # fmt: skip
 
 
 def test_a_study_s_modes_are_those_of_its_members_in_another_order(study, run):

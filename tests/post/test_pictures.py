@@ -11,7 +11,7 @@ import tiltpad
 from PIL import Image
 from tiltpad import command, figures, units
 from tiltpad.calculate import differences, signals
-from tiltpad.draw import bearing, branches, layout, orbits
+from tiltpad.draw import bearing, branches, layout, orbits, vibrations
 from tiltpad.running import resolved
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
@@ -163,6 +163,11 @@ def test_a_band_of_half_the_order_is_no_sawtooth(made):
 )
 def test_numbers_in_words(quantity, values, words):
     assert units.in_words(quantity, values) == words
+
+
+def test_values_of_a_parameter_have_the_unit_of_its_axis():
+    differences_of_radii = np.array([1e-5, 1e-4])
+    assert vibrations.in_unit("radius_difference", 1e-5, differences_of_radii) == "radius difference 10 µm"
 
 
 def test_ticks_have_no_offsets():

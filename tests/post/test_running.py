@@ -78,8 +78,9 @@ def test_varied_words_need_no_quotes():
     ("arguments", "message"),
     [
         ({"operation": {"speed_rpm": -1}}, "operation%speed_rpm = -1"),
-        ({"operation": {"speed": 1}}, "speed"),
-        ({"opertion": {"speed_rpm": 1}}, "opertion"),
+        ({"operation": {"sped_rpm": 1}}, r"did you mean speed_rpm\?"),
+        ({"opertion": {"speed_rpm": 1}}, r"did you mean operation\?"),
+        ({"overwrit": True}, r"run has no option overwrit \(did you mean overwrite\?\)"),
         ({"operation": 3000}, "operation = 3000: a group has variables"),
         ({"operation": {"speed_rpm": None}}, "None is neither a number nor a text"),
         ({"friction": {"model": 3}}, "friction%model"),

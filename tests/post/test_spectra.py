@@ -64,6 +64,16 @@ def test_a_waterfall_follows_the_orders_of_a_chirp(made):
     assert amplitude[:, 12:20].max() < 2e-9
 
 
+def test_a_drift_of_the_mean_is_no_band_near_0_hz(made):
+    """It is left out to its slope in a window; beside the orders nothing is left."""
+    case = made("runup", 2, journal_y=lambda time, angle: 20e-6 * time + 1e-6 * np.cos(angle))
+    _, order, amplitude = tiltpad.waterfall(case, "journal_y", orders=5)
+    assert order[2:5].tolist() == [0.25, 0.375, 0.5]
+    # the mean itself is in the orders 0 and 0.125, which the window makes of one
+    assert amplitude[:, 2:5].max() < 1e-7
+    np.testing.assert_allclose(amplitude[:, 8], 1e-6, rtol=1e-2)
+
+
 def test_an_order_track_has_amplitude_and_phase(made):
     case = made("runup", 2, journal_y=chirp)
     speed, amplitude, phase = tiltpad.order_track(case, "journal_y", 3)

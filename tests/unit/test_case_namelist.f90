@@ -59,6 +59,8 @@ contains
       call expect_refused('&bearing assembled_clearance = 0.076, preload = 0.3 /', &
          & 'bearing%assembled_clearance = 0.076: must be at most 0.1 of bearing%journal_radius = 0.0499 (both in m; ' &
          & //'pad 1); 0.076 mm are 7.6e-5; 0.076 in are 0.0019304')
+      call expect_refused('&bearing assembled_clearance = 0.0035, preload = 0.3 /', &
+         & '(all in m; pad 1); 0.0035 in are 8.89e-5')
       call expect_refused('&bearing machined_clearance = 0.1 /', '(both in m; pad 1); 0.1 mm are 1e-4')
       call expect_refused('&bearing viscosity = 19 /', 'must be 1e-6 to 10 Pa s; 19 mPa s are 0.019')
       call expect_refused('&oil kinematic_viscosity = 46, 6.8 /', 'must be 5e-7 to 1 m^2/s; 46 mm^2/s are 4.6e-5')

@@ -39,6 +39,10 @@ contains
       call expect_remark('&oil grade = 46, supply_temperature = 160 /', &
          & 'oil%supply_temperature = 160: seldom so in C; 160 F are 71.1111')
       call expect_remark('&oil grade = 46, supply_temperature = 313.15 /', 'seldom so in C; 313.15 K are 40')
+      call expect_remark('&bearing machined_clearance = 4.98e-4, assembled_clearance = 4.98e-4 /', '')
+      call expect_remark('&bearing machined_clearance = 2e-3, assembled_clearance = 2e-3 /', 'bearing%assembled_' &
+         & //'clearance = 0.002: 0.0400802 of the radius of the journal; usual are 0.001 to 0.003; ' &
+         & //'0.002 in are 5.08e-5')
       ! 80 um of 2000 kg are 0.16 kg m
       call expect_remark('&rotor unbalance = 0.159 /', '')
       call expect_remark('&rotor unbalance = 0.161 /', 'um; the unbalance is in kg m; 0.161 g mm are 1.61e-7')

@@ -38,13 +38,13 @@ def result(
 ) -> Result:
     """A result, (run,) or with `revolutions` (run, revolution); with `pad` (1, 2, ...) that of a pad.
 
-    One of small vibrations is of the given pivots, by default of the first. Raises ValueError where the
-    study has no such result.
+    One of small vibrations is of the given pivots, by default of the first, and says so where there are
+    several, which fixed pads have not. Raises ValueError where the study has no such result.
     """
     if name in study and study.scales(name) == PIVOTS:
         own, k = place_of_pivot(study, pivot)
         shown = described(study, name)
-        text = f"{shown.text}, pivots {literal(own)}"
+        text = shown.text + (f", pivots {literal(own)}" if study.length("pivot") > 1 else "")
         return Result(study[name][:, k], shown._replace(text=text), name, own)
     if name in (*DEFAULTS, *POINTS) and name not in study:
         raise ValueError(f"{study.path}: no {name} in this study: no run has it")
