@@ -1,6 +1,7 @@
 """The picture of the film pressure: its axes, and the files and messages of the command."""
 
 import matplotlib.image
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import tiltpad
@@ -78,6 +79,22 @@ def test_films_around_the_bearing(run):
     assert lower.get_lines()[0].get_ydata().max() == pytest.approx(
         1e-6 * tiltpad.pressure(run("four"), 0.01).max_pressure[0], rel=5e-3
     )
+
+
+def test_names_of_many_pads_do_not_overlap(tiltpad, tmp_path):
+    import tiltpad as package
+
+    angles = ", ".join(str(15 * k - 90) for k in range(24))
+    (tmp_path / "many.nml").write_text(
+        f"&case task='equilibrium' / &rotor mass=800 /\n&pads pivot_angle_deg={angles}, arc_deg=12 /\n"
+    )
+    tiltpad("many.nml", "-q", cwd=tmp_path, status=0)
+    with package.read(tmp_path / "many.h5") as case, plt.style.context(package.plots.STYLE):
+        fig = figures.film([case])
+        fig.draw_without_rendering()
+    boxes = sorted((each.get_window_extent() for each in fig.axes[0].texts), key=lambda box: box.x0)
+    assert len(boxes) == 24
+    assert all(left.x1 < right.x0 for left, right in zip(boxes, boxes[1:], strict=False))
 
 
 def test_the_command_draws_it(result, tmp_path, monkeypatch):

@@ -14,6 +14,9 @@ from tiltpad.draw.orbits import bearings
 from tiltpad.files.read import Run
 from tiltpad.files.units import SHOWN, digits
 
+#: Of more pads around a bearing only the first has a word beside its number.
+MOST_NAMED = 12
+
 
 @layout.of_several
 def pressure(
@@ -78,9 +81,8 @@ def film(
             lower.plot(x, SHOWN["pressure"].factor * around.pressure[k - 1, :, 0], **line)
     for k in (k for k in pads if len(bearings(runs)) == 1):
         place = {"xycoords": ("data", "axes fraction"), "ha": "center", "fontsize": "small", "color": "0.3"}
-        upper.annotate(
-            f"pad {k}", (geometry.of_pads(runs[0].input, "pads%pivot_angle_deg")[k - 1], 1.03), **place
-        )
+        name = f"pad {k}" if k == 1 or len(pads) <= MOST_NAMED else f"{k}"
+        upper.annotate(name, (geometry.of_pads(runs[0].input, "pads%pivot_angle_deg")[k - 1], 1.03), **place)
     upper.set(ylabel="film thickness (µm)")
     upper.set_ylim(bottom=0)
     senses = {sense(run.input) for run in runs}
