@@ -21,6 +21,8 @@ module continuation
    !> turn of the tangent in a step.
    integer, parameter :: quick = 5, slow = 9
    real(wp), parameter :: longer = 1.5_wp, shorter = 0.7_wp, largest_turn = 0.8_wp
+   !> Longest way to a point that tells a tangent, and its part of a step: where steps are short the branch may turn.
+   real(wp), parameter :: beside = 1e-3_wp, part = 0.1_wp
 
 contains
 
@@ -60,6 +62,7 @@ contains
       logical :: again
       do
          length = min(length, options%max_step)
+         problem%beside = min(beside, part*length)
          predicted = here%parameter + problem%unit*length*here%tangent(problem%n + 1)
          ends = beyond(predicted)
          if (ends) then

@@ -30,6 +30,8 @@ module newton_method
       logical :: refused = .false.
       !> Whether something follows the unknowns that is frozen in the equations: `follow` lets it.
       logical :: has_followers = .false.
+      !> Length of the branch to the point beside another that tells its tangent where something follows.
+      real(wp) :: beside = 1e-3_wp
    contains
       procedure(linearize_problem), deferred :: linearize
       procedure(move_problem), deferred :: move
@@ -122,8 +124,6 @@ module newton_method
    !> Iterations in which a correction that is longer must fall by half. Shorter ones may fall slowly, where places at
    !> which the derivatives jump go from interval to interval.
    integer, parameter :: looked_at_iterations = 8
-   !> Length of the branch to the point that tells a tangent.
-   real(wp), parameter :: beside = 1e-3_wp
 
 contains
 
@@ -201,7 +201,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(branch_point_type) :: next
       real(wp) :: way(size(normal))
-      way = beside*point%tangent
+      way = problem%beside*point%tangent
       call problem%move(way, .false.)
       call iterate(problem, options, next, error, normal, way)
       if (allocated(error)) return
