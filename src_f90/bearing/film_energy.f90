@@ -1,35 +1,17 @@
 !> Temperatures in one pad's film, along the arc and across it, and in the pad, by finite volumes: what the film makes
 !> of the temperatures of its inlet and of the shaft, in which they are affine (docs/theory/heat.md, *Temperature in the
 !> film*).
-!>
-!> Oil carries heat along by upwind differences of second order (of first order where it flows back) and across by
-!> central ones; heat is conducted across the film and in the pad. Oil that leaves at the sides is spread over the
-!> height as the velocity there is, and has the temperature of its place.
 module film_energy
    use kinds, only: wp
    use band_system, only: band_system_type, new_band_system
    use film_streams, only: film_stream
    use film_profiles, only: film_profile
+   use film_conduction, only: film_heat_type, solid_layers, by_nothing, by_inlet, by_shaft, unknown, add_conduction, &
+      & to_wall, to_surface, out_of_back, out_of_end
+   use film_transport, only: find_flows, add_transport, face_temperature
    implicit none (type, external)
    private
-   public :: film_heat_type, pad_heat, solve_energy, solid_layers, by_nothing, by_inlet, by_shaft
-
-   !> Layers of the pad, from its back to the film.
-   integer, parameter :: solid_layers = 2
-   !> Least share of a station that conducts: a film without oil keeps the temperatures of its walls.
-   real(wp), parameter :: least_filled = 1e-6_wp
-   !> What temperatures consist of: those of oil at 0 C and a shaft at 0 C, and what 1 K of either adds.
-   integer, parameter :: by_nothing = 1, by_inlet = 2, by_shaft = 3
-
-   !> What heat meets.
-   type :: film_heat_type
-      !> Density times specific heat of the oil, J/(m^3 K); conductivities of oil and pad, W/(m K).
-      real(wp) :: capacity = 0, conductivity = 0, pad_conductivity = 0
-      !> Pad thickness, m; film coefficient at back and ends of the pad, W/(m^2 K); temperature there, C.
-      real(wp) :: thickness = 0, back_coefficient = 0, back_temperature = 0
-      !> Of the layers, 0 (pad) to 1 (journal).
-      real(wp), allocatable :: zeta(:)
-   end type film_heat_type
+   public :: pad_heat, solve_energy
 
    !> One pad's heat; third index of the fields and index of the others: by_nothing, by_inlet, by_shaft.
    type :: pad_heat
@@ -63,7 +45,6 @@ contains
       found%made = sum(own)
       call add_transport(heat, stream, profiles, flow, system)
       call add_conduction(heat, stream, system)
-      call add_pad(heat, stream, system)
       do i = 1, size(profiles)
          associate (first => unknown(heat, i, solid_layers + 1), last => unknown(heat, i, rows))
             system%right(first:last, by_nothing) = system%right(first:last, by_nothing) + own(:, i)
@@ -74,26 +55,6 @@ contains
       found%field = reshape(system%right, [rows, size(profiles), 3])
       call find_ends(heat, stream, flow, found)
    end subroutine solve_energy
-
-   !> Flow downstream through the layers of each face, m^3/s.
-   pure subroutine find_flows(stream, profiles, surface_speed, flow)
-      type(film_stream), intent(in) :: stream
-      type(film_profile), intent(in) :: profiles(:)
-      real(wp), intent(in) :: surface_speed
-      real(wp), intent(out) :: flow(:, 0:)
-      real(wp), dimension(0:size(flow, 1)) :: sliding, driven, below
-      integer :: i
-      associate (n => size(profiles), layers => size(flow, 1))
-         do i = 0, n
-            associate (up => profiles(max(i, 1)), down => profiles(min(i + 1, n)))
-               sliding = (up%sliding + down%sliding)/2*surface_speed*stream%h_face(i)*stream%width*stream%filled_face(i)
-               driven = (up%driven/up%f2 + down%driven/down%f2)/2
-               below = sliding + (stream%flow(i) - sliding(layers))*driven
-               flow(:, i) = below(1:) - below(:layers - 1)
-            end associate
-         end do
-      end associate
-   end subroutine find_flows
 
    !> Heat made in each layer of each station, W.
    pure function made_heat(stream, profiles, surface_speed) result(made)
@@ -112,165 +73,6 @@ contains
          end associate
       end do
    end function made_heat
-
-   !> The unknown of a layer at a station, of the pad's first.
-   pure integer function unknown(heat, i, layer)
-      type(film_heat_type), intent(in) :: heat
-      integer, intent(in) :: i, layer
-      unknown = (i - 1)*(solid_layers + size(heat%zeta) - 1) + layer
-   end function unknown
-
-   !> The temperature that a flow through face i of these stations carries: weights of two of them, and of the inlet.
-   pure subroutine face_temperature(flow, entering, i, stations, at, weight, of_inlet)
-      !> Here, and through the first face, in this layer.
-      real(wp), intent(in) :: flow, entering
-      integer, intent(in) :: i, stations
-      integer, intent(out) :: at(2)
-      real(wp), intent(out) :: weight(2), of_inlet
-      at = [max(i, 1), max(i - 1, 1)]
-      weight = [1, 0]
-      of_inlet = 0
-      if (i == 0) then
-         if (flow > 0) then
-            of_inlet = 1
-            weight = 0
-         end if
-      else if (flow < 0) then
-         at = min(i + 1, stations)
-      else if (i > 1) then
-         weight = [1.5_wp, -0.5_wp]
-      else if (entering > 0) then
-         weight = [2, 0]
-         of_inlet = -1
-      end if
-   end subroutine face_temperature
-
-   !> What flows carry.
-   pure subroutine add_transport(heat, stream, profiles, flow, system)
-      type(film_heat_type), intent(in) :: heat
-      type(film_stream), intent(in) :: stream
-      type(film_profile), intent(in) :: profiles(:)
-      real(wp), intent(in) :: flow(:, 0:)
-      type(band_system_type), intent(inout) :: system
-      real(wp) :: up, side, share, weight(2), of_inlet
-      integer :: i, j, k, at(2)
-      associate (layers => size(flow, 1), stations => size(profiles), zeta => heat%zeta, c => heat%capacity)
-         do i = 0, stations
-            do j = 1, layers
-               call face_temperature(flow(j, i), flow(j, 0), i, stations, at, weight, of_inlet)
-               do k = max(i, 1), min(i + 1, stations)
-                  ! out of the station before the face, into the one behind it
-                  associate (carried => c*flow(j, i)*merge(1, -1, k == i), row => unknown(heat, k, solid_layers + j))
-                     call system%add(row, unknown(heat, at(1), solid_layers + j), carried*weight(1))
-                     if (abs(weight(2)) > 0) call system%add(row, unknown(heat, at(2), solid_layers + j), &
-                        & carried*weight(2))
-                     system%right(row, by_inlet) = system%right(row, by_inlet) - carried*of_inlet
-                  end associate
-               end do
-            end do
-         end do
-         do i = 1, stations
-            up = 0
-            do j = 1, layers
-               associate (below => unknown(heat, i, solid_layers + j), above => unknown(heat, i, solid_layers + j + 1))
-                  side = (stream%flow(i - 1) - stream%flow(i))*(profiles(i)%driven(j) - profiles(i)%driven(j - 1)) &
-                     & /profiles(i)%f2
-                  call system%add(below, below, c*side)
-                  up = up + flow(j, i - 1) - flow(j, i) - side
-                  if (j == layers) exit
-                  ! the temperature between the middles of two layers
-                  share = (zeta(j + 1) - zeta(j))/(zeta(j + 2) - zeta(j))
-                  call system%add(below, below, c*up*(1 - share))
-                  call system%add(below, above, c*up*share)
-                  call system%add(above, below, -c*up*(1 - share))
-                  call system%add(above, above, -c*up*share)
-               end associate
-            end do
-         end do
-      end associate
-   end subroutine add_transport
-
-   !> Conduction across the film, and to the shaft.
-   pure subroutine add_conduction(heat, stream, system)
-      type(film_heat_type), intent(in) :: heat
-      type(film_stream), intent(in) :: stream
-      type(band_system_type), intent(inout) :: system
-      integer :: i, j
-      associate (layers => size(heat%zeta) - 1, middle => (heat%zeta(1:size(heat%zeta) - 1) + heat%zeta(2:))/2)
-         do i = 1, size(stream%h)
-            do j = 1, layers - 1
-               call system%join(unknown(heat, i, solid_layers + j), unknown(heat, i, solid_layers + j + 1), &
-                  & across(heat, stream, i)/(middle(j + 1) - middle(j)))
-            end do
-            call system%leave(unknown(heat, i, solid_layers + layers), to_wall(heat, stream, i), 1.0_wp, by_shaft)
-         end do
-      end associate
-   end subroutine add_conduction
-
-   !> Conductance across the film of a station, and from the middle of the layer at a wall to the wall, W/K: the
-   !> layers are symmetric.
-   pure real(wp) function across(heat, stream, i)
-      type(film_heat_type), intent(in) :: heat
-      type(film_stream), intent(in) :: stream
-      integer, intent(in) :: i
-      across = heat%conductivity*max(stream%filled(i), least_filled)*stream%step*stream%width/stream%h(i)
-   end function across
-
-   pure real(wp) function to_wall(heat, stream, i)
-      type(film_heat_type), intent(in) :: heat
-      type(film_stream), intent(in) :: stream
-      integer, intent(in) :: i
-      to_wall = across(heat, stream, i)/(0.5_wp*(heat%zeta(2) - heat%zeta(1)))
-   end function to_wall
-
-   !> Conduction in the pad, to the film and out of its back and both ends.
-   pure subroutine add_pad(heat, stream, system)
-      type(film_heat_type), intent(in) :: heat
-      type(film_stream), intent(in) :: stream
-      type(band_system_type), intent(inout) :: system
-      integer :: i, k, n
-      n = size(stream%h)
-      associate (layer => heat%thickness/solid_layers, step => stream%step, width => stream%width, &
-         & k_pad => heat%pad_conductivity)
-         do i = 1, n
-            do k = 1, solid_layers
-               if (k < solid_layers) call system%join(unknown(heat, i, k), unknown(heat, i, k + 1), &
-                  & k_pad*step*width/layer)
-               if (i < n) call system%join(unknown(heat, i, k), unknown(heat, i + 1, k), k_pad*layer*width/step)
-               if (i == 1 .or. i == n) call system%leave(unknown(heat, i, k), out_of_end(heat, stream), &
-                  & heat%back_temperature, by_nothing)
-            end do
-            call system%leave(unknown(heat, i, 1), out_of_back(heat, stream), heat%back_temperature, &
-               & by_nothing)
-            call system%join(unknown(heat, i, solid_layers), unknown(heat, i, solid_layers + 1), &
-               & 1/(1/to_wall(heat, stream, i) + 1/to_surface(heat, stream)))
-         end do
-      end associate
-   end subroutine add_pad
-
-   !> Conductances of a station, W/K: from the middle of a layer of the pad to its surface; out of the back; out of an
-   !> end, of one layer.
-   pure real(wp) function to_surface(heat, stream)
-      type(film_heat_type), intent(in) :: heat
-      type(film_stream), intent(in) :: stream
-      to_surface = heat%pad_conductivity*stream%step*stream%width/(heat%thickness/solid_layers/2)
-   end function to_surface
-
-   pure real(wp) function out_of_back(heat, stream)
-      type(film_heat_type), intent(in) :: heat
-      type(film_stream), intent(in) :: stream
-      out_of_back = 0
-      if (heat%back_coefficient > 0) out_of_back = 1/(1/to_surface(heat, stream) &
-         & + 1/(heat%back_coefficient*stream%step*stream%width))
-   end function out_of_back
-
-   pure real(wp) function out_of_end(heat, stream)
-      type(film_heat_type), intent(in) :: heat
-      type(film_stream), intent(in) :: stream
-      out_of_end = 0
-      if (heat%back_coefficient > 0) out_of_end = stream%width*heat%thickness/solid_layers &
-         & /(stream%step/2/heat%pad_conductivity + 1/heat%back_coefficient)
-   end function out_of_end
 
    !> What leaves the film at its ends and walls, of each part of the temperatures.
    pure subroutine find_ends(heat, stream, flow, found)

@@ -6,12 +6,13 @@ module film_network
    use linear_algebra, only: dgesv
    use case_groups, only: oil_type, is_set
    use case_inputs, only: case_type
-   use oil_properties, only: viscosity
+   use oil_properties, only: viscosity, viscosities
    use heat_balance, only: oil_temperatures_type, groove_type
    use film_oils, only: film_oil
    use film_streams, only: film_stream
    use film_profiles, only: film_profile, layer_faces, new_profile, fitted_oil
-   use film_energy, only: film_heat_type, pad_heat, solve_energy, solid_layers, by_nothing, by_inlet, by_shaft
+   use film_conduction, only: film_heat_type, solid_layers, by_nothing, by_inlet, by_shaft
+   use film_energy, only: pad_heat, solve_energy
    implicit none (type, external)
    private
    public :: warm_films_type, new_warm_films, set_heat, oil_of_field, solve_network
@@ -70,9 +71,11 @@ contains
       real(wp), intent(in) :: zeta(:), field(:, :)
       type(film_profile), intent(out) :: profiles(:)
       type(film_oil), intent(out) :: film
+      real(wp) :: fluidity(size(zeta) - 1, size(profiles))
       integer :: i
+      fluidity = 1/viscosities(oil, field(solid_layers + 1:, :))
       do i = 1, size(profiles)
-         profiles(i) = new_profile(zeta, 1/viscosity(oil, field(solid_layers + 1:, i)))
+         profiles(i) = new_profile(zeta, fluidity(:, i))
       end do
       film = fitted_oil(viscosity(oil, mean_temperature(zeta, field)), profiles)
    end subroutine oil_of_field

@@ -9,7 +9,7 @@ module oil_properties
    use case_inputs, only: case_type
    implicit none (type, external)
    private
-   public :: viscosity, viscosity_slope, density, reference_viscosity, kinematic_points, grades
+   public :: viscosity, viscosities, viscosity_slope, density, reference_viscosity, kinematic_points, grades
 
    !> ISO viscosity grades (ISO 3448): kinematic viscosity in the middle of the grade at 40 C, mm^2/s.
    integer, parameter :: grades(16) = [10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000, 1500, 2200, 3200]
@@ -24,6 +24,11 @@ module oil_properties
    !> Temperature of the density that is given, C.
    real(wp), parameter :: density_temperature = 15
 
+   !> A and B of Walther's law.
+   type :: walther_line
+      real(wp) :: a = 0, b = 0
+   end type walther_line
+
 contains
 
    !> Dynamic viscosity, Pa s, by the laws walther and exponential; beyond the temperatures that the input allows it is
@@ -31,27 +36,45 @@ contains
    elemental real(wp) function viscosity(oil, temperature)
       type(oil_type), intent(in) :: oil
       real(wp), intent(in) :: temperature
+      viscosity = viscosity_by(oil, line_of(oil), temperature)
+   end function viscosity
+
+   !> Those of a field: Walther's line costs several times a point on it.
+   pure function viscosities(oil, temperature)
+      type(oil_type), intent(in) :: oil
+      real(wp), intent(in) :: temperature(:, :)
+      real(wp) :: viscosities(size(temperature, 1), size(temperature, 2))
+      type(walther_line) :: line
+      line = line_of(oil)
+      viscosities = viscosity_by(oil, line, temperature)
+   end function viscosities
+
+   elemental real(wp) function viscosity_by(oil, line, temperature) result(viscosity)
+      type(oil_type), intent(in) :: oil
+      type(walther_line), intent(in) :: line
+      real(wp), intent(in) :: temperature
       real(wp) :: t
       t = allowed(temperature)
       if (oil%law == 'walther') then
-         viscosity = 1e-6_wp*(exp(walther_log(oil, t)) - 0.7_wp)*density(oil, t)
+         viscosity = 1e-6_wp*(exp(walther_log(line, t)) - 0.7_wp)*density(oil, t)
       else
          viscosity = oil%reference_viscosity*exp(-oil%temperature_exponent*(t - oil%reference_temperature))
       end if
-   end function viscosity
+   end function viscosity_by
 
    !> Derivative of the viscosity over the temperature, Pa s/K.
    elemental real(wp) function viscosity_slope(oil, temperature)
       type(oil_type), intent(in) :: oil
       real(wp), intent(in) :: temperature
-      real(wp) :: log_nu, line(2)
+      type(walther_line) :: line
+      real(wp) :: log_nu
       viscosity_slope = 0
       if (abs(allowed(temperature) - temperature) > 0) return
       if (oil%law == 'walther') then
-         log_nu = walther_log(oil, temperature)
-         line = walther_line(oil)
+         line = line_of(oil)
+         log_nu = walther_log(line, temperature)
          viscosity_slope = 1e-6_wp*(oil%density_slope*(exp(log_nu) - 0.7_wp) &
-            & - density(oil, temperature)*exp(log_nu)*log_nu*line(2)/(temperature + zero_celsius))
+            & - density(oil, temperature)*exp(log_nu)*log_nu*line%b/(temperature + zero_celsius))
       else
          viscosity_slope = -oil%temperature_exponent*viscosity(oil, temperature)
       end if
@@ -89,27 +112,26 @@ contains
    end function kinematic_points
 
    !> ln(nu + 0.7) of Walther's law, nu in mm^2/s.
-   pure real(wp) function walther_log(oil, temperature)
-      type(oil_type), intent(in) :: oil
+   elemental real(wp) function walther_log(line, temperature)
+      type(walther_line), intent(in) :: line
       real(wp), intent(in) :: temperature
-      real(wp) :: line(2)
-      line = walther_line(oil)
-      walther_log = log(10.0_wp)*10**min(line(1) - line(2)*log10(temperature + zero_celsius), log10(largest_log))
+      walther_log = log(10.0_wp)*10**min(line%a - line%b*log10(temperature + zero_celsius), log10(largest_log))
       walther_log = min(walther_log, largest_log)
    end function walther_log
 
-   !> A and B of Walther's law.
-   pure function walther_line(oil) result(line)
+   !> A and B of Walther's law; 0 of another.
+   pure type(walther_line) function line_of(oil) result(line)
       type(oil_type), intent(in) :: oil
-      real(wp) :: line(2), ends(2), log_t(2)
+      real(wp) :: ends(2), log_t(2)
+      if (oil%law /= 'walther') return
       ends = log10(log10(1e6_wp*kinematic_points(oil) + 0.7_wp))
       log_t = log10(oil%at_temperature + zero_celsius)
-      line(2) = (ends(1) - ends(2))/(log_t(2) - log_t(1))
-      line(1) = ends(1) + line(2)*log_t(1)
-   end function walther_line
+      line%b = (ends(1) - ends(2))/(log_t(2) - log_t(1))
+      line%a = ends(1) + line%b*log_t(1)
+   end function line_of
 
    !> The temperature, or the nearest that the input allows.
-   pure real(wp) function allowed(temperature)
+   elemental real(wp) function allowed(temperature)
       real(wp), intent(in) :: temperature
       allowed = min(max(temperature, temperature_range(1)), temperature_range(2))
    end function allowed

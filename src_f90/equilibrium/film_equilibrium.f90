@@ -4,19 +4,19 @@
 module film_equilibrium
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, numerics_error, asked_to_stop, asked
+   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop, asked
    use anderson, only: anderson_type
    use case_inputs, only: case_type
-   use film_solver, only: film_motion
-   use film_streams, only: film_stream, find_stream
+   use film_solver, only: film_oil
+   use elimination_film, only: elimination_film_type
    use film_profiles, only: film_profile
-   use film_network, only: warm_films_type, set_heat, oil_of_field, solve_network
-   use heat_balance, only: new_grooves
-   use asperity_contact, only: asperity_load
-   use kinematics, only: pad_state, frame_of, motion_of
+   use film_network, only: warm_films_type, oil_of_field
    use equations_of_motion, only: machine_model
    use heat_balance_equations, only: check_oil
-   use static_model, only: solve_equilibrium, name_bearing
+   use pseudo_transient, only: residual_limit
+   use static_model, only: name_bearing
+   use oil_change, only: follow_oil
+   use stream_fields, only: find_fields, make_volumes
    implicit none (type, external)
    private
    public :: film_rounds_type, solve_warm_films
@@ -27,9 +27,13 @@ module film_equilibrium
       !> Of the pads of all bearings: temperatures, C, (layer, station, pad), and pads that keep theirs.
       real(wp), allocatable :: fields(:, :, :)
       logical, allocatable :: kept(:)
+      !> By how much their temperatures would change in the last round, K.
+      real(wp), allocatable, private :: changes(:)
       type(anderson_type), private :: acceleration
       !> Of the oil that the model was given last, (station, pad).
       type(film_profile), allocatable, private :: profiles(:, :)
+      !> Of the streams, where the gaps stay the same from round to round.
+      type(elimination_film_type), allocatable, private :: volumes(:)
    contains
       procedure :: begin
       procedure :: begin_anew
@@ -39,17 +43,20 @@ module film_equilibrium
       procedure :: give
    end type film_rounds_type
 
-   !> Largest change of a temperature at the end, K; most rounds.
+   !> Largest change of a temperature at the end, K; most rounds: an unloaded pad whose film leaps takes half of them.
    real(wp), parameter :: agreement = 1e-6_wp
-   integer, parameter :: most_rounds = 60
-   !> Change of a temperature, K, that Newton's method must follow; its most iterations for a step, of which it needs
-   !> about five where it comes to an end.
+   integer, parameter :: most_rounds = 120
+   !> Change of a temperature, K, that the equilibrium must follow; most iterations of a search for a larger one.
    real(wp), parameter :: least_change = 0.1_wp
    integer, parameter :: most_iterations = 50
+   !> Once temperatures change by less than this, K, an unbalanced force may be left: over the reference force, for each
+   !> K of change. It moves them by a few hundredths of that.
+   real(wp), parameter :: small_change = 1, residual_per_kelvin = 1e-4_wp
    !> Rounds after which the pad that still changes most keeps its temperatures if they change by less than this, K: an
    !> unloaded pad whose film cavitates leaps with the cells that do.
    integer, parameter :: leaps_after = 15
    real(wp), parameter :: largest_leap = 0.3_wp
+   character(len=*), parameter :: remedy = '; try more preload or another pads%pivot_ratio'
    !> While temperatures change by more than this, K, only a part of their change is made.
    real(wp), parameter :: large_change = 15, part = 0.6_wp
 
@@ -68,30 +75,57 @@ contains
       logical, intent(in), optional :: held(:)
       type(film_rounds_type) :: rounds
       real(wp), allocatable :: settled(:, :, :)
-      real(wp) :: before(size(y))
+      real(wp) :: enough, change
       logical :: agrees
       call rounds%begin(model, films)
+      call make_volumes(model, size(rounds%profiles, 1), rounds%volumes)
       settled = rounds%fields
-      agrees = .false.
-      do while (.not. agrees)
-         before = y
-         do
-            call rounds%set_oil(model, films)
-            call solve_equilibrium(model, y, residual, error, give_up, held, &
-               & merge(most_iterations, huge(1), rounds%made > 0))
-            if (.not. allocated(error)) exit
-            ! Newton's method may follow a part of the step
-            if (asked(give_up) .or. .not. maxval(abs(rounds%fields - settled)) > least_change) return
-            call rounds%acceleration%forget()
-            rounds%fields = settled + (rounds%fields - settled)/4
-            y = before
-         end do
+      enough = residual_limit
+      do
+         call follow(model, y, films, settled, enough, rounds, residual, error, give_up, held)
+         if (allocated(error)) then
+            if (error%status /= stopped .and. rounds%made > 0) call refuse_lost(model, rounds, error)
+            return
+         end if
          settled = rounds%fields
          call rounds%make(model, y, films, agrees, error)
          if (allocated(error)) return
+         if (agrees .and. enough <= residual_limit) exit
+         change = maxval(rounds%changes, .not. rounds%kept)
+         enough = residual_limit
+         if (change < small_change .and. .not. agrees) enough = max(residual_limit, residual_per_kelvin*change)
       end do
       call rounds%give(model, films)
    end subroutine solve_warm_films
+
+   !> Brings the state y in equilibrium with the temperatures `settled` to equilibrium with those of the rounds, or with
+   !> the largest part of their change that it can follow: these the rounds have then. An error where that is next to
+   !> nothing.
+   subroutine follow(model, y, films, settled, enough, rounds, residual, error, give_up, held)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      type(warm_films_type), intent(in) :: films(:)
+      real(wp), intent(in) :: settled(:, :, :), enough
+      type(film_rounds_type), intent(inout) :: rounds
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      logical, intent(in), optional :: held(:)
+      type(film_oil) :: last_oil(model%layout%pads)
+      real(wp) :: before(size(y))
+      before = y
+      last_oil = model%oil
+      do
+         call rounds%set_oil(model, films)
+         call follow_oil(model, y, last_oil, enough, merge(most_iterations, huge(1), rounds%made > 0), residual, &
+            & error, give_up, held)
+         if (.not. allocated(error)) return
+         if (asked(give_up) .or. .not. maxval(abs(rounds%fields - settled)) > least_change) return
+         call rounds%acceleration%forget()
+         rounds%fields = settled + (rounds%fields - settled)/4
+         y = before
+      end do
+   end subroutine follow
 
    !> Begins with the temperatures of these films.
    subroutine begin(self, model, films)
@@ -101,7 +135,8 @@ contains
       integer :: b
       if (.not. allocated(self%fields)) then
          associate (layers => size(films(1)%fields, 1), stations => size(films(1)%fields, 2), pads => model%layout%pads)
-            allocate (self%fields(layers, stations, pads), self%profiles(stations, pads), self%kept(pads))
+            allocate (self%fields(layers, stations, pads), self%profiles(stations, pads), self%kept(pads), &
+               & self%changes(pads))
          end associate
       end if
       do b = 1, size(films)
@@ -133,15 +168,15 @@ contains
       logical, intent(out) :: agrees
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: wanted(size(self%fields, 1), size(self%fields, 2), size(self%fields, 3))
-      real(wp) :: changes(size(self%kept)), change
+      real(wp) :: change
       integer :: i
       agrees = .false.
       self%made = self%made + 1
-      call find_fields(model, y, films, self%profiles, wanted, error)
+      call find_fields(model, y, films, self%profiles, self%volumes, wanted, error)
       if (allocated(error)) return
-      changes = maxval(maxval(abs(wanted - self%fields), 1), 1)
-      self%kept = self%kept .and. changes <= largest_leap
-      change = maxval(changes, mask=.not. self%kept)
+      self%changes = maxval(maxval(abs(wanted - self%fields), 1), 1)
+      self%kept = self%kept .and. self%changes <= largest_leap
+      change = maxval(self%changes, mask=.not. self%kept)
       agrees = change <= agreement
       if (agrees) then
          ! elsewhere they agree in other rounds
@@ -149,9 +184,9 @@ contains
          call self%acceleration%forget()
          call check_oil(model, films%oil, error)
       else if (self%made == most_rounds) then
-         call refuse_unsettled(model, maxloc(changes, 1, .not. self%kept), change, error)
+         call refuse_unsettled(model, self, error)
       else if (mod(self%made, leaps_after) == 0 .and. change <= largest_leap) then
-         self%kept(maxloc(changes, mask=.not. self%kept)) = .true.
+         self%kept(maxloc(self%changes, mask=.not. self%kept)) = .true.
          call self%acceleration%forget()
       else
          do i = 1, size(self%kept)
@@ -186,7 +221,8 @@ contains
       type(warm_films_type), intent(inout) :: films(:)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: wanted(size(self%fields, 1), size(self%fields, 2), size(self%fields, 3))
-      call find_fields(model, y, films, self%profiles, wanted, error)
+      type(elimination_film_type), allocatable :: volumes(:)
+      call find_fields(model, y, films, self%profiles, volumes, wanted, error)
    end subroutine find_oil
 
    !> Gives the films the temperatures that were found, and which pads keep theirs.
@@ -220,77 +256,37 @@ contains
       end do
    end subroutine set_oil
 
-   !> The temperatures to which the films in the state y lead, C, (layer, station, pad).
-   subroutine find_fields(model, y, films, profiles, fields, error)
+   !> Says which pad's temperatures still change most, by how much, K, after the last round.
+   subroutine refuse_unsettled(model, rounds, error)
       type(machine_model), intent(in) :: model
-      real(wp), intent(in) :: y(:)
-      type(warm_films_type), intent(inout) :: films(:)
-      type(film_profile), intent(in) :: profiles(:, :)
-      real(wp), intent(out) :: fields(:, :, :)
+      type(film_rounds_type), intent(in) :: rounds
       type(error_type), allocatable, intent(out) :: error
-      type(film_stream) :: streams(size(profiles, 2))
-      type(case_type) :: own
-      integer :: b, i
-      logical :: ok
-      do b = 1, size(films)
-         own = model%inputs%of_bearing(b)
-         call set_heat(own, films(b))
-         associate (first => model%layout%bearings(b)%other_pads + 1, &
-            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
-            call find_streams(model, b, y, size(profiles, 1), streams(first:last), ok, i)
-            if (.not. ok) call raise(error, numerics_error, 'the flow in the film of pad '//to_text(i) &
-               & //' is not found')
-            if (.not. allocated(error)) then
-               call solve_network(own%oil, new_grooves(own), films(b), streams(first:last), profiles(:, first:last), &
-                  & model%point%speed(0.0_wp)*own%bearing%journal_radius, fields(:, :, first:last), ok)
-               if (.not. ok) call raise(error, numerics_error, 'nothing carries off the heat of the films')
-            end if
-         end associate
-         call name_bearing(model, b, error)
-         if (allocated(error)) return
-      end do
-   end subroutine find_fields
-
-   !> Says which pad, of those of all bearings, still changes by how much, K, after the last round.
-   subroutine refuse_unsettled(model, pad, change, error)
-      type(machine_model), intent(in) :: model
-      integer, intent(in) :: pad
-      real(wp), intent(in) :: change
-      type(error_type), allocatable, intent(out) :: error
-      integer :: b
-      b = count(model%layout%bearings%other_pads < pad)
-      call raise(error, numerics_error, 'the temperatures in the film of pad ' &
-         & //to_text(pad - model%layout%bearings(b)%other_pads)//' do not settle at ' &
-         & //to_text(model%point%speed_rpm)//' rpm: after '//to_text(most_rounds)//' rounds they still change by ' &
-         & //to_text(change)//' K')
-      call name_bearing(model, b, error)
+      call raise(error, numerics_error, 'after '//to_text(most_rounds)//' rounds they still change by ' &
+         & //to_text(maxval(rounds%changes, .not. rounds%kept))//' K'//remedy)
+      call name_pad(model, rounds, error)
    end subroutine refuse_unsettled
 
-   !> The streams of the films of bearing b in the state y; `ok` is false where that of a pad, the i-th, is not found.
-   subroutine find_streams(model, b, y, stations, streams, ok, i)
+   !> Says of a search that ended with an error which pad's temperatures led nowhere.
+   subroutine refuse_lost(model, rounds, error)
       type(machine_model), intent(in) :: model
-      integer, intent(in) :: b
-      real(wp), intent(in) :: y(:)
-      integer, intent(in) :: stations
-      type(film_stream), intent(out) :: streams(:)
-      logical, intent(out) :: ok
-      integer, intent(out) :: i
-      type(pad_state) :: pads(size(streams))
-      type(film_motion) :: motion
-      type(asperity_load) :: asperity
-      pads = model%layout%bearings(b)%pad_states(y)
-      associate (bearing => model%bearings(b), journal => model%rotor%journal(y(:model%rotor%states), b), &
-         & speed => model%point%speed(0.0_wp), before => model%layout%bearings(b)%other_pads)
-         do i = 1, size(streams)
-            associate (pad => bearing%pads(i))
-               motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
-               call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
-               if (asperity%touches) motion%position = asperity%film_position
-               call find_stream(pad%gap, bearing%film%condition, motion, model%oil(before + i), speed, stations, &
-                  & streams(i), ok)
-               if (.not. ok) return
-            end associate
-         end do
-      end associate
-   end subroutine find_streams
+      type(film_rounds_type), intent(in) :: rounds
+      type(error_type), allocatable, intent(inout) :: error
+      error%message = 'they would change by '//to_text(maxval(rounds%changes, .not. rounds%kept)) &
+         & //' K more, to which the search finds no equilibrium ('//error%message//')'//remedy
+      call name_pad(model, rounds, error)
+   end subroutine refuse_lost
+
+   !> Puts the pad whose temperatures change most, and the speed, before the message.
+   subroutine name_pad(model, rounds, error)
+      type(machine_model), intent(in) :: model
+      type(film_rounds_type), intent(in) :: rounds
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: b, pad
+      pad = maxloc(rounds%changes, 1, .not. rounds%kept)
+      b = count(model%layout%bearings%other_pads < pad)
+      call add_context(error, 'the temperatures in the film of pad ' &
+         & //to_text(pad - model%layout%bearings(b)%other_pads)//' do not settle at ' &
+         & //to_text(model%point%speed_rpm)//' rpm')
+      call name_bearing(model, b, error)
+   end subroutine name_pad
 end module film_equilibrium

@@ -38,7 +38,7 @@ contains
 
    !> Follows the motion without inertia from y to equilibrium, where y is then. An error says why it did not come to
    !> equilibrium, or, of status `stopped`, that `give_up`, asked between evaluations of the films, said so.
-   subroutine follow_motion(model, y, residual, error, give_up, held, first_step, most)
+   subroutine follow_motion(model, y, residual, error, give_up, held, first_step, most, enough)
       type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       !> Largest unbalanced force over the reference force.
@@ -51,26 +51,28 @@ contains
       real(wp), intent(in), optional :: first_step
       !> Iterations at most, if they are fewer than usual.
       integer, intent(in), optional :: most
-      real(wp) :: time_step, force, next, move
+      !> Residual at which it ends, if that is larger than usual.
+      real(wp), intent(in), optional :: enough
+      real(wp) :: time_step, force, next, move, smallest
       real(wp), allocatable :: step(:)
       logical :: ok, stuck, free(model%layout%n_positions())
       integer :: iterations, limit
       limit = max_iterations
       if (present(most)) limit = min(limit, most)
+      smallest = residual_limit
+      if (present(enough)) smallest = max(smallest, enough)
       call set_free(model, held, free)
       stuck = .false.
       time_step = 1/model%point%speed(0.0_wp)
       if (present(first_step)) time_step = first_step*time_step
       residual = huge(residual)
       call model%evaluate(0.0_wp, y, .false., ok)
-      if (.not. ok) then
-         call raise(error, numerics_error, model%refusal//' at the start')
-         return
-      end if
+      if (.not. ok) call raise(error, numerics_error, model%refusal//' at the start')
+      if (.not. ok) return
       force = unbalanced(model, y, free)
       residual = force/reference_force(model)
       iterations = 0
-      do while (.not. residual <= residual_limit)
+      do while (.not. residual <= smallest)
          if (iterations == limit .or. stuck) then
             call raise(error, numerics_error, last_words(model, iterations, force))
             return
@@ -87,10 +89,8 @@ contains
             return
          end if
          call take_step(model, y, time_step, step, ok)
-         if (.not. ok) then
-            call raise(error, numerics_error, model%refusal)
-            return
-         end if
+         if (.not. ok) call raise(error, numerics_error, model%refusal)
+         if (.not. ok) return
          next = unbalanced(model, y, free)
          stuck = move < shortest_move .and. next > 0.5_wp*force
          time_step = next_time_step(time_step, force, next)

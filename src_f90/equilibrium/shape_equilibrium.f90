@@ -12,7 +12,7 @@ module shape_equilibrium
       & apply_shapes, check_shapes, largest_change, all_lengths, set_all_lengths
    use tilting_pad_bearing, only: tilting_pad_bearing_type
    use pad_bending, only: points_along, points_across, bending_points, bent_by_pressure, bent_by_heat
-   use film_energy, only: solid_layers
+   use film_conduction, only: solid_layers
    use film_oils, only: film_oil
    use film_network, only: warm_films_type
    use heat_balance, only: oil_temperatures_type

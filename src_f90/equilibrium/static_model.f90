@@ -91,7 +91,7 @@ contains
 
    !> Brings a state that is near equilibrium to equilibrium by Newton's method. Volumes of cavitated films make their
    !> force leap by less than its error; where the equilibrium lies in a leap, y ends beside it.
-   subroutine solve_equilibrium(model, y, residual, error, give_up, held, most)
+   subroutine solve_equilibrium(model, y, residual, error, give_up, held, most, enough)
       type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
@@ -101,8 +101,10 @@ contains
       logical, intent(in), optional :: held(:)
       !> Iterations at most, if they are fewer than usual.
       integer, intent(in), optional :: most
+      !> Residual at which it ends, if that is larger than usual.
+      real(wp), intent(in), optional :: enough
       logical :: ok
-      call follow_motion(model, y, residual, error, give_up, held, newtons, most)
+      call follow_motion(model, y, residual, error, give_up, held, newtons, most, enough)
       if (.not. allocated(error) .or. residual > largest_leap) return
       if (error%status == stopped) return
       call model%evaluate(0.0_wp, y, .false., ok)

@@ -9,10 +9,10 @@ module film_streams
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type, new_elimination_film
-   use volume_flows, only: from_beside
+   use volume_flows, only: flows_of_row, unit_flow
    implicit none (type, external)
    private
-   public :: film_stream, find_stream
+   public :: film_stream, new_stream_volumes, find_stream
 
    !> Columns of volumes for each station, and rows on half the width: the error of the flows is some 1e-3.
    integer, parameter :: columns_a_station = 3, rows = 12
@@ -29,31 +29,37 @@ module film_streams
 
 contains
 
-   !> Of the film in a gap at rest in this motion's position, that cavitates by this condition, with an oil, at a
-   !> journal speed, rad/s. `ok` is false where no film is found.
-   subroutine find_stream(gap, condition, motion, oil, speed, stations, stream, ok)
+   !> The volumes on which streams of the film in a gap are found, at this many stations.
+   function new_stream_volumes(gap, stations) result(volumes)
       type(pad_gap_type), intent(in) :: gap
+      integer, intent(in) :: stations
+      type(elimination_film_type) :: volumes
+      volumes = new_elimination_film(gap, columns_a_station*stations, rows)
+   end function new_stream_volumes
+
+   !> Of the film on volumes at rest in this motion's position, that cavitates by this condition, with an oil, at a
+   !> journal speed, rad/s. `ok` is false where no film is found.
+   subroutine find_stream(volumes, condition, motion, oil, speed, stations, stream, ok)
+      type(elimination_film_type), intent(inout) :: volumes
       integer, intent(in) :: condition, stations
       type(film_motion), intent(in) :: motion
       type(film_oil), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_stream), intent(out) :: stream
       logical, intent(out) :: ok
-      type(elimination_film_type) :: volumes
       type(film_grid_type) :: grid
       type(film_response) :: response
       type(film_counters) :: counters
       real(wp), allocatable :: pressure(:, :), film(:, :)
       integer :: i
-      volumes = new_elimination_film(gap, columns_a_station*stations, rows)
       call volumes%evaluate(film_motion(motion%position), oil, speed, condition == cavitation_reynolds, .false., &
          & counters, response)
       ok = response%status == 0
       if (.not. ok) return
       call volumes%cells(grid, pressure, film)
       if (condition == cavitation_gumbel) film = merge(1.0_wp, 0.0_wp, pressure > 0)
-      stream%step = gap%pad_radius()*gap%arc()/stations
-      stream%width = gap%axial_length
+      stream%step = grid%gap%pad_radius()*grid%gap%arc()/stations
+      stream%width = grid%gap%axial_length
       allocate (stream%flow(0:stations), stream%filled_face(0:stations), stream%h_face(0:stations), source=0.0_wp)
       allocate (stream%h(stations), stream%filled(stations), stream%pressure_heat(stations), source=0.0_wp)
       associate (last => columns_a_station*stations)
@@ -64,7 +70,7 @@ contains
          end do
       end associate
       do i = 1, rows
-         call add_row(grid, oil, speed*gap%journal_radius, i, pressure, film > 0, stream)
+         call add_row(grid, oil, speed*grid%gap%journal_radius, i, pressure, film > 0, stream)
       end do
    end subroutine find_stream
 
@@ -79,31 +85,21 @@ contains
       logical, intent(in) :: filled(:, :)
       type(film_stream), intent(inout) :: stream
       !> Flow a unit of width per unit of the grid's equations; heights of both cells, m; that over the width.
-      real(wp) :: unit, both, part, carried
-      real(wp), dimension(0:grid%columns) :: flow, sliding, share_face, share
-      real(wp) :: p(0:grid%columns + 1)
+      real(wp) :: unit, both, part
+      real(wp), dimension(0:grid%columns) :: flow, sliding, share_face
+      real(wp) :: p(0:grid%columns + 1), carried(grid%columns), share(grid%columns)
       logical :: whole(0:grid%columns + 1)
       integer :: i, station
+      call flows_of_row(grid, oil, surface_speed, k, pressure, filled, flow, carried)
       associate (n => grid%columns)
-         unit = grid%d_phi/(12*oil%viscosity*grid%gap%pad_radius())
+         unit = unit_flow(grid, oil)
          both = 2*grid%d_z*grid%height(k)
          part = both/grid%gap%axial_length
          p = [grid%ambient, pressure(k, :n), grid%supply]
          whole = [.false., filled(k, :n), .false.]
          sliding = surface_speed*grid%sliding_face*grid%h_face/2
-         carried = sliding(n)
-         do i = n, 0, -1
-            flow(i) = carried
-            if (whole(i) .or. whole(i + 1)) flow(i) = sliding(i) + unit*grid%along(i)*(p(i + 1) - p(i))
-            share_face(i) = 1
-            if (.not. (whole(i) .or. whole(i + 1))) share_face(i) = min(1.0_wp, carried/sliding(i))
-            share(i) = 1
-            if (whole(i) .or. i == 0) cycle
-            associate (column => max(i, 1))
-               carried = flow(i) + unit*grid%beside(column)*from_beside(grid, k, pressure(:, column), filled(:, column))
-            end associate
-            share(i) = min(1.0_wp, (flow(i) + carried)/(sliding(i) + sliding(max(i - 1, 0))))
-         end do
+         share_face = merge(1.0_wp, min(1.0_wp, flow/sliding), whole(:n) .or. whole(1:))
+         share = merge(1.0_wp, min(1.0_wp, (flow(1:) + carried)/(sliding(1:) + sliding(:n - 1))), whole(1:n))
          do station = 0, n/columns_a_station
             i = n - station*columns_a_station
             stream%flow(station) = stream%flow(station) + both*flow(i)

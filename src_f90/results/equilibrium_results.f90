@@ -5,7 +5,7 @@ module equilibrium_results
    use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
    use film_network, only: warm_films_type
-   use film_energy, only: solid_layers
+   use film_conduction, only: solid_layers
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use static_model, only: equilibrium_type
    use heat_balance_equations, only: static_figures_type

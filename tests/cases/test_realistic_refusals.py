@@ -45,3 +45,22 @@ def test_more_preload_helps(tiltpad, tmp_path, number):
     case["case"]["task"] = "equilibrium"
     (tmp_path / "case.nml").write_text(text(case))
     tiltpad("case.nml", "-q", overrides=("bearing%preload=0.2",), cwd=tmp_path, status=0)
+
+
+def test_film_temperatures_beside_a_fold(tiltpad, tmp_path):
+    """From 47,000 rpm on pad 2 of bearing 139 tips; its equilibrium changes little with the speed."""
+    case = draw(SEED, 139)
+    case["case"]["task"] = "equilibrium"
+    case["thermal"]["model"] = "film"
+    (tmp_path / "case.nml").write_text(text(case))
+    found = {}
+    for speed in (48300, case["operation"]["speed_rpm"]):
+        settings = (f"operation%speed_rpm={speed}",)
+        tiltpad("case.nml", "-q", "--overwrite", overrides=settings, cwd=tmp_path, status=0)
+        with h5py.File(tmp_path / "case.h5") as file:
+            found[speed] = {
+                name: file[f"equilibrium/{name}"][()] for name in ("journal_y", "maximum_temperature")
+            }
+    one, other = found.values()
+    assert abs(one["journal_y"] - other["journal_y"]) < 0.02 * abs(one["journal_y"])
+    assert abs(one["maximum_temperature"] - other["maximum_temperature"]).max() < 1

@@ -5,9 +5,11 @@ program test_film_energy
    use anderson, only: anderson_type
    use film_solver, only: film_motion, film_oil, cavitation_reynolds
    use film_losses, only: film_losses_type, film_loss, new_film_losses
-   use film_streams, only: film_stream, find_stream
+   use elimination_film, only: elimination_film_type
+   use film_streams, only: film_stream, new_stream_volumes, find_stream
    use film_profiles, only: film_profile, layer_faces, new_profile, fitted_oil
-   use film_energy, only: film_heat_type, pad_heat, solve_energy, solid_layers, by_nothing, by_inlet, by_shaft
+   use film_conduction, only: film_heat_type, solid_layers, by_nothing, by_inlet, by_shaft
+   use film_energy, only: pad_heat, solve_energy
    use paper_bearing, only: offset_pad, paper_oil, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -106,10 +108,12 @@ contains
       type(film_losses_type) :: losses
       type(film_loss) :: loss
       type(film_stream) :: stream
+      type(elimination_film_type) :: volumes
       logical :: ok
       losses = new_film_losses(offset_pad(), cavitation_reynolds)
       call losses%find(motion, paper_oil, speed, loss)
-      call find_stream(offset_pad(), cavitation_reynolds, motion, paper_oil, speed, stations, stream, ok)
+      volumes = new_stream_volumes(offset_pad(), stations)
+      call find_stream(volumes, cavitation_reynolds, motion, paper_oil, speed, stations, stream, ok)
       call expect(ok, 'found')
       call expect_close(stream%flow(0), loss%inlet, tolerance*loss%inlet, 'in')
       call expect_close(stream%flow(stations), loss%outlet, tolerance*loss%inlet, 'out')
@@ -191,13 +195,15 @@ contains
       type(film_stream), intent(out) :: stream
       type(film_profile), intent(out) :: profiles(stations)
       type(film_oil) :: oil
+      type(elimination_film_type) :: volumes
       logical :: ok
       integer :: i, j
       do i = 1, stations
          profiles(i) = new_profile(heat%zeta, [(50 + i*(1 - real(j, wp)/layers), j=1, layers)])
       end do
       oil = fitted_oil(0.02_wp, profiles)
-      call find_stream(offset_pad(), cavitation_reynolds, film_motion(clearance*[-0.85_wp, 0.5_wp]), oil, speed, &
+      volumes = new_stream_volumes(offset_pad(), stations)
+      call find_stream(volumes, cavitation_reynolds, film_motion(clearance*[-0.85_wp, 0.5_wp]), oil, speed, &
          & stations, stream, ok)
       call expect(ok, 'film')
    end subroutine uneven_film

@@ -9,7 +9,7 @@ module volume_flows
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private
-   public :: volume_flow_type, flows_of_volumes, finer, from_beside
+   public :: volume_flow_type, flows_of_volumes, finer, flows_of_row, unit_flow
 
    type :: volume_flow_type
       !> m^3/s: what pressure drives in at the leading edge, less than 0 where it drives oil out; out at the trailing
@@ -59,7 +59,7 @@ contains
       finer%void = (4*fine%void - coarse%void)/3
    end function finer
 
-   !> Adds a row of cells, from the leading edge downstream.
+   !> Adds a row of cells.
    pure subroutine add_row(grid, oil, surface_speed, k, pressure, filled, flow)
       type(film_grid_type), intent(in) :: grid
       type(film_oil), intent(in) :: oil
@@ -68,47 +68,74 @@ contains
       real(wp), intent(in) :: pressure(:, :)
       logical, intent(in) :: filled(:, :)
       type(volume_flow_type), intent(inout) :: flow
-      !> Flow a unit of width per unit of the grid's equations; heights of two mirrored cells, m.
-      real(wp) :: unit, both, driven, arriving, carried
-      logical :: upstream
-      real(wp) :: area
+      !> Flow a unit of width per unit of the grid's equations; heights of two mirrored cells, m; of the cell, m^2.
+      real(wp) :: unit, both, area
+      real(wp) :: through(0:grid%columns), carried(grid%columns)
       integer :: i
+      call flows_of_row(grid, oil, surface_speed, k, pressure, filled, through, carried)
       associate (gap => grid%gap, n => grid%columns, p => pressure)
-         unit = grid%d_phi/(12*oil%viscosity*gap%pad_radius())
+         unit = unit_flow(grid, oil)
          both = 2*grid%d_z*grid%height(k)
-         upstream = .true.
-         carried = 0
+         if (filled(k, n)) flow%inlet = flow%inlet + both*unit*grid%along(n)*(grid%supply - p(k, n))
          do i = n, 1, -1
-            driven = 0
-            if (i < n) then
-               if (filled(k, i) .or. upstream) driven = unit*grid%along(i)*(p(k, i + 1) - p(k, i))
-            else if (filled(k, n)) then
-               driven = unit*grid%along(n)*(grid%supply - p(k, n))
-               flow%inlet = flow%inlet + both*driven
-            end if
-            arriving = surface_speed*grid%sliding_face(i)*grid%h_face(i)/2 + driven
-            if (.not. upstream) then
-               if (filled(k, i)) flow%unfed = flow%unfed + both*(arriving - carried)
-               if (.not. filled(k, i)) arriving = carried
-            end if
             if (filled(k, i)) then
+               if (i < n) then
+                  if (.not. filled(k, i + 1)) flow%unfed = flow%unfed + both*(through(i) - carried(i + 1))
+               end if
                call add_power(grid, surface_speed, k, i, both*unit, pressure, filled, flow)
                if (k == grid%rows) flow%side = flow%side &
                   & + both*unit*grid%beside(i)*grid%outward(k)*(p(k, i) - grid%ambient)
             else
-               carried = arriving + unit*grid%beside(i)*from_beside(grid, k, p(:, i), filled(:, i))
                area = both*gap%pad_radius()*grid%d_phi*grid%width(i)
                flow%void = flow%void + area*[grid%sin_cell(i), grid%cos_cell(i)]
                flow%lacking = flow%lacking + area*oil%viscosity*grid%shear_cell(i)*surface_speed/grid%h_cell(i) &
-                  & *max(0.0_wp, surface_speed - (arriving + carried)/(grid%sliding_cell(i)*grid%h_cell(i)))
+                  & *max(0.0_wp, surface_speed - (through(i) + carried(i))/(grid%sliding_cell(i)*grid%h_cell(i)))
             end if
-            upstream = filled(k, i)
          end do
-         if (upstream) carried = surface_speed*grid%sliding_face(0)*grid%h_face(0)/2 &
-            & + unit*grid%along(0)*(p(k, 1) - grid%ambient)
-         flow%outlet = flow%outlet + both*carried
+         flow%outlet = flow%outlet + both*through(0)
       end associate
    end subroutine add_row
+
+   !> Flows of row k of cells a unit of width, m^2/s, downstream: through the faces, 0 (trailing edge) to n; what a
+   !> cavitated cell passes on.
+   pure subroutine flows_of_row(grid, oil, surface_speed, k, pressure, filled, through, carried)
+      type(film_grid_type), intent(in) :: grid
+      type(film_oil), intent(in) :: oil
+      real(wp), intent(in) :: surface_speed
+      integer, intent(in) :: k
+      !> As in flows_of_volumes.
+      real(wp), intent(in) :: pressure(:, :)
+      logical, intent(in) :: filled(:, :)
+      real(wp), intent(out) :: through(0:), carried(:)
+      real(wp) :: unit, p(0:grid%columns + 1)
+      logical :: whole(0:grid%columns + 1)
+      integer :: i
+      associate (n => grid%columns)
+         unit = unit_flow(grid, oil)
+         p = [grid%ambient, pressure(k, :n), grid%supply]
+         whole = [.false., filled(k, :n), .false.]
+         carried = 0
+         do i = n, 0, -1
+            if (i < n) then
+               if (.not. whole(i + 1)) carried(i + 1) = through(i + 1) &
+                  & + unit*grid%beside(i + 1)*from_beside(grid, k, pressure(:, i + 1), filled(:, i + 1))
+            end if
+            if (i < n .and. .not. (whole(i) .or. whole(i + 1))) then
+               through(i) = carried(i + 1)
+            else
+               through(i) = surface_speed*grid%sliding_face(i)*grid%h_face(i)/2
+               if (whole(i) .or. whole(i + 1)) through(i) = through(i) + unit*grid%along(i)*(p(i + 1) - p(i))
+            end if
+         end do
+      end associate
+   end subroutine flows_of_row
+
+   !> Flow a unit of width, m^2/s, per unit of the grid's equations.
+   pure real(wp) function unit_flow(grid, oil)
+      type(film_grid_type), intent(in) :: grid
+      type(film_oil), intent(in) :: oil
+      unit_flow = grid%d_phi/(12*oil%viscosity*grid%gap%pad_radius())
+   end function unit_flow
 
    !> Adds heat of the pressure's flow and the pressure's resistance to rotation in a cell of the film: of the faces
    !> between two of them half to each.
