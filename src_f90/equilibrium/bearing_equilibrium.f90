@@ -34,7 +34,7 @@ contains
    !> The equilibrium of a model under its load at its initial speed, stable or of oscillatory instability, with the
    !> temperatures of warm oil; an error where none is found, or, of status `stopped`, where `give_up`, asked between
    !> evaluations of the films, says so.
-   subroutine find_bearing_equilibrium(model, found, error, give_up)
+   recursive subroutine find_bearing_equilibrium(model, found, error, give_up)
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
@@ -64,9 +64,11 @@ contains
             return
          end if
       end do
-      if (allocated(error)) return
-      call note_partial(model, traces, give_up)
-      call raise(error, numerics_error, refusal(model, traces))
+      if (.not. allocated(error)) then
+         call note_partial(model, traces, give_up)
+         call raise(error, numerics_error, refusal(model, traces))
+      end if
+      if (model%inputs%thermal%model == 'film') call offer_pads(model, error, give_up)
    end subroutine find_bearing_equilibrium
 
    !> Adds to an error how temperatures along and across films may be reached where one a pad, with which their search
@@ -79,6 +81,21 @@ contains
          & //'temperatures along and across the films have a balance, case%task = ''branch'' of equilibria may lead ' &
          & //'there from a smaller load or another value of what makes the heat)'
    end subroutine name_way
+
+   !> Says in a refusal of a model whose films have temperatures along and across whether it has an equilibrium with a
+   !> temperature for each pad.
+   recursive subroutine offer_pads(model, error, give_up)
+      type(machine_model), intent(in) :: model
+      type(error_type), allocatable, intent(inout) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(machine_model) :: other
+      type(equilibrium_type) :: found
+      type(error_type), allocatable :: other_error
+      other = model
+      other%inputs%thermal%model = 'pad'
+      call find_bearing_equilibrium(other, found, other_error, give_up)
+      if (.not. allocated(other_error)) error%message = error%message//'; thermal%model = ''pad'' has an equilibrium'
+   end subroutine offer_pads
 
    !> The equilibrium with the viscosities that the model has.
    subroutine find_isothermal(model, found, error, give_up)

@@ -64,3 +64,23 @@ def test_film_temperatures_beside_a_fold(tiltpad, tmp_path):
     one, other = found.values()
     assert abs(one["journal_y"] - other["journal_y"]) < 0.02 * abs(one["journal_y"])
     assert abs(one["maximum_temperature"] - other["maximum_temperature"]).max() < 1
+
+
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [
+        (202, r"the temperatures in the film of pad \d do not settle at 26193\.2 rpm: .*try more preload"),
+        (271, r"no equilibrium found at 3949\.07 rpm: .*try more preload"),
+    ],
+)
+def test_film_temperatures_without_an_equilibrium(tiltpad, tmp_path, number, words):
+    """Unloaded pads on pivots in their middle: there is one with a temperature for each, and with preload."""
+    case = draw(SEED, number)
+    case["case"]["task"] = "equilibrium"
+    case["thermal"]["model"] = "film"
+    (tmp_path / "case.nml").write_text(text(case))
+    message = tiltpad("case.nml", cwd=tmp_path, status=2).stderr
+    assert re.search(words, message), message
+    assert message.endswith("; thermal%model = 'pad' has an equilibrium\n")
+    for setting in ("thermal%model='pad'", "bearing%preload=0.2"):
+        tiltpad("case.nml", "-q", "--overwrite", overrides=(setting,), cwd=tmp_path, status=0)
