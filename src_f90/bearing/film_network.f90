@@ -117,7 +117,7 @@ contains
       if (.not. ok) return
       found%inlet = ends(:size(streams))
       found%shaft = ends(last)
-      allocate (found%mean, found%outlet, found%maximum, mold=found%inlet)
+      allocate (found%mean, found%outlet, found%maximum, found%hottest, mold=found%inlet)
       found%drain = 0
       allocate (to_shaft(size(streams)), to_pad(size(streams)))
       do i = 1, size(streams)
@@ -128,6 +128,7 @@ contains
          found%outlet(i) = dot_product(pads(i)%outlet, parts)
          films%surfaces(:, i) = matmul(pads(i)%surface, parts)
          found%maximum(i) = highest(films%surfaces(:, i))
+         found%hottest(i) = max(found%maximum(i), maxval(fields(solid_layers + 1:, :, i)))
          to_shaft(i) = dot_product(pads(i)%to_shaft, parts)
          to_pad(i) = dot_product(pads(i)%to_back, parts)
          found%drain = found%drain + pads(i)%made - to_shaft(i) - to_pad(i)

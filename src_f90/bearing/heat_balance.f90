@@ -23,6 +23,8 @@ module heat_balance
    type :: oil_temperatures_type
       !> Of every pad's film: where it begins, mean over the film, where it ends, and the highest in the pad's surface.
       real(wp), allocatable :: inlet(:), mean(:), outlet(:), maximum(:)
+      !> The hottest oil of every pad's film, by which it boils.
+      real(wp), allocatable :: hottest(:)
       !> Of the shaft, and of all oil that leaves the bearing.
       real(wp) :: shaft = 0, drain = 0
    end type oil_temperatures_type
@@ -139,6 +141,7 @@ contains
          found%mean = net%f*found%inlet + (1 - net%f)*found%shaft + net%g*heat/net%capacity
          found%outlet = net%left*found%inlet + (1 - net%left)*found%shaft + net%f*heat/net%capacity
          found%maximum = found%outlet + max(found%outlet - found%shaft, 0.0_wp)/2
+         found%hottest = found%maximum
          ! oil that leaves at the sides is warmed half of the way; what leaves at the outlets is not all carried over
          fresh = sum((1 - net%hot)*inlet)
          found%drain = self%oil%supply_temperature
@@ -190,16 +193,17 @@ contains
       end associate
    end subroutine viscosities
 
-   !> Refuses oil that boils.
+   !> Refuses oil that boils in the hottest place of a film.
    subroutine check_boiling(oil, error)
       type(oil_temperatures_type), intent(in) :: oil
       type(error_type), allocatable, intent(out) :: error
-      integer :: hottest
-      hottest = maxloc(oil%outlet, dim=1)
-      if (oil%outlet(hottest) > boiling) call raise(error, numerics_error, 'the oil would leave pad ' &
-         & //to_text(hottest)//' at '//to_text(nint(min(oil%outlet(hottest), beyond)))//' C or more, above ' &
-         & //to_text(nint(boiling))//' C, where mineral oil boils: film and asperities make more heat than its flow ' &
-         & //'carries off; try cooler or more oil, less load or more clearance')
+      integer :: pad
+      pad = maxloc(oil%hottest, dim=1)
+      if (oil%hottest(pad) > boiling) call raise(error, numerics_error, 'the oil in the hottest place of the film of ' &
+         & //'pad '//to_text(pad)//' would have '//to_text(ceiling(min(oil%hottest(pad), beyond)))//' C' &
+         & //trim(merge(' or more', '        ', oil%hottest(pad) > beyond))//', above '//to_text(nint(boiling)) &
+         & //' C, where mineral oil boils: film and asperities make more heat than its flow carries off; try cooler ' &
+         & //'or more oil, less load or more clearance')
    end subroutine check_boiling
 
    !> Temperatures, C, of what enters the groove before each pad, and the time, s, in which it renews the oil of groove

@@ -1,5 +1,7 @@
 """Branches of equilibria and thresholds with temperatures along and across films."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
@@ -112,12 +114,34 @@ def test_heat_that_ends_a_branch(run, tmp_path):
         assert file.attrs["complete"] == 1
         last = file["parameter"][-1]
         assert "bifurcations" not in file
-        hottest = file["outlet_temperature"][-1].argmax() + 1
-        # within a shortest step, 1e-4 of the first, of the last load below boiling
-        assert 299 < file["outlet_temperature"][-1].max() < 300
+        # within a shortest step, 1e-4 of the first, of the last load without boiling; oil is hotter than pads
+        assert 299 < file["maximum_temperature"][-1].max() < 300
     assert 20000 < last < 60000
     assert f"branch 1 ends at rotor%mass = {last:.5f}" in said
-    assert f"the oil would leave pad {hottest} at" in said
+    # under a load between the pads both are as hot
+    assert re.search(r"in the hottest place of the film of pad [12] would have 301 C, above 300 C", said)
     refusal = run(THIN, "case%task='equilibrium'", "rotor%mass=10000", name="alone", status=2).stderr
-    assert "the oil would leave pad" in refusal
+    assert "where mineral oil boils" in refusal
     assert "one temperature a pad, with which the search begins" in refusal
+
+
+def test_the_hottest_oil_boils_in_runs_studies_and_branches(run, tiltpad, tmp_path):
+    """Viscous oil on a fast shaft: that of the hottest place boils far above what leaves the pad."""
+    viscous = "&pads motion='tilting_only' /\n&oil grade=220 /\n&thermal model='film' /\n"
+    rest = viscous + "&case task='equilibrium' /\n"
+    boils = r"the oil in the hottest place of the film of pad 1 would have 3\d\d C, above 300 C"
+    said = run(viscous, *branch_over("operation%speed_rpm", 31000, 40000, 1000), name="branch").stdout
+    assert re.search(boils, said)
+    with h5py.File(tmp_path / "branch.h5") as file:
+        last = file["parameter"][-1]
+    # the speed at which its table of films and that of a single run boil differs by less than 1e-3
+    below, above = 0.998 * last, 1.002 * last
+    assert re.search(boils, run(rest, f"operation%speed_rpm={above}", name="beyond", status=2).stderr)
+    run(rest, f"operation%speed_rpm={below}", name="below")
+    with h5py.File(tmp_path / "below.h5") as file:
+        assert 299 < file["equilibrium/film_temperature"][()].max() < 300
+        assert file["equilibrium/outlet_temperature"][()].max() < 120
+    speeds = f"sweep%operation%speed_rpm={below}, {above}"
+    study = tiltpad("below.nml", "--output", "study", overrides=(speeds,), cwd=tmp_path)
+    assert study.returncode == 2
+    assert re.search(rf"run 2 .*{boils}", study.stderr)

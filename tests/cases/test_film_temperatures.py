@@ -186,5 +186,5 @@ def test_oil_that_boils_names_its_pad(tiltpad, tmp_path):
     text = REST.replace("grade=46", "grade=10, supply_temperature=80") + "&rotor mass=6000 /\n"
     (tmp_path / "case.nml").write_text(text + "&operation speed_rpm=100 /\n")
     refused = tiltpad("case.nml", cwd=tmp_path, status=2).stderr
-    assert "the oil would leave pad 1 at" in refused
+    assert "the oil in the hottest place of the film of pad 1 would have" in refused
     assert "where mineral oil boils" in refused
