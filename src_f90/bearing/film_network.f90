@@ -25,6 +25,8 @@ module film_network
       type(oil_temperatures_type) :: oil
       !> Heat that each film gives to the shaft and to its pad, W.
       real(wp), allocatable :: to_shaft(:), to_pad(:)
+      !> Part of each pad's arc over which the flow, over width and height, is against the rotation.
+      real(wp), allocatable :: reversed(:)
       !> Pads that keep their temperatures.
       logical, allocatable :: kept(:)
    end type warm_films_type
@@ -42,6 +44,7 @@ contains
          allocate (films%surfaces(thermal%stations, size(temperature)))
       end associate
       allocate (films%kept(size(temperature)), source=.false.)
+      allocate (films%reversed(size(temperature)), source=0.0_wp)
       do i = 1, size(temperature)
          films%fields(:, :, i) = temperature(i)
          films%surfaces(:, i) = temperature(i)
@@ -110,6 +113,7 @@ contains
          call solve_energy(films%heat(i), streams(i), profiles(:, i), surface_speed, pads(i))
          inflow(i) = streams(i)%flow(0)
          outflow(i) = streams(i)%flow(size(profiles, 1))
+         films%reversed(i) = real(count(streams(i)%flow < 0), wp)/size(streams(i)%flow)
       end do
       ok = all(pads%solved)
       if (.not. ok) return
@@ -161,11 +165,12 @@ contains
          ends(last) = ends(last) - pads(i)%to_shaft(by_nothing)
          associate (up => grooves(i)%upstream, back => pads(i)%back_flow)
             hot(i) = max(0.0_wp, min(grooves(i)%carry_over*outflow(up), inflow(i)))
-            matrix(i, i) = matrix(i, i) + inflow(i) + back - back*pads(i)%back(by_inlet)
+            ! where all in all oil runs out here, what comes in is this oil
+            matrix(i, i) = matrix(i, i) + max(inflow(i), 0.0_wp) + back - back*pads(i)%back(by_inlet)
             matrix(i, up) = matrix(i, up) - hot(i)*pads(up)%outlet(by_inlet)
             matrix(i, last) = -hot(i)*pads(up)%outlet(by_shaft) - back*pads(i)%back(by_shaft)
             ends(i) = hot(i)*pads(up)%outlet(by_nothing) + back*pads(i)%back(by_nothing) &
-               & + (inflow(i) - hot(i))*oil%supply_temperature
+               & + max(inflow(i) - hot(i), 0.0_wp)*oil%supply_temperature
             if (inflow(i) + back > 0) cycle
             ! nothing comes in: no temperature counts
             matrix(i, :) = 0

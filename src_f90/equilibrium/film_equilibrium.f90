@@ -159,7 +159,7 @@ contains
 
    !> A round, with a model in equilibrium in y with the oil of the present temperatures: the films lead to others,
    !> which may agree with these; else they are changed. An error where they do not settle, or, where they agree, oil
-   !> boils.
+   !> boils or runs against the rotation.
    subroutine make(self, model, y, films, agrees, error)
       class(film_rounds_type), intent(inout) :: self
       type(machine_model), intent(in) :: model
@@ -182,7 +182,8 @@ contains
          ! elsewhere they agree in other rounds
          self%made = 0
          call self%acceleration%forget()
-         call check_oil(model, films%oil, error)
+         call check_flow(model, films, error)
+         if (.not. allocated(error)) call check_oil(model, films%oil, error)
       else if (self%made == most_rounds) then
          call refuse_unsettled(model, self, error)
       else if (mod(self%made, leaps_after) == 0 .and. change <= largest_leap) then
@@ -255,6 +256,25 @@ contains
          end do
       end do
    end subroutine set_oil
+
+   !> Refuses films in which oil runs against the rotation and out of the leading edge: what comes in elsewhere instead
+   !> has no temperature in the balance of the grooves.
+   subroutine check_flow(model, films, error)
+      type(machine_model), intent(in) :: model
+      type(warm_films_type), intent(in) :: films(:)
+      type(error_type), allocatable, intent(out) :: error
+      integer :: b, pad
+      do b = 1, size(films)
+         pad = maxloc(films(b)%reversed, 1)
+         if (.not. films(b)%reversed(pad) > 0) cycle
+         call raise(error, numerics_error, 'the pressures around pad '//to_text(pad)//' drive its oil against the ' &
+            & //'rotation and out of the leading edge, over '//to_text(nint(100*films(b)%reversed(pad)))//' % of its ' &
+            & //'arc, and the oil that comes in elsewhere instead has no temperature in this model; try ' &
+            & //'bearing%supply_pressure above bearing%ambient_pressure, or more speed')
+         call name_bearing(model, b, error)
+         return
+      end do
+   end subroutine check_flow
 
    !> Says which pad's temperatures still change most, by how much, K, after the last round.
    subroutine refuse_unsettled(model, rounds, error)

@@ -1,5 +1,7 @@
 """Temperatures along and across films: what a run writes of them, a rerun of its input, and refusals."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
@@ -188,3 +190,19 @@ def test_oil_that_boils_names_its_pad(tiltpad, tmp_path):
     refused = tiltpad("case.nml", cwd=tmp_path, status=2).stderr
     assert "the oil in the hottest place of the film of pad 1 would have" in refused
     assert "where mineral oil boils" in refused
+
+
+@pytest.mark.parametrize("motion", ["fixed", "tilting_only"])
+def test_oil_that_runs_against_the_rotation_names_its_pad(tiltpad, tmp_path, motion):
+    """Pressures beside slow pads above that of the supply press oil out of the leading edges."""
+    text = REST + f"&bearing ambient_pressure=1e6 /\n&pads motion='{motion}' /\n&operation speed_rpm=20 /\n"
+    (tmp_path / "case.nml").write_text(text.replace("grade=46", "grade=46, shaft_temperature=45"))
+    refused = tiltpad("case.nml", cwd=tmp_path, status=2).stderr
+    said = r"around pad (\d) drive its oil against the rotation .* over (\d+) % of its arc"
+    pad, part = map(int, re.search(said, refused).groups())
+    assert 0 < part < 50
+    assert refused.endswith("; thermal%model = 'pad' has an equilibrium\n")
+    for way, sign in (("thermal%model='pad'", -1), ("bearing%supply_pressure=1e6", 1)):
+        tiltpad("case.nml", "--overwrite", cwd=tmp_path, overrides=(way,), status=0)
+        with h5py.File(tmp_path / "case.h5") as file:
+            assert sign * file["equilibrium/inlet_flow"][pad - 1] > 0
