@@ -7,12 +7,15 @@ module paper_bearing
    implicit none (type, external)
    private
    public :: paper_pad, offset_pad, paper_law
-   public :: speed, clearance, paper_oil
+   public :: speed, clearance, paper_oil, uneven
 
    !> Shaft speed of 6,494 rpm, rad/s; pad clearance, m.
    real(wp), parameter :: speed = 680, clearance = 100e-6_wp
    !> The oil of its films.
    type(film_oil), parameter :: paper_oil = film_oil(19e-3_wp)
+   !> Oil that becomes three times thinner along the arc and is warmer at the pad than at the journal.
+   type(film_oil), parameter :: uneven = film_oil(19e-3_wp, .true., [0.1_wp, 0.5_wp, 0.05_wp, -0.06_wp, 0.02_wp], &
+      & [0.53_wp, 0.03_wp, 0.004_wp, -0.007_wp, 0.002_wp], [-0.1_wp, -0.5_wp, 0.02_wp, 0.05_wp, 0.01_wp])
 
 contains
 

@@ -6,6 +6,8 @@
 module table_film
    use kinds, only: wp, i8
    use film_solver, only: film_motion, film_oil, film_response, film_ok, cavitation_gumbel
+   use film_oils, only: even_oil
+   use uneven_drive, only: new_uneven_drive
    use pad_gap, only: pad_gap_type
    use direct_film, only: direct_film_type
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
@@ -23,13 +25,18 @@ module table_film
    !> Error of the full film over that of what cavitation changes.
    real(wp), parameter :: share_of_full = 0.3_wp
 
-   !> Most cells of full films, and most cells and most nodes of cavitated ones, over all shapes: 0.3 GB.
+   !> Most cells of full films, and most cells and most nodes of cavitated ones, over all shapes: 0.3 GB. Cells of
+   !> uneven oil are three times as large.
    integer, parameter :: most_full = 16000, most_cavitated = 100000
 
    type, extends(direct_film_type) :: table_film_type
       private
       type(table_pad_type), allocatable :: tabulated(:)
+      !> Of pads of one shape with even oil, and one for every pad with uneven oil, which are the last.
       type(shape_tables), allocatable :: shapes(:)
+      !> Whether films come from tables; error of what cavitation changes and of full films, over the force.
+      logical :: in_tables
+      real(wp) :: tolerance, full_tolerance
    contains
       procedure :: solve
       procedure :: take_pressures
@@ -47,11 +54,12 @@ contains
       real(wp), intent(in) :: tolerance
       real(wp), intent(in), optional :: full_tolerance
       type(table_film_type) :: solver
-      real(wp) :: of_full
       integer :: i, k
-      of_full = share_of_full*tolerance
-      if (present(full_tolerance)) of_full = full_tolerance
       solver%direct_film_type = direct
+      solver%in_tables = tabulated
+      solver%tolerance = tolerance
+      solver%full_tolerance = share_of_full*tolerance
+      if (present(full_tolerance)) solver%full_tolerance = full_tolerance
       allocate (solver%tabulated(size(direct%gaps)), solver%shapes(0))
       do i = 1, size(direct%gaps)
          associate (gap => direct%gaps(i), unit => new_dimensionless_pad(direct%gaps(i)), pad => solver%tabulated(i))
@@ -60,23 +68,54 @@ contains
             do k = 1, size(solver%shapes)
                if (same(solver%shapes(k)%pad, unit) .and. (solver%shapes(k)%supplied .eqv. abs(pad%rise) > 0)) exit
             end do
-            if (k > size(solver%shapes)) solver%shapes = [solver%shapes, shape_tables(unit, abs(pad%rise) > 0)]
+            if (k > size(solver%shapes)) solver%shapes = [solver%shapes, shape_tables(unit, supplied=abs(pad%rise) > 0)]
             pad%shape = k
          end associate
       end do
       do k = 1, size(solver%shapes)
-         associate (shape => solver%shapes(k), pads => size(solver%tabulated), &
-            & gumbel => direct%condition == cavitation_gumbel)
-            if (tabulated) then
-               shape%whole = new_full_film_table(shape%pad, shape%supplied, of_full, most_full/pads)
-               shape%cavitation = new_cavitation_table(shape%pad, gumbel, tolerance, most_cavitated/pads)
-            else
-               shape%whole = new_full_film(shape%pad, shape%supplied, of_full)
-               shape%cavitation = new_cavitated_film(shape%pad, gumbel, tolerance)
-            end if
-         end associate
+         call set_tables(solver, even_oil(1.0_wp), solver%shapes(k))
       end do
+      solver%shapes = [solver%shapes, [(shape_tables(), i=1, size(direct%gaps))]]
    end function new_table_film
+
+   !> Empty tables of a shape for an oil, or the films that stand in.
+   subroutine set_tables(self, oil, shape)
+      type(table_film_type), intent(in) :: self
+      type(film_oil), intent(in) :: oil
+      type(shape_tables), intent(inout) :: shape
+      shape%drive = new_uneven_drive(shape%pad, oil)
+      associate (pads => size(self%tabulated), gumbel => self%condition == cavitation_gumbel)
+         if (self%in_tables) then
+            shape%whole = new_full_film_table(shape%pad, shape%drive, shape%supplied, self%full_tolerance, &
+               & most_full/pads)
+            shape%cavitation = new_cavitation_table(shape%pad, shape%drive, gumbel, self%tolerance, &
+               & most_cavitated/(pads*merge(3, 1, oil%varies)))
+         else
+            shape%whole = new_full_film(shape%pad, shape%drive, shape%supplied, self%full_tolerance)
+            shape%cavitation = new_cavitated_film(shape%pad, shape%drive, gumbel, self%tolerance)
+         end if
+      end associate
+   end subroutine set_tables
+
+   !> Which tables hold the films of a pad with an oil; 0: none. Uneven oil stays what it is in a march: where it is
+   !> another than before its tables begin anew.
+   integer function tables_of(self, i, oil) result(k)
+      class(table_film_type), intent(inout) :: self
+      integer, intent(in) :: i
+      type(film_oil), intent(in) :: oil
+      associate (pad => self%tabulated(i))
+         k = pad%shape
+         if (k == 0 .or. .not. oil%varies) return
+         k = 0
+         if (.not. self%in_tables .or. abs(pad%rise) > 0 .or. self%condition == cavitation_gumbel) return
+         k = size(self%shapes) - size(self%tabulated) + i
+         associate (shape => self%shapes(k))
+            if (.not. oil%differs(shape%drive%oil)) return
+            shape%pad = self%shapes(pad%shape)%pad
+            call set_tables(self, oil, shape)
+         end associate
+      end associate
+   end function tables_of
 
    !> True where the thickness at the edges describes the film in a gap.
    elemental logical function has_tables(gap)
@@ -99,11 +138,13 @@ contains
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response
       integer(i8) :: solved
+      integer :: k
       solved = self%counters%fourier
+      k = tables_of(self, i, oil)
       associate (pad => self%tabulated(i))
          pad%found = .false.
-         if (pad%shape > 0 .and. .not. oil%varies) call pad%look_up(self%shapes(pad%shape), motion, oil, speed, &
-            & self%cavitates(), want_derivatives, self%counters, response)
+         if (k > 0) call pad%look_up(self%shapes(k), motion, oil, speed, self%cavitates(), want_derivatives, &
+            & self%counters, response)
          if (pad%found) then
             if (self%counters%fourier == solved) self%counters%looked_up = self%counters%looked_up + 1
          else
@@ -119,12 +160,13 @@ contains
       type(film_oil), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       type(film_response), intent(inout) :: response(:)
-      integer :: i
+      integer :: i, k
       do i = 1, size(motion)
          associate (pad => self%tabulated(i))
             if (.not. pad%found .or. response(i)%status /= film_ok) cycle
-            call pad%look_up_pressures(self%shapes(pad%shape), motion(i), oil(i), speed, self%cavitates(), &
-               & self%counters, response(i))
+            k = tables_of(self, i, oil(i))
+            call pad%look_up_pressures(self%shapes(k), motion(i), oil(i), speed, self%cavitates(), self%counters, &
+               & response(i))
             if (.not. pad%found) call self%direct_film_type%solve(i, motion(i), oil(i), speed, .false., response(i))
          end associate
       end do

@@ -5,9 +5,10 @@ program test_cavitation_table
    use kinds, only: wp, i8, degree
    use text, only: to_text
    use pad_gap, only: pad_gap_type
-   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
+   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad, unit_oil
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver
-   use cavitated_film, only: cavitated_film_type, new_cavitated_film
+   use cavitated_film, only: cavitated_film_type, new_cavitated_film, axes
+   use uneven_drive, only: uneven_drive_type, new_uneven_drive
    use cell_polynomials, only: simd_width
    use cell_index, only: interval, lower_end
    use cavitation_table, only: cavitation_table_type, new_cavitation_table
@@ -22,12 +23,14 @@ program test_cavitation_table
    !> Most cells and nodes of a table.
    integer, parameter :: most = 20000
    type(dimensionless_pad_type) :: pad
+   type(uneven_drive_type) :: even
    type(film_counters) :: counters
    integer :: i
 
    associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
       pad = new_dimensionless_pad(gap)
    end associate
+   even = new_uneven_drive(pad, unit_oil)
    do i = 1, size(films, 2)
       if (runs('slopes')) call slopes(.false., films(:2, i), films(3, i))
       if (runs('slopes')) call slopes(.true., films(:2, i), films(3, i))
@@ -62,8 +65,8 @@ contains
       real(wp) :: shift(3), floor
       integer :: k
       floor = merge(0.1_wp, 0.0_wp, gumbel)
-      solver = new_force_ratio_solver(pad, gumbel, 0.01_wp*tolerance)
-      ratio = solver%at(edges, pad%tangent*(1 - 2*t))
+      solver = new_force_ratio_solver(pad, even, gumbel, 0.01_wp*tolerance)
+      ratio = solver%at(edges, pad%tangent*(1 - 2*t), 0.0_wp)
       do k = 1, 3
          shift = 0
          shift(k) = step*merge(minval(edges), pad%tangent, k < 3)
@@ -80,8 +83,8 @@ contains
       type(force_ratio_solver), intent(inout) :: solver
       real(wp), intent(in) :: edges(2), w_2, change(3)
       type(force_ratio_type) :: ahead, back
-      ahead = solver%at(edges + change(:2), w_2 + change(3))
-      back = solver%at(edges - change(:2), w_2 - change(3))
+      ahead = solver%at(edges + change(:2), w_2 + change(3), 0.0_wp)
+      back = solver%at(edges - change(:2), w_2 - change(3), 0.0_wp)
       difference = (ahead%value - back%value)/(2*sum(change))
    end function difference
 
@@ -94,8 +97,8 @@ contains
       type(force_ratio_type) :: ratio(3)
       integer :: i, k
       do i = 1, 3
-         solver = new_force_ratio_solver(pad, .false., 4e-5_wp/8.0_wp**(i - 1))
-         ratio(i) = solver%at(edges, pad%tangent*(1 - 2*t))
+         solver = new_force_ratio_solver(pad, even, .false., 4e-5_wp/8.0_wp**(i - 1))
+         ratio(i) = solver%at(edges, pad%tangent*(1 - 2*t), 0.0_wp)
       end do
       associate (finest => ratio(3))
          call expect_close(abs(ratio(1)%value/finest%value - 1), 0.0_wp, 2e-4_wp, 'ratio, 10 rows, T = '//to_text(t))
@@ -116,8 +119,8 @@ contains
       logical, intent(in) :: gumbel
       type(force_ratio_solver) :: solver
       type(force_ratio_type) :: ratio
-      solver = new_force_ratio_solver(pad, gumbel, tolerance)
-      ratio = solver%at([0.1_wp, 0.1_wp], 0.0_wp)
+      solver = new_force_ratio_solver(pad, even, gumbel, tolerance)
+      ratio = solver%at([0.1_wp, 0.1_wp], 0.0_wp, 0.0_wp)
       call expect(.not. ratio%ok, 'a closed film')
    end subroutine closed
 
@@ -125,12 +128,12 @@ contains
    subroutine ask(table, place, value, slope, good)
       type(cavitation_table_type), intent(inout) :: table
       real(wp), intent(in) :: place(3)
-      real(wp), intent(out) :: value(simd_width), slope(simd_width, 3)
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, axes)
       logical, intent(out) :: good
       integer :: time, last
       last = 0
       do time = 1, 5000
-         call table%look_up(place(:2), place(3), .true., last, counters, value, slope, good)
+         call table%look_up([place, 0.0_wp], .true., last, counters, value, slope, good)
          if (good) exit
       end do
    end subroutine ask
@@ -147,10 +150,10 @@ contains
       type(cavitation_table_type) :: table
       real(wp) :: place(3), below(3), worst
       real(wp), dimension(simd_width) :: value, value_below
-      real(wp) :: slope(simd_width, 3)
+      real(wp) :: slope(simd_width, axes)
       integer :: trial, axis
       logical :: good
-      table = new_cavitation_table(pad, gumbel, tolerance, most)
+      table = new_cavitation_table(pad, even, gumbel, tolerance, most)
       worst = 0
       do trial = 1, 60
          place = random_place()
@@ -171,12 +174,12 @@ contains
    subroutine both_ends(gumbel)
       logical, intent(in) :: gumbel
       type(cavitation_table_type) :: table
-      real(wp) :: value(simd_width), slope(simd_width, 3), pressure
-      complex(wp) :: force, slopes(3)
+      real(wp) :: value(simd_width), slope(simd_width, axes), pressure
+      complex(wp) :: force, slopes(axes)
       real(wp), parameter :: next_to_0(2) = [epsilon(1.0_wp), tiny(1.0_wp)], next_to_1 = nearest(1.0_wp, -1.0_wp)
       integer :: k
       logical :: good
-      table = new_cavitation_table(pad, gumbel, tolerance, most)
+      table = new_cavitation_table(pad, even, gumbel, tolerance, most)
       do k = 1, 2
          call ask(table, [0.8_wp, 0.4_wp, next_to_0(k)], value, slope, good)
          call expect(good, 'there is a cell')
@@ -201,7 +204,7 @@ contains
       type(cavitated_film_type) :: reference
       type(dimensionless_pad_type) :: other
       type(pad_gap_type) :: gap
-      real(wp) :: place(3), error(n), found, value(simd_width), exact(simd_width), slope(simd_width, 3)
+      real(wp) :: place(3), error(n), found, value(simd_width), exact(simd_width), slope(simd_width, axes)
       integer :: k, last
       logical :: good, solved
       k = 0
@@ -210,12 +213,12 @@ contains
             gap = pad_gap_type(0.0_wp, 1.0_wp, between(0.4_wp, 1.6_wp), half, half, 0.0_wp, 0.0_wp, 0.0_wp)
          end associate
          other = new_dimensionless_pad(gap)
-         table = new_cavitation_table(other, .false., 4e-5_wp, most)
-         reference = new_cavitated_film(other, .false., 1e-6_wp)
+         table = new_cavitation_table(other, new_uneven_drive(other, unit_oil), .false., 4e-5_wp, most)
+         reference = new_cavitated_film(other, new_uneven_drive(other, unit_oil), .false., 1e-6_wp)
          place = [0.05_wp*60**between(0.0_wp, 1.0_wp), 0.05_wp*60**between(0.0_wp, 1.0_wp), between(0.0_wp, 0.98_wp)]
          last = 0
          call ask(table, place, value, slope, good)
-         call reference%look_up(place(:2), place(3), .false., last, counters, exact, slope, solved)
+         call reference%look_up([place, 0.0_wp], .false., last, counters, exact, slope, solved)
          if (.not. (good .and. solved)) cycle
          k = k + 1
          error(k) = norm2(value(:2) - exact(:2))
@@ -231,12 +234,12 @@ contains
    subroutine beside_closed()
       type(cavitation_table_type) :: table, closer
       type(cavitated_film_type) :: reference
-      real(wp) :: place(3), least, worst, value(simd_width), exact(simd_width), slope(simd_width, 3)
+      real(wp) :: place(3), least, worst, value(simd_width), exact(simd_width), slope(simd_width, axes)
       integer :: trial, last, answered
       logical :: good, solved
-      table = new_cavitation_table(pad, .false., 4e-5_wp, most)
-      reference = new_cavitated_film(pad, .false., 1e-6_wp)
-      closer = new_cavitation_table(pad, .false., 1e-5_wp, most)
+      table = new_cavitation_table(pad, even, .false., 4e-5_wp, most)
+      reference = new_cavitated_film(pad, even, .false., 1e-6_wp)
+      closer = new_cavitation_table(pad, even, .false., 1e-5_wp, most)
       worst = 0
       answered = 0
       do trial = 1, 60
@@ -246,12 +249,12 @@ contains
          if (pad%least_film(place(:2)) < 1e-3_wp) cycle
          last = 0
          last = 0
-         call closer%look_up(place(:2), place(3), .false., last, counters, value, slope, good)
+         call closer%look_up([place, 0.0_wp], .false., last, counters, value, slope, good)
          call expect(good, 'a closer table answers')
          call ask(table, place, value, slope, good)
          if (.not. good) cycle
          answered = answered + 1
-         call reference%look_up(place(:2), place(3), .false., last, counters, exact, slope, solved)
+         call reference%look_up([place, 0.0_wp], .false., last, counters, exact, slope, solved)
          call expect(solved, 'a film')
          worst = max(worst, norm2(value(:2) - exact(:2)))
       end do
@@ -267,17 +270,17 @@ contains
       integer, parameter :: asked = 20000
       type(cavitation_table_type) :: table
       type(film_counters) :: used
-      real(wp) :: place(3), value(simd_width), slope(simd_width, 3), cost
+      real(wp) :: place(3), value(simd_width), slope(simd_width, axes), cost
       integer :: film, last
       logical :: good
-      table = new_cavitation_table(pad, .true., tolerance, most)
+      table = new_cavitation_table(pad, even, .true., tolerance, most)
       cost = 0
       last = 0
       do film = 1, asked
          place = random_place()
          place(3) = 0.25_wp + 0.75_wp*place(3)
          if (.not. spread) place(:2) = 0.6_wp + 0.1_wp*place(:2)
-         call table%look_up(place(:2), place(3), .false., last, used, value, slope, good)
+         call table%look_up([place, 0.0_wp], .false., last, used, value, slope, good)
          if (.not. good) cost = cost + 5
       end do
       cost = cost + 60*real(used%nodes - 100 - 8, wp)
@@ -290,19 +293,19 @@ contains
       logical, intent(in) :: gumbel
       integer, parameter :: n = 12
       type(cavitation_table_type) :: table, other
-      real(wp) :: places(3, n), value(simd_width, n), slope(simd_width, 3, n), value_there(simd_width), &
-         & slope_there(simd_width, 3)
+      real(wp) :: places(3, n), value(simd_width, n), slope(simd_width, axes, n), value_there(simd_width), &
+         & slope_there(simd_width, axes)
       integer :: k, different, pass
       integer(i8) :: at_first
       logical :: good
       places = reshape([(random_place(), k=1, n)], [3, n])
-      table = new_cavitation_table(pad, gumbel, tolerance, most)
+      table = new_cavitation_table(pad, even, gumbel, tolerance, most)
       counters = film_counters()
       do k = 1, n
          call ask(table, places(:, k), value(:, k), slope(:, :, k), good)
       end do
       at_first = counters%nodes
-      other = new_cavitation_table(pad, gumbel, tolerance, 20)
+      other = new_cavitation_table(pad, even, gumbel, tolerance, 20)
       different = 0
       do pass = 1, 2
          do k = n, 1, -1

@@ -6,9 +6,10 @@ program test_full_film_table
    use text, only: to_text
    use film_solver, only: film_counters
    use pad_gap, only: pad_gap_type
-   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
+   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad, unit_oil
    use cell_polynomials, only: simd_width
    use cell_index, only: interval, lower_end
+   use uneven_drive, only: uneven_drive_type, new_uneven_drive
    use full_film_table, only: full_film_table_type, new_full_film_table
    use check, only: runs, expect, expect_close, between, report
    use full_film, only: loads
@@ -18,11 +19,13 @@ program test_full_film_table
    !> Most cells of a table.
    integer, parameter :: most = 4000
    type(dimensionless_pad_type) :: pad
+   type(uneven_drive_type) :: even
    type(film_counters) :: counters
 
    associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
       pad = new_dimensionless_pad(gap)
    end associate
+   even = new_uneven_drive(pad, unit_oil)
    if (runs('between_cells')) call between_cells()
    if (runs('full_table')) call full_table()
    if (runs('built_when_due')) call built_when_due()
@@ -49,7 +52,7 @@ contains
       real(wp), dimension(simd_width, 2, loads) :: slope, slope_below
       integer :: trial, last, axis
       logical :: good
-      table = new_full_film_table(pad, .false., tolerance, most)
+      table = new_full_film_table(pad, even, .false., tolerance, most)
       last = 0
       worst = 0
       worst_slope = 0
@@ -87,14 +90,14 @@ contains
       w = [1.0_wp, 0.5_wp]
       edges = reshape([(random_edges(), k=1, n)], [2, n])
       edges(:, n) = [0.05_wp, 0.9_wp]
-      table = new_full_film_table(pad, .true., tolerance, most)
+      table = new_full_film_table(pad, even, .true., tolerance, most)
       counters = film_counters()
       last = 0
       do k = 1, n
          call table%look_up(edges(:, k), .true., last, counters, value(:, :, k), slope(:, :, :, k), good(k))
          call table%highest_pressure(edges(:, k), w, 0.1_wp, last, counters, pressure(k))
       end do
-      other = new_full_film_table(pad, .true., tolerance, 3)
+      other = new_full_film_table(pad, even, .true., tolerance, 3)
       last = 0
       worst = 0
       worst_slope = 0
@@ -122,7 +125,7 @@ contains
       real(wp) :: value(simd_width, loads), slope(simd_width, 2, loads), solved(simd_width), pressure, pressure_then
       integer :: k, last
       logical :: good
-      table = new_full_film_table(pad, .false., tolerance, most)
+      table = new_full_film_table(pad, even, .false., tolerance, most)
       do k = 0, 31
          last = 0
          call table%look_up(1.01_wp*lower_end([-4 + k/8, -4 + modulo(k, 8)], 1), .false., last, count, value, slope, &

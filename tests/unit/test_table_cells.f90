@@ -35,9 +35,9 @@ contains
          do i = -6, 5
             do j = -6, 5
                do k = 0, 9
-                  if (index%find(cell_key(level, i, j, k)) > 0) taken = taken + 1
+                  if (index%find(cell_key(level, i, j, k/2, mod(k, 2) - 1)) > 0) taken = taken + 1
                   n = n + 1
-                  call index%add(cell_key(level, i, j, k), n)
+                  call index%add(cell_key(level, i, j, k/2, mod(k, 2) - 1), n)
                end do
             end do
          end do
@@ -49,7 +49,7 @@ contains
             do j = -6, 5
                do k = 0, 9
                   n = n + 1
-                  if (index%find(cell_key(level, i, j, k)) /= n) lost = lost + 1
+                  if (index%find(cell_key(level, i, j, k/2, mod(k, 2) - 1)) /= n) lost = lost + 1
                end do
             end do
          end do
@@ -66,7 +66,7 @@ contains
       integer(int64) :: keys(8)
       integer :: i, k
       do i = 1, 8
-         keys(i) = cell_key(places(1, i), places(2, i), places(3, i), places(4, i))
+         keys(i) = cell_key(places(1, i), places(2, i), places(3, i), places(4, i), -1)
          do k = 1, i - 1
             call expect(keys(i) /= keys(k), 'places '//to_text(k)//' and '//to_text(i)//' have keys of their own')
          end do
@@ -79,11 +79,11 @@ contains
       type(cell_index_type) :: index
       integer :: i, lost
       do i = 1, many
-         call index%add(cell_key(mod(i, 7), i/100 - 100, mod(i, 100), mod(i, 3)), many + 1 - i)
+         call index%add(cell_key(mod(i, 7), i/100 - 100, mod(i, 100), mod(i, 3), 0), many + 1 - i)
       end do
       lost = 0
       do i = 1, many
-         if (index%find(cell_key(mod(i, 7), i/100 - 100, mod(i, 100), mod(i, 3))) /= many + 1 - i) lost = lost + 1
+         if (index%find(cell_key(mod(i, 7), i/100 - 100, mod(i, 100), mod(i, 3), 0)) /= many + 1 - i) lost = lost + 1
       end do
       call expect(lost == 0, to_text(lost)//' entries are lost')
    end subroutine it_grows
@@ -92,27 +92,27 @@ contains
    subroutine nothing_there()
       type(cell_index_type) :: index
       integer :: i
-      call expect(index%find(cell_key(0, 0, 0, 0)) == 0, 'a new index is empty')
+      call expect(index%find(cell_key(0, 0, 0, 0, 0)) == 0, 'a new index is empty')
       do i = 1, 1000
-         call index%add(cell_key(1, i, 0, 0), i)
+         call index%add(cell_key(1, i, 0, 0, 0), i)
       end do
-      call expect(index%find(cell_key(0, 0, 0, 0)) == 0, 'no entry at the origin')
-      call expect(index%find(cell_key(1, 0, 500, 0)) == 0, 'none along the other axis')
-      call index%add(cell_key(0, 0, 0, 0), 7)
-      call expect(index%find(cell_key(0, 0, 0, 0)) == 7, 'one at the origin')
+      call expect(index%find(cell_key(0, 0, 0, 0, 0)) == 0, 'no entry at the origin')
+      call expect(index%find(cell_key(1, 0, 500, 0, 0)) == 0, 'none along the other axis')
+      call index%add(cell_key(0, 0, 0, 0, 0), 7)
+      call expect(index%find(cell_key(0, 0, 0, 0, 0)) == 7, 'one at the origin')
    end subroutine nothing_there
 
    subroutine clear()
       type(cell_index_type) :: index
       integer :: i
       do i = 1, 1000
-         call index%add(cell_key(1, i, 0, 0), i)
+         call index%add(cell_key(1, i, 0, 0, 0), i)
       end do
       call index%clear()
-      call expect(all([(index%find(cell_key(1, i, 0, 0)), i=1, 1000)] == 0), 'a cleared index is empty')
-      call index%add(cell_key(1, 17, 0, 0), 3)
-      call expect(index%find(cell_key(1, 17, 0, 0)) == 3, 'and is filled anew')
-      call expect(index%find(cell_key(1, 18, 0, 0)) == 0, 'with nothing from before')
+      call expect(all([(index%find(cell_key(1, i, 0, 0, 0)), i=1, 1000)] == 0), 'a cleared index is empty')
+      call index%add(cell_key(1, 17, 0, 0, 0), 3)
+      call expect(index%find(cell_key(1, 17, 0, 0, 0)) == 3, 'and is filled anew')
+      call expect(index%find(cell_key(1, 18, 0, 0, 0)) == 0, 'with nothing from before')
    end subroutine clear
 
    !> A number of any size lies between the ends of its interval, at every level.

@@ -9,13 +9,10 @@ program test_uneven_film
    use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: new_direct_film
    use sor_film, only: new_sor_film, sor_options
-   use paper_bearing, only: offset_pad, paper_oil, speed, clearance
+   use paper_bearing, only: offset_pad, paper_oil, uneven, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
-   !> Of a pad whose oil becomes three times thinner along the arc and is warmer at the pad than at the journal.
-   type(film_oil), parameter :: uneven = film_oil(19e-3_wp, .true., [0.1_wp, 0.5_wp, 0.05_wp, -0.06_wp, 0.02_wp], &
-      & [0.53_wp, 0.03_wp, 0.004_wp, -0.007_wp, 0.002_wp], [-0.1_wp, -0.5_wp, 0.02_wp, 0.05_wp, 0.01_wp])
    !> A loaded film in motion, and one that cavitates.
    type(film_motion), parameter :: loaded = film_motion(clearance*[-0.25_wp, 0.35_wp], [2e-3_wp, -3e-3_wp]), &
       & diverging = film_motion(clearance*[0.05_wp, 0.4_wp], [1e-3_wp, 2e-3_wp])

@@ -46,9 +46,9 @@ module dimensionless_pad
 
    !> A motion in the mid-arc frame: film thicknesses at the leading and trailing edge over the clearance; the
    !> velocity w that drives the film, m/s; its turn with the journal, 1/s; S, N s/m,
-   !> that is mu R^4/c^3 times the thickness scale.
+   !> that is mu R^4/c^3 times the thickness scale; t, the turn times the clearance, m/s, where oil is uneven.
    type :: middle_motion
-      real(wp) :: edges(2), w(2), turn, scale
+      real(wp) :: edges(2), w(2), turn, scale, t = 0
    end type middle_motion
 
    !> A force in the mid-arc frame, N, and its derivatives over the edges' thicknesses, (component, edge), and

@@ -33,6 +33,7 @@ module film_oils
       procedure :: shear_weight
       procedure :: coefficients
       procedure :: differs
+      procedure :: mirrored
    end type film_oil
 
    !> By place on the arc.
@@ -81,8 +82,22 @@ contains
       class(film_oil), intent(in) :: self
       type(film_oil), intent(in) :: other
       differs = self%varies .neqv. other%varies
-      if (self%varies .and. other%varies) differs = any(abs(self%coefficients() - other%coefficients()) > 0)
+      if (self%varies .and. other%varies) differs = any(abs(self%flow - other%flow) > 0 &
+         & .or. abs(self%sliding - other%sliding) > 0 .or. abs(self%shear - other%shear) > 0)
    end function differs
+
+   !> The oil seen in a mirror, in which both edges change places.
+   pure type(film_oil) function mirrored(self)
+      class(film_oil), intent(in) :: self
+      mirrored%viscosity = self%viscosity
+      mirrored%varies = self%varies
+      mirrored%flow = self%flow
+      mirrored%sliding = self%sliding
+      mirrored%shear = self%shear
+      mirrored%flow(1::2) = -self%flow(1::2)
+      mirrored%sliding(1::2) = -self%sliding(1::2)
+      mirrored%shear(1::2) = -self%shear(1::2)
+   end function mirrored
 
    !> The weights at places whose angles from the pivot have these sines and cosines; as many as there were before.
    pure subroutine find_weights(oil, gap, sine, cosine, weights)

@@ -1,16 +1,18 @@
 !> The cavitated film of a dimensionless pad: its force is that of the film in the same place that is just full, times
 !> (1 - T)^4 (exp(q) - floor), with complex numbers for forces and q a smooth function of the film thicknesses at both
-!> edges and of T, the part of the arc where the film diverges (docs/theory/film.md). Here q is solved where it is asked
-!> for; cavitation_table interpolates it.
+!> edges and of T, the part of the arc where the film diverges (docs/theory/film.md); of uneven oil also of t/w_1, by
+!> which the rotation drives the film besides w (uneven_drive). Here q is solved where it is asked for; cavitation_table
+!> interpolates it.
 module cavitated_film
    use kinds, only: wp
    use film_solver, only: film_counters
    use dimensionless_pad, only: dimensionless_pad_type
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver, least_tolerance
-   use cell_polynomials, only: simd_width, corner_data
+   use uneven_drive, only: uneven_drive_type, new_uneven_drive
+   use cell_polynomials, only: simd_width
    implicit none (type, external)
    private
-   public :: cavitated_film_type, node_type, new_cavitated_film
+   public :: cavitated_film_type, node_type, new_cavitated_film, axes
 
    !> Powers of 1 - T by which force and highest pressure end with the condition of Reynolds.
    integer, parameter :: force_power = 4, pressure_power = 3
@@ -21,17 +23,23 @@ module cavitated_film
    !> Films that are remembered: of a state of all pads.
    integer, parameter :: memory = 24
 
+   !> Both thicknesses, T, and t/w_1, which is 0 of even oil.
+   integer, parameter :: axes = 4
+
    !> Functions: real and imaginary part of q, the logarithm of the pressure ratio over (1 - T)^3, and 0. Their values,
-   !> and derivatives over both thicknesses and T, (function, value or derivative).
+   !> and derivatives over the axes, (function, value or derivative).
    type :: node_type
-      real(wp) :: data(simd_width, corner_data) = 0
+      real(wp) :: data(simd_width, 1 + axes) = 0
       !> Whether the film is open and was solved.
       logical :: ok = .false.
    end type node_type
 
    type :: cavitated_film_type
       type(dimensionless_pad_type) :: pad
+      type(uneven_drive_type) :: drive
       type(force_ratio_solver), private :: ratios
+      !> Of uneven oil, as seen in a mirror.
+      type(force_ratio_solver), allocatable, private :: mirrored
       real(wp), private :: floor = 0
       !> The films looked up last, one after the other, and where.
       type(node_type), allocatable, private :: remembered(:)
@@ -46,30 +54,35 @@ module cavitated_film
 
 contains
 
-   !> The films of a pad, with the condition of Reynolds or Guembel: forces to a tolerance, over themselves.
-   function new_cavitated_film(pad, gumbel, tolerance) result(films)
+   !> The films of a pad with its drive, with the condition of Reynolds or (of even oil) Guembel: forces to a tolerance,
+   !> over themselves.
+   function new_cavitated_film(pad, drive, gumbel, tolerance) result(films)
       type(dimensionless_pad_type), intent(in) :: pad
+      type(uneven_drive_type), intent(in) :: drive
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       type(cavitated_film_type) :: films
       films%pad = pad
       if (gumbel) films%floor = gumbel_floor
-      films%ratios = new_force_ratio_solver(pad, gumbel, max(tolerance, least_tolerance))
+      films%drive = drive
+      films%ratios = new_force_ratio_solver(pad, drive, gumbel, max(tolerance, least_tolerance))
+      if (drive%acts) films%mirrored = new_force_ratio_solver(pad, new_uneven_drive(pad, drive%oil%mirrored()), &
+         & gumbel, max(tolerance, least_tolerance))
    end function new_cavitated_film
 
-   !> The functions of node_type and, if they are wanted, their derivatives over both thicknesses and T, (function,
-   !> axis), for an open film with these thicknesses at its edges and 0 < T < 1. `last` is the caller's memory of the
+   !> The functions of node_type and, if they are wanted, their derivatives over the axes, (function, axis), for an open
+   !> film with 0 < T < 1; where w_1 < 0, seen in a mirror. `last` is the caller's memory of the
    !> place in a table, 0 at first. `good` is false where the film has no solution.
-   subroutine look_up(self, edges, t, want_slopes, last, counters, value, slope, good)
+   subroutine look_up(self, place, want_slopes, last, counters, value, slope, good)
       class(cavitated_film_type), intent(inout) :: self
-      real(wp), intent(in) :: edges(2), t
+      real(wp), intent(in) :: place(axes)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
       type(film_counters), intent(inout) :: counters
-      real(wp), intent(out) :: value(simd_width), slope(simd_width, 3)
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, axes)
       logical, intent(out) :: good
       type(node_type) :: node
-      call self%find([edges, t], counters, node)
+      call self%find(place, counters, node)
       value = node%data(:, 1)
       slope = node%data(:, 2:)
       good = node%ok
@@ -79,12 +92,12 @@ contains
    !> its derivatives.
    subroutine find(self, place, counters, node)
       class(cavitated_film_type), intent(inout) :: self
-      real(wp), intent(in) :: place(3)
+      real(wp), intent(in) :: place(axes)
       type(film_counters), intent(inout) :: counters
       type(node_type), intent(out) :: node
       integer :: i
       if (.not. allocated(self%remembered)) then
-         allocate (self%remembered(memory), self%remembered_at(3, memory))
+         allocate (self%remembered(memory), self%remembered_at(axes, memory))
          self%remembered_at = huge(1.0_wp)
       end if
       do i = 1, size(self%remembered)
@@ -92,50 +105,60 @@ contains
          node = self%remembered(i)
          return
       end do
-      call self%solve(place(:2), place(3), counters, node)
+      call self%solve(place, counters, node)
       self%remember_next = modulo(self%remember_next, size(self%remembered)) + 1
       self%remembered(self%remember_next) = node
       self%remembered_at(:, self%remember_next) = place
    end subroutine find
 
    !> The functions of a film.
-   subroutine solve(self, edges, t, counters, node)
+   subroutine solve(self, place, counters, node)
       class(cavitated_film_type), intent(inout) :: self
-      real(wp), intent(in) :: edges(2), t
+      real(wp), intent(in) :: place(axes)
       type(film_counters), intent(inout) :: counters
       type(node_type), intent(out) :: node
       type(force_ratio_type) :: ratio
-      complex(wp) :: part, slopes(3)
+      complex(wp) :: part, slopes(3), over_t
       real(wp) :: at, room
-      at = min(t, last_solved)
+      at = min(place(3), last_solved)
       room = 1 - at
       counters%nodes = counters%nodes + 1
-      ratio = self%ratios%at(edges, self%pad%tangent*(1 - 2*at))
+      associate (edges => place(:2), w_2 => self%pad%tangent*(1 - 2*at), t => place(4))
+         if (t < 0) then
+            ! a mirror turns the rotation round
+            ratio = self%mirrored%at(edges, w_2, t)
+         else
+            ratio = self%ratios%at(edges, w_2, t)
+         end if
+      end associate
       node%ok = ratio%ok
       if (.not. node%ok) return
       part = ratio%value/room**force_power + self%floor
       slopes = ratio%slopes/room**force_power/part
       slopes(3) = -2*self%pad%tangent*slopes(3) + force_power/room*(part - self%floor)/part
-      associate (q => log(part) + (t - at)*slopes(3))
+      associate (q => log(part) + (place(3) - at)*slopes(3))
          node%data(:2, 1) = [real(q), aimag(q)]
       end associate
-      node%data(1, 2:) = real(slopes)
-      node%data(2, 2:) = aimag(slopes)
+      over_t = ratio%over_t/room**force_power/part
+      node%data(1, 2:) = real([slopes, over_t])
+      node%data(2, 2:) = aimag([slopes, over_t])
       node%data(3, 1) = log(ratio%pressure/room**pressure_power + self%floor)
    end subroutine solve
 
-   !> The force of a film over that of the film that is just full, its derivatives over both thicknesses and T, and the
-   !> same ratio of the highest pressures, from what `look_up` found at a T.
+   !> The force of a film over that of the film that is just full, its derivatives over the axes, and the same ratio of
+   !> the highest pressures (of uneven oil, where that film has t = 0), from what `look_up` found at a T.
    pure subroutine set_ratio(self, t, value, slope, force, force_slopes, pressure)
       class(cavitated_film_type), intent(in) :: self
-      real(wp), intent(in) :: t, value(simd_width), slope(simd_width, 3)
-      complex(wp), intent(out) :: force, force_slopes(3)
+      real(wp), intent(in) :: t, value(simd_width), slope(simd_width, axes)
+      complex(wp), intent(out) :: force, force_slopes(axes)
       real(wp), intent(out) :: pressure
       complex(wp) :: part
       associate (room => 1 - t)
          part = room**force_power*exp(cmplx(value(1), value(2), wp))
          force = part - self%floor*room**force_power
-         force_slopes = part*cmplx(slope(1, :), slope(2, :), wp)
+         force_slopes(:3) = part*cmplx(slope(1, :3), slope(2, :3), wp)
+         force_slopes(4) = 0
+         if (self%drive%acts) force_slopes(4) = part*cmplx(slope(1, 4), slope(2, 4), wp)
          force_slopes(3) = force_slopes(3) - force_power/room*force
          pressure = room**pressure_power*max(0.0_wp, exp(value(3)) - self%floor)
       end associate

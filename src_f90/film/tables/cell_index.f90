@@ -24,8 +24,8 @@ module cell_index
 
    !> Slots at first, a power of 2; they double once half of them are taken.
    integer, parameter :: first_slots = 256
-   !> Bits of a key for the places along the first two axes and the third; the rest is left to the level.
-   integer, parameter :: axis_bits = 22, third_bits = 12
+   !> Bits of a key for the places along the first two axes, the third and the fourth; the rest is left to the level.
+   integer, parameter :: axis_bits = 18, third_bits = 11, fourth_bits = 12
 
 contains
 
@@ -44,11 +44,12 @@ contains
       lower_end = scale(1 + modulo(interval, pieces)/real(pieces, wp), floor(interval/real(pieces, wp)) - 1)
    end function lower_end
 
-   !> The key of a place in up to three dimensions, at a level of 0 to 31.
-   pure integer(int64) function cell_key(level, first, second, third)
-      integer, intent(in) :: level, first, second, third
+   !> The key of a place in up to four dimensions, at a level of 0 to 31.
+   pure integer(int64) function cell_key(level, first, second, third, fourth)
+      integer, intent(in) :: level, first, second, third, fourth
       cell_key = ior(ior(bits(level, 5, 2*axis_bits + third_bits), bits(first, axis_bits, axis_bits + third_bits)), &
          & ior(bits(second, axis_bits, third_bits), bits(third, third_bits, 0)))
+      cell_key = ior(ishft(cell_key, fourth_bits), bits(fourth, fourth_bits, 0))
    contains
       pure integer(int64) function bits(number, width, shift)
          integer, intent(in) :: number, width, shift

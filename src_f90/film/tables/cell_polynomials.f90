@@ -10,11 +10,14 @@ module cell_polynomials
    private
    public :: simd_width, nodes, node_points, fitted, evaluate_patch, patch_values
    public :: terms, corner_data, corners, cubic_transform, evaluate_cubic
+   public :: blend_of, evaluate_blend
 
    !> Functions; of `evaluate_patch`, nodes along either axis.
    integer, parameter :: simd_width = 4, nodes = 6
    !> Terms of a cubic; at each corner a value and three derivatives.
    integer, parameter :: terms = 32, corner_data = 4, corners = 8
+   !> Terms of a cubic of four variables: those of three at both ends of the fourth, and how it bends at both ends.
+   integer, parameter :: blend_terms = 2*(terms + corners)
 
 contains
 
@@ -163,6 +166,57 @@ contains
          slope(:, 3) = slope(:, 3) + part(:, 1)
       end associate
    end subroutine evaluate_cubic
+
+   !> Terms of a cubic of four variables from data at its corners: values and derivatives over s, (function, datum,
+   !> corner, end of the fourth axis).
+   pure function blend_of(transform, data) result(c)
+      real(wp), intent(in) :: transform(terms, terms), data(simd_width, 1 + corner_data, 0:corners - 1, 0:1)
+      real(wp) :: c(simd_width, blend_terms), bend(simd_width, 0:corners - 1)
+      integer :: k, axis, corner
+      do k = 0, 1
+         c(:, k*terms + 1:(k + 1)*terms) = matmul(reshape(data(:, :corner_data, :, k), [simd_width, terms]), &
+            & transpose(transform))
+         bend = data(:, 1 + corner_data, :, k) - (data(:, 1, :, 1) - data(:, 1, :, 0))
+         ! by powers of three variables, each to the first degree
+         do axis = 0, 2
+            do corner = 0, corners - 1
+               if (btest(corner, axis)) bend(:, corner) = bend(:, corner) - bend(:, ibclr(corner, axis))
+            end do
+         end do
+         c(:, 2*terms + k*corners + 1:2*terms + (k + 1)*corners) = bend
+      end do
+   end function blend_of
+
+   !> Values at s and, if they are wanted, derivatives over s, (function, axis), of functions of four variables: along
+   !> the fourth axis cubic, too, so that the whole is what evaluate_cubic is of three.
+   pure subroutine evaluate_blend(c, s, want_slopes, value, slope)
+      real(wp), intent(in) :: c(simd_width, blend_terms), s(4)
+      logical, intent(in) :: want_slopes
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 4)
+      real(wp) :: ends(simd_width, 0:1), rising(simd_width, 3, 0:1), bends(simd_width, 2), weight(2)
+      real(wp) :: part(simd_width, 0:3)
+      integer :: k
+      associate (u => s(4), v => 1 - s(4))
+         do k = 0, 1
+            call evaluate_cubic(c(:, k*terms + 1:(k + 1)*terms), s(:3), want_slopes, ends(:, k), rising(:, :, k))
+         end do
+         weight = u*v*[v, -u]
+         value = v*ends(:, 0) + u*ends(:, 1)
+         slope(:, :3) = v*rising(:, :, 0) + u*rising(:, :, 1)
+         do k = 0, 1
+            associate (d => c(:, 2*terms + k*corners + 1:2*terms + (k + 1)*corners))
+               part = bilinear(d(:, 1:4), d(:, 5:8), s(1), s(2))
+               bends(:, k + 1) = part(:, 0) + s(3)*part(:, 1)
+               value = value + weight(k + 1)*bends(:, k + 1)
+               if (.not. want_slopes) cycle
+               slope(:, 1) = slope(:, 1) + weight(k + 1)*(d(:, 2) + s(2)*d(:, 4) + s(3)*(d(:, 6) + s(2)*d(:, 8)))
+               slope(:, 2) = slope(:, 2) + weight(k + 1)*(d(:, 3) + s(1)*d(:, 4) + s(3)*(d(:, 7) + s(1)*d(:, 8)))
+               slope(:, 3) = slope(:, 3) + weight(k + 1)*part(:, 1)
+            end associate
+         end do
+         slope(:, 4) = ends(:, 1) - ends(:, 0) + v*(v - 2*u)*bends(:, 1) - u*(2*v - u)*bends(:, 2)
+      end associate
+   end subroutine evaluate_blend
 
    !> Value of line times (1, a, b, a b).
    pure function along_two(line, a, b) result(value)

@@ -10,6 +10,7 @@ module full_film_table
    use dimensionless_pad, only: dimensionless_pad_type
    use film_solver, only: film_counters
    use full_film, only: full_film_type, new_full_film, loads
+   use uneven_drive, only: uneven_drive_type
    use cell_polynomials, only: nodes, simd_width, node_points, fitted, evaluate_patch, patch_values
    use pressure_profile, only: pressure_profile_type, new_pressure_profile, profile_nodes => nodes
    use cell_index, only: cell_index_type, cell_key, interval, lower_end
@@ -62,14 +63,17 @@ module full_film_table
 
 contains
 
-   !> An empty table for a pad, with a pressure at its leading edge or without: M to a tolerance, over its norm.
-   function new_full_film_table(pad, supplied, tolerance, most) result(table)
+   !> An empty table for a pad with its drive, with a pressure at its leading edge (of even oil) or without: M to a
+   !> tolerance, over its norm. A pad of uneven oil has its own table, so that none of its cells is built at once.
+   function new_full_film_table(pad, drive, supplied, tolerance, most) result(table)
       type(dimensionless_pad_type), intent(in) :: pad
+      type(uneven_drive_type), intent(in) :: drive
       logical, intent(in) :: supplied
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
       type(full_film_table_type) :: table
-      table%full_film_type = new_full_film(pad, supplied, tolerance)
+      table%full_film_type = new_full_film(pad, drive, supplied, tolerance)
+      if (drive%acts) table%built = built_at_once
       table%tolerance = tolerance
       table%most = most
       allocate (table%cells(8))
@@ -92,7 +96,7 @@ contains
             call self%full_film_type%look_up(edges, want_slopes, last, counters, value, slope, good)
             return
          end if
-         do load = 1, merge(loads, 1, self%supplied)
+         do load = 1, merge(loads, 1, self%supplied .or. self%drive%acts)
             call evaluate_patch(cell%coefficients(:, :, :, load), (edges - cell%middle)*cell%per_half, want_slopes, &
                & value(:, load), slope(:, :, load))
             slope(:, 1, load) = slope(:, 1, load)*cell%per_half(1)
@@ -101,9 +105,9 @@ contains
       end associate
    end subroutine look_up
 
-   subroutine highest_pressure(self, edges, w, supply, last, counters, pressure)
+   subroutine highest_pressure(self, edges, w, load, last, counters, pressure)
       class(full_film_table_type), intent(inout) :: self
-      real(wp), intent(in) :: edges(2), w(2), supply
+      real(wp), intent(in) :: edges(2), w(2), load
       integer, intent(inout) :: last
       type(film_counters), intent(inout) :: counters
       real(wp), intent(out) :: pressure
@@ -113,17 +117,17 @@ contains
          cell%pressures = cell%pressures + 1
          ! below a supply pressure, profiles alone tell
          if (cell%good .and. .not. allocated(cell%profile) &
-            & .and. (cell%pressures >= visits_of_profile .or. supply < 0)) then
+            & .and. (cell%pressures >= visits_of_profile .or. load < 0 .and. self%supplied)) then
             started = wall_clock()
-            cell%profile = new_pressure_profile(self%pad, self%film, self%supplied_film, self%supplied, cell%middle, &
-               & cell%per_half)
+            cell%profile = new_pressure_profile(self%pad, self%drive, self%film, self%supplied_film, self%supplied, &
+               & cell%middle, cell%per_half)
             counters%profiles = counters%profiles + 1
             counters%building = counters%building + wall_clock() - started
          end if
          if (allocated(cell%profile)) then
-            pressure = cell%profile%highest(edges, (edges - cell%middle)*cell%per_half, [w, supply])
+            pressure = cell%profile%highest(edges, (edges - cell%middle)*cell%per_half, [w, load])
          else
-            call self%full_film_type%highest_pressure(edges, w, supply, last, counters, pressure)
+            call self%full_film_type%highest_pressure(edges, w, load, last, counters, pressure)
          end if
       end associate
    end subroutine highest_pressure
@@ -153,7 +157,7 @@ contains
       integer :: level, place(2)
       do level = first_level, last_level
          place = interval(edges, level)
-         associate (key => cell_key(level, place(1), place(2), 0))
+         associate (key => cell_key(level, place(1), place(2), 0, 0))
             number = self%index%find(key)
             if (number == 0) then
                if (self%index%count == self%most) call self%index%clear()

@@ -2,11 +2,13 @@
 !> is sampled, not integrated.
 !>
 !> At points that crowd where the film is thin, pressure times film thickness squared is a polynomial of the film
-!> thicknesses at the edges, for either component of w and for a pressure at the leading edge.
+!> thicknesses at the edges, for either component of w and for a pressure at the leading edge or what else drives
+!> uneven oil.
 module pressure_profile
    use kinds, only: wp
    use film_solver, only: film_motion
    use dimensionless_pad, only: dimensionless_pad_type, unit_oil
+   use uneven_drive, only: uneven_drive_type
    use fourier_film, only: fourier_film_type
    use cell_polynomials, only: node_points, fitted, patch_values
    implicit none (type, external)
@@ -21,8 +23,10 @@ module pressure_profile
       type(dimensionless_pad_type) :: pad
       real(wp) :: sines(points), cosines(points)
       !> (point and load, power of the second thickness, power of the first); loads are the components of w and, where
-      !> there is one, a pressure 1 at the leading edge.
+      !> there is one, a pressure 1 at the leading edge, or D at t = 1 (uneven_drive).
       real(wp), allocatable :: coefficients(:, :, :)
+      !> Pressure at the leading edge over the third load.
+      real(wp) :: at_edge = 1
    contains
       procedure :: highest
    end type pressure_profile_type
@@ -30,9 +34,10 @@ module pressure_profile
 contains
 
    !> The profile of a pad over thicknesses `middle + s/per_half`, -1 <= s <= 1, from its axial modes without pressure
-   !> around it, and with a pressure 1 at the leading edge.
-   function new_pressure_profile(pad, film, supplied_film, supplied, middle, per_half) result(profile)
+   !> around it, and with a pressure 1 at the leading edge or its drive.
+   function new_pressure_profile(pad, drive, film, supplied_film, supplied, middle, per_half) result(profile)
       type(dimensionless_pad_type), intent(in) :: pad
+      type(uneven_drive_type), intent(in) :: drive
       type(fourier_film_type), intent(inout) :: film, supplied_film
       logical, intent(in) :: supplied
       real(wp), intent(in) :: middle(2), per_half(2)
@@ -51,19 +56,26 @@ contains
          do i = 1, nodes
             associate (position => pad%position(middle + s([i, k])/per_half))
                square = (1 - position(1)*profile%sines - position(2)*profile%cosines)**2
-               call film%field_of_pad(1, film_motion(position, along), unit_oil, 0.0_wp, phi, [0.0_wp], pressure)
+               call film%field_of_pad(1, film_motion(position, along), drive%oil, 0.0_wp, phi, [0.0_wp], pressure)
                values(:, 1, i, k) = pressure(1, :)*square
-               call film%field_of_pad(1, film_motion(position, outward), unit_oil, 0.0_wp, phi, [0.0_wp], pressure)
+               call film%field_of_pad(1, film_motion(position, outward), drive%oil, 0.0_wp, phi, [0.0_wp], pressure)
                values(:, 2, i, k) = pressure(1, :)*square
+               if (drive%acts) then
+                  call film%field_of_pad(1, film_motion(position, drive%still(position)), drive%oil, drive%speed_unit, &
+                     & phi, [0.0_wp], pressure)
+                  values(:, 3, i, k) = pressure(1, :)*square
+               end if
                if (.not. supplied) cycle
                call supplied_film%field_of_pad(1, film_motion(position), unit_oil, 0.0_wp, phi, [0.0_wp], pressure)
                values(:, 3, i, k) = pressure(1, :)*square
             end associate
          end do
       end do
-      associate (loads => merge(3, 2, supplied))
+      if (drive%acts) profile%at_edge = 0
+      associate (loads => merge(3, 2, supplied .or. drive%acts))
          profile%coefficients = fitted(reshape(values(:, :loads, :, :), [loads*points, nodes, nodes]))
       end associate
+      if (drive%acts) profile%coefficients = profile%coefficients/drive%pressure_unit
    end function new_pressure_profile
 
    !> The highest pressure in the middle plane of the unit pad, or 0, where the film has these thicknesses at its edges,
@@ -76,7 +88,7 @@ contains
       values = patch_values(size(values), nodes, self%coefficients, s)
       position = self%pad%position(edges)
       pressure(0) = 0
-      pressure(points + 1) = load(3)
+      pressure(points + 1) = self%at_edge*load(3)
       pressure(1:points) = load(1)*values(:points) + load(2)*values(points + 1:2*points)
       if (size(values) > 2*points) pressure(1:points) = pressure(1:points) + load(3)*values(2*points + 1:)
       pressure(1:points) = pressure(1:points)/(1 - position(1)*self%sines - position(2)*self%cosines)**2
@@ -84,7 +96,7 @@ contains
       do i = 2, points
          if (pressure(i) > pressure(top)) top = i
       end do
-      highest = max(0.0_wp, load(3), pressure(top))
+      highest = max(0.0_wp, pressure(points + 1), pressure(top))
       if (.not. pressure(top) >= highest) return
       ! the parabola through the highest point and its neighbours tells where, a polynomial through five how high
       bend = 2*pressure(top) - pressure(top - 1) - pressure(top + 1)

@@ -7,7 +7,8 @@ module table_pad
       & new_mid_arc_frame, thickness_scale
    use cell_polynomials, only: simd_width
    use full_film, only: full_film_type, loads
-   use cavitated_film, only: cavitated_film_type
+   use cavitated_film, only: cavitated_film_type, axes
+   use uneven_drive, only: uneven_drive_type
    implicit none (type, external)
    private
    public :: table_pad_type, shape_tables, new_table_pad
@@ -15,6 +16,8 @@ module table_pad
    !> The films of pads of one shape, from tables or solved.
    type :: shape_tables
       type(dimensionless_pad_type) :: pad
+      !> Of uneven oil, which is that of one pad alone.
+      type(uneven_drive_type) :: drive
       !> Whether they have a pressure of their own at the leading edge.
       logical :: supplied = .false.
       class(full_film_type), allocatable :: whole
@@ -90,7 +93,12 @@ contains
       self%found = all(seen%edges > 0) .and. (self%even_pressure .or. .not. may_cavitate)
       if (.not. self%found) return
       part = 0
-      if (may_cavitate) part = diverging_part(tables%pad, seen%w)
+      if (tables%drive%acts) then
+         call drive_unevenly(self, tables, may_cavitate, seen, part)
+         if (.not. self%found) return
+      else if (may_cavitate) then
+         part = diverging_part(tables%pad, seen%w)
+      end if
       if (part >= 1) then
          response%force = self%ambient_force
          return
@@ -102,8 +110,34 @@ contains
       end if
       if (.not. self%found) return
       response%force = self%ambient_force + self%frame%force(force)
-      if (want_derivatives) response%derivatives = self%frame%derivatives(seen, force)
+      if (.not. want_derivatives) return
+      if (tables%drive%acts) then
+         ! of uneven oil w changes with the thicknesses, too
+         force%over_edges = force%over_edges + seen%t*matmul(force%over_w, tables%drive%over_edges)
+      end if
+      response%derivatives = self%frame%derivatives(seen, force)
    end subroutine look_up
+
+   !> Adds what drives uneven oil to the motion in the middle, and finds T; `found` becomes true where the tables may
+   !> have the film.
+   subroutine drive_unevenly(self, tables, may_cavitate, seen, part)
+      class(table_pad_type), intent(inout) :: self
+      type(shape_tables), intent(in) :: tables
+      logical, intent(in) :: may_cavitate
+      type(middle_motion), intent(inout) :: seen
+      real(wp), intent(out) :: part
+      part = 0
+      associate (position => tables%pad%position(seen%edges), drive => tables%drive)
+         seen%t = seen%turn*self%gap%machined_clearance
+         seen%w = seen%w + seen%t*drive%velocity(position)
+         if (.not. may_cavitate) return
+         part = diverging_part(tables%pad, seen%w)
+         ! the intervals of the table are those of a rotation forwards
+         if (seen%t > 0 .and. drive%falls(position, seen%w, seen%t)) return
+         part = 0
+         self%found = drive%is_full(position, seen%w, seen%t)
+      end associate
+   end subroutine drive_unevenly
 
    !> T, the part of a film that diverges, driven by w: 0 or less where it is full, 1 or more where nothing of it is
    !> left.
@@ -135,15 +169,21 @@ contains
       logical, intent(in) :: want_derivatives
       type(film_counters), intent(inout) :: counters
       type(cavitated_part), intent(out) :: part
-      real(wp) :: value(simd_width), slope(simd_width, 3)
-      complex(wp) :: slopes(3)
+      real(wp) :: value(simd_width), slope(simd_width, axes), place(axes), drive
+      complex(wp) :: slopes(axes)
       integer :: leading, trailing
       associate (w => seen%w)
          ! where w_1 < 0 the film diverges at the leading edge: seen in a mirror, at the trailing one
          leading = merge(1, 2, w(1) > 0)
          trailing = 3 - leading
-         call tables%cavitation%look_up(seen%edges([leading, trailing]), t, want_derivatives, self%cavitation_cell, &
-            & counters, value, slope, self%found)
+         drive = 0
+         if (tables%drive%acts) drive = seen%t/w(1)
+         place(1) = seen%edges(leading)
+         place(2) = seen%edges(trailing)
+         place(3) = t
+         place(4) = drive
+         call tables%cavitation%look_up(place, want_derivatives, self%cavitation_cell, counters, value, slope, &
+            & self%found)
          if (.not. self%found) return
          call tables%cavitation%set_ratio(t, value, slope, part%force, slopes, part%pressure)
          if (.not. w(1) > 0) then
@@ -152,6 +192,7 @@ contains
          end if
          part%over_edges([leading, trailing]) = slopes(:2)
          part%over_w = slopes(3)*[(0.5_wp - t)/w(1), -0.5_wp/(abs(w(1))*tables%pad%tangent)]
+         if (tables%drive%acts) part%over_w(1) = part%over_w(1) - slopes(4)*drive/w(1)
       end associate
    end subroutine set_part
 
@@ -180,8 +221,15 @@ contains
             force%over_edges(:, i) = vector_of(part%force*over_edge + part%over_edges(i)*full_force)
          end associate
       end do
-      ! the full film's force is proportional to w_1
-      force%over_w(:, 1) = vector_of((part%force/seen%w(1) + part%over_w(1))*full_force)
+      ! the full film's force is proportional to w_1, but for that of D
+      if (tables%drive%acts) then
+         associate (full_over_w => cmplx(full%over_w(1, 1), full%over_w(2, 1), wp) + sign(1.0_wp, seen%w(1)) &
+            & *tables%pad%tangent*cmplx(full%over_w(1, 2), full%over_w(2, 2), wp))
+            force%over_w(:, 1) = vector_of(part%force*full_over_w + part%over_w(1)*full_force)
+         end associate
+      else
+         force%over_w(:, 1) = vector_of((part%force/seen%w(1) + part%over_w(1))*full_force)
+      end if
       force%over_w(:, 2) = vector_of(part%over_w(2)*full_force)
    end subroutine set_cavitated_force
 
@@ -210,6 +258,14 @@ contains
                & - (1.5_wp/seen%edges(i))*force%value
          end do
       end if
+      if (tables%drive%acts) then
+         force%value = force%value + (seen%t*seen%scale)*value(1:2, 2)
+         if (.not. want_derivatives) return
+         do i = 1, 2
+            force%over_edges(:, i) = force%over_edges(:, i) + (seen%t*seen%scale)*(slope(1:2, i, 2) &
+               & - (1.5_wp/seen%edges(i))*value(1:2, 2))
+         end do
+      end if
       if (.not. abs(self%rise) > 0) return
       force%value = force%value + (self%rise*self%square)*value(1:2, 2)
       if (want_derivatives) force%over_edges = force%over_edges + (self%rise*self%square)*slope(1:2, :, 2)
@@ -231,12 +287,20 @@ contains
       real(wp) :: unit_pressure
       real(wp) :: rise, highest, lowest, t
       seen = self%frame%motion(motion, oil, speed)
+      t = 0
       unit_pressure = oil%viscosity*self%square/self%gap%machined_clearance**3
       rise = self%rise/unit_pressure
+      if (tables%drive%acts) then
+         call drive_unevenly(self, tables, may_cavitate, seen, t)
+         rise = seen%t
+         ! the film in a mirror has another oil
+         if (t > 0 .and. t < 1) self%found = seen%w(1) > 0
+         if (.not. self%found) return
+      else if (may_cavitate) then
+         t = diverging_part(tables%pad, seen%w)
+      end if
       highest = 0
       lowest = 0
-      t = 0
-      if (may_cavitate) t = diverging_part(tables%pad, seen%w)
       if (t > 0 .and. t < 1) then
          highest = self%cavitated_pressure(tables, seen, t, counters)
       else if (.not. t > 0) then

@@ -34,6 +34,7 @@ module elimination_film
    contains
       procedure :: evaluate
       procedure :: differentiate
+      procedure :: over_speed
       procedure :: force_of_cavitation
       procedure :: field
       procedure :: cells
@@ -130,6 +131,24 @@ contains
          response%derivatives(m, :) = self%grid%derivatives_of_products(along, across, total)
       end do
    end subroutine set_derivatives
+
+   !> Derivatives of both forces over the journal speed, N s, once they have been found over the motion.
+   pure function over_speed(self) result(slopes)
+      class(elimination_film_type), intent(in) :: self
+      real(wp) :: slopes(2), total(self%grid%columns)
+      integer :: i, m
+      associate (grid => self%grid, n => self%grid%columns, gap => self%grid%gap)
+         do m = 1, 2
+            do i = 1, n
+               associate (weight => merge(self%basis%root, self%basis%uniform, i >= self%first .and. i <= self%last))
+                  total(i) = weighted(self%basis%m, weight, self%adjoint(:, i, m))
+               end associate
+            end do
+            slopes(m) = -0.5_wp*grid%squeeze*gap%journal_radius/gap%pad_radius()*dot_product(total/grid%d_phi, &
+               & grid%sliding_face(1:n)*grid%h_face(1:n) - grid%sliding_face(0:n - 1)*grid%h_face(0:n - 1))
+         end do
+      end associate
+   end function over_speed
 
    !> How many columns from the trailing edge on the last film, with the Reynolds condition, has left.
    pure integer function empty_columns(self) result(n)
