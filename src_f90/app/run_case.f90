@@ -17,6 +17,7 @@ module run_case
    use working_file, only: clear_leftovers
    use bearing_file, only: bearing_file_type
    use case_run, only: case_run_type, begin_run
+   use factories, only: march_films, filled_films
    use run_start, only: start_at_equilibrium
    use coefficients_task, only: run_coefficients
    use periodic_task, only: run_periodic
@@ -70,7 +71,7 @@ contains
             call print_remarks(run%remarks)
             call print_size(inputs)
          end if
-         run%model = new_machine_model(run%inputs)
+         run%model = new_machine_model(run%inputs, merge(filled_films, march_films, complete))
       end if
       if (.not. complete) then
          call move_record(results, run%file%record_type)

@@ -21,12 +21,14 @@ module factories
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, march_films, static_films, converged_films, quick_films, usual_arc
+   public :: make_film, march_films, static_films, converged_films, quick_films, filled_films
+   public :: usual_arc
    public :: new_losses, make_law, make_contact, make_friction, new_asperities, new_pads
 
    !> What films are for: a march; the search for an equilibrium, which goes far and stays nowhere; what is linearised
-   !> at a single state, with converged films; long ways of which only the end counts.
-   integer, parameter :: march_films = 1, static_films = 2, converged_films = 3, quick_films = 4
+   !> at a single state, with converged films; long ways of which only the end counts; a few states of a march, with
+   !> the films that a long march has, whose tables are filled.
+   integer, parameter :: march_films = 1, static_films = 2, converged_films = 3, quick_films = 4, filled_films = 5
 
    !> Finite volumes along the arc and along half the width where the input leaves them to the solver, by the
    !> errors in docs/benchmarks.md.
@@ -55,7 +57,7 @@ contains
    !> and Python makes a solver for every instant.
    subroutine make_film(inputs, accuracy, film)
       type(case_type), intent(in) :: inputs
-      !> One of the four above.
+      !> One of the five above.
       integer, intent(in) :: accuracy
       class(film_solver_type), allocatable, intent(out) :: film
       type(pad_gap_type) :: gaps(inputs%pad_count())
@@ -89,10 +91,11 @@ contains
          case default
             direct = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), condition, error, of_volumes)
             of_tables = max(f%table_tolerance, least_tolerance)
-            if (accuracy == march_films) then
+            if (any(accuracy == [march_films, filled_films])) then
                ! cavitated films by volumes are dear, by modes they are cheap
                associate (usual => merge(1, 4, condition == cavitation_gumbel)*inputs%integration%relative_tolerance)
-                  film = new_table_film(direct, .true., merge(of_tables, usual, f%table_tolerance > 0))
+                  film = new_table_film(direct, .true., merge(of_tables, usual, f%table_tolerance > 0), &
+                     & filled=accuracy == filled_films)
                end associate
             else if (f%table_tolerance > 0) then
                film = new_table_film(direct, .false., of_tables)
@@ -126,7 +129,7 @@ contains
             & min(f%tolerance, max(least_residual, sor_tolerance*inputs%integration%relative_tolerance)), &
             & f%max_sweeps, cavitation_of(f%cavitation))
       end associate
-      if (accuracy == march_films) return
+      if (any(accuracy == [march_films, filled_films])) return
       options%tolerance = min(options%tolerance, static_residual)
       options%max_sweeps = max(options%max_sweeps, static_sweeps)
    end function sor_settings

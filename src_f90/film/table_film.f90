@@ -34,8 +34,9 @@ module table_film
       type(table_pad_type), allocatable :: tabulated(:)
       !> Of pads of one shape with even oil, and one for every pad with uneven oil, which are the last.
       type(shape_tables), allocatable :: shapes(:)
-      !> Whether films come from tables; error of what cavitation changes and of full films, over the force.
-      logical :: in_tables
+      !> Whether films come from tables, and all of their cells are built; error of what cavitation changes and of
+      !> full films, over the force.
+      logical :: in_tables, filled
       real(wp) :: tolerance, full_tolerance
    contains
       procedure :: solve
@@ -47,16 +48,19 @@ contains
 
    !> The films of a solver from tables; or the same solved at the motions themselves, which is quicker where motions
    !> are few, with exact derivatives. Errors over the force: of what cavitation changes, and of full films (left out: a
-   !> share of the other).
-   function new_table_film(direct, tabulated, tolerance, full_tolerance) result(solver)
+   !> share of the other). `filled`: every cell of the tables is built, whether that pays or not.
+   function new_table_film(direct, tabulated, tolerance, full_tolerance, filled) result(solver)
       type(direct_film_type), intent(in) :: direct
       logical, intent(in) :: tabulated
       real(wp), intent(in) :: tolerance
       real(wp), intent(in), optional :: full_tolerance
+      logical, intent(in), optional :: filled
       type(table_film_type) :: solver
       integer :: i, k
       solver%direct_film_type = direct
       solver%in_tables = tabulated
+      solver%filled = .false.
+      if (present(filled)) solver%filled = filled
       solver%tolerance = tolerance
       solver%full_tolerance = share_of_full*tolerance
       if (present(full_tolerance)) solver%full_tolerance = full_tolerance
@@ -87,9 +91,9 @@ contains
       associate (pads => size(self%tabulated), gumbel => self%condition == cavitation_gumbel)
          if (self%in_tables) then
             shape%whole = new_full_film_table(shape%pad, shape%drive, shape%supplied, self%full_tolerance, &
-               & most_full/pads)
+               & most_full/pads, self%filled)
             shape%cavitation = new_cavitation_table(shape%pad, shape%drive, gumbel, self%tolerance, &
-               & most_cavitated/(pads*merge(3, 1, oil%varies)))
+               & most_cavitated/(pads*merge(3, 1, oil%varies)), self%filled)
          else
             shape%whole = new_full_film(shape%pad, shape%drive, shape%supplied, self%full_tolerance)
             shape%cavitation = new_cavitated_film(shape%pad, shape%drive, gumbel, self%tolerance)

@@ -237,8 +237,8 @@ where that is not at hand it runs on an older one, which its code allows.
 Equilibria with a temperature for each pad against those with the viscosity of the supply, as whole runs; maps
 of {warm_speeds} speeds, a file for each; and marches with the viscosities of their equilibrium. An oil whose
 viscosity does not fall makes the march with temperatures the same, step by step, as the one without. Times of
-marches are those of the march alone; their errors are the largest deviation in the last revolution from the same
-march with {warm_close}.
+marches are those of the march alone; their errors are the largest deviation in the last revolution from the
+same march with {warm_close}.
 
 {warm}
 

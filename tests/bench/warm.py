@@ -25,7 +25,8 @@ MAPS = (("warm_paper", WARM, 5.0), ("warm_five_pads", WARM, 5.0), ("warm_five_pa
 #: that of the first is to stay below. What the others are measured from has close tolerances.
 PAPER = Case("march", "steady_lugre", "input/paper/steady_lugre.nml")
 FIVE = Case(
-    "march", "five pads, 5 s", "input/examples/warm_five_pads.nml", ("case%task=march", "operation%duration=5")
+    *("march", "five pads, 5 s", "input/examples/warm_five_pads.nml"),
+    ("case%task=march", "operation%duration=5"),
 )
 SAME_OIL = ("oil%reference_viscosity=0.019", "oil%temperature_exponent=0")
 DIRECT = ("temperatures along the films, films by `direct`", (*FILM[1], "film%solver=direct"))
@@ -129,6 +130,7 @@ def of_march(row: Row, cold: Row) -> tuple:
     if row is cold:
         return (*words, "", "", "", short(row.error))
     ratio = row.march_seconds / row.steps / (cold.march_seconds / cold.steps)
-    most = next(most for case, setting, _, most in MARCHES if (case.label, setting) == (row.group, row.setting))
+    known = {(case.label, setting): most for case, setting, _, most in MARCHES}
+    most = known[row.group, row.setting]
     figure = (f"{most:g}", verdict(ratio, most)) if most else ("", "")
     return (*words, f"{short(ratio)} a step", *figure, short(row.error))

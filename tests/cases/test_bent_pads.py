@@ -330,7 +330,10 @@ def test_the_page_of_examples_has_its_figures(tiltpad, root, tmp_path):
 
 def test_films_are_verified_in_the_shape_to_the_bit(tiltpad, run, tmp_path):
     """A run that verifies itself has the shape that it found, one that is verified later that of its file."""
-    march = ("case%task=march", "rotor%unbalance=0.01", "operation%duration=0.02")
+    march = (
+        *("case%task=march", "rotor%unbalance=0.01", "operation%duration=0.02"),
+        "film%solver=direct",
+    )
     with run(BOTH, WARM[0], *march, name="later"):
         pass
     words = ("later.nml", "-o", "once.h5", "--verify", "3")

@@ -191,6 +191,20 @@ def test_stopped_while_films_are_verified(start, tiltpad, run, tmp_path, number)
     assert np.all(errors(tmp_path / "case.h5")["_unknown"] == 0)
 
 
+def test_a_complete_result_with_temperatures_along_the_films(tiltpad, run, tmp_path):
+    """Tables that a long march has filled, and those made anew for a few states, where they would not pay."""
+    case = "&operation duration=0.5 / &oil grade=46 / &thermal model='film' /\n"
+    run(case, more=("-o", "at_once.h5", "--verify", 10))
+    run(case, more=("-o", "later.h5"))
+    tiltpad("--resume", "later.h5", "--verify", 10, cwd=tmp_path, status=0)
+    direct = run(case, "film%solver=direct", more=("-o", "direct.h5", "--verify", 10))
+    assert "films in 10 states" in direct.stdout
+    for name, values in errors(tmp_path / "later.h5").items():
+        assert values == pytest.approx(errors(tmp_path / "at_once.h5")[name], rel=1e-6), name
+    assert np.all(errors(tmp_path / "direct.h5")["_max"] != errors(tmp_path / "later.h5")["_max"])
+    assert np.all(errors(tmp_path / "later.h5")["_max"] < TOLERANCE)
+
+
 def test_every_run_of_a_study(tiltpad, run, tmp_path):
     study = CASE + "&sweep operation%speed_rpm=4000,6000 /\n"
     run(study, more=("--verify", 5))

@@ -68,8 +68,8 @@ module cavitation_table
       type(node_type), allocatable :: nodes(:)
       !> Most cells, and most nodes: when either are used up all are forgotten.
       integer :: most
-      !> Whether it is to be closer than the solver that does without a table.
-      logical :: is_closer
+      !> Whether it is to be closer than the solver that does without a table; whether all cells are built, as then.
+      logical :: is_closer, filled = .false.
       !> Cost so far, and that of all films without the table.
       real(wp) :: cost = 0, cost_without = 0
    contains
@@ -84,13 +84,14 @@ module cavitation_table
 contains
 
    !> An empty table for a pad with its drive, with the condition of Reynolds or (of even oil) Guembel, to a tolerance
-   !> over the force. At least the corners of a cell must find room in it.
-   function new_cavitation_table(pad, drive, gumbel, tolerance, most) result(table)
+   !> over the force; `filled`, every cell is built. At least the corners of a cell must find room in it.
+   function new_cavitation_table(pad, drive, gumbel, tolerance, most, filled) result(table)
       type(dimensionless_pad_type), intent(in) :: pad
       type(uneven_drive_type), intent(in) :: drive
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
+      logical, intent(in), optional :: filled
       type(cavitation_table_type) :: table
       integer :: finer
       table%cavitated_film_type = new_cavitated_film(pad, drive, gumbel, tolerance)
@@ -99,6 +100,7 @@ contains
       table%parts = nint(base_parts*2.0_wp**finer)
       table%level_of_drive = 1 + max(0, finer)
       table%most = max(most, table%corner_count())
+      if (present(filled)) table%filled = filled
       table%is_closer = tolerance < merge(as_close(2), as_close(1), gumbel)
       allocate (table%cells(32), table%nodes(128))
    end function new_cavitation_table
@@ -198,10 +200,12 @@ contains
    !> True where a cell is built.
    pure logical function pays(self)
       class(cavitation_table_type), intent(in) :: self
-      if (self%drive%acts) then
-         pays = self%is_closer .or. self%cost < most_cost_alone*self%cost_without
+      if (self%is_closer .or. self%filled) then
+         pays = .true.
+      else if (self%drive%acts) then
+         pays = self%cost < most_cost_alone*self%cost_without
       else
-         pays = self%is_closer .or. self%cost < first_cost + most_cost*self%cost_without
+         pays = self%cost < first_cost + most_cost*self%cost_without
       end if
    end function pays
 

@@ -52,8 +52,9 @@ module full_film_table
       type(cell_type), allocatable :: cells(:)
       !> Most cells: when they are used up all are forgotten.
       integer :: most
-      !> Cells that have been built.
+      !> Cells that have been built; whether all are at their first visit.
       integer :: built = 0
+      logical :: filled = .false.
    contains
       procedure :: look_up
       procedure :: highest_pressure
@@ -64,18 +65,21 @@ module full_film_table
 contains
 
    !> An empty table for a pad with its drive, with a pressure at its leading edge (of even oil) or without: M to a
-   !> tolerance, over its norm. A pad of uneven oil has its own table, so that none of its cells is built at once.
-   function new_full_film_table(pad, drive, supplied, tolerance, most) result(table)
+   !> tolerance, over its norm; `filled`, every cell is built. A pad of uneven oil has its own table,
+   !> so that else none of its cells is built at once.
+   function new_full_film_table(pad, drive, supplied, tolerance, most, filled) result(table)
       type(dimensionless_pad_type), intent(in) :: pad
       type(uneven_drive_type), intent(in) :: drive
       logical, intent(in) :: supplied
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
+      logical, intent(in), optional :: filled
       type(full_film_table_type) :: table
       table%full_film_type = new_full_film(pad, drive, supplied, tolerance)
       if (drive%acts) table%built = built_at_once
       table%tolerance = tolerance
       table%most = most
+      if (present(filled)) table%filled = filled
       allocate (table%cells(8))
    end function new_full_film_table
 
@@ -176,7 +180,7 @@ contains
          associate (cell => self%cells(number))
             if (.not. cell%tried) then
                cell%visits = cell%visits + 1
-               if (self%built < built_at_once .or. cell%visits >= visits_of_cell) then
+               if (self%filled .or. self%built < built_at_once .or. cell%visits >= visits_of_cell) then
                   started = wall_clock()
                   call self%build(level, place, counters, cell)
                   self%built = self%built + 1
