@@ -34,15 +34,19 @@ contains
    !> The equilibrium of a model under its load at its initial speed, stable or of oscillatory instability, with the
    !> temperatures of warm oil; an error where none is found, or, of status `stopped`, where `give_up`, asked between
    !> evaluations of the films, says so.
-   recursive subroutine find_bearing_equilibrium(model, found, error, give_up)
+   recursive subroutine find_bearing_equilibrium(model, found, error, give_up, by_heat)
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
+      !> Whether the error is that of the temperatures: with oil that keeps its viscosities there is an equilibrium.
+      logical, intent(out), optional :: by_heat
       type(machine_model) :: warm, static
       type(search_traces) :: traces
       real(wp), allocatable :: y(:)
       integer :: guess
+      logical :: at_rest
+      if (present(by_heat)) by_heat = .false.
       if (.not. has_warm_oil(model)) then
          call find_isothermal(model, found, error, give_up)
          return
@@ -51,11 +55,12 @@ contains
       do guess = 1, guesses
          call guess_oil(warm, guess)
          call find_isothermal(warm, found, error, give_up)
-         if (.not. allocated(error)) then
+         at_rest = .not. allocated(error)
+         if (at_rest) then
             call make_static(warm, warm%point%cavitation, static)
             y = static%static_state(found%rotor, found%tilt, found%pivot_deflection)
             call solve_thermal_equilibrium(static, y, found%residual, error, give_up, films=found%films)
-            if (allocated(error) .and. .not. allocated(found%films)) call name_way(model, error)
+            if (allocated(error) .and. .not. allocated(found%films)) call name_start(model, error)
          end if
          if (allocated(error)) then
             if (error%status == stopped) return
@@ -64,6 +69,7 @@ contains
             return
          end if
       end do
+      if (present(by_heat)) by_heat = at_rest .and. allocated(error)
       if (.not. allocated(error)) then
          call note_partial(model, traces, give_up)
          call raise(error, numerics_error, refusal(model, traces))
@@ -71,16 +77,13 @@ contains
       if (model%inputs%thermal%model == 'film') call offer_pads(model, error, give_up)
    end subroutine find_bearing_equilibrium
 
-   !> Adds to an error how temperatures along and across films may be reached where one a pad, with which their search
-   !> begins, has no balance.
-   subroutine name_way(model, error)
+   !> Says of an error that it is that of the temperatures with which the search for those of films begins.
+   subroutine name_start(model, error)
       type(machine_model), intent(in) :: model
       type(error_type), intent(inout) :: error
       if (model%inputs%thermal%model /= 'film' .or. error%status == stopped) return
-      error%message = error%message//' (so it is with one temperature a pad, with which the search begins; where ' &
-         & //'temperatures along and across the films have a balance, case%task = ''branch'' of equilibria may lead ' &
-         & //'there from a smaller load or another value of what makes the heat)'
-   end subroutine name_way
+      error%message = error%message//' (so it is with one temperature a pad, with which the search begins)'
+   end subroutine name_start
 
    !> Says in a refusal of a model whose films have temperatures along and across whether it has an equilibrium with a
    !> temperature for each pad.

@@ -1,11 +1,12 @@
 !> Static equilibrium of a rotor and the pads of its bearings at constant speed: no unbalance, no friction.
 module equilibrium
    use kinds, only: wp
-   use errors, only: error_type, asked_to_stop
+   use errors, only: error_type, stopped, asked_to_stop
    use equations_of_motion, only: machine_model
    use static_model, only: equilibrium_type, make_static
    use thermal_equilibrium, only: settle
    use bearing_equilibrium, only: find_bearing_equilibrium
+   use branch_hint, only: offer_branch
    use shape_equilibrium, only: settle_shape
    use load_shares, only: share_loads
    implicit none (type, external)
@@ -23,11 +24,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(machine_model) :: static
+      logical :: by_heat
       if (model%inputs%is_machine()) then
          call make_static(model, model%point%cavitation, static)
          call share_loads(static, found, error, give_up)
       else
-         call find_bearing_equilibrium(model, found, error, give_up)
+         call find_bearing_equilibrium(model, found, error, give_up, by_heat)
+         if (by_heat) then
+            if (error%status /= stopped) call offer_branch(model, error, give_up)
+         end if
       end if
       if (.not. allocated(error) .and. model%inputs%changes_shape()) call settle_shape(model, found, error, give_up)
    end subroutine find_equilibrium

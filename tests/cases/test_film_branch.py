@@ -1,6 +1,7 @@
 """Branches of equilibria and thresholds with temperatures along and across films."""
 
 import re
+import shlex
 
 import h5py
 import numpy as np
@@ -107,7 +108,7 @@ def test_a_threshold_is_where_coefficients_change_their_sign(run, tmp_path):
         assert file["bifurcations/parameter"][0] == pytest.approx(found, rel=1e-6)
 
 
-def test_heat_that_ends_a_branch(run, tmp_path):
+def test_heat_that_ends_a_branch(run, tiltpad, tmp_path):
     """It goes on far beyond the load at which one temperature a pad has no balance; then its oil boils."""
     said = run(THIN, *branch_over("rotor%mass", 5000, 60000, 2000)).stdout
     with h5py.File(tmp_path / "case.h5") as file:
@@ -123,6 +124,10 @@ def test_heat_that_ends_a_branch(run, tmp_path):
     refusal = run(THIN, "case%task='equilibrium'", "rotor%mass=10000", name="alone", status=2).stderr
     assert "where mineral oil boils" in refusal
     assert "one temperature a pad, with which the search begins" in refusal
+    # the branch that it names leads to this load all the same
+    _, hint = refusal.split("a branch of equilibria shows how far there are some: ")
+    told = tiltpad("alone.nml", *shlex.split(hint), "--output", "told.h5", cwd=tmp_path, status=0).stdout
+    assert "branch 1 ends at rotor%mass = 10000.00000: the last value" in told
 
 
 def test_the_hottest_oil_boils_in_runs_studies_and_branches(run, tiltpad, tmp_path):

@@ -223,7 +223,7 @@ def test_oil_that_runs_against_the_rotation_names_its_pad(tiltpad, tmp_path, mot
     said = r"around pad (\d) drive its oil against the rotation .* over (\d+) % of its arc"
     pad, part = map(int, re.search(said, refused).groups())
     assert 0 < part < 50
-    assert refused.endswith("; thermal%model = 'pad' has an equilibrium\n")
+    assert "; thermal%model = 'pad' has an equilibrium" in refused
     for way, sign in (("thermal%model='pad'", -1), ("bearing%supply_pressure=1e6", 1)):
         tiltpad("case.nml", "--overwrite", cwd=tmp_path, overrides=(way,), status=0)
         with h5py.File(tmp_path / "case.h5") as file:

@@ -81,6 +81,6 @@ def test_film_temperatures_without_an_equilibrium(tiltpad, tmp_path, number, wor
     (tmp_path / "case.nml").write_text(text(case))
     message = tiltpad("case.nml", cwd=tmp_path, status=2).stderr
     assert re.search(words, message), message
-    assert message.endswith("; thermal%model = 'pad' has an equilibrium\n")
+    assert "; thermal%model = 'pad' has an equilibrium" in message
     for setting in ("thermal%model='pad'", "bearing%preload=0.2"):
         tiltpad("case.nml", "-q", "--overwrite", overrides=(setting,), cwd=tmp_path, status=0)

@@ -1,5 +1,8 @@
 """Branches with warm oil: temperatures, thresholds, agreement with single runs, runaway heat."""
 
+import re
+import shlex
+
 import h5py
 import numpy as np
 import pytest
@@ -82,7 +85,7 @@ def test_the_last_orbit_is_that_of_its_temperature(run, tmp_path):
         np.testing.assert_allclose(own[:2], single[:2], rtol=1e-4)
 
 
-def test_heat_that_runs_away_turns_the_branch_back(run, tmp_path):
+def test_heat_that_runs_away_turns_the_branch_back(run, tiltpad, tmp_path):
     """Beyond the fold the oil has no balance, and the search of an equilibrium says so."""
     run(
         THIN,
@@ -99,3 +102,7 @@ def test_heat_that_runs_away_turns_the_branch_back(run, tmp_path):
     run(THIN, "case%task='equilibrium'", f"rotor%mass={0.998 * fold}", name="before")
     done = run(THIN, "case%task='equilibrium'", f"rotor%mass={1.002 * fold}", name="beyond", status=2)
     assert "where mineral oil boils" in done.stderr
+    # what the refusal gives for the next run finds the fold
+    _, hint = done.stderr.split("a branch of equilibria shows how far there are some: ")
+    told = tiltpad("beyond.nml", *shlex.split(hint), "--output", "told.h5", cwd=tmp_path, status=0).stdout
+    assert float(re.search(r"fold at rotor%mass = (\S+),", told)[1]) == pytest.approx(fold, rel=1e-6)
