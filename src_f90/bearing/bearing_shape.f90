@@ -106,9 +106,8 @@ contains
             if (abs(bent) > c) then
                call raise(error, numerics_error, 'pad '//to_text(i)//' bends by '//micro(bent, 1)//' um, more than ' &
                   & //'its clearance of '//micro(c, 1)//' um: '//micro(self%bending%elastic(i), 1) &
-                  & //' um by pressure, ' &
-                  & //micro(self%bending%thermal(i), 1)//' um by heat; it is too thin (pads%thickness = ' &
-                  & //to_text(inputs%pads%thickness(i))//' m)')
+                  & //' um by pressure, '//micro(self%bending%thermal(i), 1)//' um by heat; ' &
+                  & //reason(inputs, i, self%bending%thermal(i) > self%bending%elastic(i))//')')
             else if (.not. self%machined_clearance(i) > 0) then
                call raise(error, numerics_error, gone('bearing%machined_clearance', c, self%machined_clearance(i)))
             else if (.not. self%assembled_clearance(i) > 0) then
@@ -119,6 +118,19 @@ contains
          if (allocated(error)) return
       end do
    contains
+      !> What bends pad i so far: heat or pressure.
+      function reason(inputs, i, by_heat)
+         type(case_type), intent(in) :: inputs
+         integer, intent(in) :: i
+         logical, intent(in) :: by_heat
+         character(len=:), allocatable :: reason
+         reason = 'it is too thin (pads%thickness = '//to_text(inputs%pads%thickness(i))//' m'
+         if (by_heat) reason = 'too much heat goes through it (pads%thickness = ' &
+            & //to_text(inputs%pads%thickness(i))//' m, pads%conductivity = ' &
+            & //to_text(inputs%pads%conductivity(i))//' W/(m K), oil%back_coefficient = ' &
+            & //to_text(inputs%oil%back_coefficient)//' W/(m^2 K)'
+      end function reason
+
       function gone(name, cold, warm) result(message)
          character(len=*), intent(in) :: name
          real(wp), intent(in) :: cold, warm

@@ -1,6 +1,7 @@
 """Bent pads and warm clearances: the shape against other calculations, what keeps it, and refusals."""
 
 import importlib.util
+import re
 
 import numpy as np
 import pytest
@@ -302,6 +303,15 @@ def test_shapes_without_clearance_are_refused(tiltpad, tmp_path, changes, words)
     said = tiltpad("case.nml", cwd=tmp_path, overrides=changes, status=2).stderr
     assert words in said
     assert said.startswith("tiltpad: error: pad") or "the clearance of pad" in said
+
+
+def test_a_pad_that_heat_bends_too_far_is_refused(tiltpad, tmp_path):
+    """Of little conductivity and with a cooled back: by heat alone, whatever its thickness."""
+    (tmp_path / "case.nml").write_text(BOTH.replace("'both'", "'thermal'"))
+    changes = ("pads%conductivity=0.5", "pads%thickness=3e-3", "oil%back_coefficient=1000")
+    said = tiltpad("case.nml", cwd=tmp_path, overrides=changes, status=2).stderr
+    assert re.search(r"pad \d bends by .* um, more than its clearance of .*: 0\.0 um by pressure", said)
+    assert "too much heat goes through it (pads%thickness = 0.003 m, pads%conductivity = 0.5 W/(m K)" in said
 
 
 def test_a_study_has_the_clearance_of_each_run(tiltpad, tmp_path):
