@@ -2,6 +2,7 @@
 and with a start from which it marches."""
 
 import re
+import shlex
 import sys
 from pathlib import Path
 
@@ -84,3 +85,19 @@ def test_film_temperatures_without_an_equilibrium(tiltpad, tmp_path, number, wor
     assert "; thermal%model = 'pad' has an equilibrium" in message
     for setting in ("thermal%model='pad'", "bearing%preload=0.2"):
         tiltpad("case.nml", "-q", "--overwrite", overrides=(setting,), cwd=tmp_path, status=0)
+
+
+def test_a_branch_shows_up_to_which_speed_films_have_temperatures(tiltpad, tmp_path):
+    """That of the refusal of bearing 202 ends well below its speed."""
+    case = draw(SEED, 202)
+    case["case"]["task"] = "equilibrium"
+    case["thermal"]["model"] = "film"
+    (tmp_path / "case.nml").write_text(text(case))
+    refusal = tiltpad("case.nml", cwd=tmp_path, status=2).stderr
+    _, settings = refusal.split("a branch of equilibria shows how far there are some: ")
+    # it ends in a fold, or is lost beside one
+    tiltpad("case.nml", *shlex.split(settings), "-q", "--output", "branch.h5", cwd=tmp_path)
+    with h5py.File(tmp_path / "branch.h5") as file:
+        speeds = file["parameter"][()]
+    assert len(speeds) > 10
+    assert 0.6 < speeds.max() / case["operation"]["speed_rpm"] < 0.9
