@@ -21,6 +21,9 @@ module continuation
    !> turn of the tangent in a step.
    integer, parameter :: quick = 5, slow = 9
    real(wp), parameter :: longer = 1.5_wp, shorter = 0.7_wp, largest_turn = 0.8_wp
+   !> Longest way in the plane from the place where a point is sought, over the step. A branch that turns evenly by the
+   !> largest turn comes to 0.32: what is further away belongs to another part of it, behind two folds.
+   real(wp), parameter :: farthest = 0.35_wp
    !> Longest way to a point that tells a tangent, and its part of a step: where steps are short the branch may turn.
    real(wp), parameter :: beside = 1e-3_wp, part = 0.1_wp
 
@@ -78,8 +81,8 @@ contains
             end if
          end if
          again = allocated(error)
-         if (.not. again) again = problem%dot(here%tangent, next%tangent) < largest_turn &
-            & .and. length > shortest*options%first_step
+         if (.not. again) again = (problem%dot(here%tangent, next%tangent) < largest_turn &
+            & .or. next%distance > farthest*next%along) .and. length > shortest*options%first_step
          if (.not. again) exit
          if (allocated(error)) then
             if (error%status == stopped .or. length <= shortest*options%first_step) return

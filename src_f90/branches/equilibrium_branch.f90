@@ -51,6 +51,7 @@ module equilibrium_branch
       procedure :: move
       procedure :: predict
       procedure :: follow
+      procedure :: explain
       procedure :: spectrum
       procedure :: kind => kind_of
       procedure :: get_place
@@ -228,6 +229,13 @@ contains
       end associate
    end subroutine follow
 
+   !> Says of an error behind a change of the temperatures of films whose pad it is.
+   subroutine explain(self, error)
+      class(equilibrium_problem_type), intent(inout) :: self
+      type(error_type), allocatable, intent(inout) :: error
+      if (self%has_followers) call self%rounds%refuse_lost(self%bearing%model, self%state(), error)
+   end subroutine explain
+
    !> The eigenvalues, 1/s, that of largest real part first; growths are per radian of the shaft.
    subroutine spectrum(self, values, growth, ok)
       class(equilibrium_problem_type), intent(inout) :: self
@@ -264,7 +272,7 @@ contains
       place(2)%values = self%positions
       place(3)%values = self%viscosity
       if (.not. self%has_followers) return
-      place(3) = place_part_type('temperatures', 'degC', 'temperatures of layers and stations of films and pads')
+      place(3) = place_part_type('warming', 'K', 'temperatures of films and pads above that of the supply')
       place(3)%values = reshape(self%rounds%fields, [size(self%rounds%fields)])
    end subroutine get_place
 

@@ -15,7 +15,7 @@ module film_equilibrium
    use heat_balance_equations, only: check_oil
    use pseudo_transient, only: residual_limit
    use static_model, only: name_bearing
-   use oil_change, only: follow_oil
+   use oil_change, only: follow_oil, pad_that_moves
    use stream_fields, only: find_fields, make_volumes
    implicit none (type, external)
    private
@@ -24,7 +24,8 @@ module film_equilibrium
    !> Rounds that lead films to the temperatures of an equilibrium: what they have found.
    type :: film_rounds_type
       integer :: made = 0
-      !> Of the pads of all bearings: temperatures, C, (layer, station, pad), and pads that keep theirs.
+      !> Of the pads of all bearings: temperatures above that of the supply, K, (layer, station, pad), as these stay
+      !> nearly what they are where the supply warms; and pads that keep theirs.
       real(wp), allocatable :: fields(:, :, :)
       logical, allocatable :: kept(:)
       !> By how much their temperatures would change in the last round, K.
@@ -41,6 +42,7 @@ module film_equilibrium
       procedure :: make
       procedure :: find_oil
       procedure :: give
+      procedure :: refuse_lost
    end type film_rounds_type
 
    !> Largest change of a temperature at the end, K; most rounds: an unloaded pad whose film leaps takes half of them.
@@ -84,7 +86,7 @@ contains
       do
          call follow(model, y, films, settled, enough, rounds, residual, error, give_up, held)
          if (allocated(error)) then
-            if (error%status /= stopped .and. rounds%made > 0) call refuse_lost(model, rounds, error)
+            if (error%status /= stopped) call rounds%refuse_lost(model, y, error)
             return
          end if
          settled = rounds%fields
@@ -141,7 +143,7 @@ contains
       end if
       do b = 1, size(films)
          associate (pads => model%layout%bearings(b)%all_pads())
-            self%fields(:, :, pads) = films(b)%fields
+            self%fields(:, :, pads) = films(b)%fields - supply_of(model, b)
             self%kept(pads) = films(b)%kept
          end associate
       end do
@@ -174,6 +176,11 @@ contains
       self%made = self%made + 1
       call find_fields(model, y, films, self%profiles, self%volumes, wanted, error)
       if (allocated(error)) return
+      do i = 1, size(films)
+         associate (pads => model%layout%bearings(i)%all_pads())
+            wanted(:, :, pads) = wanted(:, :, pads) - supply_of(model, i)
+         end associate
+      end do
       self%changes = maxval(maxval(abs(wanted - self%fields), 1), 1)
       self%kept = self%kept .and. self%changes <= largest_leap
       change = maxval(self%changes, mask=.not. self%kept)
@@ -234,11 +241,20 @@ contains
       integer :: b
       do b = 1, size(films)
          associate (pads => model%layout%bearings(b)%all_pads())
-            films(b)%fields = self%fields(:, :, pads)
+            films(b)%fields = self%fields(:, :, pads) + supply_of(model, b)
             films(b)%kept = self%kept(pads)
          end associate
       end do
    end subroutine give
+
+   !> The temperature, C, at which oil comes to bearing b.
+   pure real(wp) function supply_of(model, b)
+      type(machine_model), intent(in) :: model
+      integer, intent(in) :: b
+      type(case_type) :: own
+      own = model%inputs%of_bearing(b)
+      supply_of = own%oil%supply_temperature
+   end function supply_of
 
    !> Gives a model the oil of the present temperatures.
    subroutine set_oil(self, model, films)
@@ -251,8 +267,8 @@ contains
          own = model%inputs%of_bearing(b)
          do i = 1, size(films(b)%heat)
             pad = model%layout%bearings(b)%other_pads + i
-            call oil_of_field(own%oil, films(b)%heat(i)%zeta, self%fields(:, :, pad), self%profiles(:, pad), &
-               & model%oil(pad))
+            call oil_of_field(own%oil, films(b)%heat(i)%zeta, self%fields(:, :, pad) &
+               & + own%oil%supply_temperature, self%profiles(:, pad), model%oil(pad))
          end do
       end do
    end subroutine set_oil
@@ -283,30 +299,38 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call raise(error, numerics_error, 'after '//to_text(most_rounds)//' rounds they still change by ' &
          & //to_text(maxval(rounds%changes, .not. rounds%kept))//' K'//remedy)
-      call name_pad(model, rounds, error)
+      call name_pad(model, maxloc(rounds%changes, 1, .not. rounds%kept), error)
    end subroutine refuse_unsettled
 
-   !> Says of a search that ended with an error which pad's temperatures led nowhere.
-   subroutine refuse_lost(model, rounds, error)
-      type(machine_model), intent(in) :: model
-      type(film_rounds_type), intent(in) :: rounds
+   !> Says of a search that ended with an error in the state y which pad's temperatures led nowhere: those that change
+   !> most, or, before the first round, those of the pad that Newton's method would move most.
+   subroutine refuse_lost(self, model, y, error)
+      class(film_rounds_type), intent(in) :: self
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
       type(error_type), allocatable, intent(inout) :: error
-      error%message = 'they would change by '//to_text(maxval(rounds%changes, .not. rounds%kept)) &
-         & //' K more, to which the search finds no equilibrium ('//error%message//')'//remedy
-      call name_pad(model, rounds, error)
+      if (self%made > 0) then
+         error%message = 'they would change by '//to_text(maxval(self%changes, .not. self%kept)) &
+            & //' K more, to which the search finds no equilibrium ('//error%message//')'//remedy
+         call name_pad(model, maxloc(self%changes, 1, .not. self%kept), error)
+      else
+         error%message = 'the search finds no equilibrium with them ('//error%message//')'//remedy
+         call name_pad(model, pad_that_moves(model, y), error)
+      end if
    end subroutine refuse_lost
 
-   !> Puts the pad whose temperatures change most, and the speed, before the message.
-   subroutine name_pad(model, rounds, error)
+   !> Puts the pad whose temperatures do not settle, 0 where it is not known, and the speed before the message.
+   subroutine name_pad(model, pad, error)
       type(machine_model), intent(in) :: model
-      type(film_rounds_type), intent(in) :: rounds
+      integer, intent(in) :: pad
       type(error_type), allocatable, intent(inout) :: error
-      integer :: b, pad
-      pad = maxloc(rounds%changes, 1, .not. rounds%kept)
+      character(len=:), allocatable :: films
+      integer :: b
       b = count(model%layout%bearings%other_pads < pad)
-      call add_context(error, 'the temperatures in the film of pad ' &
-         & //to_text(pad - model%layout%bearings(b)%other_pads)//' do not settle at ' &
+      films = 'films'
+      if (pad > 0) films = 'film of pad '//to_text(pad - model%layout%bearings(b)%other_pads)
+      call add_context(error, 'the temperatures in the '//films//' do not settle at ' &
          & //to_text(model%point%speed_rpm)//' rpm')
-      call name_bearing(model, b, error)
+      if (pad > 0) call name_bearing(model, b, error)
    end subroutine name_pad
 end module film_equilibrium

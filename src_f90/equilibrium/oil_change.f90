@@ -10,7 +10,7 @@ module oil_change
    use static_model, only: solve_equilibrium
    implicit none (type, external)
    private
-   public :: follow_oil
+   public :: follow_oil, pad_that_moves
 
    !> Iterations of Newton's method from the last equilibrium, of which it needs about five where it comes to an end;
    !> and after steps with the derivatives there.
@@ -91,4 +91,24 @@ contains
       end do
       ok = i > 1
    end subroutine take_known_steps
+
+   !> The pad whose edge Newton's method would move most from the state y; 0 where there is none.
+   integer function pad_that_moves(model, y) result(pad)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
+      real(wp), allocatable :: step(:)
+      logical :: ok, free(model%layout%n_positions())
+      integer, allocatable :: tilts(:)
+      pad = 0
+      tilts = model%layout%tilts()
+      call model%evaluate(0.0_wp, y, .true., ok)
+      if (.not. ok .or. size(tilts) == 0) return
+      call static_derivatives(model, stiffness, damping)
+      call set_free(model, free=free)
+      call newton_step(stiffness, damping, forces(model, 0.0_wp, y), free, newtons, step, ok)
+      if (.not. ok) return
+      step = abs(step/clearances(model))
+      pad = maxloc(step(tilts), 1)
+   end function pad_that_moves
 end module oil_change

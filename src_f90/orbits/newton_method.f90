@@ -37,6 +37,7 @@ module newton_method
       procedure(move_problem), deferred :: move
       procedure :: predict
       procedure :: follow
+      procedure :: explain
       procedure, non_overridable :: dot
       procedure(find_spectrum), deferred :: spectrum
       procedure(name_kind), deferred :: kind
@@ -106,9 +107,9 @@ module newton_method
       real(wp), allocatable :: change(:), tangent(:)
       complex(wp), allocatable :: values(:)
       real(wp), allocatable :: growth(:)
-      !> Rounds of Newton's method; the last correction.
+      !> Rounds of Newton's method; the last correction; in a plane, the length of the way from where it was sought.
       integer :: iterations = 0
-      real(wp) :: correction = huge(1.0_wp)
+      real(wp) :: correction = huge(1.0_wp), distance = 0
    end type branch_point_type
 
    type :: newton_options
@@ -161,6 +162,13 @@ contains
       again = .false.
    end subroutine follow
 
+   !> Adds to the error of a Newton's method that was to bring a problem to the equations of what followed last.
+   subroutine explain(self, error)
+      class(branch_problem_type), intent(inout) :: self
+      type(error_type), allocatable, intent(inout) :: error
+      if (self%has_followers) call add_context(error, 'what follows does not settle')
+   end subroutine explain
+
    !> The product of two directions.
    pure real(wp) function dot(self, a, b)
       class(branch_problem_type), intent(in) :: self
@@ -179,9 +187,12 @@ contains
       type(branch_point_type), intent(out) :: point
       type(error_type), allocatable, intent(out) :: error
       real(wp), intent(in), optional :: normal(:)
+      real(wp) :: way(problem%n + 1)
       logical :: ok
-      call iterate(problem, options, point, error, normal)
+      way = 0
+      call iterate(problem, options, point, way, error, normal)
       if (allocated(error)) return
+      point%distance = sqrt(problem%dot(way, way))
       point%parameter = problem%parameter
       call problem%spectrum(point%values, point%growth, ok)
       if (.not. ok) then
@@ -203,7 +214,7 @@ contains
       real(wp) :: way(size(normal))
       way = problem%beside*point%tangent
       call problem%move(way, .false.)
-      call iterate(problem, options, next, error, normal, way)
+      call iterate(problem, options, next, way, error, normal)
       if (allocated(error)) return
       point%tangent = way/sqrt(problem%dot(way, way))
       call return_to(problem, point)
@@ -211,14 +222,14 @@ contains
 
    !> The iterations of Newton's method, again and again until what follows the unknowns has followed. The point has the
    !> number of those that took most, and the tangent of the equations.
-   subroutine iterate(problem, options, point, error, normal, way)
+   subroutine iterate(problem, options, point, way, error, normal)
       class(branch_problem_type), intent(inout) :: problem
       class(newton_options), intent(in) :: options
       type(branch_point_type), intent(out) :: point
+      !> Gains all changes of unknowns and, in a plane, the parameter.
+      real(wp), intent(inout) :: way(:)
       type(error_type), allocatable, intent(out) :: error
       real(wp), intent(in), optional :: normal(:)
-      !> Gains all changes.
-      real(wp), intent(inout), optional :: way(:)
       real(wp), allocatable :: matrix(:, :), b(:, :)
       real(wp) :: before, left, best, best_before
       logical :: again
@@ -236,7 +247,10 @@ contains
          do
             call check_progress(options, point, best, best_before, error)
             if (.not. allocated(error)) call take_step()
-            if (allocated(error)) return
+            if (allocated(error)) then
+               if (error%status /= stopped .and. .not. problem%refused) call problem%explain(error)
+               return
+            end if
             left = point%correction
             ! by as much as this correction is shorter than the last, the next is shorter still
             if (before > 0 .and. .not. present(normal)) left = left*min(1.0_wp, left/before)
@@ -274,7 +288,7 @@ contains
          if (allocated(error)) return
          point%change = b(:, 1)
          call problem%move(point%change, .true.)
-         if (present(way)) way = way + point%change
+         way(:unknowns) = way(:unknowns) + point%change
          point%correction = problem%correction
       end subroutine take_step
    end subroutine iterate

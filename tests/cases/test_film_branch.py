@@ -68,6 +68,28 @@ def test_the_last_point_is_the_equilibrium_there(run, tmp_path, text, parameter,
         assert (np.diff(up["parameter"][:]) > 0).all()
 
 
+def test_a_branch_goes_on_behind_the_fold_of_an_unloaded_pad(run, tmp_path):
+    """Pad 2 tips: the branch turns back, wherever it began.
+
+    A fold is located to 1e-7 of the temperature. Another part of the branch is warmer than the fold; a long
+    step must not leap to it.
+    """
+    folds = []
+    for first in (50, 54):
+        name = f"from {first}"
+        run(FIVE, *branch_over("oil%supply_temperature", first, 80, 1), "branch%max_points=18", name=name)
+        with h5py.File(tmp_path / f"{name}.h5") as file:
+            kinds = [kind.decode() for kind in file["bifurcations/kind"]]
+            assert kinds.count("fold") == 1
+            folds.append(file["bifurcations/parameter"][kinds.index("fold")])
+            parameter = file["parameter"][:]
+        assert parameter.max() <= folds[-1] * (1 + 2e-7)
+        # behind the fold, where points before it were colder
+        assert parameter.argmax() < parameter.size - 1
+        assert parameter[-1] < folds[-1] - 1e-4
+    assert folds[0] == pytest.approx(folds[1], rel=2e-7)
+
+
 def test_oil_that_does_not_thin_has_the_branch_of_cold_oil(run, tmp_path):
     steady = FULL.replace("grade=46", "reference_viscosity=0.02, temperature_exponent=0")
     over = branch_over("operation%speed_rpm", 13500, 15500, 250)
