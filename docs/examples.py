@@ -51,8 +51,8 @@ def fits(page: str, folder: Path) -> Iterator[str]:
 
 def figures(folder: Path) -> Iterator[str]:
     """What the page says of its results, with the figures that they have."""
-    with tiltpad.read(folder / "speeds/0002.h5") as run:
-        cross = 1e-6 * tiltpad.coefficients(run, "free").stiffness[0, 0, 1]
+    with tiltpad.read_study(folder / "speeds.h5") as study:
+        cross = 1e-6 * tiltpad.coefficients(study, "free").stiffness[1, 0, 0, 1]
         yield f"its cross-coupled stiffness is {cross:.0f} MN/m"
     with tiltpad.read(folder / "up.h5") as run:
         yield f"near {100 * round(tiltpad.response(run).peaks[0].speed_rpm / 100)} rpm"
