@@ -360,8 +360,9 @@ contains
             tables = new_tables(state, cavitation_reynolds, table_tolerances(2))
             call try(tables, state, expected, looked_up)
          end do
+         ! cells become smaller with the fourth root of the tolerance, and the highest pressure is linear in them
          if (.not. supplied) call expect_within('auto'//name, range, looked_up, &
-            & [5*table_tolerances(2), 1e-2_wp, 1e-2_wp])
+            & [5*table_tolerances(2), 1e-2_wp, 3*sqrt(table_tolerances(2))])
          do k = 1, 2
             ! of second order; what is found between the volumes errs hardly more than the force
             associate (in_force => direct_limits(range, merge(1, 0, supplied)))
