@@ -38,7 +38,9 @@ module asperity_contact
    contains
       procedure :: act
       procedure :: evaluate
+      procedure :: heat
       procedure, private :: set_loads
+      procedure, private :: add_arc
       procedure, private :: add_stretch
       procedure, private :: set_film
    end type asperity_contact_type
@@ -115,18 +117,9 @@ contains
       real(wp), intent(in) :: position(2), speed
       type(asperity_load), intent(inout) :: load
       type(contact_sums) :: sums
-      real(wp) :: half, towards, low, high
-      integer :: turn
-      ! the film is thin within `half` of the direction towards which the journal lies
-      towards = atan2(position(1), position(2))
-      half = acos(min(1.0_wp, max(-1.0_wp, (gap%machined_clearance - self%reach)/max(norm2(position), tiny(half)))))
-      do turn = -1, 1
-         low = max(towards + 2*pi*turn - half, -gap%trailing_angle)
-         high = min(towards + 2*pi*turn + half, gap%leading_angle)
-         if (high > low) call self%add_stretch(gap, position, low, high, sums)
-      end do
+      call self%add_arc(gap, position, -gap%trailing_angle, gap%leading_angle, sums)
       ! friction pulls the journal along phi, and turns the pad with the journal
-      associate (friction => self%friction*speed/sqrt(speed**2 + self%slow**2), s => sums%slopes)
+      associate (friction => friction_at(self, speed), s => sums%slopes)
          load%normal = sums%normal
          load%force = -sums%pushed + friction*[sums%pushed(2), -sums%pushed(1)]
          load%force_slopes(1, :) = -s(1, :) + friction*s(2, :)
@@ -135,6 +128,51 @@ contains
          load%moment_slopes = friction*gap%pad_radius()*sums%slope
       end associate
    end subroutine set_loads
+
+   !> The coefficient of friction where the journal's surface moves at a speed, m/s.
+   pure real(wp) function friction_at(self, speed) result(friction)
+      class(asperity_contact_type), intent(in) :: self
+      real(wp), intent(in) :: speed
+      friction = self%friction*speed/sqrt(speed**2 + self%slow**2)
+   end function friction_at
+
+   !> Heat by friction, W, on each of n equal parts of the arc, from the leading edge on. The journal lies at a position
+   !> of its frame on the pad, m, and its surface moves at a speed, m/s. All parts together: the moment of `evaluate`,
+   !> over the pad's radius, times this speed.
+   pure function heat(self, gap, position, speed, n) result(parts)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: position(2), speed
+      integer, intent(in) :: n
+      real(wp) :: parts(n)
+      type(contact_sums) :: sums
+      integer :: i
+      do i = 1, n
+         sums = contact_sums()
+         associate (leading => gap%leading_angle, part => gap%arc()/n)
+            call self%add_arc(gap, position, leading - i*part, leading - (i - 1)*part, sums)
+         end associate
+         parts(i) = friction_at(self, speed)*sums%normal*speed
+      end do
+   end function heat
+
+   !> Adds the integrals over the part of the arc from one angle to another, rad, where surfaces touch.
+   pure subroutine add_arc(self, gap, position, first, last, sums)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: position(2), first, last
+      type(contact_sums), intent(inout) :: sums
+      real(wp) :: half, towards, low, high
+      integer :: turn
+      ! the film is thin within `half` of the direction towards which the journal lies
+      towards = atan2(position(1), position(2))
+      half = acos(min(1.0_wp, max(-1.0_wp, (gap%machined_clearance - self%reach)/max(norm2(position), tiny(half)))))
+      do turn = -1, 1
+         low = max(towards + 2*pi*turn - half, first)
+         high = min(towards + 2*pi*turn + half, last)
+         if (high > low) call self%add_stretch(gap, position, low, high, sums)
+      end do
+   end subroutine add_arc
 
    !> Adds the integrals over the arc from one angle to another, rad.
    pure subroutine add_stretch(self, gap, position, low, high, sums)

@@ -41,7 +41,7 @@ contains
       rows = solid_layers + size(flow, 1)
       system = new_band_system(rows*size(profiles), 2*rows, rows, 3)
       call find_flows(stream, profiles, surface_speed, flow)
-      own = made_heat(stream, profiles, surface_speed)
+      own = made_heat(heat, stream, profiles, surface_speed)
       found%made = sum(own)
       call add_transport(heat, stream, profiles, flow, system)
       call add_conduction(heat, stream, system)
@@ -56,8 +56,9 @@ contains
       call find_ends(heat, stream, flow, found)
    end subroutine solve_energy
 
-   !> Heat made in each layer of each station, W.
-   pure function made_heat(stream, profiles, surface_speed) result(made)
+   !> Heat made in each layer of each station, W: by shear, and evenly across the film by friction of asperities.
+   pure function made_heat(heat, stream, profiles, surface_speed) result(made)
+      type(film_heat_type), intent(in) :: heat
       type(film_stream), intent(in) :: stream
       type(film_profile), intent(in) :: profiles(:)
       real(wp), intent(in) :: surface_speed
@@ -71,6 +72,8 @@ contains
             made(:, i) = stream%pressure_heat(i)*p%pressure/p%f2 + area*surface_speed*(h*gradient*p%mixed &
                & + stream%filled(i)*surface_speed/h*p%shear)
          end associate
+         if (allocated(stream%boundary_heat)) made(:, i) = made(:, i) + stream%boundary_heat(i) &
+            & *(heat%zeta(2:) - heat%zeta(:size(heat%zeta) - 1))
       end do
    end function made_heat
 

@@ -85,6 +85,7 @@ contains
       type(pad_state) :: pads(size(streams))
       type(film_motion) :: motion
       type(asperity_load) :: asperity
+      real(wp) :: position(2)
       pads = model%layout%bearings(b)%pad_states(y)
       associate (bearing => model%bearings(b), journal => model%rotor%journal(y(:model%rotor%states), b), &
          & speed => model%point%speed(0.0_wp), before => model%layout%bearings(b)%other_pads)
@@ -92,10 +93,13 @@ contains
             associate (pad => bearing%pads(i))
                motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
                call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
+               position = motion%position
                if (asperity%touches) motion%position = asperity%film_position
                call find_stream(volumes(i), bearing%film%condition, motion, model%oil(before + i), speed, stations, &
                   & streams(i), ok)
                if (.not. ok) return
+               if (asperity%touches) streams(i)%boundary_heat = bearing%asperities%heat(pad%gap, position, &
+                  & speed*pad%gap%journal_radius, stations)
             end associate
          end do
       end associate

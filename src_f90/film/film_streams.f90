@@ -25,6 +25,8 @@ module film_streams
       real(wp), allocatable :: flow(:), filled_face(:), h_face(:)
       !> Of the stations: film thickness, m; share of the area that is filled; heat of the pressure's flow, W.
       real(wp), allocatable :: h(:), filled(:), pressure_heat(:)
+      !> Heat by friction of asperities, W, where they touch.
+      real(wp), allocatable :: boundary_heat(:)
    end type film_stream
 
 contains

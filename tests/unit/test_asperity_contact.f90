@@ -21,6 +21,7 @@ program test_asperity_contact
    end do
    if (runs('nothing_above')) call nothing_above()
    if (runs('friction')) call friction_directions()
+   if (runs('heat')) call heat_of_friction()
    if (runs('film_position')) call film_position()
    if (runs('wide_pad')) call wide_pad()
    call report()
@@ -237,6 +238,28 @@ contains
       with = load_at(steel_on_metal(friction), gap, thin_at(gap, 0.0_wp, roughness), 0.0_wp)
       call expect_close(norm2(with%force - without%force) + abs(with%moment), 0.0_wp, 0.0_wp, 'no friction at rest')
    end subroutine friction_directions
+
+   !> Parts of the arc have the heat that the moment of friction makes, where the surfaces touch.
+   subroutine heat_of_friction()
+      type(pad_gap_type) :: gap
+      type(asperity_load) :: load
+      type(asperity_contact_type) :: contact
+      real(wp) :: position(2), heat(40), power, places(3)
+      integer :: i
+      gap = offset_pad()
+      contact = steel_on_metal(friction)
+      places = [0.1_wp, gap%leading_angle + 0.01_wp, -gap%trailing_angle - 0.01_wp]
+      do i = 1, 3
+         position = thin_at(gap, places(i), roughness)
+         load = load_at(contact, gap, position)
+         power = load%moment/gap%pad_radius()*speed*gap%journal_radius
+         heat = contact%heat(gap, position, speed*gap%journal_radius, size(heat))
+         call expect(power > 0 .and. all(heat >= 0), 'heat')
+         call expect_close(sum(heat), power, 1e-6_wp*power, 'all of it at '//to_text(places(i)))
+         call expect_close(real(maxloc(heat, 1), wp), min(40.0_wp, max(1.0_wp, ceiling((gap%leading_angle - places(i)) &
+            & /gap%arc()*size(heat))*1.0_wp)), 1.0_wp, 'where the film is thinnest')
+      end do
+   end subroutine heat_of_friction
 
    !> The film is taken where the journal is 2 sigma away, and less close below, by the mean gap; never at 0.
    subroutine film_position()
