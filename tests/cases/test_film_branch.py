@@ -130,26 +130,37 @@ def test_a_threshold_is_where_coefficients_change_their_sign(run, tmp_path):
         assert file["bifurcations/parameter"][0] == pytest.approx(found, rel=1e-6)
 
 
-def test_heat_that_ends_a_branch(run, tiltpad, tmp_path):
-    """It goes on far beyond the load at which one temperature a pad has no balance; then its oil boils."""
-    said = run(THIN, *branch_over("rotor%mass", 5000, 60000, 2000)).stdout
+def test_heat_that_ends_a_branch(run, tmp_path):
+    """Films alone, without asperities, come to the load at which their oil boils."""
+    said = run(THIN + "&asperity model='none' /\n", *branch_over("rotor%mass", 5000, 60000, 2000)).stdout
     with h5py.File(tmp_path / "case.h5") as file:
         assert file.attrs["complete"] == 1
         last = file["parameter"][-1]
-        assert "bifurcations" not in file
+        assert b"fold" not in file["bifurcations/kind"][()]
         # within a shortest step, 1e-4 of the first, of the last load without boiling; oil is hotter than pads
         assert 299 < file["maximum_temperature"][-1].max() < 300
     assert 20000 < last < 60000
     assert f"branch 1 ends at rotor%mass = {last:.5f}" in said
     # under a load between the pads both are as hot
     assert re.search(r"in the hottest place of the film of pad [12] would have 301 C, above 300 C", said)
-    refusal = run(THIN, "case%task='equilibrium'", "rotor%mass=10000", name="alone", status=2).stderr
+
+
+def test_heat_of_asperities_that_folds_a_branch(run, tiltpad, tmp_path):
+    """Beyond the load at which one temperature a pad has no balance; a refusal names the branch to there."""
+    run(THIN, *branch_over("rotor%mass", 5000, 60000, 2000))
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert list(file["bifurcations/kind"]) == [b"fold"]
+        assert file["bifurcations/parameter"][0] > 8000
+        # back at the first load, where the hot balance is another one
+        assert file["parameter"][-1] == 5000
+        assert file["maximum_temperature"][-1].min() > file["maximum_temperature"][0].max() + 100
+    refusal = run(THIN, "case%task='equilibrium'", "rotor%mass=8000", name="alone", status=2).stderr
     assert "where mineral oil boils" in refusal
     assert "one temperature a pad, with which the search begins" in refusal
     # the branch that it names leads to this load all the same
     _, hint = refusal.split("a branch of equilibria shows how far there are some: ")
     told = tiltpad("alone.nml", *shlex.split(hint), "--output", "told.h5", cwd=tmp_path, status=0).stdout
-    assert "branch 1 ends at rotor%mass = 10000.00000: the last value" in told
+    assert "branch 1 ends at rotor%mass = 8000.000000: the last value" in told
 
 
 def test_the_hottest_oil_boils_in_runs_studies_and_branches(run, tiltpad, tmp_path):
