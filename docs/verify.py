@@ -5,6 +5,7 @@ usage: verify.py TILTPAD > verification.md
 
 import sys
 import tempfile
+from pathlib import Path
 
 import tiltpad
 import verify_coefficients
@@ -389,4 +390,4 @@ def main(program):
     )
 
 
-main(sys.argv[1])
+main(str(Path(sys.argv[1]).resolve()))

@@ -77,7 +77,7 @@ def test_a_branch_goes_on_behind_the_fold_of_an_unloaded_pad(run, tmp_path):
     folds = []
     for first in (50, 54):
         name = f"from {first}"
-        run(FIVE, *branch_over("oil%supply_temperature", first, 80, 1), "branch%max_points=18", name=name)
+        run(FIVE, *branch_over("oil%supply_temperature", first, 80, 1), "branch%max_points=14", name=name)
         with h5py.File(tmp_path / f"{name}.h5") as file:
             kinds = [kind.decode() for kind in file["bifurcations/kind"]]
             assert kinds.count("fold") == 1
@@ -147,13 +147,15 @@ def test_heat_that_ends_a_branch(run, tmp_path):
 
 def test_heat_of_asperities_that_folds_a_branch(run, tiltpad, tmp_path):
     """Beyond the load at which one temperature a pad has no balance; a refusal names the branch to there."""
-    run(THIN, *branch_over("rotor%mass", 5000, 60000, 2000))
+    run(THIN, *branch_over("rotor%mass", 5000, 60000, 2000), "branch%max_points=40")
     with h5py.File(tmp_path / "case.h5") as file:
         assert list(file["bifurcations/kind"]) == [b"fold"]
-        assert file["bifurcations/parameter"][0] > 8000
-        # back at the first load, where the hot balance is another one
-        assert file["parameter"][-1] == 5000
-        assert file["maximum_temperature"][-1].min() > file["maximum_temperature"][0].max() + 100
+        fold = file["bifurcations/parameter"][0]
+        assert fold > 8000
+        # behind the fold less load is hotter
+        assert file["parameter"][-1] < fold - 10
+        hottest = file["maximum_temperature"][()].max(axis=1)
+        assert (hottest[1:] > hottest[:-1]).all()
     refusal = run(THIN, "case%task='equilibrium'", "rotor%mass=8000", name="alone", status=2).stderr
     assert "where mineral oil boils" in refusal
     assert "one temperature a pad, with which the search begins" in refusal
