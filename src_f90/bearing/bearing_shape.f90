@@ -107,7 +107,7 @@ contains
                call raise(error, numerics_error, 'pad '//to_text(i)//' bends by '//micro(bent, 1)//' um, more than ' &
                   & //'its clearance of '//micro(c, 1)//' um: '//micro(self%bending%elastic(i), 1) &
                   & //' um by pressure, '//micro(self%bending%thermal(i), 1)//' um by heat; ' &
-                  & //reason(inputs, i, self%bending%thermal(i) > self%bending%elastic(i))//')')
+                  & //reason(inputs, i, self%bending%thermal(i) > self%bending%elastic(i)))
             else if (.not. self%machined_clearance(i) > 0) then
                call raise(error, numerics_error, gone('bearing%machined_clearance', c, self%machined_clearance(i)))
             else if (.not. self%assembled_clearance(i) > 0) then
@@ -124,11 +124,14 @@ contains
          integer, intent(in) :: i
          logical, intent(in) :: by_heat
          character(len=:), allocatable :: reason
-         reason = 'it is too thin (pads%thickness = '//to_text(inputs%pads%thickness(i))//' m'
-         if (by_heat) reason = 'too much heat goes through it (pads%thickness = ' &
-            & //to_text(inputs%pads%thickness(i))//' m, pads%conductivity = ' &
-            & //to_text(inputs%pads%conductivity(i))//' W/(m K), oil%back_coefficient = ' &
-            & //to_text(inputs%oil%back_coefficient)//' W/(m^2 K)'
+         reason = 'pads%thickness = '//to_text(inputs%pads%thickness(i))//' m'
+         if (by_heat) then
+            reason = 'too much heat goes through it ('//reason//', pads%conductivity = ' &
+               & //to_text(inputs%pads%conductivity(i))//' W/(m K), oil%back_coefficient = ' &
+               & //to_text(inputs%oil%back_coefficient)//' W/(m^2 K))'
+         else
+            reason = 'it is too thin ('//reason//')'
+         end if
       end function reason
 
       function gone(name, cold, warm) result(message)

@@ -21,8 +21,7 @@ module factories
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, march_films, static_films, converged_films, quick_films, filled_films
-   public :: usual_arc
+   public :: make_film, usual_arc, march_films, static_films, converged_films, quick_films, filled_films, of_march
    public :: new_losses, make_law, make_contact, make_friction, new_asperities, new_pads
 
    !> What films are for: a march; the search for an equilibrium, which goes far and stays nowhere; what is linearised
@@ -91,7 +90,7 @@ contains
          case default
             direct = new_direct_film(gaps, cells, modes, volumes(1), volumes(2), condition, error, of_volumes)
             of_tables = max(f%table_tolerance, least_tolerance)
-            if (any(accuracy == [march_films, filled_films])) then
+            if (of_march(accuracy)) then
                ! cavitated films by volumes are dear, by modes they are cheap
                associate (usual => merge(1, 4, condition == cavitation_gumbel)*inputs%integration%relative_tolerance)
                   film = new_table_film(direct, .true., merge(of_tables, usual, f%table_tolerance > 0), &
@@ -106,6 +105,12 @@ contains
          end select
       end associate
    end subroutine make_film
+
+   !> True for the films of a march.
+   elemental logical function of_march(accuracy)
+      integer, intent(in) :: accuracy
+      of_march = any(accuracy == [march_films, filled_films])
+   end function of_march
 
    !> Volumes along the longest arc and along half the width, from those of a usual arc, unless the input names them.
    pure function volumes_of(inputs, gaps, usual) result(volumes)
@@ -129,7 +134,7 @@ contains
             & min(f%tolerance, max(least_residual, sor_tolerance*inputs%integration%relative_tolerance)), &
             & f%max_sweeps, cavitation_of(f%cavitation))
       end associate
-      if (any(accuracy == [march_films, filled_films])) return
+      if (of_march(accuracy)) return
       options%tolerance = min(options%tolerance, static_residual)
       options%max_sweeps = max(options%max_sweeps, static_sweeps)
    end function sor_settings

@@ -11,7 +11,7 @@ module tilting_pad_bearing
    use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, pad_frame, frame_of, motion_of, columns
    use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
-   use factories, only: make_film, new_asperities, new_pads, march_films, static_films, filled_films
+   use factories, only: make_film, new_asperities, new_pads, march_films, static_films, of_march
    use pad_pivots, only: pad_pivot, make_contacts, make_frictions
    implicit none (type, external)
    private
@@ -127,7 +127,7 @@ contains
    subroutine use_in_statics(self, inputs)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
-      if (all(self%accuracy /= [march_films, filled_films])) return
+      if (.not. of_march(self%accuracy)) return
       self%accuracy = static_films
       call make_films_anew(self, inputs)
    end subroutine use_in_statics

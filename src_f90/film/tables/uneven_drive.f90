@@ -1,4 +1,4 @@
-!> What drives the film of a dimensionless pad whose oil is uneven (docs/theory/film.md, *The table*).
+!> What drives the film of a dimensionless pad whose oil is uneven (docs/theory/film.md, *Tables of uneven oil*).
 !>
 !> With k = ((2 f1 - 1) h)', the rotation t = omega R_J/(2 R) drives the film by t (e_2, -e_1) and by t k. Most of k is
 !> a velocity, a sin(phi) + b cos(phi) with the values of k at both edges; it joins the velocity w. What remains of k is
