@@ -53,7 +53,7 @@ contains
       real(wp), intent(in) :: t
       integer :: b
       self%run => run
-      allocate (self%taken(run%inputs%bearing_count()), self%bearings(run%inputs%bearing_count()))
+      allocate (self%taken(size(run%inputs%bearings)), self%bearings(size(run%inputs%bearings)))
       do b = 1, size(self%bearings)
          self%bearings(b) = run%bearing(b)
       end do
@@ -157,7 +157,7 @@ contains
       integer :: b
       if (.not. self%run%file%filed) return
       do b = 1, size(self%bearings)
-         call put_spectra(self%bearings(b), self%run%inputs%of_bearing(b), interval)
+         call put_spectra(self%bearings(b), self%run%inputs, b, interval)
       end do
    end subroutine put_all_spectra
 

@@ -90,14 +90,14 @@ contains
       class(run_file_type), intent(in), target :: file
       type(error_type), allocatable, intent(inout) :: error
       type(bearing_shape_type), allocatable :: shapes(:)
-      type(case_type) :: own
       integer :: b
-      if (.not. run%inputs%changes_shape()) return
+      if (.not. any(run%inputs%bearings%changes_shape())) return
       shapes = cold_shapes(run%inputs)
       do b = 1, size(shapes)
-         own = run%inputs%of_bearing(b)
-         if (own%changes_shape() .and. .not. allocated(error)) call read_shape(new_bearing_file(file, run%inputs, b), &
-            & shapes(b), error)
+         associate (bearing => run%inputs%bearings(b))
+            if (bearing%changes_shape() .and. .not. allocated(error)) call read_shape(new_bearing_file(file, bearing), &
+               & shapes(b), error)
+         end associate
       end do
       call add_context(error, run%path)
       if (.not. allocated(error)) call take_shapes(run, shapes)
@@ -183,7 +183,7 @@ contains
       type(equilibrium_type) :: static
       real(wp), allocatable :: y(:)
       logical, allocatable :: held(:)
-      if (.not. (has_warm_oil(run%model) .or. run%inputs%changes_shape())) return
+      if (.not. (has_warm_oil(run%model) .or. any(run%inputs%bearings%changes_shape()))) return
       if (partly) then
          call find_partial_equilibrium(run%model, static, held, error, stop_requested)
       else
@@ -217,7 +217,7 @@ contains
       do b = 1, size(run%model%bearings)
          associate (pads => run%model%layout%bearings(b)%all_pads())
             oil = run%model%oil(pads)
-            if (.not. allocated(error)) call read_oil(new_bearing_file(file, run%inputs, b), '', oil, error)
+            if (.not. allocated(error)) call read_oil(new_bearing_file(file, run%inputs%bearings(b)), '', oil, error)
             run%model%oil(pads) = oil
          end associate
       end do
@@ -294,12 +294,12 @@ contains
          & '1 where it has no equilibrium: the march starts without tilt')
    end subroutine start_partially
 
-   !> Adds the values of the group, which are for a rigid journal.
+   !> Adds the values of the group, if it has any.
    pure subroutine disturb(run, rotor, pads)
       type(case_run_type), intent(in) :: run
       real(wp), intent(inout) :: rotor(:)
       type(pad_state), intent(inout) :: pads(:)
-      if (run%inputs%is_machine()) return
+      if (.not. run%inputs%is_disturbed()) return
       associate (s => run%inputs%start)
          rotor = rotor + [s%journal, s%journal_velocity]
          pads%tilt = pads%tilt + s%pad_tilt

@@ -37,8 +37,8 @@ contains
       integer, intent(in) :: states
       type(error_type), allocatable, intent(out) :: error
       integer(i8) :: samples
-      call require(.not. inputs%is_machine(), '--verify: compares the films of one bearing with a rigid journal, not ' &
-         & //'those of a machine; run each bearing alone, with its load as rotor%static_load', error)
+      call require(size(inputs%bearings) == 1, '--verify: compares the films of one bearing with a rigid journal, ' &
+         & //'not those of a machine; run each bearing alone, with its load as rotor%static_load', error)
       call require(inputs%about%task /= 'branch', '--verify: the points of a branch keep no states to verify; run ' &
          & //'one of them with case%task = ''equilibrium'' or ''periodic''', error)
       call require(inputs%output%keep == 'all' .or. .not. any(inputs%about%task == ['march   ', 'periodic']), &

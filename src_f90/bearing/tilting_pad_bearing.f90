@@ -81,63 +81,70 @@ module tilting_pad_bearing
 
 contains
 
-   !> The bearing of a valid case with films for a march or, as factories has it, for something else.
-   function new_tilting_pad_bearing(inputs, accuracy) result(bearing)
+   !> Bearing b of a valid case with films for a march or, as factories has it, for something else.
+   function new_tilting_pad_bearing(inputs, b, accuracy) result(bearing)
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       integer, intent(in), optional :: accuracy
       type(tilting_pad_bearing_type) :: bearing
-      allocate (bearing%pivots(inputs%pad_count()))
-      call bearing%set_parts(inputs)
-      if (present(accuracy)) bearing%accuracy = accuracy
-      call make_film(inputs, bearing%accuracy, bearing%film)
-      call make_contacts(inputs, bearing%pivots)
-      associate (n => inputs%pad_count())
+      associate (given => inputs%bearings(b), n => inputs%bearings(b)%pad_count())
+         allocate (bearing%pivots(n))
+         call bearing%set_parts(inputs, b)
+         if (present(accuracy)) bearing%accuracy = accuracy
+         call make_film(given, inputs%integration%relative_tolerance, bearing%accuracy, bearing%film)
+         call make_contacts(given%pivot, inputs%moves(), bearing%pivots)
          allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
             & bearing%asperity(n), bearing%film_motion(n), bearing%oil(n), bearing%response(n))
       end associate
    end function new_tilting_pad_bearing
 
-   !> Makes the parts that take no time to make those of a case.
-   subroutine set_parts(self, inputs)
+   !> Makes the parts that take no time to make those of bearing b of a case.
+   subroutine set_parts(self, inputs, b)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       integer :: i
-      self%pads = new_pads(inputs)
-      self%per_mass = reshape([(self%pads(i)%inverse_masses(), i=1, size(self%pads))], [2, 2, size(self%pads)])
-      self%clearance = inputs%clearance()
-      call make_frictions(inputs, self%pivots)
-      self%asperities = new_asperities(inputs)
+      associate (given => inputs%bearings(b))
+         self%pads = new_pads(given, inputs%sense(), inputs%rotor%gravity)
+         self%per_mass = reshape([(self%pads(i)%inverse_masses(), i=1, size(self%pads))], [2, 2, size(self%pads)])
+         self%clearance = given%clearance()
+         call make_frictions(given%friction, self%pivots)
+         self%asperities = new_asperities(given%asperity, inputs%highest_speed()*given%journal_radius)
+      end associate
    end subroutine set_parts
 
    !> Makes the bearing that of another case, with the same pads but for numbers. Films and contact, which take time to
    !> make, stay where they are the same; `anew`, what was solved last is forgotten.
-   subroutine adopt(self, inputs, pivots_differ, anew)
+   subroutine adopt(self, inputs, b, pivots_differ, anew)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       logical, intent(in) :: pivots_differ, anew
       type(tilting_pad_type) :: before(size(self%pads))
       before = self%pads
-      call self%set_parts(inputs)
+      call self%set_parts(inputs, b)
       if (anew) call self%film%forget()
-      if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, inputs)
-      if (pivots_differ) call make_contacts(inputs, self%pivots)
+      if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, inputs, b)
+      if (pivots_differ) call make_contacts(inputs%bearings(b)%pivot, inputs%moves(), self%pivots)
    end subroutine adopt
 
    !> Has films of a march solved where they are asked for, closely, from here on.
-   subroutine use_in_statics(self, inputs)
+   subroutine use_in_statics(self, inputs, b)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       if (.not. of_march(self%accuracy)) return
       self%accuracy = static_films
-      call make_films_anew(self, inputs)
+      call make_films_anew(self, inputs, b)
    end subroutine use_in_statics
 
    !> Another film solver that goes on in the place of the present one.
-   subroutine make_films_anew(self, inputs)
+   subroutine make_films_anew(self, inputs, b)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       class(film_solver_type), allocatable :: film
-      call make_film(inputs, self%accuracy, film)
+      call make_film(inputs%bearings(b), inputs%integration%relative_tolerance, self%accuracy, film)
       film%counters = self%film%counters
       call film%set_cavitation(self%film%cavitates())
       call move_alloc(film, self%film)

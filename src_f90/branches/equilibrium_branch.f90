@@ -8,7 +8,6 @@
 module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
-   use case_inputs, only: case_type
    use linear_algebra, only: largest_first
    use equations_of_motion, only: machine_model
    use newton_method, only: branch_problem_type, place_part_type
@@ -108,15 +107,16 @@ contains
       type(equilibrium_problem_type), intent(inout) :: problem
       type(machine_model), intent(in) :: model
       type(warm_films_type), intent(in), optional :: films(:)
-      type(case_type) :: own
       integer :: b
       if (present(films)) then
          problem%films = films
       else
          allocate (problem%films(size(model%bearings)))
          do b = 1, size(problem%films)
-            own = model%inputs%of_bearing(b)
-            problem%films(b) = new_warm_films(own, spread(own%oil%supply_temperature, 1, own%pad_count()))
+            associate (own => model%inputs%bearings(b))
+               problem%films(b) = new_warm_films(own, model%inputs%thermal, spread(own%oil%supply_temperature, 1, &
+                  & own%pad_count()))
+            end associate
          end do
       end if
       call problem%rounds%begin(model, problem%films)

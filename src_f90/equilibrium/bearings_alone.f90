@@ -20,7 +20,7 @@ contains
       integer :: accuracy
       accuracy = model%bearings(b)%accuracy
       if (accuracy == march_films) accuracy = static_films
-      alone = new_machine_model(model%inputs%of_bearing(b, load), accuracy)
+      alone = new_machine_model(model%inputs%alone(b, load), accuracy)
       alone%point%speed_rpm = model%point%speed_rpm
       alone%point%cavitation = model%point%cavitation
       call alone%set_point(alone%point%static())

@@ -25,7 +25,7 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(machine_model) :: static
       logical :: by_heat
-      if (model%inputs%is_machine()) then
+      if (size(model%bearings) > 1) then
          call make_static(model, model%point%cavitation, static)
          call share_loads(static, found, error, give_up)
       else
@@ -34,7 +34,8 @@ contains
             if (error%status /= stopped) call offer_branch(model, error, give_up)
          end if
       end if
-      if (.not. allocated(error) .and. model%inputs%changes_shape()) call settle_shape(model, found, error, give_up)
+      if (allocated(error)) return
+      if (any(model%inputs%bearings%changes_shape())) call settle_shape(model, found, error, give_up)
    end subroutine find_equilibrium
 
    !> Brings an equilibrium that another model has found to that of this static one, whose films differ a little; y is
@@ -45,7 +46,7 @@ contains
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      if (model%inputs%is_machine()) then
+      if (size(model%bearings) > 1) then
          call share_loads(model, found, error, give_up, known=.true.)
          if (.not. allocated(error)) y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
       else

@@ -6,7 +6,6 @@ module film_equilibrium
    use text, only: to_text
    use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop, asked
    use anderson, only: anderson_type
-   use case_inputs, only: case_type
    use film_solver, only: film_oil
    use elimination_film, only: elimination_film_type
    use film_profiles, only: film_profile
@@ -251,9 +250,7 @@ contains
    pure real(wp) function supply_of(model, b)
       type(machine_model), intent(in) :: model
       integer, intent(in) :: b
-      type(case_type) :: own
-      own = model%inputs%of_bearing(b)
-      supply_of = own%oil%supply_temperature
+      supply_of = model%inputs%bearings(b)%oil%supply_temperature
    end function supply_of
 
    !> Gives a model the oil of the present temperatures.
@@ -261,14 +258,14 @@ contains
       class(film_rounds_type), intent(inout) :: self
       type(machine_model), intent(inout) :: model
       type(warm_films_type), intent(in) :: films(:)
-      type(case_type) :: own
       integer :: b, i, pad
       do b = 1, size(films)
-         own = model%inputs%of_bearing(b)
          do i = 1, size(films(b)%heat)
             pad = model%layout%bearings(b)%other_pads + i
-            call oil_of_field(own%oil, films(b)%heat(i)%zeta, self%fields(:, :, pad) &
-               & + own%oil%supply_temperature, self%profiles(:, pad), model%oil(pad))
+            associate (oil => model%inputs%bearings(b)%oil)
+               call oil_of_field(oil, films(b)%heat(i)%zeta, self%fields(:, :, pad) + oil%supply_temperature, &
+                  & self%profiles(:, pad), model%oil(pad))
+            end associate
          end do
       end do
    end subroutine set_oil

@@ -5,7 +5,6 @@ module heat_balance_equations
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
-   use case_inputs, only: case_type
    use bearing_numbers, only: eccentricity_ratio, attitude_angle
    use pad_gap, only: pad_gap_type
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
@@ -71,20 +70,18 @@ contains
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
-      type(case_type) :: own
       logical :: stays
       integer :: b
       if (.not. allocated(balance%bearings)) allocate (balance%bearings(size(model%bearings)))
       do b = 1, size(model%bearings)
-         associate (of => balance%bearings(b), gaps => model%bearings(b)%pads%gap)
-            own = model%inputs%of_bearing(b)
+         associate (of => balance%bearings(b), gaps => model%bearings(b)%pads%gap, own => model%inputs%bearings(b))
             stays = allocated(of%gaps)
             if (stays) stays = .not. any(of%gaps%differs(gaps))
             if (.not. stays) then
                of%finder = new_bearing_losses(own)
                of%gaps = gaps
             end if
-            of%heat = new_heat_balance(own)
+            of%heat = new_heat_balance(own, model%inputs%sense())
          end associate
       end do
       if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), balance%lack(model%layout%pads))
@@ -315,13 +312,14 @@ contains
       type(static_figures_type), intent(out) :: figures
       type(state_balance_type) :: balance
       logical :: balanced
-      figures%eccentricity_ratio = eccentricity_ratio(model%inputs, static%rotor)
+      figures%eccentricity_ratio = eccentricity_ratio(model%inputs%bearings(1), static%rotor)
       figures%attitude_angle = attitude_angle(model%inputs, static%rotor)
       call find_losses(model, model%static_state(static%rotor, static%tilt, static%pivot_deflection), balance)
       figures%pads = balance%losses
       figures%reynolds_number = figures%pads%reynolds_number(model%point%speed(0.0_wp) &
-         & *model%inputs%bearing%journal_radius, model%inputs%oil%density, static%oil%viscosity)
-      associate (pads => figures%pads, heat => model%inputs%oil%density*model%inputs%oil%specific_heat)
+         & *model%inputs%bearings(1)%journal_radius, model%inputs%bearings(1)%oil%density, static%oil%viscosity)
+      associate (pads => figures%pads, heat => model%inputs%bearings(1)%oil%density &
+         & *model%inputs%bearings(1)%oil%specific_heat)
          ! oil that leaves at the sides is warmed half of the way
          figures%temperature_rise = rise(pads%power(), heat*(pads%inlet + pads%outlet)/2)
          figures%rise_fresh = rise(sum(pads%power()), heat*sum(pads%inlet))

@@ -178,8 +178,8 @@ contains
          shares(b)%alone%point%load = loads(2*b - 1:2*b)
          call bear_one(shares(b), error, give_up)
          if (.not. allocated(error)) cycle
-         if (error%status /= stopped) call add_context(error, 'bearing '''//model%inputs%machine%bearings(b)%name &
-            & //''' under '//to_text(loads(2*b - 1))//' N along y and '//to_text(loads(2*b))//' N along z')
+         if (error%status /= stopped) call add_context(error, model%inputs%bearings(b)%label(' under ' &
+            & //to_text(loads(2*b - 1))//' N along y and '//to_text(loads(2*b))//' N along z'))
          return
       end do
    end subroutine bear

@@ -175,7 +175,7 @@ contains
       real(wp), intent(inout) :: time_step
       type(pad_state) :: trial
       real(wp) :: stiffness(2, 2), damping(2, 2), force(2), step(2), clearance, film
-      clearance = model%inputs%clearance()
+      clearance = model%bearings(1)%clearance
       call pad_balance(model, i, force, stiffness, damping)
       film = film_of(model, i, journal, pad)
       do
@@ -242,7 +242,7 @@ contains
       damping(of_journal + 1:, :) = 0
       damping(:, of_journal + 1:) = 0
       call set_free(model, .not. in_equilibrium, free)
-      associate (longest => longest_move*model%inputs%clearance())
+      associate (longest => longest_move*model%bearings(1)%clearance)
          do
             call newton_step(stiffness, damping, force, free, time_step, step, ok)
             ! what is no number ends here too, and the films refuse it
@@ -271,7 +271,7 @@ contains
          open = all([(film_of(model, i, moved, trial(i)) >= least_film*film_of(model, i, journal, pads(i)), &
             & i=1, size(pads))])
          ! a film that is closed already, or nearly, stops no journal for ever
-         if (open .or. .not. norm2(step(:of_journal)) > shortest_move*model%inputs%clearance()) exit
+         if (open .or. .not. norm2(step(:of_journal)) > shortest_move*model%bearings(1)%clearance) exit
          step = 0.5_wp*step
          time_step = 0.5_wp*time_step
       end do

@@ -56,7 +56,7 @@ contains
       static = model
       call stand_still(static, cavitation)
       do b = 1, size(static%bearings)
-         call static%bearings(b)%use_in_statics(static%inputs%of_bearing(b))
+         call static%bearings(b)%use_in_statics(static%inputs, b)
       end do
    end subroutine make_static
 
@@ -123,7 +123,7 @@ contains
       integer :: i
       associate (load => model%point%load)
          if (norm2(load) > 0) then
-            journal%position = fractions(k)*model%inputs%clearance()*load/norm2(load)
+            journal%position = fractions(k)*model%bearings(1)%clearance*load/norm2(load)
             if (model%layout%bearings(1)%radial) then
                do i = 1, size(pads)
                   pads(i)%pivot_deflection = model%bearings(1)%pivots(i)%contact%law%pivot_deflection(norm2(load) &
@@ -135,7 +135,7 @@ contains
          do i = 1, size(pads)
             associate (position => model%bearings(1)%pads(i)%position)
                frame = frame_of(position, journal, pads(i))
-               pads(i)%tilt = (frame%along + model%inputs%bearing%machined_clearance(i)/3)/position%centre_distance
+               pads(i)%tilt = (frame%along + model%inputs%bearings(1)%machined_clearance(i)/3)/position%centre_distance
             end associate
          end do
       end associate
@@ -147,7 +147,7 @@ contains
       type(machine_model), intent(in) :: model
       real(wp) :: middle(2)
       associate (pads => model%bearings(1)%pads, &
-         & out => model%inputs%bearing%machined_clearance - model%inputs%bearing%assembled_clearance)
+         & out => model%inputs%bearings(1)%machined_clearance - model%inputs%bearings(1)%assembled_clearance)
          ! equal pads add nothing to the first term
          middle = -out(1)/size(pads)*[sum(pads%position%sin_angle), sum(pads%position%cos_angle)] &
             & - [dot_product(out - out(1), pads%position%sin_angle), &
@@ -179,12 +179,11 @@ contains
       found%oil = model%oil
    end subroutine describe
 
-   !> Puts the name of the bearing in front of the message of a set error, where there are several bearings.
+   !> Puts the name of the bearing in front of the message of a set error, where it has one.
    subroutine name_bearing(model, b, error)
       type(machine_model), intent(in) :: model
       integer, intent(in) :: b
       type(error_type), allocatable, intent(inout) :: error
-      if (model%inputs%is_machine()) call add_context(error, &
-         & 'bearing '''//model%inputs%machine%bearings(b)%name//'''')
+      call add_context(error, model%inputs%bearings(b)%label())
    end subroutine name_bearing
 end module static_model

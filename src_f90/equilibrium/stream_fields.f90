@@ -3,7 +3,6 @@ module stream_fields
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
-   use case_inputs, only: case_type
    use film_solver, only: film_motion
    use elimination_film, only: elimination_film_type
    use film_streams, only: film_stream, new_stream_volumes, find_stream
@@ -47,22 +46,20 @@ contains
       real(wp), intent(out) :: fields(:, :, :)
       type(error_type), allocatable, intent(out) :: error
       type(film_stream) :: streams(size(profiles, 2))
-      type(case_type) :: own
       integer :: b, i
       logical :: ok, keeps
       keeps = allocated(volumes)
       if (.not. keeps) call make_volumes(model, size(profiles, 1), volumes)
       do b = 1, size(films)
-         own = model%inputs%of_bearing(b)
-         call set_heat(own, films(b))
-         associate (first => model%layout%bearings(b)%other_pads + 1, &
+         call set_heat(model%inputs%bearings(b), model%inputs%thermal%layers, films(b))
+         associate (own => model%inputs%bearings(b), first => model%layout%bearings(b)%other_pads + 1, &
             & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
             call find_streams(model, b, y, volumes(first:last), size(profiles, 1), streams(first:last), ok, i)
             if (.not. ok) call raise(error, numerics_error, 'the flow in the film of pad '//to_text(i) &
                & //' is not found')
             if (.not. allocated(error)) then
-               call solve_network(own%oil, new_grooves(own), films(b), streams(first:last), profiles(:, first:last), &
-                  & model%point%speed(0.0_wp)*own%bearing%journal_radius, fields(:, :, first:last), ok)
+               call solve_network(own%oil, new_grooves(own, model%inputs%sense()), films(b), streams(first:last), &
+                  & profiles(:, first:last), model%point%speed(0.0_wp)*own%journal_radius, fields(:, :, first:last), ok)
                if (.not. ok) call raise(error, numerics_error, 'nothing carries off the heat of the films')
             end if
          end associate

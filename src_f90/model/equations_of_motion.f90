@@ -60,19 +60,19 @@ contains
       type(case_type), intent(in) :: inputs
       integer, intent(in), optional :: accuracy
       type(machine_model) :: model
-      type(pads_layout_type) :: pads(inputs%bearing_count())
-      type(case_type) :: own
+      type(pads_layout_type) :: pads(size(inputs%bearings))
       integer :: b
       model%inputs = inputs
       call make_rotor(inputs, model%rotor, model%refusal)
       if (allocated(model%refusal)) return
       allocate (model%bearings(size(pads)), model%oil(0))
       do b = 1, size(pads)
-         own = inputs%of_bearing(b)
-         model%bearings(b) = new_tilting_pad_bearing(own, accuracy)
-         pads(b) = pads_layout(own%pad_count(), own%tilting(), own%tilting_radial(), &
-            & model%bearings(b)%pivots(1)%friction%has_bristle)
-         model%oil = [model%oil, spread(film_oil(reference_viscosity(own)), 1, own%pad_count())]
+         model%bearings(b) = new_tilting_pad_bearing(inputs, b, accuracy)
+         associate (bearing => inputs%bearings(b))
+            pads(b) = pads_layout(bearing%pad_count(), bearing%tilting(), bearing%tilting_radial(), &
+               & model%bearings(b)%pivots(1)%friction%has_bristle)
+            model%oil = [model%oil, spread(film_oil(reference_viscosity(bearing)), 1, bearing%pad_count())]
+         end associate
       end do
       model%layout = new_state_layout(model%rotor%states, pads)
       model%n = model%layout%n
@@ -102,18 +102,15 @@ contains
       type(case_type), intent(in) :: inputs
       logical, intent(in) :: anew
       type(operating_point_type) :: point
-      type(case_type) :: own, before
       class(rotor_type), allocatable :: rotor
       character(len=:), allocatable :: refusal
       integer :: b
       do b = 1, size(self%bearings)
-         own = inputs%of_bearing(b)
-         before = self%inputs%of_bearing(b)
-         associate (p => before%pivot, q => own%pivot, of => self%layout%bearings(b))
-            call self%bearings(b)%adopt(own, any(abs([p%socket_radius - q%socket_radius, &
+         associate (p => self%inputs%bearings(b)%pivot, q => inputs%bearings(b)%pivot, of => self%layout%bearings(b))
+            call self%bearings(b)%adopt(inputs, b, any(abs([p%socket_radius - q%socket_radius, &
                & p%radius_difference - q%radius_difference, p%deflection_factor - q%deflection_factor, &
                & p%young_modulus - q%young_modulus, p%poisson_ratio - q%poisson_ratio]) > 0), anew)
-            self%oil(of%all_pads()) = film_oil(reference_viscosity(own))
+            self%oil(of%all_pads()) = film_oil(reference_viscosity(inputs%bearings(b)))
          end associate
       end do
       self%inputs = inputs

@@ -28,7 +28,7 @@ contains
       integer :: b, i, bearing, pad
       sizes = abs(shape)*lengths
       if (maxval(sizes(:model%rotor%positions)) >= share_of_rotor*maxval(sizes)) then
-         name = merge('shaft  ', 'journal', model%inputs%is_machine())
+         name = merge('shaft  ', 'journal', model%rotor%stations > 0)
          if (vibrates) name = trim(name)//merge(', forward ', ', backward', goes_forward(model, shape))
          return
       end if
@@ -45,11 +45,8 @@ contains
          end do
       end do
       name = 'pads'
-      if (second < share_of_pad*largest) name = 'pad '//to_text(pad)
+      if (second < share_of_pad*largest) name = model%inputs%bearings(bearing)%label(', ')//'pad '//to_text(pad)
       associate (of => model%layout%bearings(bearing))
-         if (model%inputs%is_machine() .and. name /= 'pads') then
-            name = 'bearing '''//model%inputs%machine%bearings(bearing)%name//''', '//name
-         end if
          if (maxloc(sizes(of%own_positions(pad)), dim=1) == 1) then
             name = trim(name)//', tilt'
          else

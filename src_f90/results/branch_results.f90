@@ -79,7 +79,7 @@ contains
       end if
       if (size(figures%stations) > 0) call put_stations()
       do b = 1, size(figures%bearings)
-         group = bearing_group(model%inputs, b)
+         group = bearing_group(model%inputs%bearings(b))
          call put_bearing(figures%bearings(b), model%layout%bearings(b)%tilting)
          if (present(oil)) call put_oil(oil(b), viscosity(model%layout%bearings(b)%all_pads()))
       end do

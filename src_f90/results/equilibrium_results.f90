@@ -61,7 +61,8 @@ contains
          & '1 where the equilibrium is stable')
    end subroutine put_stability
 
-   !> Writes where the journal lies, what the pads carry, losses, flows and temperature rises.
+   !> Writes where the journal lies in the one bearing of a case, what the pads carry, losses, flows and temperature
+   !> rises.
    subroutine put_figures(file, inputs, figures)
       class(record_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
@@ -81,7 +82,7 @@ contains
          call list('couette_loss', pads%couette, 'W', 'Couette loss: power loss by the shear of sliding')
          call list('poiseuille_loss', pads%pressure, 'W', &
             & 'Poiseuille loss: power loss by the shear of the flow that pressure drives')
-         if (inputs%asperity%model /= 'none') call list('boundary_loss', pads%boundary, 'W', &
+         if (inputs%bearings(1)%asperity%model /= 'none') call list('boundary_loss', pads%boundary, 'W', &
             & 'power loss by boundary friction of asperities')
          call list('journal_drag', pads%journal_drag, 'N m', &
             & 'moment of the film''s shear against the journal''s rotation')

@@ -6,6 +6,7 @@ module last_state
    use errors, only: error_type, raise, system_error
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
+   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state
@@ -43,19 +44,19 @@ contains
       if (allocated(error)) return
       call refuse_other_rotor(path, found%inputs, inputs, error)
       do b = 1, size(layout%bearings)
-         if (.not. allocated(error)) call refuse_other_pads(path, found%inputs%of_bearing(b), layout%bearings(b), error)
+         if (.not. allocated(error)) call refuse_other_pads(path, found%inputs%bearings(b), layout%bearings(b), error)
       end do
       if (.not. allocated(error)) call refuse_no_samples(path, file, error)
       if (.not. allocated(error)) then
          at = last_whole_turn(file, found%inputs%output%samples_per_revolution)
-         if (inputs%is_machine()) call read_turned_rotor(file, 2*size(layout%bearings), at, rotor)
+         if (.not. inputs%rotor%is_rigid()) call read_turned_rotor(file, 2*size(layout%bearings), at, rotor)
          do b = 1, size(layout%bearings)
             associate (own => layout%bearings(b))
-               call read_states(file, bearing_group(inputs, b), own, at, journal, &
+               call read_states(file, bearing_group(inputs%bearings(b)), own, at, journal, &
                   & pads(own%other_pads + 1:own%other_pads + own%pads))
             end associate
          end do
-         if (.not. inputs%is_machine()) rotor = [journal%position, journal%velocity]
+         if (inputs%rotor%is_rigid()) rotor = [journal%position, journal%velocity]
          if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       end if
       call file%close()
@@ -68,23 +69,19 @@ contains
       character(len=*), intent(in) :: path
       type(case_type), intent(in) :: there, here
       type(error_type), allocatable, intent(out) :: error
-      logical :: same
       integer :: b
       if (there%operation%rotation /= here%operation%rotation) then
          call raise(error, system_error, path//': its shaft turns '//there%operation%rotation &
             & //', and that of this case '//here%operation%rotation//'; no start for it')
          return
       end if
-      same = there%is_machine() .eqv. here%is_machine()
-      if (same .and. here%is_machine()) same = there%bearing_count() == here%bearing_count()
-      if (.not. same) then
+      if (size(there%bearings) /= size(here%bearings)) then
          call raise(error, system_error, path//': has '//rotor_text(there)//', and this case '//rotor_text(here) &
             & //'; no start for it')
          return
       end if
-      if (.not. here%is_machine()) return
-      do b = 1, here%bearing_count()
-         associate (one => there%machine%bearings(b), own => here%machine%bearings(b))
+      do b = 1, size(here%bearings)
+         associate (one => there%bearings(b), own => here%bearings(b))
             if (one%name /= own%name) then
                call raise(error, system_error, path//': has the bearing '//one%name//' where this case has '//own%name &
                   & //'; no start for it')
@@ -101,13 +98,13 @@ contains
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: text
       text = 'a rigid journal in one bearing'
-      if (inputs%is_machine()) text = 'a shaft in '//to_text(inputs%bearing_count())//' bearings'
+      if (size(inputs%bearings) > 1) text = 'a shaft in '//to_text(size(inputs%bearings))//' bearings'
    end function rotor_text
 
    !> Refuses the result of a bearing whose pads have other states.
    subroutine refuse_other_pads(path, there, layout, error)
       character(len=*), intent(in) :: path
-      type(case_type), intent(in) :: there
+      type(bearing_type), intent(in) :: there
       type(pads_layout_type), intent(in) :: layout
       type(error_type), allocatable, intent(out) :: error
       logical :: bristles

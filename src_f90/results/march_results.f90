@@ -165,11 +165,12 @@ contains
          & 'oil/time pad')
    end subroutine put_viscosity_history
 
-   !> Writes amplitude spectra of a bearing, of this case, over the last whole revolutions of a run at constant speed;
-   !> none where it was not sampled over one.
-   subroutine put_spectra(file, inputs, interval)
+   !> Writes amplitude spectra of bearing b of a case over the last whole revolutions of a run at constant speed; none
+   !> where it was not sampled over one.
+   subroutine put_spectra(file, inputs, b, interval)
       type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       !> Between samples, s.
       real(wp), intent(in) :: interval
       real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
@@ -189,10 +190,10 @@ contains
       call file%last_samples('journal_z', n, z)
       call put('journal_y', one_sided_amplitude(y(1, :)), 'm', 'amplitude of journal_y', 'frequency')
       call put('journal_z', one_sided_amplitude(z(1, :)), 'm', 'amplitude of journal_z', 'frequency')
-      if (inputs%tilting()) then
+      if (inputs%bearings(b)%tilting()) then
          call file%last_samples('pad_tilt', n, tilt)
-         allocate (amplitudes(n/2 + 1, inputs%pad_count()))
-         do i = 1, inputs%pad_count()
+         allocate (amplitudes(n/2 + 1, size(tilt, 1)))
+         do i = 1, size(tilt, 1)
             amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
          end do
          call file%put_table('spectrum/pad_tilt', amplitudes, 'rad', 'amplitude of pad_tilt', 'pad spectrum/frequency')

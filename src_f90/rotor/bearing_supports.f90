@@ -1,7 +1,7 @@
 !> Supports of bearings: housings on springs and dampers, which move with displacements of their own.
 module bearing_supports
    use kinds, only: wp
-   use machine_groups, only: machine_type
+   use case_groups, only: bearing_type
    implicit none (type, external)
    private
    public :: relative_displacements, add_supports
@@ -11,19 +11,19 @@ contains
    !> What the displacements of the journals in space and the amplitudes of the modes, n of both, are over displacements
    !> x: those of the journals in their bearings, those of the housings, the amplitudes. A journal in space is displaced
    !> as in its bearing, and as its housing.
-   pure function relative_displacements(machine, n) result(into)
-      type(machine_type), intent(in) :: machine
+   pure function relative_displacements(bearings, n) result(into)
+      type(bearing_type), intent(in) :: bearings(:)
       integer, intent(in) :: n
       real(wp), allocatable :: into(:, :)
       integer :: journals, b, i, p
-      journals = 2*size(machine%bearings)
-      allocate (into(n, n + 2*count(has_support(machine))), source=0.0_wp)
+      journals = 2*size(bearings)
+      allocate (into(n, n + 2*count(has_support(bearings))), source=0.0_wp)
       do i = 1, n
          into(i, merge(i, i + size(into, 2) - n, i <= journals)) = 1
       end do
       i = journals
-      do b = 1, size(machine%bearings)
-         if (.not. allocated(machine%bearings(b)%support)) cycle
+      do b = 1, size(bearings)
+         if (.not. allocated(bearings(b)%support)) cycle
          do p = 1, 2
             i = i + 1
             into(2*(b - 1) + p, i) = 1
@@ -32,16 +32,16 @@ contains
    end function relative_displacements
 
    !> Adds masses, springs, dampers and weights of the housings to matrices in the displacements x.
-   pure subroutine add_supports(machine, gravity, mass, damping, stiffness, load)
-      type(machine_type), intent(in) :: machine
+   pure subroutine add_supports(bearings, gravity, mass, damping, stiffness, load)
+      type(bearing_type), intent(in) :: bearings(:)
       !> m/s^2
       real(wp), intent(in) :: gravity
       real(wp), intent(inout) :: mass(:, :), damping(:, :), stiffness(:, :), load(:)
       integer :: b, i, p
-      i = 2*size(machine%bearings)
-      do b = 1, size(machine%bearings)
-         if (.not. allocated(machine%bearings(b)%support)) cycle
-         associate (s => machine%bearings(b)%support)
+      i = 2*size(bearings)
+      do b = 1, size(bearings)
+         if (.not. allocated(bearings(b)%support)) cycle
+         associate (s => bearings(b)%support)
             load(i + 1) = load(i + 1) - gravity*s%mass
             do p = 1, 2
                i = i + 1
@@ -53,10 +53,10 @@ contains
       end do
    end subroutine add_supports
 
-   pure function has_support(machine) result(has)
-      type(machine_type), intent(in) :: machine
-      logical :: has(size(machine%bearings))
+   pure function has_support(bearings) result(has)
+      type(bearing_type), intent(in) :: bearings(:)
+      logical :: has(size(bearings))
       integer :: b
-      has = [(allocated(machine%bearings(b)%support), b=1, size(machine%bearings))]
+      has = [(allocated(bearings(b)%support), b=1, size(bearings))]
    end function has_support
 end module bearing_supports

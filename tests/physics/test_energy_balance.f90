@@ -35,7 +35,7 @@ contains
       type(pad_state), allocatable :: pads(:)
       real(wp) :: power(6), film(2), frame(2, 2), a, speed, phase, weight
       integer :: pad
-      associate (b => self%bearing, p => self%bearing%inputs%pads, n => self%bearing%n)
+      associate (b => self%bearing, p => self%bearing%inputs%bearings(1)%pads, n => self%bearing%n)
          call b%rhs(t, y(:n), dydt(:n), ok)
          if (.not. ok) then
             self%refusal = b%refusal
@@ -86,7 +86,7 @@ contains
       real(wp) :: pushed(2), friction, coefficient
       integer :: i
       journal = bearing%rotor%journal(y(:4), 1)
-      coefficient = bearing%inputs%asperity%friction_coefficient
+      coefficient = bearing%inputs%bearings(1)%asperity%friction_coefficient
       do i = 1, size(pads)
          associate (load => bearing%bearings(1)%asperity(i), pad => bearing%bearings(1)%pads(i))
             if (.not. load%touches) cycle
@@ -129,7 +129,7 @@ contains
       pads = bearing%layout%bearings(1)%pad_states(y)
       pressed = 0
       associate (p => bearing%bearings(1)%pads(pad), gap => bearing%bearings(1)%pads(pad)%gap, &
-         & a => bearing%inputs%asperity)
+         & a => bearing%inputs%bearings(1)%asperity)
          motion = motion_of(p%position, frame_of(p%position, journal, pads(pad)), journal, pads(pad))
          do i = 1, n
             phi = -gap%trailing_angle + (i - 0.5_wp)*gap%arc()/n
@@ -179,7 +179,7 @@ contains
       integer :: pad
       energy = 0
       pads = bearing%layout%bearings(1)%pad_states(y)
-      associate (b => bearing, p => bearing%inputs%pads, r => bearing%inputs%rotor)
+      associate (b => bearing, p => bearing%inputs%bearings(1)%pads, r => bearing%inputs%rotor)
          energy(1) = 0.5_wp*r%mass*dot_product(y(3:4), y(3:4))
          energy(3) = r%mass*r%gravity*y(1) - dot_product(r%static_load, y(1:2))
          do pad = 1, b%layout%pads
@@ -325,8 +325,8 @@ contains
       what = 'striking, friction '//to_text(coefficient)
       inputs = shaken_case('fixed', 'none', 0.0_wp)
       ! rough surfaces, which the film does not keep apart
-      inputs%asperity%roughness = 3e-6_wp
-      inputs%asperity%friction_coefficient = coefficient
+      inputs%bearings(1)%asperity%roughness = 3e-6_wp
+      inputs%bearings(1)%asperity%friction_coefficient = coefficient
       bearing = new_machine_model(inputs)
       start = bearing%static_state([-60e-6_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp])
       start(3:4) = [-0.5_wp, 0.2_wp]

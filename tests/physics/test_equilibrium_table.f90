@@ -46,7 +46,7 @@ contains
       character(len=*), intent(in) :: motion
       real(wp), intent(in) :: speed_rpm
       inputs = case_type()
-      inputs%pads%motion = motion
+      inputs%bearings(1)%pads%motion = motion
       inputs%operation%speed_rpm = speed_rpm
       inputs%operation%final_speed_rpm = speed_rpm
    end function paper_case
@@ -55,7 +55,7 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable :: error
       call find_equilibrium(new_machine_model(inputs), found, error)
-      call expect_no_error(error, 'found: '//inputs%pads%motion//', '//to_text(inputs%operation%speed_rpm) &
+      call expect_no_error(error, 'found: '//inputs%bearings(1)%pads%motion//', '//to_text(inputs%operation%speed_rpm) &
          & //' rpm')
    end function found_in
 
@@ -79,7 +79,7 @@ contains
       character(len=4), parameter :: solvers(2) = ['auto', 'sor ']
       inputs = paper_case('tilting_radial', 6500.0_wp)
       do k = 1, 2
-         inputs%film%solver = trim(solvers(k))
+         inputs%bearings(1)%film%solver = trim(solvers(k))
          found = found_in(inputs)
          call expect_place(found, [-55.595_wp, 0.0266_wp], [-0.2029_wp, 1.0269_wp], 41.512_wp, 'TR 6500 '//solvers(k))
          ! the pivots are 2 MN/mm stiff: their pivot deflection follows the load, to its 1e-4, and not the film
@@ -93,7 +93,7 @@ contains
       type(case_type) :: inputs
       inputs = paper_case('tilting_only', speed_rpm)
       call expect_place(found_in(inputs), journal, tilt, film, 'TO '//to_text(speed_rpm))
-      inputs%film%solver = 'sor'
+      inputs%bearings(1)%film%solver = 'sor'
       call expect_place(found_in(inputs), journal, tilt, film, 'TO sor '//to_text(speed_rpm))
    end subroutine tilting_only_table
 
@@ -106,10 +106,10 @@ contains
       real(wp) :: off(0:2)
       integer :: k
       inputs = paper_case('tilting_only', 6500.0_wp)
-      inputs%film%solver = 'sor'
+      inputs%bearings(1)%film%solver = 'sor'
       do k = 0, 2
-         inputs%film%circumferential_cells = 30*2**k
-         inputs%film%axial_cells = 8*2**k
+         inputs%bearings(1)%film%circumferential_cells = 30*2**k
+         inputs%bearings(1)%film%axial_cells = 8*2**k
          found = found_in(inputs)
          off(k) = found%rotor(1) + 45.561e-6_wp
       end do
@@ -134,13 +134,13 @@ contains
       real(wp) :: total(2), a, theta, pivot(2), centre(2), e(2), load, along(2), outward(2), weight
       integer :: pad
       inputs = paper_case(motion, 4000.0_wp)
-      inputs%film%solver = 'sor'
-      inputs%film%cavitation = 'reynolds'
+      inputs%bearings(1)%film%solver = 'sor'
+      inputs%bearings(1)%film%cavitation = 'reynolds'
       inputs%rotor%static_load = [1e3_wp, 5e3_wp]
-      inputs%pads%pivot_ratio = 0.55_wp
-      inputs%pads%centre_tangential = 3e-3_wp
+      inputs%bearings(1)%pads%pivot_ratio = 0.55_wp
+      inputs%bearings(1)%pads%centre_tangential = 3e-3_wp
       found = found_in(inputs)
-      associate (b => inputs%bearing, p => inputs%pads)
+      associate (b => inputs%bearings(1), p => inputs%bearings(1)%pads)
          film = pad_gap_type(b%journal_radius, b%machined_clearance(1), b%axial_length(1), 0.55_wp*69.3_wp*degree, &
             & 0.45_wp*69.3_wp*degree, 0.0_wp, 0.0_wp, 0.0_wp)
          solver = new_sor_film([film, film], sor_options(tolerance=1e-10_wp, max_sweeps=100000, &

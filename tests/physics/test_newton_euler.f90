@@ -67,7 +67,7 @@ contains
       films = model%bearings(1)%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
-         associate (p => model%inputs%pads, loads => model%bearings(1)%loads(pad), &
+         associate (p => model%inputs%bearings(1)%pads, loads => model%bearings(1)%loads(pad), &
             & arm => model%bearings(1)%pads(pad)%position%centre_distance)
             a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
             rate = y(model%layout%bearings(1)%before(pad) + at_tilt_rate)
@@ -109,7 +109,7 @@ contains
       films = model%bearings(1)%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
-         associate (p => model%inputs%pads, arm => model%bearings(1)%pads(pad)%position%centre_distance)
+         associate (p => model%inputs%bearings(1)%pads, arm => model%bearings(1)%pads(pad)%position%centre_distance)
             a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
             friction = model%bearings(1)%pads(pad)%ball_radius*model%bearings(1)%loads(pad)%friction%force
             ! C x weight, with weight along (-cos a, -sin a)

@@ -110,13 +110,13 @@ contains
       type(static_figures_type) :: figures
       inputs = case_of('&film cavitation = ''none''/'//vg46)
       call solve(inputs, static, figures)
-      inputs%oil%density = inputs%oil%density/4
-      inputs%oil%specific_heat = inputs%oil%specific_heat*4
+      inputs%bearings(1)%oil%density = inputs%bearings(1)%oil%density/4
+      inputs%bearings(1)%oil%specific_heat = inputs%bearings(1)%oil%specific_heat*4
       call solve(inputs, other, figures)
       call expect(all(abs(other%rotor - static%rotor) < 1e-12_wp), 'journal')
-      inputs%oil%specific_heat = 1e12_wp
+      inputs%bearings(1)%oil%specific_heat = 1e12_wp
       call solve(inputs, other, figures)
-      call expect(all(abs(figures%oil%maximum - inputs%oil%supply_temperature) < 1e-4_wp), 'cold')
+      call expect(all(abs(figures%oil%maximum - inputs%bearings(1)%oil%supply_temperature) < 1e-4_wp), 'cold')
    end subroutine capacity
 
    !> The speed at which a light rotor loses its stability is one at which its own equilibrium has no growth.
@@ -154,8 +154,8 @@ contains
       type(viscosity_history_type) :: history
       type(error_type), allocatable :: error
       inputs = case_of('&operation speed_rpm = 3000, final_speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
-      inputs%oil%shaft_temperature = 55
-      inputs%oil%groove_volume = volume
+      inputs%bearings(1)%oil%shaft_temperature = 55
+      inputs%bearings(1)%oil%groove_volume = volume
       inputs%operation%duration = duration
       call solve(inputs, static, model=model)
       call find_groove_transient(model, model%static_state(static%rotor, static%tilt, static%pivot_deflection), &
@@ -171,7 +171,7 @@ contains
       type(equilibrium_type) :: static
       real(wp) :: slow(2), lag(2), longer(2), never(2)
       inputs = case_of('&operation speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
-      inputs%oil%shaft_temperature = 55
+      inputs%bearings(1)%oil%shaft_temperature = 55
       call solve(inputs, static)
       slow = after_run_up(1e-5_wp, 1e4_wp)
       call expect(all(abs(slow/static%oil%viscosity - 1) < 1e-4_wp), 'slow')

@@ -87,7 +87,9 @@ contains
          error stop 1
       end if
       ! the same films without tables and without iteration
-      if (inputs%film%solver == 'auto' .or. inputs%film%solver == 'sor') inputs%film%solver = 'direct'
+      associate (solver => inputs%bearings(1)%film%solver)
+         if (solver == 'auto' .or. solver == 'sor') solver = 'direct'
+      end associate
       model = new_machine_model(inputs)
       point = model%point%static()
       call model%set_point(point)
@@ -101,7 +103,7 @@ contains
       type(machine_model), intent(in) :: model
       type(curve_type), allocatable, intent(out) :: curves(:)
       type(table_type), allocatable :: tables(:)
-      integer :: like(inputs%pad_count()), i
+      integer :: like(inputs%bearings(1)%pad_count()), i
       call make_tables(inputs, model, like, tables)
       allocate (curves(size(like)))
       do i = 1, size(like)
@@ -125,7 +127,7 @@ contains
       do i = 1, size(like)
          like(i) = 0
          do s = 1, size(first)
-            associate (b => inputs%bearing, p => inputs%pads, n => first(s))
+            associate (b => inputs%bearings(1), p => inputs%bearings(1)%pads, n => first(s))
                if (abs(p%arc_deg(i) - p%arc_deg(n)) + abs(p%pivot_ratio(i) - p%pivot_ratio(n)) &
                   & + abs(p%pivot_distance(i) - p%pivot_distance(n)) &
                   & + abs(b%machined_clearance(i) - b%machined_clearance(n)) &
@@ -137,13 +139,13 @@ contains
          like(i) = size(first)
       end do
       shapes = inputs
-      shapes%bearing%machined_clearance = inputs%bearing%machined_clearance(first)
-      shapes%bearing%axial_length = inputs%bearing%axial_length(first)
-      shapes%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg(first)
-      shapes%pads%arc_deg = inputs%pads%arc_deg(first)
-      shapes%pads%pivot_ratio = inputs%pads%pivot_ratio(first)
-      shapes%pads%pivot_distance = inputs%pads%pivot_distance(first)
-      call make_film(shapes, march_films, film)
+      shapes%bearings(1)%machined_clearance = inputs%bearings(1)%machined_clearance(first)
+      shapes%bearings(1)%axial_length = inputs%bearings(1)%axial_length(first)
+      shapes%bearings(1)%pads%pivot_angle_deg = inputs%bearings(1)%pads%pivot_angle_deg(first)
+      shapes%bearings(1)%pads%arc_deg = inputs%bearings(1)%pads%arc_deg(first)
+      shapes%bearings(1)%pads%pivot_ratio = inputs%bearings(1)%pads%pivot_ratio(first)
+      shapes%bearings(1)%pads%pivot_distance = inputs%bearings(1)%pads%pivot_distance(first)
+      call make_film(shapes%bearings(1), shapes%integration%relative_tolerance, march_films, film)
       allocate (tables(size(first)), motion(size(first)), response(size(first)))
       do s = 1, size(first)
          call set_places(model, first(s), tables(s))
@@ -305,7 +307,7 @@ contains
       logical :: ok
       allocate (tried(model%n, 0), found(model%n, 0), y_best(model%n))
       call random_seed(put=spread(20260101, 1, 64))
-      reach = 2*maxval([model%inputs%clearance(), model%inputs%bearing%machined_clearance])
+      reach = 2*maxval([model%inputs%bearings(1)%clearance(), model%inputs%bearings(1)%machined_clearance])
       count = 0
       rank = 0
       best%name = 'none'
@@ -336,7 +338,7 @@ contains
          print '(a, 1x, a, i0, a, i0)', path, 'none 0 of ', size(tried, 2)
       else
          print '(a, 1x, a, 1x, i0, a, i0, *(1x, es12.5))', path, best%name, size(found, 2), ' of ', size(tried, 2), &
-            & best%eigenvalue, y_best(:2)/model%inputs%clearance(), &
+            & best%eigenvalue, y_best(:2)/model%inputs%bearings(1)%clearance(), &
             & y_best(model%layout%bearings(1)%before([(row, row=1, model%layout%pads)]) + at_tilt)
       end if
    end subroutine search_plane
@@ -354,7 +356,7 @@ contains
       integer :: k, i
       unit = model%scale
       associate (of => model%layout%bearings(1))
-         if (of%radial) unit(of%before([(i, i=1, of%pads)]) + at_deflection) = model%inputs%clearance()
+         if (of%radial) unit(of%before([(i, i=1, of%pads)]) + at_deflection) = model%inputs%bearings(1)%clearance()
       end associate
       known = .false.
       do k = 1, size(list, 2)
@@ -399,7 +401,7 @@ contains
          end do
          if (norm2(force) < 1e-4_wp*reference) exit
          step = solve_2x2(slope, -force)
-         length = norm2(step)/(0.15_wp*model%inputs%clearance())
+         length = norm2(step)/(0.15_wp*model%inputs%bearings(1)%clearance())
          if (.not. length > 0) exit
          place = place + step/max(1.0_wp, length)
       end do
@@ -479,7 +481,7 @@ contains
       integer :: iteration, cut, pivots(size(step)), info
       x = model%layout%positions()
       unit = model%scale(x)
-      unit(3:) = merge(unit(3:), model%inputs%clearance(), &
+      unit(3:) = merge(unit(3:), model%inputs%bearings(1)%clearance(), &
          & .not. model%layout%bearings(1)%radial .or. mod([(info, info=1, size(unit) - 2)], 2) == 1)
       do iteration = 1, 60
          call model%evaluate(0.0_wp, y, .true., ok)

@@ -35,7 +35,7 @@ contains
       call case_from_text(text, 'case', inputs, error)
       call expect_no_error(error, 'case')
       model = new_machine_model(inputs)
-      losses = new_bearing_losses(inputs)
+      losses = new_bearing_losses(inputs%bearings(1))
    end subroutine make
 
    !> Two pads that differ, in motion.

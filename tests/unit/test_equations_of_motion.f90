@@ -43,8 +43,8 @@ contains
    type(case_type) function paper_case(motion, friction) result(inputs)
       character(len=*), intent(in) :: motion, friction
       inputs = case_type()
-      inputs%pads%motion = trim(motion)
-      inputs%friction%model = trim(friction)
+      inputs%bearings(1)%pads%motion = trim(motion)
+      inputs%bearings(1)%friction%model = trim(friction)
    end function paper_case
 
    !> A case in which every term counts: pads as heavy as the load, their centres off the pivots' radius,
@@ -186,9 +186,9 @@ contains
       logical :: ok, tilting_ok
       inputs = paper_case('tilting_only', 'none')
       tilting = new_machine_model(inputs)
-      inputs%pads%motion = 'fixed'
-      inputs%pads%mass = unset
-      inputs%pads%inertia = unset
+      inputs%bearings(1)%pads%motion = 'fixed'
+      inputs%bearings(1)%pads%mass = unset
+      inputs%bearings(1)%pads%inertia = unset
       fixed = new_machine_model(inputs)
       call expect(fixed%n == 4 .and. size(fixed%scale) == 4, 'the states of the journal')
       associate (w => fixed%point%speed(0.0_wp))
@@ -276,7 +276,7 @@ contains
       films = model%bearings(1)%sampled()
       do pad = 1, 2
          a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
-         associate (p => model%inputs%pads)
+         associate (p => model%inputs%bearings(1)%pads)
             reaction = -films(pad)%film_force(2) - p%mass(pad)*300*sin(a) &
                & + p%mass(pad)*p%centre_radial(pad)*y(model%layout%bearings(1)%before(pad) + at_tilt_rate)**2
             call expect_close(model%bearings(1)%loads(pad)%contact, max(0.0_wp, reaction), 1e-12_wp*abs(reaction), &
@@ -294,7 +294,7 @@ contains
       logical :: ok
       integer :: pad
       inputs = heavy_case('tilting_only', 'bengisu_akay', 0.0_wp)
-      inputs%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
+      inputs%bearings(1)%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
       model = new_machine_model(inputs)
       y = model%static_state([0.0_wp, 0.0_wp], [3e-4_wp, 3e-4_wp], [0.0_wp, 0.0_wp])
       y(model%layout%bearings(1)%before([1, 2]) + at_tilt_rate) = 0.3_wp

@@ -58,7 +58,7 @@ contains
       logical :: ok
       ! its films are those of the search
       inputs = case_of('&pads pivot_angle_deg = -45, 225, 90 / &film solver = ''direct'' /')
-      inputs%pads%centre_tangential(3) = 60e-3_wp
+      inputs%bearings(1)%pads%centre_tangential(3) = 60e-3_wp
       model = new_machine_model(inputs)
       call find_partial_equilibrium(model, found, held, error)
       call expect_no_error(error, 'with a pad on top')

@@ -208,10 +208,10 @@ contains
       integer :: n, i
       what = trim(motion)//', '//trim(friction)
       inputs = case_type()
-      inputs%pads%motion = trim(motion)
-      inputs%friction%model = trim(friction)
-      inputs%pads%centre_tangential = [3e-3_wp, -6e-3_wp]
-      inputs%pads%mass = [0.8_wp, 0.6_wp]
+      inputs%bearings(1)%pads%motion = trim(motion)
+      inputs%bearings(1)%friction%model = trim(friction)
+      inputs%bearings(1)%pads%centre_tangential = [3e-3_wp, -6e-3_wp]
+      inputs%bearings(1)%pads%mass = [0.8_wp, 0.6_wp]
       model = new_machine_model(inputs)
       y = model%state(journal_motion([-4e-5_wp, 2e-6_wp], [1e-3_wp, -2e-3_wp]), &
          & [(pad_state(4e-4_wp*(i - 1), between(0.3_wp, 0.6_wp), 7e-6_wp, 1e-3_wp, 1e-7_wp), i=1, 2)])

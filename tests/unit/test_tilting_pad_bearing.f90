@@ -52,8 +52,8 @@ contains
       character(len=:), allocatable :: refusal
       logical :: ok
       inputs = heavy_case('tilting_radial', 'none')
-      inputs%film%solver = solver
-      bearing = new_tilting_pad_bearing(inputs)
+      inputs%bearings(1)%film%solver = solver
+      bearing = new_tilting_pad_bearing(inputs, 1)
       call draw(journal, pads)
       call bearing%evaluate(journal, pads, oil, speed, .true., refusal, ok)
       all_pads = bearing
@@ -77,7 +77,7 @@ contains
    !> Heavy pads off their balance on films without cavitation, hence smooth, solved closely.
    type(tilting_pad_bearing_type) function heavy_bearing(motion, friction) result(bearing)
       character(len=*), intent(in) :: motion, friction
-      bearing = new_tilting_pad_bearing(heavy_case(motion, friction))
+      bearing = new_tilting_pad_bearing(heavy_case(motion, friction), 1)
    end function heavy_bearing
 
    type(case_type) function heavy_case(motion, friction) result(inputs)
@@ -93,9 +93,9 @@ contains
       character(len=*), intent(in) :: motion, friction
       type(case_type) :: inputs
       inputs = heavy_case(motion, friction)
-      inputs%asperity%roughness = 25e-6_wp
-      inputs%asperity%elastic_modulus = 1e9_wp
-      bearing = new_tilting_pad_bearing(inputs)
+      inputs%bearings(1)%asperity%roughness = 25e-6_wp
+      inputs%bearings(1)%asperity%elastic_modulus = 1e9_wp
+      bearing = new_tilting_pad_bearing(inputs, 1)
    end function rough_bearing
 
    !> Pads that carry, tilted, in motion, sliding at some mm/s: away from the switching points of friction.
@@ -256,10 +256,10 @@ contains
       integer :: k
       do k = 1, size(solvers)
          inputs = case_type()
-         inputs%friction%model = 'bengisu_akay'
-         inputs%film%solver = trim(solvers(k))
-         if (solvers(k) == 'fourier') inputs%film%cavitation = 'gumbel'
-         bearing = new_tilting_pad_bearing(inputs)
+         inputs%bearings(1)%friction%model = 'bengisu_akay'
+         inputs%bearings(1)%film%solver = trim(solvers(k))
+         if (solvers(k) == 'fourier') inputs%bearings(1)%film%cavitation = 'gumbel'
+         bearing = new_tilting_pad_bearing(inputs, 1)
          call expect(.not. bearing%smooth() .and. bearing%film%cavitates(), 'friction and cavitation, '//solvers(k))
          ! the wedge of the second pad opens: its film cavitates
          journal%position = [-3e-5_wp, 0.0_wp]
@@ -275,13 +275,13 @@ contains
          whole = bearing%loads(2)%journal
          call expect(norm2(whole - cavitated) > 1e-2_wp*norm2(cavitated), &
             & 'the full film has another force, '//solvers(k))
-         inputs%film%cavitation = 'none'
+         inputs%bearings(1)%film%cavitation = 'none'
          bearing%rubs = .true.
          call bearing%film%set_cavitation(.true.)
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - cavitated), 0.0_wp, 1e-5_wp*norm2(cavitated), &
             & 'and back, within the tolerance of sor, '//solvers(k))
-         bearing = new_tilting_pad_bearing(inputs)
+         bearing = new_tilting_pad_bearing(inputs, 1)
          call expect(.not. bearing%film%cavitates(), 'no cavitation by the input, '//solvers(k))
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - whole), 0.0_wp, 1e-5_wp*norm2(whole), &
