@@ -31,9 +31,11 @@ contains
    subroutine put_bearings(file, inputs)
       class(record_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: of
       integer :: b, i
       do b = 1, size(inputs%bearings)
-         associate (angles => inputs%bearings(b)%pads%pivot_angle_deg, of => bearing_group(inputs%bearings(b)))
+         of = bearing_group(inputs%bearings(b))
+         associate (angles => inputs%bearings(b)%pads%pivot_angle_deg)
             call file%put_list(of//'pad', [(real(i, wp), i=1, size(angles))], '1', 'pad number', of//'pad')
             call file%put_list(of//'pivot_angle', angles*degree, 'rad', 'pivot angle', of//'pad')
          end associate
