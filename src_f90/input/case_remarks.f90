@@ -9,9 +9,8 @@ module case_remarks
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables
    use namelist_writer, only: lines_of
-   use unit_remarks, only: remarks_on_units, remarks_on_pads, remark_on_unbalance, remark_on_speed, &
-      & remark_on_clearance
-   use load_remarks, only: remarks_on_load, remarks_on_forces
+   use unit_remarks, only: remarks_on_units, remarks_on_pads, remark_on_speed, remark_on_clearance
+   use load_remarks, only: remarks_on_forces
    implicit none (type, external)
    private
    public :: remarks_on_case, behind, newline
@@ -34,11 +33,6 @@ contains
          lines = lines//behind(inputs%bearings(b)%label(': '), on_bearing(inputs, inputs%bearings(b)))
       end do
       lines = lines//remarks_on_units(inputs, table)//remarks_on_forces(inputs)
-      if (inputs%rotor%is_rigid()) then
-         if (inputs%moves()) lines = lines//remark_on_unbalance(inputs%unbalance(), inputs%rotor%mass, &
-            & inputs%bearings(1)%clearance())
-         lines = lines//remarks_on_load(inputs)
-      end if
       if (allocated(inputs%about%of_paper)) lines = lines//'not given, and so as in the paper''s bearing: ' &
          & //inputs%about%of_paper//newline
       lines = lines//on_idle_groups(inputs, table)

@@ -8,6 +8,7 @@ module load_remarks
    use bearing_numbers, only: load, specific_load
    use operating_point, only: operating_point_type
    use other_units, only: in_other_units, usual_size, usual_type
+   use unit_remarks, only: remark_on_unbalance
    implicit none (type, external)
    private
    public :: remarks_on_load, remarks_on_forces
@@ -23,29 +24,30 @@ module load_remarks
 
 contains
 
-   !> Steady forces that a case gives, and the tables of its pivots beside them, a line each.
+   !> Steady forces that a case gives, the tables of its pivots beside them, and what depends on the load and the
+   !> unbalance of a rigid journal, a line each.
    function remarks_on_forces(inputs) result(lines)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
-      real(wp) :: weight, carried
+      real(wp) :: weight
       integer :: i
       lines = ''
-      if (inputs%rotor%is_rigid()) then
-         associate (r => inputs%rotor)
-            lines = on_force('rotor%static_load', norm2(r%static_load), r%mass*r%gravity)//on_low_load(inputs)
-         end associate
-         carried = load(inputs)
-      else
-         if (.not. inputs%rotor%elastic%shaft%is_given()) return
-         weight = inputs%rotor%elastic%mass()*inputs%rotor%gravity
-         do i = 1, size(inputs%rotor%elastic%loads)
-            lines = lines//on_force('load('//to_text(i)//')%force', norm2(inputs%rotor%elastic%loads(i)%force), weight)
-         end do
-         carried = weight/size(inputs%bearings)
-      end if
-      do i = 1, size(inputs%bearings)
-         lines = lines//on_table(inputs%bearings(i), carried)
-      end do
+      associate (r => inputs%rotor, bearings => inputs%bearings)
+         if (r%is_rigid()) then
+            lines = on_force('rotor%static_load', norm2(r%static_load), r%mass*r%gravity)//on_low_load(inputs) &
+               & //on_table(bearings(1), load(inputs))
+            if (inputs%moves()) lines = lines//remark_on_unbalance(inputs%unbalance(), r%mass, bearings(1)%clearance())
+            lines = lines//remarks_on_load(inputs)
+         else if (r%station_count() > 0) then
+            weight = r%elastic%mass()*r%gravity
+            do i = 1, size(r%elastic%loads)
+               lines = lines//on_force('load('//to_text(i)//')%force', norm2(r%elastic%loads(i)%force), weight)
+            end do
+            do i = 1, size(bearings)
+               lines = lines//on_table(bearings(i), weight/size(bearings))
+            end do
+         end if
+      end associate
    end function remarks_on_forces
 
    !> A force, N, that is nothing beside the weight.

@@ -49,14 +49,17 @@ contains
       if (.not. allocated(error)) call refuse_no_samples(path, file, error)
       if (.not. allocated(error)) then
          at = last_whole_turn(file, found%inputs%output%samples_per_revolution)
-         if (.not. inputs%rotor%is_rigid()) call read_turned_rotor(file, 2*size(layout%bearings), at, rotor)
          do b = 1, size(layout%bearings)
             associate (own => layout%bearings(b))
                call read_states(file, bearing_group(inputs%bearings(b)), own, at, journal, &
                   & pads(own%other_pads + 1:own%other_pads + own%pads))
             end associate
          end do
-         if (inputs%rotor%is_rigid()) rotor = [journal%position, journal%velocity]
+         if (inputs%rotor%is_rigid()) then
+            rotor = [journal%position, journal%velocity]
+         else
+            call read_turned_rotor(file, 2*size(layout%bearings), at, rotor)
+         end if
          if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       end if
       call file%close()
