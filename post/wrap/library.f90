@@ -12,7 +12,7 @@ module tiltpad_library
    use film_oils, only: uneven_oil
    use factories, only: make_law, make_friction
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state
+   use state_layout, only: pad_state
    use tilting_pad_bearing, only: pad_sample
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use equations_of_motion, only: machine_model, new_machine_model

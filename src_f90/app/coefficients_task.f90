@@ -7,7 +7,7 @@ module coefficients_task
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model
    use static_model, only: equilibrium_type, make_fine
-   use mode_names, only: is_of_rotor
+   use mode_names, only: is_of_rotor, position_names
    use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type
    use equilibrium, only: settle_equilibrium
    use stability_threshold, only: find_thresholds
@@ -71,8 +71,9 @@ contains
       integer :: b
       do b = 1, size(fine%bearings)
          part = run%bearing(b)
-         associate (layout => fine%layout%bearings(b))
-            call put_coefficients(part, found, layout, b, run%inputs%coefficients%frequency_ratio)
+         associate (layout => fine%layout%elements(b))
+            call put_coefficients(part, found, layout, position_names(fine, b), b, &
+               & run%inputs%coefficients%frequency_ratio)
             call put_shapes(part, found, layout)
          end associate
       end do

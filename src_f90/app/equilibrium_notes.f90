@@ -2,6 +2,7 @@
 module equilibrium_notes
    use kinds, only: wp
    use static_model, only: equilibrium_type
+   use state_layout, only: tilt
    use equations_of_motion, only: machine_model
    use heat_balance_equations, only: static_figures_type, find_static_figures
    use bearings_alone, only: bearing_alone, part_of, bearing_loads
@@ -70,7 +71,8 @@ contains
       do first = 1, b - 1
          if (first_equal(run%inputs, b) /= first_equal(run%inputs, first)) cycle
          one = part_of(run%model, static, first)
-         if (agree(loads(:, first), loads(:, b)) .and. agree(one%rotor, own%rotor) .and. agree(one%tilt, own%tilt) &
+         if (agree(loads(:, first), loads(:, b)) .and. agree(one%rotor, own%rotor) &
+            & .and. agree(one%pads%x(tilt), own%pads%x(tilt)) &
             & .and. agree(one%min_film_thickness, own%min_film_thickness) &
             & .and. agree([slopes(first)], [slopes(b)])) return
       end do
@@ -102,7 +104,7 @@ contains
       real(wp) :: misalignment
       file = run%bearing(b)
       misalignment = maxval(slope*run%inputs%bearings(b)%axial_length/2 &
-         & /static%min_film_thickness(run%model%layout%bearings(b)%all_pads()))
+         & /static%min_film_thickness(run%model%layout%elements(b)%all_pads()))
       call put_misalignment(file, misalignment)
       if (shown) call print_misalignment(slope, misalignment)
    end subroutine note_misalignment
@@ -119,7 +121,7 @@ contains
       type(bearing_file_type) :: file
       file = run%bearing(b)
       associate (inputs => model%inputs, bearing => run%inputs%bearings(b))
-         call put_equilibrium(file, static, bearing%tilting(), bearing%tilting_radial())
+         call put_equilibrium(file, static, model%bearings(1)%coordinates)
          call find_static_figures(model, static, figures)
          call put_figures(file, inputs, figures)
          if (allocated(figures%oil)) then

@@ -9,6 +9,7 @@ module run_summary
    use case_remarks, only: behind
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number, of_supply
+   use state_layout, only: pad_state, tilt, pivot_deflection
    use static_model, only: equilibrium_type
    use force_balance, only: stability_type
    use heat_balance_equations, only: static_figures_type
@@ -77,10 +78,11 @@ contains
    end subroutine print_size
 
    !> Where a march starts that does not start at the equilibrium itself: displacements of the journals, which stand
-   !> first, m, and tilts of the pads of all bearings, rad.
-   subroutine print_start(inputs, journals, tilt)
+   !> first, m, and states of the pads of all bearings.
+   subroutine print_start(inputs, journals, pads)
       type(case_type), intent(in) :: inputs
-      real(wp), intent(in) :: journals(:), tilt(:)
+      real(wp), intent(in) :: journals(:)
+      type(pad_state), intent(in) :: pads(:)
       character(len=:), allocatable :: tilts
       integer :: b, before
       before = 0
@@ -88,7 +90,7 @@ contains
          associate (own => inputs%bearings(b))
             tilts = ''
             if (own%tilting()) tilts = ', tilts ' &
-               & //list_text(1e3_wp*tilt(before + 1:before + own%pad_count()), 4)//' mrad'
+               & //list_text(1e3_wp*pads(before + 1:before + own%pad_count())%x(tilt), 4)//' mrad'
             before = before + own%pad_count()
             print '(a)', 'start from '''//inputs%start%from//''': '//bearing_title(own)//'journal y ' &
                & //micro(journals(2*b - 1))//', z '//micro(journals(2*b))//' um'//tilts
@@ -104,10 +106,10 @@ contains
       character(len=:), allocatable :: pivot
       integer :: i
       print '(a)', title//'journal y '//micro(static%rotor(1))//', z '//micro(static%rotor(2))//' um'//ending
-      do i = 1, size(static%tilt)
+      do i = 1, size(static%pads)
          pivot = ''
-         if (tilting) pivot = 'tilt '//milli(static%tilt(i))//' mrad, pivot deflection ' &
-            & //micro(static%pivot_deflection(i))//' um, contact '//fixed_text(static%pivot_load(i), 1)//' N, '
+         if (tilting) pivot = 'tilt '//milli(static%pads(i)%x(tilt))//' mrad, pivot deflection ' &
+            & //micro(static%pads(i)%x(pivot_deflection))//' um, contact '//fixed_text(static%pivot_load(i), 1)//' N, '
          print '(a)', '  pad '//to_text(i)//': '//pivot//'minimum film thickness ' &
             & //micro(static%min_film_thickness(i))//' um, maximum pressure '//mega(static%max_pressure(i))//' MPa'
       end do

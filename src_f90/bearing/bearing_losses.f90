@@ -7,7 +7,8 @@ module bearing_losses
    use film_losses, only: film_losses_type, film_loss
    use asperity_contact, only: asperity_load
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, frame_of, motion_of
+   use state_layout, only: pad_state
+   use kinematics, only: frame_of, motion_of
    use tilting_pad, only: tilting_pad_type
    use tilting_pad_bearing, only: tilting_pad_bearing_type
    use factories, only: new_losses

@@ -255,9 +255,7 @@ contains
             pad%directions = pad%gap%directions()
             pad%largest_tilt = 0.5_wp*p%arc_deg(i)*degree
             pad%ball_radius = v%socket_radius(i) - v%radius_difference(i)
-            pad%tilts = b%tilting()
-            pad%radial = b%tilting_radial()
-            if (.not. pad%tilts) cycle
+            if (.not. b%tilting()) cycle
             pad%mass = p%mass(i)
             pad%inertia = p%inertia(i)
             pad%weight = p%mass(i)*gravity

@@ -74,7 +74,6 @@ contains
       real(wp), intent(in) :: parameter, unit
       !> Its temperatures along and across films, where the case wants them; without these `go_to` leads to some.
       type(warm_films_type), intent(in), optional :: films(:)
-      integer, allocatable :: tilts(:)
       problem%bearing = bearing
       associate (model => bearing%model)
          problem%positions = y(model%layout%positions())
@@ -88,8 +87,9 @@ contains
          problem%n = size(problem%positions) + size(problem%viscosity)
          problem%scale = clearances(model)
          allocate (problem%force(size(problem%positions)), source=reference_force(model))
-         tilts = model%layout%tilts()
-         problem%force(tilts) = problem%force(tilts)*model%tilt_lengths()
+         associate (own => problem%force(model%rotor%positions + 1:))
+            own = own*model%own_lengths()
+         end associate
       end associate
       associate (n => size(problem%positions), one => spread(1.0_wp, 1, size(problem%viscosity)))
          ! viscosities count, too: where films are thin they run away while the positions hardly move

@@ -48,7 +48,7 @@ contains
       procedure(asked_to_stop), optional :: give_up
       if (size(model%bearings) > 1) then
          call share_loads(model, found, error, give_up, known=.true.)
-         if (.not. allocated(error)) y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
+         if (.not. allocated(error)) y = model%static_state(found%rotor, found%pads)
       else
          call settle(model, found, y, error, give_up)
       end if

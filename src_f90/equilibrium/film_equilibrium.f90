@@ -141,7 +141,7 @@ contains
          end associate
       end if
       do b = 1, size(films)
-         associate (pads => model%layout%bearings(b)%all_pads())
+         associate (pads => model%layout%elements(b)%all_pads())
             self%fields(:, :, pads) = films(b)%fields - supply_of(model, b)
             self%kept(pads) = films(b)%kept
          end associate
@@ -176,7 +176,7 @@ contains
       call find_fields(model, y, films, self%profiles, self%volumes, wanted, error)
       if (allocated(error)) return
       do i = 1, size(films)
-         associate (pads => model%layout%bearings(i)%all_pads())
+         associate (pads => model%layout%elements(i)%all_pads())
             wanted(:, :, pads) = wanted(:, :, pads) - supply_of(model, i)
          end associate
       end do
@@ -239,7 +239,7 @@ contains
       type(warm_films_type), intent(inout) :: films(:)
       integer :: b
       do b = 1, size(films)
-         associate (pads => model%layout%bearings(b)%all_pads())
+         associate (pads => model%layout%elements(b)%all_pads())
             films(b)%fields = self%fields(:, :, pads) + supply_of(model, b)
             films(b)%kept = self%kept(pads)
          end associate
@@ -261,7 +261,7 @@ contains
       integer :: b, i, pad
       do b = 1, size(films)
          do i = 1, size(films(b)%heat)
-            pad = model%layout%bearings(b)%other_pads + i
+            pad = model%layout%elements(b)%other_pads + i
             associate (oil => model%inputs%bearings(b)%oil)
                call oil_of_field(oil, films(b)%heat(i)%zeta, self%fields(:, :, pad) + oil%supply_temperature, &
                   & self%profiles(:, pad), model%oil(pad))
@@ -323,9 +323,9 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: films
       integer :: b
-      b = count(model%layout%bearings%other_pads < pad)
+      b = count(model%layout%elements%other_pads < pad)
       films = 'films'
-      if (pad > 0) films = 'film of pad '//to_text(pad - model%layout%bearings(b)%other_pads)
+      if (pad > 0) films = 'film of pad '//to_text(pad - model%layout%elements(b)%other_pads)
       call add_context(error, 'the temperatures in the '//films//' do not settle at ' &
          & //to_text(model%point%speed_rpm)//' rpm')
       if (pad > 0) call name_bearing(model, b, error)

@@ -96,9 +96,9 @@ contains
       type(pad_loss), intent(out) :: losses(:)
       integer :: b
       do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b), &
-            & first => model%layout%bearings(b)%other_pads + 1, &
-            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
+         associate (of => model%layout%elements(b), &
+            & first => model%layout%elements(b)%other_pads + 1, &
+            & last => model%layout%elements(b)%other_pads + model%layout%elements(b)%pads)
             call balance%bearings(b)%finder%find(model%bearings(b), model%rotor%journal(y(:model%rotor%states), b), &
                & of%pad_states(y), model%oil(first:last), model%point%speed(0.0_wp), losses(first:last))
          end associate
@@ -129,8 +129,8 @@ contains
       integer :: b
       lack = 0
       do b = 1, size(model%bearings)
-         associate (first => model%layout%bearings(b)%other_pads + 1, &
-            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads, &
+         associate (first => model%layout%elements(b)%other_pads + 1, &
+            & last => model%layout%elements(b)%other_pads + model%layout%elements(b)%pads, &
             & heat => balance%bearings(b)%heat, speed => model%point%speed(0.0_wp))
             if (present(kept)) then
                call heat%viscosities(losses(first:last), films(first:last), speed, wanted(first:last), ok, kept(b))
@@ -174,8 +174,8 @@ contains
          call set_slope(k, moved, films, change)
       end do
       do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b))
-            do k = 0, of%motion/2 - 1
+         associate (of => model%layout%elements(b))
+            do k = 0, of%coordinates - 1
                own = k + [(of%first_position(i), i=1, of%pads)]
                call find_moved(own)
                do i = 1, size(own)
@@ -261,7 +261,7 @@ contains
       type(oil_temperatures_type), intent(in), optional :: kept(:)
       integer :: b
       do b = 1, size(model%bearings)
-         associate (pads => model%layout%bearings(b)%all_pads(), heat => balance%bearings(b)%heat, &
+         associate (pads => model%layout%elements(b)%all_pads(), heat => balance%bearings(b)%heat, &
             & speed => model%point%speed(0.0_wp))
             if (present(kept)) then
                call heat%temperatures(balance%losses(pads), model%oil(pads)%viscosity, speed, oil(b), ok, kept(b))
@@ -314,7 +314,7 @@ contains
       logical :: balanced
       figures%eccentricity_ratio = eccentricity_ratio(model%inputs%bearings(1), static%rotor)
       figures%attitude_angle = attitude_angle(model%inputs, static%rotor)
-      call find_losses(model, model%static_state(static%rotor, static%tilt, static%pivot_deflection), balance)
+      call find_losses(model, model%static_state(static%rotor, static%pads), balance)
       figures%pads = balance%losses
       figures%reynolds_number = figures%pads%reynolds_number(model%point%speed(0.0_wp) &
          & *model%inputs%bearings(1)%journal_radius, model%inputs%bearings(1)%oil%density, static%oil%viscosity)

@@ -47,7 +47,7 @@ contains
       integer :: round
       logical :: ok
       call make_static(model, model%point%cavitation, static)
-      y = static%static_state(found%rotor, found%tilt, found%pivot_deflection)
+      y = static%static_state(found%rotor, found%pads)
       static%oil = found%oil
       call static%evaluate(0.0_wp, y, .false., ok)
       associate (cold => model%inputs)

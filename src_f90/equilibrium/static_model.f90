@@ -9,7 +9,8 @@ module static_model
    use operating_point, only: operating_point_type
    use factories, only: converged_films, quick_films
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_frame, pad_state, frame_of, in_mirror
+   use state_layout, only: pad_state, tilt, pivot_deflection
+   use kinematics, only: pad_frame, frame_of, in_mirror
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: machine_model, new_machine_model
    use errors, only: error_type, add_context, stopped, asked_to_stop
@@ -21,9 +22,11 @@ module static_model
       & name_bearing
 
    type :: equilibrium_type
-      !> Displacements of the rotor, those of its journals, m, first; per pad of all bearings tilt, rad, pivot
-      !> deflection, m (0 tilting-only), pivot load, N.
-      real(wp), allocatable :: rotor(:), tilt(:), pivot_deflection(:), pivot_load(:)
+      !> Displacements of the rotor, those of its journals, m, first.
+      real(wp), allocatable :: rotor(:)
+      !> Of all bearings: states of the pads at rest; pivot loads, N.
+      type(pad_state), allocatable :: pads(:)
+      real(wp), allocatable :: pivot_load(:)
       !> Per pad minimum film thickness, m, and maximum pressure, Pa.
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
       !> The oil of every pad's film; its temperatures in each bearing, where films have them along and across.
@@ -124,18 +127,19 @@ contains
       associate (load => model%point%load)
          if (norm2(load) > 0) then
             journal%position = fractions(k)*model%bearings(1)%clearance*load/norm2(load)
-            if (model%layout%bearings(1)%radial) then
+            if (model%layout%elements(1)%has(pivot_deflection)) then
                do i = 1, size(pads)
-                  pads(i)%pivot_deflection = model%bearings(1)%pivots(i)%contact%law%pivot_deflection(norm2(load) &
+                  pads(i)%x(pivot_deflection) = model%bearings(1)%pivots(i)%contact%law%pivot_deflection(norm2(load) &
                      & /size(pads))
                end do
             end if
          end if
-         if (.not. model%layout%bearings(1)%tilting) journal%position = journal%position + middle_of_bores(model)
+         if (.not. model%layout%elements(1)%has(tilt)) journal%position = journal%position + middle_of_bores(model)
          do i = 1, size(pads)
             associate (position => model%bearings(1)%pads(i)%position)
                frame = frame_of(position, journal, pads(i))
-               pads(i)%tilt = (frame%along + model%inputs%bearings(1)%machined_clearance(i)/3)/position%centre_distance
+               pads(i)%x(tilt) = (frame%along + model%inputs%bearings(1)%machined_clearance(i)/3) &
+                  & /position%centre_distance
             end associate
          end do
       end associate
@@ -165,14 +169,13 @@ contains
       type(pad_sample) :: samples(model%layout%pads)
       integer :: b
       do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b))
+         associate (of => model%layout%elements(b))
             pads(of%all_pads()) = of%pad_states(y)
             samples(of%all_pads()) = model%bearings(b)%sampled()
          end associate
       end do
       found%rotor = y(:model%rotor%positions)
-      found%tilt = pads%tilt
-      found%pivot_deflection = pads%pivot_deflection
+      found%pads = pads
       found%pivot_load = samples%pivot_load
       found%min_film_thickness = samples%min_film_thickness
       found%max_pressure = samples%max_pressure

@@ -10,7 +10,8 @@ module stream_fields
    use film_network, only: warm_films_type, set_heat, solve_network
    use heat_balance, only: new_grooves
    use asperity_contact, only: asperity_load
-   use kinematics, only: pad_state, frame_of, motion_of
+   use state_layout, only: pad_state
+   use kinematics, only: frame_of, motion_of
    use equations_of_motion, only: machine_model
    use static_model, only: name_bearing
    implicit none (type, external)
@@ -27,7 +28,7 @@ contains
       integer :: b, i
       allocate (volumes(model%layout%pads))
       do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b), pads => model%bearings(b)%pads)
+         associate (of => model%layout%elements(b), pads => model%bearings(b)%pads)
             do i = 1, of%pads
                volumes(of%other_pads + i) = new_stream_volumes(pads(i)%gap, stations)
             end do
@@ -52,8 +53,8 @@ contains
       if (.not. keeps) call make_volumes(model, size(profiles, 1), volumes)
       do b = 1, size(films)
          call set_heat(model%inputs%bearings(b), model%inputs%thermal%layers, films(b))
-         associate (own => model%inputs%bearings(b), first => model%layout%bearings(b)%other_pads + 1, &
-            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
+         associate (own => model%inputs%bearings(b), first => model%layout%elements(b)%other_pads + 1, &
+            & last => model%layout%elements(b)%other_pads + model%layout%elements(b)%pads)
             call find_streams(model, b, y, volumes(first:last), size(profiles, 1), streams(first:last), ok, i)
             if (.not. ok) call raise(error, numerics_error, 'the flow in the film of pad '//to_text(i) &
                & //' is not found')
@@ -83,9 +84,9 @@ contains
       type(film_motion) :: motion
       type(asperity_load) :: asperity
       real(wp) :: position(2)
-      pads = model%layout%bearings(b)%pad_states(y)
+      pads = model%layout%elements(b)%pad_states(y)
       associate (bearing => model%bearings(b), journal => model%rotor%journal(y(:model%rotor%states), b), &
-         & speed => model%point%speed(0.0_wp), before => model%layout%bearings(b)%other_pads)
+         & speed => model%point%speed(0.0_wp), before => model%layout%elements(b)%other_pads)
          do i = 1, size(streams)
             associate (pad => bearing%pads(i))
                motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))

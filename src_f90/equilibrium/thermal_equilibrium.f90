@@ -134,7 +134,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       logical :: ok
-      y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
+      y = model%static_state(found%rotor, found%pads)
       model%oil = found%oil
       if (any(model%oil%varies)) then
          ! the temperatures of films stay what they are

@@ -1,10 +1,11 @@
 !> Supports of bearings: housings on springs and dampers, which move with displacements of their own.
 module bearing_supports
    use kinds, only: wp
-   use case_groups, only: bearing_type
+   use case_groups, only: bearing_type, support_type
+   use linear_element, only: linear_element_type
    implicit none (type, external)
    private
-   public :: relative_displacements, add_supports
+   public :: relative_displacements, add_supports, support_element
 
 contains
 
@@ -31,25 +32,32 @@ contains
       end do
    end function relative_displacements
 
-   !> Adds masses, springs, dampers and weights of the housings to matrices in the displacements x.
+   !> A support as an element on the displacements of its housing.
+   pure type(linear_element_type) function support_element(support) result(element)
+      type(support_type), intent(in) :: support
+      integer :: p
+      do p = 1, 2
+         element%mass(p, p) = support%mass
+         element%damping(p, p) = support%damping(p)
+         element%stiffness(p, p) = support%stiffness(p)
+      end do
+   end function support_element
+
+   !> Adds supports and the weights of their housings to matrices in the displacements x.
    pure subroutine add_supports(bearings, gravity, mass, damping, stiffness, load)
       type(bearing_type), intent(in) :: bearings(:)
       !> m/s^2
       real(wp), intent(in) :: gravity
       real(wp), intent(inout) :: mass(:, :), damping(:, :), stiffness(:, :), load(:)
-      integer :: b, i, p
+      type(linear_element_type) :: element
+      integer :: b, i
       i = 2*size(bearings)
       do b = 1, size(bearings)
          if (.not. allocated(bearings(b)%support)) cycle
-         associate (s => bearings(b)%support)
-            load(i + 1) = load(i + 1) - gravity*s%mass
-            do p = 1, 2
-               i = i + 1
-               mass(i, i) = mass(i, i) + s%mass
-               damping(i, i) = damping(i, i) + s%damping(p)
-               stiffness(i, i) = stiffness(i, i) + s%stiffness(p)
-            end do
-         end associate
+         element = support_element(bearings(b)%support)
+         call element%add_to([i + 1, i + 2], mass, damping, stiffness)
+         load(i + 1) = load(i + 1) - gravity*element%mass(1, 1)
+         i = i + 2
       end do
    end subroutine add_supports
 

@@ -13,7 +13,8 @@ program test_fixed_pads
    use paper_bearing, only: paper_oil
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, frame_of, motion_of
+   use state_layout, only: pad_state
+   use kinematics, only: frame_of, motion_of
    use static_model, only: equilibrium_type
    use equilibrium, only: find_equilibrium
    use pad_behaviour, only: whirl_of
@@ -66,7 +67,7 @@ contains
       inputs%bearings(1)%film%solver = solver
       model = new_machine_model(inputs)
       call model%evaluate(0.0_wp, model%static_state([-eccentricity*inputs%bearings(1)%clearance(), 0.0_wp], &
-         & [0.0_wp], [0.0_wp]), .false., ok)
+         & [pad_state()]), .false., ok)
       call expect(ok, 'a film at '//to_text(eccentricity))
       force = model%bearings(1)%loads(1)%journal*[1, -1]
    end function forces_of
@@ -159,7 +160,7 @@ contains
       rest%sommerfeld = sommerfeld
       rest%eccentricity = norm2(found%rotor)/inputs%bearings(1)%clearance()
       rest%attitude = atan2(-found%rotor(2), -found%rotor(1))/degree
-      call model%evaluate(0.0_wp, model%static_state(found%rotor, found%tilt, found%pivot_deflection), .true., ok)
+      call model%evaluate(0.0_wp, model%static_state(found%rotor, found%pads), .true., ok)
       call expect(ok, 'derivatives at S = '//to_text(sommerfeld))
       call force_derivatives(model, k, c)
       ! along the load is -y, across it, in the sense of the rotation, -z: both turn the signs of no coefficient
@@ -411,8 +412,7 @@ contains
       integer, intent(in) :: revolutions
       real(wp), allocatable, intent(out) :: places(:, :)
       real(wp), allocatable :: y(:)
-      y = model%static_state(found%rotor + [beside*model%inputs%bearings(1)%clearance(), 0.0_wp], found%tilt, &
-         & found%pivot_deflection)
+      y = model%static_state(found%rotor + [beside*model%inputs%bearings(1)%clearance(), 0.0_wp], found%pads)
       allocate (places(2, samples*revolutions))
       call march_samples(model, model%scale, [1e-7_wp, 1e-7_wp], y, 0.0_wp, &
          & 2*pi/model%point%speed(0.0_wp)/samples, places)

@@ -195,9 +195,9 @@ contains
       associate (layout => moving%layout, shape => 1e-9_wp*modes%shape(:, 1))
          y(layout%positions()) = y(layout%positions()) + shape%re
          y(layout%rates()) = y(layout%rates()) + real(modes%eigenvalue(1)*shape)
-         if (layout%bearings(1)%bristles) then
+         if (layout%elements(1)%bristles) then
             do k = 1, layout%pads
-               associate (of => layout%bearings(1))
+               associate (of => layout%elements(1))
                   y(of%bristle(k)) = moving%bearings(1)%pads(k)%ball_radius*real(shape(of%first_position(k)))
                end associate
             end do

@@ -6,7 +6,7 @@ program test_machine_invariants
    use errors, only: error_type
    use case_inputs, only: case_type
    use tilting_pad_bearing, only: pad_sample
-   use kinematics, only: pad_state
+   use state_layout, only: pad_state, tilt, pivot_deflection
    use equations_of_motion, only: machine_model
    use static_model, only: equilibrium_type
    use bearings_alone, only: bearing_loads
@@ -249,7 +249,8 @@ contains
       alone%bearings(1)%pads%inertia = mass*1e-2_wp
       alone%bearings(1)%pads%centre_tangential = aside
       call stand(alone, model, rigid)
-      call expect(maxval(abs(rigid%tilt - light%tilt)) > 1e-3_wp*maxval(abs(light%tilt)), 'the weight of pads matters')
+      call expect(maxval(abs(rigid%pads%x(tilt) - light%pads%x(tilt))) > 1e-3_wp*maxval(abs(light%pads%x(tilt))), &
+         & 'the weight of pads matters')
       inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
       do b = 1, 2
          inputs%bearings(b)%pads%mass = mass
@@ -267,7 +268,8 @@ contains
       do b = 1, 2
          call expect_close(norm2(loads(:, b) - [load(1)/2 - 2000*9.81_wp, load(2)/2]), 0.0_wp, 1e-5_wp*2e4_wp, 'load')
          call expect(maxval(abs(found%rotor(2*b - 1:2*b) - rigid%rotor)) < 1e-6_wp*maxval(abs(rigid%rotor)), 'journal')
-         call expect(maxval(abs(found%tilt(2*b - 1:2*b) - rigid%tilt)) < 1e-6_wp*maxval(abs(rigid%tilt)), 'tilts')
+         call expect(maxval(abs(found%pads(2*b - 1:2*b)%x(tilt) - rigid%pads%x(tilt))) &
+            & < 1e-6_wp*maxval(abs(rigid%pads%x(tilt))), 'tilts')
       end do
    end subroutine weights
 
@@ -332,11 +334,11 @@ contains
             power(5) = dot_product(rates, matmul(over_rates, rates))
             do b = 1, size(model%bearings)
                films = model%bearings(b)%sampled()
-               pads = model%layout%bearings(b)%pad_states(y)
+               pads = model%layout%elements(b)%pad_states(y)
                do i = 1, size(pads)
                   associate (pad => model%bearings(b)%pads(i), force => films(i)%film_force, &
-                     & rate => pads(i)%tilt_rate, depth_rate => pads(i)%pivot_deflection_rate)
-                     a = pad%position%angle - pads(i)%tilt
+                     & rate => pads(i)%v(tilt), depth_rate => pads(i)%v(pivot_deflection))
+                     a = pad%position%angle - pads(i)%x(tilt)
                      film = [cos(a)*force(1) + sin(a)*force(2), -sin(a)*force(1) + cos(a)*force(2)]
                      power(2) = power(2) + dot_product(film, rates(2*b - 1:2*b)) &
                         & - force(1)*pad%position%centre_distance*rate - force(2)*depth_rate

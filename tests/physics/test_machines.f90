@@ -114,7 +114,7 @@ contains
       inputs%bearings(3)%assembled_clearance(:) = 200e-6_wp
       inputs%bearings(3)%machined_clearance(:) = 250e-6_wp
       call stand(inputs, model, found)
-      y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
+      y = model%static_state(found%rotor, found%pads)
       allocate (rates(model%n), matrix(model%n, model%n), up(model%n), down(model%n))
       ! journals and pads move, each in another way
       y = y + model%scale*1e-4_wp*[(sin(real(i, wp)), i=1, model%n)]
@@ -196,7 +196,7 @@ contains
       call stand(inputs, model, found)
       raised = bearing_loads(model, found%rotor)
       call make_static(model, model%point%cavitation, static)
-      associate (y => static%static_state(found%rotor, found%tilt, found%pivot_deflection))
+      associate (y => static%static_state(found%rotor, found%pads))
          call static%evaluate(0.0_wp, y, .false., ok)
          call expect(ok, 'the films are solved')
          associate (force => forces(static, 0.0_wp, y))

@@ -5,6 +5,7 @@ program test_thermal_equilibrium
    use case_inputs, only: case_type
    use input_cases, only: case_of
    use linear_analysis, only: analyse
+   use state_layout, only: tilt, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
    use static_model, only: equilibrium_type
    use equilibrium, only: find_equilibrium
@@ -97,8 +98,9 @@ contains
       call solve(inputs, warm, figures)
       inputs%thermal%model = 'none'
       call solve(inputs, cold, of_cold)
-      call expect(.not. any(abs([warm%rotor - cold%rotor, warm%tilt - cold%tilt, &
-         & warm%pivot_deflection - cold%pivot_deflection, warm%oil%viscosity - cold%oil%viscosity]) > 0), 'state')
+      call expect(.not. any(abs([warm%rotor - cold%rotor, warm%pads%x(tilt) - cold%pads%x(tilt), &
+         & warm%pads%x(pivot_deflection) - cold%pads%x(pivot_deflection), warm%oil%viscosity - cold%oil%viscosity]) > 0), &
+         & 'state')
       call expect(.not. any(abs(figures%pads%power() - of_cold%pads%power()) > 0), 'losses')
       call expect(allocated(figures%oil) .and. .not. allocated(of_cold%oil), 'temperatures of warm oil alone')
    end subroutine isothermal
@@ -158,7 +160,7 @@ contains
       inputs%bearings(1)%oil%groove_volume = volume
       inputs%operation%duration = duration
       call solve(inputs, static, model=model)
-      call find_groove_transient(model, model%static_state(static%rotor, static%tilt, static%pivot_deflection), &
+      call find_groove_transient(model, model%static_state(static%rotor, static%pads), &
          & duration, history, error)
       call expect_no_error(error, 'course')
       if (.not. allocated(error)) call history%at(duration, viscosities)

@@ -22,7 +22,7 @@ program global_search
    use factories, only: make_film, march_films
    use tilting_pad, only: tilting_pad_type
    use operating_point, only: operating_point_type
-   use state_layout, only: at_tilt, at_deflection
+   use state_layout, only: pad_state, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces, force_derivatives, stability_at, stability_type
    use pseudo_transient, only: unbalanced, reference_force, residual_limit
@@ -268,7 +268,7 @@ contains
       associate (pad => model%bearings(1)%pads(i))
          contact = -force - pad%weight*pad%position%sin_angle
          piece = piece_type(pad%position%pivot_radius - rho, force, b, 0.0_wp, stable)
-         if (model%layout%bearings(1)%radial) then
+         if (model%layout%elements(1)%has(pivot_deflection)) then
             if (all(contact < 0)) return
             r = rho
             if (any(contact < 0)) then
@@ -339,7 +339,7 @@ contains
       else
          print '(a, 1x, a, 1x, i0, a, i0, *(1x, es12.5))', path, best%name, size(found, 2), ' of ', size(tried, 2), &
             & best%eigenvalue, y_best(:2)/model%inputs%bearings(1)%clearance(), &
-            & y_best(model%layout%bearings(1)%before([(row, row=1, model%layout%pads)]) + at_tilt)
+            & y_best(model%layout%elements(1)%before([(row, row=1, model%layout%pads)]) + 1)
       end if
    end subroutine search_plane
 
@@ -355,8 +355,8 @@ contains
       real(wp) :: unit(size(y))
       integer :: k, i
       unit = model%scale
-      associate (of => model%layout%bearings(1))
-         if (of%radial) unit(of%before([(i, i=1, of%pads)]) + at_deflection) = model%inputs%bearings(1)%clearance()
+      associate (of => model%layout%elements(1))
+         if (of%has(pivot_deflection)) unit(of%before([(i, i=1, of%pads)]) + 3) = model%inputs%bearings(1)%clearance()
       end associate
       known = .false.
       do k = 1, size(list, 2)
@@ -454,19 +454,20 @@ contains
       type(curve_type), intent(in) :: curves(:)
       real(wp), intent(in) :: place(2), t(:)
       integer, intent(in) :: at(:)
-      real(wp) :: y(model%n), pivot_deflection(size(at)), tilt(size(at)), r(2), out(2)
+      real(wp) :: y(model%n), deflection, angle, r(2), out(2)
+      type(pad_state) :: pads(size(at))
       integer :: i
       do i = 1, size(at)
          associate (piece => curves(i)%pieces(at(i)), position => model%bearings(1)%pads(i)%position)
-            pivot_deflection(i) = piece%pivot_deflection(1) + t(i)*(piece%pivot_deflection(2) &
-               & - piece%pivot_deflection(1))
+            deflection = piece%pivot_deflection(1) + t(i)*(piece%pivot_deflection(2) - piece%pivot_deflection(1))
             out = [position%sin_angle, position%cos_angle]
-            r = place - (position%pivot_radius + pivot_deflection(i))*out
-            tilt(i) = atan2(dot_product(r, [out(2), -out(1)]), -dot_product(r, out)) &
+            r = place - (position%pivot_radius + deflection)*out
+            angle = atan2(dot_product(r, [out(2), -out(1)]), -dot_product(r, out)) &
                & - (piece%b(1) + t(i)*(piece%b(2) - piece%b(1)))
+            pads(i) = pad_state(angle, deflection=deflection)
          end associate
       end do
-      y = model%static_state(place, tilt, pivot_deflection)
+      y = model%static_state(place, pads)
    end function state_on_curves
 
    !> Newton's method on journal and pads, with steps cut where the films close or nothing improves.
@@ -482,7 +483,7 @@ contains
       x = model%layout%positions()
       unit = model%scale(x)
       unit(3:) = merge(unit(3:), model%inputs%bearings(1)%clearance(), &
-         & .not. model%layout%bearings(1)%radial .or. mod([(info, info=1, size(unit) - 2)], 2) == 1)
+         & .not. model%layout%elements(1)%has(pivot_deflection) .or. mod([(info, info=1, size(unit) - 2)], 2) == 1)
       do iteration = 1, 60
          call model%evaluate(0.0_wp, y, .true., ok)
          if (.not. ok) return
