@@ -11,10 +11,10 @@
 !> how far the cavitated part is filled.
 module film_losses
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok, cavitation_none, &
+   use film_solver, only: film_motion, film_law_type, film_response, film_counters, film_ok, cavitation_none, &
       & cavitation_reynolds
    use pad_gap, only: pad_gap_type, pad_directions, over_arc
-   use film_oils, only: arc_weights
+   use film_law, only: law_at_nodes
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type
    use direct_film, only: is_cavitated, share_of_modes
@@ -57,7 +57,7 @@ module film_losses
    contains
       procedure :: find
       procedure, private :: full_film
-      procedure, private :: uneven_film
+      procedure, private :: varied_film
       procedure, private :: add_cavitation
       procedure, private :: set_heat
    end type film_losses_type
@@ -87,7 +87,7 @@ contains
    subroutine find(self, motion, oil, speed, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_loss), intent(out) :: loss
       type(film_response) :: response
@@ -96,7 +96,7 @@ contains
       loss%status = response%status
       if (loss%status /= film_ok) return
       if (oil%varies) then
-         call self%uneven_film(motion, oil, speed, response, loss)
+         call self%varied_film(motion, oil, speed, response, loss)
          return
       end if
       driven%force = response%force
@@ -112,7 +112,7 @@ contains
    subroutine full_film(self, motion, oil, speed, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(volume_flow_type), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
@@ -144,24 +144,24 @@ contains
       end associate
    end subroutine full_film
 
-   !> Loss and flows of oil of uneven viscosity, all by volumes: what drives it is no longer one velocity.
-   subroutine uneven_film(self, motion, oil, speed, fourier, loss)
+   !> Loss and flows of a film whose law varies, all by volumes: what drives it is no longer one velocity.
+   subroutine varied_film(self, motion, oil, speed, fourier, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       !> That of the modes.
       type(film_response), intent(in) :: fourier
       type(film_loss), intent(inout) :: loss
       type(volume_flow_type) :: whole(2), found(2)
-      type(arc_weights) :: at_edge
+      type(law_at_nodes) :: at_edge
       logical :: cavitates
       cavitates = self%condition /= cavitation_none .and. is_cavitated(self%gap%cavitation_pressure, fourier)
       call on_two_grids(self, motion, oil, speed, whole, found, loss)
       if (.not. cavitates) found = whole
       associate (gap => self%gap, d => self%directions, surface => speed*self%gap%journal_radius, &
          & r => finer(found(1), found(2)))
-         call oil%find_weights(gap, d%leading(1:1), d%leading(2:2), at_edge)
+         call oil%at_nodes(gap, motion, d%leading(1:1), d%leading(2:2), at_edge)
          loss%force = r%force
          if (.not. cavitates) loss%force = fourier%force
          loss%couette = surface**2*sliding_shear(gap, motion, oil) - r%lacking
@@ -173,13 +173,13 @@ contains
          loss%side = r%side
          loss%unfed = r%unfed
       end associate
-   end subroutine uneven_film
+   end subroutine varied_film
 
    !> Films of volumes on a grid and on one of twice as many rows, whole and cavitated.
    subroutine on_two_grids(self, motion, oil, speed, whole, cavitated, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(volume_flow_type), intent(inout) :: whole(2), cavitated(2)
       type(film_loss), intent(inout) :: loss
@@ -192,11 +192,11 @@ contains
       end do
    end subroutine on_two_grids
 
-   !> Integral of f0/h over the area of a full film, N s/m, by Simpson's rule.
+   !> Integral of S mu/h over the area of a full film, N s/m, by Simpson's rule.
    pure real(wp) function sliding_shear(gap, motion, oil)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       integer, parameter :: n = 1000
       real(wp) :: phi(0:n), weight(0:n)
       integer :: i
@@ -204,7 +204,7 @@ contains
       weight = [(2 + 2*mod(i, 2), i=0, n)]
       weight([0, n]) = 1
       sliding_shear = oil%viscosity*gap%pad_radius()*gap%axial_length*gap%arc()/(3*n) &
-         & *sum(weight*oil%shear_weight(gap, phi)/gap%thickness(motion, sin(phi), cos(phi)))
+         & *sum(weight*oil%shear_weight(gap, motion, phi)/gap%thickness(motion, sin(phi), cos(phi)))
    end function sliding_shear
 
    !> The part of w that comes from the journal's rotation, m/s.
@@ -221,7 +221,7 @@ contains
    subroutine add_cavitation(self, motion, oil, speed, fourier, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       !> That of the modes.
       type(film_response), intent(in) :: fourier
@@ -248,7 +248,7 @@ contains
       class(film_losses_type), intent(in) :: self
       type(elimination_film_type), intent(inout) :: volumes(:)
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(volume_flow_type), intent(out) :: whole, cavitated
       integer, intent(out) :: status

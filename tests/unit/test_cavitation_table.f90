@@ -8,7 +8,7 @@ program test_cavitation_table
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad, unit_oil
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver
    use cavitated_film, only: cavitated_film_type, new_cavitated_film, axes
-   use uneven_drive, only: uneven_drive_type, new_uneven_drive
+   use rotation_drive, only: rotation_drive_type, new_rotation_drive
    use cell_polynomials, only: simd_width
    use cell_index, only: interval, lower_end
    use cavitation_table, only: cavitation_table_type, new_cavitation_table
@@ -23,14 +23,14 @@ program test_cavitation_table
    !> Most cells and nodes of a table.
    integer, parameter :: most = 20000
    type(dimensionless_pad_type) :: pad
-   type(uneven_drive_type) :: even
+   type(rotation_drive_type) :: even
    type(film_counters) :: counters
    integer :: i
 
    associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
       pad = new_dimensionless_pad(gap)
    end associate
-   even = new_uneven_drive(pad, unit_oil)
+   even = new_rotation_drive(pad, unit_oil)
    do i = 1, size(films, 2)
       if (runs('slopes')) call slopes(.false., films(:2, i), films(3, i))
       if (runs('slopes')) call slopes(.true., films(:2, i), films(3, i))
@@ -213,8 +213,8 @@ contains
             gap = pad_gap_type(0.0_wp, 1.0_wp, between(0.4_wp, 1.6_wp), half, half, 0.0_wp, 0.0_wp, 0.0_wp)
          end associate
          other = new_dimensionless_pad(gap)
-         table = new_cavitation_table(other, new_uneven_drive(other, unit_oil), .false., 4e-5_wp, most)
-         reference = new_cavitated_film(other, new_uneven_drive(other, unit_oil), .false., 1e-6_wp)
+         table = new_cavitation_table(other, new_rotation_drive(other, unit_oil), .false., 4e-5_wp, most)
+         reference = new_cavitated_film(other, new_rotation_drive(other, unit_oil), .false., 1e-6_wp)
          place = [0.05_wp*60**between(0.0_wp, 1.0_wp), 0.05_wp*60**between(0.0_wp, 1.0_wp), between(0.0_wp, 0.98_wp)]
          last = 0
          call ask(table, place, value, slope, good)

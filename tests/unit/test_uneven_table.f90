@@ -10,7 +10,7 @@ program test_uneven_table
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
-   use uneven_drive, only: uneven_drive_type, new_uneven_drive
+   use rotation_drive, only: rotation_drive_type, new_rotation_drive
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver
    use cavitated_film, only: cavitated_film_type, new_cavitated_film, axes
    use cavitation_table, only: cavitation_table_type, new_cavitation_table
@@ -25,11 +25,11 @@ program test_uneven_table
    real(wp), parameter :: films(axes, 4) = reshape([0.8_wp, 0.4_wp, 0.15_wp, 1.5_wp, 0.5_wp, 0.9_wp, 0.4_wp, 3.0_wp, &
       & 0.3_wp, 0.3_wp, 0.7_wp, 2.0_wp, 0.7_wp, 0.5_wp, 0.3_wp, -2.0_wp], [axes, 4])
    type(dimensionless_pad_type) :: pad
-   type(uneven_drive_type) :: drive
+   type(rotation_drive_type) :: drive
    integer :: i
 
    pad = new_dimensionless_pad(offset_pad())
-   drive = new_uneven_drive(pad, uneven)
+   drive = new_rotation_drive(pad, uneven)
    do i = 1, size(films, 2)
       if (runs('slopes')) call slopes(films(:, i))
    end do
@@ -63,7 +63,7 @@ contains
       integer :: k
       place = film
       solver = new_force_ratio_solver(pad, drive, .false., 0.01_wp*tolerance)
-      if (place(4) < 0) solver = new_force_ratio_solver(pad, new_uneven_drive(pad, uneven%mirrored()), .false., &
+      if (place(4) < 0) solver = new_force_ratio_solver(pad, new_rotation_drive(pad, uneven%mirrored()), .false., &
          & 0.01_wp*tolerance)
       ratio = at(solver, place)
       call expect(ratio%ok, 'a film')
@@ -88,9 +88,9 @@ contains
 
    !> In a mirror the edges change places and the rotation turns round: velocities at the edges do the same.
    subroutine mirror()
-      type(uneven_drive_type) :: mirrored
+      type(rotation_drive_type) :: mirrored
       real(wp) :: position(2)
-      mirrored = new_uneven_drive(pad, uneven%mirrored())
+      mirrored = new_rotation_drive(pad, uneven%mirrored())
       position = [0.3_wp, 0.2_wp]
       associate (here => drive%velocity(position), there => mirrored%velocity([-1, 1]*position))
          call expect_close(there(1), here(1), 1e-13_wp, 'along')

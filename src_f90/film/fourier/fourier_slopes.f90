@@ -14,64 +14,56 @@ contains
    !> Derivatives of the force, (component, position and velocity), of the last solution: by an adjoint for each
    !> component. For a weight psi let B m = -share psi weight with the matrix B of the scheme; the force changes by
    !> m . (dS - dB q) and by what changes in the sums themselves.
-   pure function force_slopes(pad, rise) result(derivatives)
-      type(fourier_pad_type), intent(in) :: pad
+   pure subroutine force_slopes(pad, rise, derivatives)
+      type(fourier_pad_type), intent(inout) :: pad
       !> Pressure at the leading edge above ambient, Pa.
       real(wp), intent(in) :: rise
-      real(wp) :: derivatives(2, 4)
-      real(wp), dimension(0:pad%n, 2) :: along, over_s, over_v, over_h2, shift
-      real(wp) :: adjoint(simd_width, 0:pad%n, 2), solved(0:pad%n), floor_share(0:pad%n), boundary(2), stretch(2)
+      real(wp), intent(out) :: derivatives(2, 4)
+      real(wp) :: adjoint(simd_width, 0:pad%n, 2)
       integer :: i, m, b
-      associate (n => pad%n, blocks => pad%axial%blocks)
-         ! derivatives of the force over share q, over d^2 v/12, d^2 H^2/12 and d^2 s/12 at the nodes
-         along(:, 1) = -pad%radius*pad%d*pad%weight*pad%ease*pad%sine
-         along(:, 2) = -pad%radius*pad%d*pad%weight*pad%ease*pad%cosine
-         over_s = 0
-         over_v = 0
-         over_h2 = 0
-         boundary = 0
-         solved = 0
-         do b = 1, blocks
-            call solve_adjoints(n, pad%a(:, :, b), pad%f(:, :, b), pad%share(:, :, b), along, adjoint)
+      associate (of => pad%adjoints, n => pad%n)
+         of%along(:, 1) = -pad%radius*pad%d*pad%weight*pad%inverse_root*pad%sine
+         of%along(:, 2) = -pad%radius*pad%d*pad%weight*pad%inverse_root*pad%cosine
+         of%over_s = 0
+         of%over_v = 0
+         of%over_h2 = 0
+         of%boundary = 0
+         of%solved = 0
+         do b = 1, pad%axial%blocks
+            call solve_adjoints(n, pad%a(:, :, b), pad%f(:, :, b), pad%share(:, :, b), of%along, adjoint)
             do m = 1, 2
                call sum_adjoint(n, adjoint(:, :, m), pad%q(:, :, b), pad%axial%square(simd_width*b - simd_width &
-                  & + 1:simd_width*b), over_s(:, m), over_v(:, m), over_h2(:, m))
+                  & + 1:simd_width*b), of%over_s(:, m), of%over_v(:, m), of%over_h2(:, m))
                ! q = rise H at the leading edge stands in the last equation as a q
-               boundary(m) = boundary(m) - dot_product(adjoint(:, n - 1, m), pad%a(:, n, b))*rise
+               of%boundary(m) = of%boundary(m) - dot_product(adjoint(:, n - 1, m), pad%a(:, n, b))*rise
             end do
             do i = 0, n
-               solved(i) = solved(i) + dot_product(pad%share(:, i, b), pad%q(:, i, b))
+               of%solved(i) = of%solved(i) + dot_product(pad%share(:, i, b), pad%q(:, i, b))
             end do
          end do
-         call node_shifts(n, pad%d, pad%e, pad%directions, pad%h, shift, stretch)
-         floor_share = pad%floor_share
-         if (pad%oil%varies) then
+         call node_shifts(n, pad%d, pad%e, pad%directions, pad%h, of%shift, of%stretch)
+         of%floor_share = pad%floor_share
+         if (pad%varies) then
             ! as q is over the pressure
-            floor_share = floor_share*pad%lift/pad%h
-            boundary = boundary*pad%lift(n)/pad%h(n)
+            of%floor_share = of%floor_share*pad%lift/pad%h
+            of%boundary = of%boundary*pad%lift(n)/pad%h(n)
          end if
+         if (pad%turns) of%over_h2 = of%over_h2*spread(pad%law%across, 2, 2)
          do m = 1, 2
-            derivatives(m, :) = from_nodes(pad, pad%n, m, rise, pad%h, pad%s, pad%narrow, pad%narrow_share, &
-               & floor_share, solved, along(:, m), along(:, 3 - m), over_s(:, m), over_v(:, m), over_h2(:, m), &
-               & boundary(m), shift, stretch)
+            derivatives(m, :) = from_nodes(pad, m, rise)
          end do
       end associate
-   end function force_slopes
+   end subroutine force_slopes
 
    !> Derivatives of component m of the force from those over what stands at the nodes.
-   pure function from_nodes(pad, n, m, rise, h, s, narrow, narrow_share, floor_share, solved, along, across, over_s, &
-      & over_v, over_h2, boundary, shift, stretch) result(derivatives)
+   pure function from_nodes(pad, m, rise) result(derivatives)
       ! long: every term of the force once
       type(fourier_pad_type), intent(in) :: pad
-      integer, intent(in) :: n, m
+      integer, intent(in) :: m
       real(wp), intent(in) :: rise
-      !> Of the pad; the modes' sums at the nodes; derivatives as in force_slopes, `across` of the other component.
-      real(wp), dimension(0:n), intent(in) :: h, s, narrow, narrow_share, floor_share, solved, along, across, over_s, &
-         & over_v, over_h2
-      real(wp), intent(in) :: boundary, shift(0:n, 2), stretch(2)
       real(wp) :: derivatives(4)
-      real(wp), dimension(0:n) :: by_h, by_s, by_phi
-      real(wp) :: k, unit, sign, total, slope, s_slope, by_k, by_log_d, psi, at_edge, by_slope
+      real(wp), dimension(0:pad%n) :: by_h, by_s, by_phi
+      real(wp) :: k, unit, sign, total, h, slope, s_slope, by_k, by_log_d, psi, at_edge, by_slope
       integer :: i
       k = dot_product(pad%e, pad%e) - 1
       unit = pad%d**2/12
@@ -79,110 +71,187 @@ contains
       sign = 3 - 2*m
       by_k = 0
       by_log_d = 0
-      !$omp simd private(total) reduction(+:by_k, by_log_d)
-      do i = 0, n
-         total = solved(i) - narrow_share(i)*narrow(i) + floor_share(i)*h(i)
-         by_k = by_k + unit*over_v(i)
-         by_log_d = by_log_d + along(i)*total &
-            & + 2*unit*(over_v(i)*(k + h(i)*(3 - 2*h(i))) + over_h2(i)*h(i)**2 + over_s(i)*s(i))
-         by_h(i) = unit*(over_v(i)*(3 - 4*h(i)) + over_h2(i)*2*h(i)) &
-            & + along(i)*(2*narrow_share(i)*narrow(i)/h(i) + floor_share(i))
-         by_s(i) = unit*over_s(i) - along(i)*narrow_share(i)/h(i)**2
-         by_phi(i) = sign*across(i)*total
-      end do
-      ! layers of the modes left out at both edges
-      do i = 0, n, n
-         psi = -pad%radius*merge(pad%sine(i), pad%cosine(i), m == 1)
-         at_edge = pad%axial%tail(3)*psi/h(i)**3
-         by_s(i) = by_s(i) + at_edge
-         by_h(i) = by_h(i) - 3*at_edge*s(i)/h(i)
-      end do
-      ! the pressure at the leading edge
-      by_slope = pad%axial%tail(2)*rise*1.5_wp*psi/h(n)
-      by_h(n) = by_h(n) + boundary + along(n)*solved(n)/h(n) &
-         & - by_slope*(pad%e(2)*pad%sine(n) - pad%e(1)*pad%cosine(n))/h(n)
-      derivatives = 0
-      if (pad%oil%varies) then
-         derivatives = uneven_sum(pad, m, solved, along, over_v, by_s, by_h, by_phi, shift, stretch)
-         by_h = 0
-         by_s = 0
-         by_phi = 0
-      end if
-      associate (sine => pad%sine, cosine => pad%cosine, e => pad%e, w => pad%w)
+      associate (of => pad%adjoints, n => pad%n)
+         !$omp simd private(total, h) reduction(+:by_k, by_log_d)
          do i = 0, n
-            slope = e(2)*sine(i) - e(1)*cosine(i)
-            s_slope = pad%wedge*(1 - h(i)) + pad%squeeze*(w(1)*cosine(i) - w(2)*sine(i))
-            by_phi(i) = by_phi(i) + by_h(i)*slope + by_s(i)*s_slope
-            derivatives(1) = derivatives(1) + by_phi(i)*shift(i, 1) - by_h(i)*sine(i) - by_s(i)*pad%wedge*cosine(i)
-            derivatives(2) = derivatives(2) + by_phi(i)*shift(i, 2) - by_h(i)*cosine(i) + by_s(i)*pad%wedge*sine(i)
-            derivatives(3) = derivatives(3) + by_s(i)*sine(i)
-            derivatives(4) = derivatives(4) + by_s(i)*cosine(i)
+            h = pad%h(i)
+            total = of%solved(i) - pad%narrow_share(i)*pad%narrow(i) + of%floor_share(i)*h
+            by_k = by_k + unit*of%over_v(i, m)
+            by_log_d = by_log_d + of%along(i, m)*total &
+               & + 2*unit*(of%over_v(i, m)*(k + h*(3 - 2*h)) + of%over_h2(i, m)*h**2 + of%over_s(i, m)*pad%s(i))
+            by_h(i) = unit*(of%over_v(i, m)*(3 - 4*h) + of%over_h2(i, m)*2*h) &
+               & + of%along(i, m)*(2*pad%narrow_share(i)*pad%narrow(i)/h + of%floor_share(i))
+            by_s(i) = unit*of%over_s(i, m) - of%along(i, m)*pad%narrow_share(i)/h**2
+            by_phi(i) = sign*of%along(i, 3 - m)*total
          end do
-         derivatives(:2) = derivatives(:2) + 2*e*by_k + stretch*by_log_d + by_slope*[-cosine(n), sine(n)]
+         ! layers of the modes left out at both edges
+         do i = 0, n, n
+            psi = -pad%radius*merge(pad%sine(i), pad%cosine(i), m == 1)
+            at_edge = pad%axial%tail(3)*psi/pad%h(i)**3
+            by_s(i) = by_s(i) + at_edge
+            by_h(i) = by_h(i) - 3*at_edge*pad%s(i)/pad%h(i)
+         end do
+         ! the pressure at the leading edge
+         by_slope = pad%axial%tail(2)*rise*1.5_wp*psi/pad%h(n)
+         if (pad%turns) by_slope = by_slope/pad%law%across(n + 1)
+         by_h(n) = by_h(n) + of%boundary(m) + of%along(n, m)*of%solved(n)/pad%h(n) &
+            & - by_slope*(pad%e(2)*pad%sine(n) - pad%e(1)*pad%cosine(n))/pad%h(n)
+         derivatives = 0
+         if (pad%varies) then
+            derivatives = varied_sum(pad, m, rise, by_s, by_h, by_phi)
+            by_h = 0
+            by_s = 0
+            by_phi = 0
+         end if
+         associate (e => pad%e, w => pad%w)
+            do i = 0, n
+               slope = e(2)*pad%sine(i) - e(1)*pad%cosine(i)
+               s_slope = pad%wedge*(1 - pad%h(i)) + pad%squeeze*(w(1)*pad%cosine(i) - w(2)*pad%sine(i))
+               by_phi(i) = by_phi(i) + by_h(i)*slope + by_s(i)*s_slope
+               derivatives(1) = derivatives(1) + by_phi(i)*of%shift(i, 1) - by_h(i)*pad%sine(i) &
+                  & - by_s(i)*pad%wedge*pad%cosine(i)
+               derivatives(2) = derivatives(2) + by_phi(i)*of%shift(i, 2) - by_h(i)*pad%cosine(i) &
+                  & + by_s(i)*pad%wedge*pad%sine(i)
+               derivatives(3) = derivatives(3) + by_s(i)*pad%sine(i)
+               derivatives(4) = derivatives(4) + by_s(i)*pad%cosine(i)
+            end do
+            derivatives(:2) = derivatives(:2) + 2*e*by_k + of%stretch*by_log_d + by_slope*[-pad%cosine(n), pad%sine(n)]
+         end associate
       end associate
       derivatives(:2) = derivatives(:2)/pad%gap%machined_clearance
       derivatives(3:) = derivatives(3:)*pad%squeeze
    end function from_nodes
 
-   !> The sum over the nodes where the viscosity is uneven: what v and s depend on besides, H' and the place itself.
-   pure function uneven_sum(pad, m, solved, along, over_v, by_s, by_h, by_phi, shift, stretch) result(derivatives)
+   !> The sum over the nodes where the law varies: what v and s depend on besides, H' and the place itself.
+   pure function varied_sum(pad, m, rise, by_s, by_h, by_phi) result(derivatives)
       type(fourier_pad_type), intent(in) :: pad
       integer, intent(in) :: m
-      !> At the nodes, as in from_nodes; shifts and stretch.
-      real(wp), dimension(0:pad%n), intent(in) :: solved, along, over_v, by_s, by_h, by_phi
-      real(wp), intent(in) :: shift(0:pad%n, 2), stretch(2)
-      real(wp) :: derivatives(4), over_s(0:pad%n), over_h(0:pad%n), layer
+      real(wp), intent(in) :: rise
+      !> At the nodes, as in from_nodes.
+      real(wp), dimension(0:pad%n), intent(in) :: by_s, by_h, by_phi
+      real(wp) :: derivatives(4), layer, factor
+      !> Derivatives over s and H, and over the logarithm of the inverse root of E, in which that of s is left out.
+      real(wp), dimension(0:pad%n) :: over_s, over_h, held
       integer :: i
       over_s = by_s
       over_h = by_h
-      ! the layers of the modes left out, which are there without the ease
+      associate (of => pad%adjoints)
+         held = of%along(:, m)*(of%solved - pad%narrow_share*pad%narrow)
+         if (pad%turns) over_s = over_s + of%along(:, m)*pad%narrow_share/pad%h**2*(1 - 1/pad%law%across)
+      end associate
+      ! the layers of the modes left out, which are there without the law
       do i = 0, pad%n, pad%n
-         layer = -pad%axial%tail(3)*pad%radius*merge(pad%sine(i), pad%cosine(i), m == 1)/pad%h(i)**3*(pad%ease(i) - 1)
+         factor = pad%inverse_root(i)
+         if (pad%turns) factor = factor/pad%law%across(i + 1)**1.5_wp
+         layer = -pad%axial%tail(3)*pad%radius*merge(pad%sine(i), pad%cosine(i), m == 1)/pad%h(i)**3*(factor - 1)
          over_s(i) = over_s(i) + layer
          over_h(i) = over_h(i) - 3*layer*pad%s(i)/pad%h(i)
       end do
-      associate (of => pad%weights)
-         call add_uneven(pad%n, pad%d, pad%e, pad%w, pad%wedge, pad%squeeze, pad%h, pad%sine, pad%cosine, pad%s, &
-            & pad%ease, of%sliding, of%flow_slopes, of%sliding_slopes, &
-            & along*(solved - pad%narrow_share*pad%narrow), over_v, over_s, over_h, by_phi, shift, stretch, derivatives)
-      end associate
-   end function uneven_sum
+      call add_place(pad, m, held, over_s, over_h, by_phi, derivatives)
+      if (pad%turns) derivatives(:2) = derivatives(:2) + over_thickness(pad, m, rise, held + over_s*pad%s)
+   end function varied_sum
 
-   !> That sum.
-   pure subroutine add_uneven(n, d, e, w, wedge, squeeze, h, sine, cosine, s, ease, sliding, p, g, held, over_v, &
-      & over_s, over_h, by_phi, shift, stretch, derivatives)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: d, e(2), w(2), wedge, squeeze
-      real(wp), dimension(0:n), intent(in) :: h, sine, cosine, s, ease, sliding, held, over_v, over_s, over_h, by_phi
-      real(wp), intent(in) :: p(0:n, 3), g(0:n, 2), shift(0:n, 2), stretch(2)
+   !> That sum for a law that follows the nodes along the film.
+   pure subroutine add_place(pad, m, held, over_s, over_h, by_phi, derivatives)
+      type(fourier_pad_type), intent(in) :: pad
+      integer, intent(in) :: m
+      real(wp), dimension(0:pad%n), intent(in) :: held, over_s, over_h, by_phi
       real(wp), intent(out) :: derivatives(4)
-      real(wp) :: slope, bend, of_v, of_s, of_h, of_slope, of_phi, by_log_d, over_y, over_z, over_vy, over_vz
+      !> Of ln E: slopes.
+      real(wp) :: first, second, third
+      real(wp) :: h, slope, bend, of_v, of_s, of_h, of_slope, of_phi, by_log_d, over_y, over_z, over_vy, over_vz
       integer :: i
       by_log_d = 0
       over_y = 0
       over_z = 0
       over_vy = 0
       over_vz = 0
-      !$omp simd private(slope, bend, of_v, of_s, of_h, of_slope, of_phi) &
-      !$omp& reduction(+:over_y, over_z, over_vy, over_vz, by_log_d)
-      do i = 0, n
-         slope = e(2)*sine(i) - e(1)*cosine(i)
-         bend = p(i, 2)/2 + p(i, 1)**2/4
-         of_v = d**2/12*over_v(i)
-         of_s = ease(i)*over_s(i)
-         by_log_d = by_log_d + 2*of_v*h(i)*(1.5_wp*slope*p(i, 1) + h(i)*bend)
-         of_h = over_h(i) + of_v*(1.5_wp*slope*p(i, 1) + 2*h(i)*bend) + of_s*wedge*g(i, 1)
-         of_slope = of_v*1.5_wp*h(i)*p(i, 1) + of_s*wedge*sliding(i)
-         of_phi = by_phi(i) - p(i, 1)/2*(held(i) + over_s(i)*s(i)) &
-            & + of_v*h(i)*(1.5_wp*slope*p(i, 2) + h(i)*(p(i, 3) + p(i, 1)*p(i, 2))/2) &
-            & + of_s*(wedge*(slope*g(i, 1) + h(i)*g(i, 2)) + squeeze*(w(1)*cosine(i) - w(2)*sine(i))) &
-            & + of_h*slope + of_slope*(1 - h(i))
-         over_y = over_y + of_phi*shift(i, 1) - of_h*sine(i) - of_slope*cosine(i)
-         over_z = over_z + of_phi*shift(i, 2) - of_h*cosine(i) + of_slope*sine(i)
-         over_vy = over_vy + of_s*sine(i)
-         over_vz = over_vz + of_s*cosine(i)
-      end do
-      derivatives = [over_y, over_z, over_vy, over_vz]
-      derivatives(:2) = derivatives(:2) + stretch*by_log_d
-   end subroutine add_uneven
+      associate (of => pad%adjoints, law => pad%law, e => pad%e, w => pad%w, wedge => pad%wedge, d => pad%d)
+         !$omp simd private(h, first, second, third, slope, bend, of_v, of_s, of_h, of_slope, of_phi) &
+         !$omp& reduction(+:over_y, over_z, over_vy, over_vz, by_log_d)
+         do i = 0, pad%n
+            h = pad%h(i)
+            first = law%flow_slopes(i + 1, 1)
+            second = law%flow_slopes(i + 1, 2)
+            third = law%flow_slopes(i + 1, 3)
+            slope = e(2)*pad%sine(i) - e(1)*pad%cosine(i)
+            bend = second/2 + first**2/4
+            of_v = d**2/12*of%over_v(i, m)
+            of_s = pad%inverse_root(i)*over_s(i)
+            by_log_d = by_log_d + 2*of_v*h*(1.5_wp*slope*first + h*bend)
+            of_h = over_h(i) + of_v*(1.5_wp*slope*first + 2*h*bend) + of_s*wedge*law%sliding_slopes(i + 1, 1)
+            of_slope = of_v*1.5_wp*h*first + of_s*wedge*law%sliding(i + 1)
+            of_phi = by_phi(i) - first/2*(held(i) + over_s(i)*pad%s(i)) &
+               & + of_v*h*(1.5_wp*slope*second + h*(third + first*second)/2) &
+               & + of_s*(wedge*(slope*law%sliding_slopes(i + 1, 1) + h*law%sliding_slopes(i + 1, 2)) &
+               & + pad%squeeze*(w(1)*pad%cosine(i) - w(2)*pad%sine(i))) + of_h*slope + of_slope*(1 - h)
+            over_y = over_y + of_phi*of%shift(i, 1) - of_h*pad%sine(i) - of_slope*pad%cosine(i)
+            over_z = over_z + of_phi*of%shift(i, 2) - of_h*pad%cosine(i) + of_slope*pad%sine(i)
+            over_vy = over_vy + of_s*pad%sine(i)
+            over_vz = over_vz + of_s*pad%cosine(i)
+         end do
+         derivatives = [over_y, over_z, over_vy, over_vz]
+         derivatives(:2) = derivatives(:2) + of%stretch*by_log_d
+      end associate
+   end subroutine add_place
+
+   !> Derivatives over e by what the law makes of another thickness in the same place. With a = (d ln h)/d e, ln E
+   !> changes by its power times a, and its slopes by those of that product; ln K likewise, which moves with the nodes,
+   !> too.
+   pure function over_thickness(pad, m, rise, of_root) result(derivatives)
+      type(fourier_pad_type), intent(in) :: pad
+      integer, intent(in) :: m
+      !> Derivative over the logarithm of the inverse root, by node.
+      real(wp), intent(in) :: rise, of_root(0:pad%n)
+      real(wp) :: derivatives(2), h, slope, of_v, bent, of_across, of_a(0:2), a(2, 0:2), x(2), x_slope(2), at_edge
+      integer :: i
+      derivatives = 0
+      associate (of => pad%adjoints, law => pad%law, e => pad%e, n => pad%n)
+         do i = 0, n
+            h = pad%h(i)
+            x = [pad%sine(i), pad%cosine(i)]
+            x_slope = [x(2), -x(1)]
+            slope = e(2)*x(1) - e(1)*x(2)
+            a(:, 0) = -x/h
+            a(:, 1) = (slope*x/h - x_slope)/h
+            a(:, 2) = (x + 2*slope*x_slope - 2*slope**2*x/h)/h**2
+            of_v = pad%d**2/12*of%over_v(i, m)
+            bent = 1.5_wp*h*slope + h**2*law%flow_slopes(i + 1, 1)/2
+            of_across = pad%d**2/12*of%over_h2(i, m)*h**2 + of%along(i, m)*pad%narrow_share(i)*pad%narrow(i)
+            associate (power => law%flow_power(i + 1, :), across_power => law%across_power(i + 1, 0))
+               of_a(0) = of_v*(bent*power(1) + h**2*power(2)/2) - power(0)/2*of_root(i) + of_across*across_power
+               of_a(1) = of_v*(bent*power(0) + h**2*power(1))
+               of_a(2) = of_v*h**2/2*power(0)
+               if (i == 0 .or. i == n) then
+                  at_edge = -pad%axial%tail(3)*pad%radius*x(m)*pad%narrow(i)/h*pad%inverse_root(i) &
+                     & /sqrt(law%across(i + 1))
+                  of_a(0) = of_a(0) - at_edge*(power(0)/2 + 1.5_wp*across_power)
+               end if
+               if (i == n) of_a(0) = of_a(0) + power(0)/2*(of%boundary(m)*h + of%along(n, m)*of%solved(n))
+            end associate
+            if (i == n) of_a(:1) = of_a(:1) + by_supply(pad, m, rise)
+            derivatives = derivatives + matmul(a, of_a) + of_across*law%across_slope(i + 1)*of%shift(i, :)
+         end do
+      end associate
+   end function over_thickness
+
+   !> Derivatives of the layers that the pressure at the leading edge has in the modes left out (fourier_film), over a
+   !> and its slope there.
+   pure function by_supply(pad, m, rise) result(of_a)
+      type(fourier_pad_type), intent(in) :: pad
+      integer, intent(in) :: m
+      real(wp), intent(in) :: rise
+      real(wp) :: of_a(0:1), psi, psi_slope, second, falling
+      associate (n => pad%n, law => pad%law, across => pad%law%across(pad%n + 1), &
+         & power => pad%law%flow_power(pad%n + 1, :), across_power => pad%law%across_power(pad%n + 1, :))
+         psi = -pad%radius*merge(pad%sine(n), pad%cosine(n), m == 1)
+         psi_slope = -pad%radius*merge(pad%cosine(n), -pad%sine(n), m == 1)
+         second = rise*pad%axial%tail(2)/across
+         falling = 1.5_wp*(pad%e(2)*pad%sine(n) - pad%e(1)*pad%cosine(n))/pad%h(n) + law%flow_slopes(n + 1, 1)/2 &
+            & + 0.75_wp*law%across_slope(n + 1)
+         of_a(0) = across_power(0)*(second*(psi_slope - psi*falling) - rise*psi*pad%axial%tail(1)/(2*sqrt(across))) &
+            & + psi*second*(power(1)/2 + 0.75_wp*across_power(1))
+         of_a(1) = psi*second*(power(0)/2 + 0.75_wp*across_power(0))
+      end associate
+   end function by_supply
 end module fourier_slopes

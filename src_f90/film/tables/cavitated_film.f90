@@ -1,14 +1,13 @@
 !> The cavitated film of a dimensionless pad: its force is that of the film in the same place that is just full, times
 !> (1 - T)^4 (exp(q) - floor), with complex numbers for forces and q a smooth function of the film thicknesses at both
-!> edges and of T, the part of the arc where the film diverges (docs/theory/film.md); of uneven oil also of t/w_1, by
-!> which the rotation drives the film besides w (uneven_drive). Here q is solved where it is asked for; cavitation_table
-!> interpolates it.
+!> edges and of T, the part of the arc where the film diverges (docs/theory/film.md); where the rotation drives the film
+!> besides w (rotation_drive) also of t/w_1. Here q is solved where it is asked for; cavitation_table interpolates it.
 module cavitated_film
    use kinds, only: wp
    use film_solver, only: film_counters
    use dimensionless_pad, only: dimensionless_pad_type
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver, least_tolerance
-   use uneven_drive, only: uneven_drive_type, new_uneven_drive
+   use rotation_drive, only: rotation_drive_type, new_rotation_drive
    use cell_polynomials, only: simd_width
    implicit none (type, external)
    private
@@ -23,7 +22,7 @@ module cavitated_film
    !> Films that are remembered: of a state of all pads.
    integer, parameter :: memory = 24
 
-   !> Both thicknesses, T, and t/w_1, which is 0 of even oil.
+   !> Both thicknesses, T, and t/w_1, which is 0 where the rotation does not act.
    integer, parameter :: axes = 4
 
    !> Functions: real and imaginary part of q, the logarithm of the pressure ratio over (1 - T)^3, and 0. Their values,
@@ -36,9 +35,9 @@ module cavitated_film
 
    type :: cavitated_film_type
       type(dimensionless_pad_type) :: pad
-      type(uneven_drive_type) :: drive
+      type(rotation_drive_type) :: drive
       type(force_ratio_solver), private :: ratios
-      !> Of uneven oil, as seen in a mirror.
+      !> Where the rotation acts, as seen in a mirror.
       type(force_ratio_solver), allocatable, private :: mirrored
       real(wp), private :: floor = 0
       !> The films looked up last, one after the other, and where.
@@ -54,11 +53,11 @@ module cavitated_film
 
 contains
 
-   !> The films of a pad with its drive, with the condition of Reynolds or (of even oil) Guembel: forces to a tolerance,
-   !> over themselves.
+   !> The films of a pad with its drive, with the condition of Reynolds or (without a D) Guembel: forces to a
+   !> tolerance, over themselves.
    function new_cavitated_film(pad, drive, gumbel, tolerance) result(films)
       type(dimensionless_pad_type), intent(in) :: pad
-      type(uneven_drive_type), intent(in) :: drive
+      type(rotation_drive_type), intent(in) :: drive
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       type(cavitated_film_type) :: films
@@ -66,7 +65,7 @@ contains
       if (gumbel) films%floor = gumbel_floor
       films%drive = drive
       films%ratios = new_force_ratio_solver(pad, drive, gumbel, max(tolerance, least_tolerance))
-      if (drive%acts) films%mirrored = new_force_ratio_solver(pad, new_uneven_drive(pad, drive%oil%mirrored()), &
+      if (drive%acts) films%mirrored = new_force_ratio_solver(pad, new_rotation_drive(pad, drive%oil%mirrored()), &
          & gumbel, max(tolerance, least_tolerance))
    end function new_cavitated_film
 
@@ -146,7 +145,7 @@ contains
    end subroutine solve
 
    !> The force of a film over that of the film that is just full, its derivatives over the axes, and the same ratio of
-   !> the highest pressures (of uneven oil, where that film has t = 0), from what `look_up` found at a T.
+   !> the highest pressures (where the rotation acts that film has t = 0), from what `look_up` found at a T.
    pure subroutine set_ratio(self, t, value, slope, force, force_slopes, pressure)
       class(cavitated_film_type), intent(in) :: self
       real(wp), intent(in) :: t, value(simd_width), slope(simd_width, axes)

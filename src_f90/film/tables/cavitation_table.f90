@@ -1,6 +1,6 @@
 !> The cavitated film of a pad as a table (docs/theory/film.md, *The table*): cubics in equal cells over the logarithms
-!> of the film thicknesses at both edges and over T, the part of the arc where the film diverges; of uneven oil also
-!> over t/w_1, the rotation that drives the film besides w.
+!> of the film thicknesses at both edges and over T, the part of the arc where the film diverges; where
+!> the rotation drives the film besides w also over t/w_1.
 !>
 !> Cells have a node at every corner, which neighbours share: across their faces the force is continuous. The film of a
 !> node is solved on its own; so a cell is the same, whatever came before.
@@ -15,7 +15,7 @@ module cavitation_table
    use dimensionless_pad, only: dimensionless_pad_type
    use film_solver, only: film_counters
    use cavitated_film, only: cavitated_film_type, node_type, new_cavitated_film, axes
-   use uneven_drive, only: uneven_drive_type
+   use rotation_drive, only: rotation_drive_type
    use cell_index, only: cell_index_type, cell_key, interval, lower_end
    use cell_polynomials, only: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic, blend_of, &
       & evaluate_blend
@@ -37,10 +37,10 @@ module cavitation_table
    !> that of the same films without it, beyond what its first nodes may cost: some 10 ms.
    real(wp), parameter :: film_cost(2) = [1, 5], node_cost(2) = [20, 60], little = 0.2_wp
    real(wp), parameter :: most_cost = 1.2_wp, first_cost = 100*node_cost(2)
-   !> The same where oil is uneven, so that no other pad has the table: it may cost as much as all films would have cost
-   !> without it, so that both together cost at most twice the cheaper of them (full_film_table).
+   !> The same where the rotation acts, so that no other pad has the table: it may cost as much as all films would have
+   !> cost without it, so that both together cost at most twice the cheaper of them (full_film_table).
    !> Its nodes have the full film without rotation, too.
-   real(wp), parameter :: most_cost_alone = 2, uneven_cost = 1.5_wp
+   real(wp), parameter :: most_cost_alone = 2, rotation_cost = 1.5_wp
    !> Range of |t/w_1| that has cells; added to its intervals, so that they have numbers > 0.
    real(wp), parameter :: drives(2) = 2.0_wp**[-15, 15]
    integer, parameter :: drive_offset = 512
@@ -51,7 +51,7 @@ module cavitation_table
    type :: cell_type
       real(wp) :: lower(axes), upper(axes), per_size(axes)
       real(wp) :: coefficients(simd_width, terms)
-      !> Of uneven oil, in four dimensions.
+      !> Where the rotation acts, in four dimensions.
       real(wp), allocatable :: blend(:, :)
    end type cell_type
 
@@ -59,7 +59,7 @@ module cavitation_table
       private
       !> Cells in an octave of a thickness are 2^level; along T they have 1/parts, and half of it where pads are loaded.
       integer :: level = base_level, parts = base_parts
-      !> Along t/w_1, of uneven oil: half an octave at most.
+      !> Along t/w_1: half an octave at most.
       integer :: level_of_drive = 0
       !> Terms of a cubic from the data at its corners, once it is needed.
       real(wp), allocatable :: transform(:, :)
@@ -83,11 +83,11 @@ module cavitation_table
 
 contains
 
-   !> An empty table for a pad with its drive, with the condition of Reynolds or (of even oil) Guembel, to a tolerance
-   !> over the force; `filled`, every cell is built. At least the corners of a cell must find room in it.
+   !> An empty table for a pad with its drive, with the condition of Reynolds or (without a D) Guembel, to a
+   !> tolerance over the force; `filled`, every cell is built. At least the corners of a cell must find room in it.
    function new_cavitation_table(pad, drive, gumbel, tolerance, most, filled) result(table)
       type(dimensionless_pad_type), intent(in) :: pad
-      type(uneven_drive_type), intent(in) :: drive
+      type(rotation_drive_type), intent(in) :: drive
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
@@ -231,7 +231,8 @@ contains
       end associate
    end function lower_t
 
-   !> The interval of t/w_1: upwards from 0 and, in even numbers less 1, downwards. Of even oil 0.
+   !> The interval of t/w_1: upwards from 0 and, in even numbers less 1, downwards. Where the rotation
+   !> does not act 0.
    pure integer function interval_of_drive(self, drive)
       class(cavitation_table_type), intent(in) :: self
       real(wp), intent(in) :: drive
@@ -241,7 +242,7 @@ contains
       if (drive < 0) interval_of_drive = -1 - interval_of_drive
    end function interval_of_drive
 
-   !> The lower end of an interval of t/w_1; 0 and 1 of even oil.
+   !> The lower end of an interval of t/w_1; 0 and 1 where the rotation does not act.
    pure real(wp) function lower_drive(self, number)
       class(cavitation_table_type), intent(in) :: self
       integer, intent(in) :: number
@@ -331,7 +332,7 @@ contains
          end if
          associate (place => corner_place(self, level, at))
             call self%solve(place, counters, node)
-            self%cost = self%cost + node_cost(class_of(place(3)))*merge(uneven_cost, 1.0_wp, self%drive%acts)
+            self%cost = self%cost + node_cost(class_of(place(3)))*merge(rotation_cost, 1.0_wp, self%drive%acts)
          end associate
          self%nodes(number) = node
          call index%add(key, number)

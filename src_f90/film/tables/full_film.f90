@@ -1,27 +1,34 @@
 !> The full film of a dimensionless pad: force = S M w, with a symmetric M of three functions of the film thicknesses at
-!> both edges (docs/theory/film.md); the highest pressure, over S, of the film that is just full, a fourth; and the
-!> force of a second load: of a pressure 1 at the leading edge, or, over S, of what drives uneven oil besides w
-!> (uneven_drive). Here all are solved where they are asked for, the forces with exact
-!> derivatives; full_film_table interpolates them.
+!> both edges (docs/theory/film.md); the highest pressure, over S, of the film that is just full, a fourth; the force of
+!> a pressure 1 at the leading edge; and, over S, that of the rotation's own drive (rotation_drive). Here all are solved
+!> where they are asked for, the forces with exact derivatives; full_film_table interpolates them.
 module full_film
    use kinds, only: wp
    use film_solver, only: film_motion, film_response, film_counters, film_ok
-   use dimensionless_pad, only: dimensionless_pad_type, unit_oil, thickness_scale
+   use dimensionless_pad, only: dimensionless_pad_type, thickness_scale
    use fourier_film, only: fourier_film_type, converged_film
-   use uneven_drive, only: uneven_drive_type
+   use rotation_drive, only: rotation_drive_type
    use cell_polynomials, only: simd_width
    implicit none (type, external)
    private
-   public :: full_film_type, new_full_film, loads
+   public :: full_film_type, full_film_forces, new_full_film
 
-   !> Loads of a film: the velocity w; a pressure at the leading edge, or the drive D of uneven oil.
-   integer, parameter :: loads = 2
    !> Error of what is solved over the tolerance.
    real(wp), parameter :: share_of_nodes = 0.3_wp
 
+   !> Functions of the thicknesses at both edges, and their derivatives over these, (function, edge).
+   type :: full_film_forces
+      !> M_11, M_12, M_22 and the highest pressure at w = (1, tan(half the arc)), all over S.
+      real(wp) :: of_velocity(simd_width), velocity_slopes(simd_width, 2)
+      !> Where there is a pressure at the leading edge, the force (along, outward, 0, 0) of a pressure 1 there.
+      real(wp) :: of_supply(simd_width), supply_slopes(simd_width, 2)
+      !> Where the rotation acts, the force of D at t = 1, over S.
+      real(wp) :: of_rotation(simd_width), rotation_slopes(simd_width, 2)
+   end type full_film_forces
+
    type :: full_film_type
       type(dimensionless_pad_type) :: pad
-      type(uneven_drive_type) :: drive
+      type(rotation_drive_type) :: drive
       !> Whether there is a pressure at the leading edge.
       logical :: supplied = .false.
       !> Without pressure around the pad, and, where there is one, with a pressure 1 at its leading edge.
@@ -33,11 +40,11 @@ module full_film
 
 contains
 
-   !> The full films of a pad with its drive, with a pressure at its leading edge (of even oil) or without, to a
-   !> tolerance over the norm of M.
+   !> The full films of a pad with its drive, with a pressure at its leading edge (not where the rotation acts) or
+   !> without, to a tolerance over the norm of M.
    function new_full_film(pad, drive, supplied, tolerance) result(films)
       type(dimensionless_pad_type), intent(in) :: pad
-      type(uneven_drive_type), intent(in) :: drive
+      type(rotation_drive_type), intent(in) :: drive
       logical, intent(in) :: supplied
       real(wp), intent(in) :: tolerance
       type(full_film_type) :: films
@@ -48,19 +55,15 @@ contains
       if (supplied) films%supplied_film = converged_film(pad%gap(1.0_wp), .false., share_of_nodes*tolerance)
    end function new_full_film
 
-   !> By load the functions M_11, M_12, M_22 and the highest pressure at w = (1, tan(half the arc)), both over S; and,
-   !> where there is a pressure at the leading edge, the force (along, outward, 0, 0) of a pressure 1 there; of uneven
-   !> oil that of D at t = 1, over S. If they are
-   !> wanted, derivatives of the forces over both thicknesses, (function, edge, load). For an open film with these
-   !> thicknesses at its edges. `last` is the caller's memory of the place in a table, 0 at first. `good` is false where
-   !> the film has no solution.
-   subroutine look_up(self, edges, want_slopes, last, counters, value, slope, good)
+   !> The forces of an open film with these thicknesses at its edges, with derivatives if they are wanted. `last` is the
+   !> caller's memory of the place in a table, 0 at first. `good` is false where the film has no solution.
+   subroutine look_up(self, edges, want_slopes, last, counters, forces, good)
       class(full_film_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
       type(film_counters), intent(inout) :: counters
-      real(wp), intent(out) :: value(simd_width, loads), slope(simd_width, 2, loads)
+      type(full_film_forces), intent(out) :: forces
       logical, intent(out) :: good
       type(film_response) :: along, onset, still
       integer :: i
@@ -69,38 +72,40 @@ contains
          call self%film%evaluate_pad(1, film_motion(position, [1.0_wp, 0.0_wp]), drive%oil, 0.0_wp, want_slopes, along)
          call self%film%evaluate_pad(1, film_motion(position, [1.0_wp, pad%tangent]), drive%oil, 0.0_wp, want_slopes, &
             & onset)
-         if (self%supplied) call self%supplied_film%evaluate_pad(1, film_motion(position), unit_oil, 0.0_wp, &
-            & want_slopes, still)
-         if (drive%acts) call self%film%evaluate_pad(1, film_motion(position, drive%still(position)), drive%oil, &
-            & drive%speed_unit, want_slopes, still)
          good = along%status == film_ok
-         value(:, 1) = symmetric(along%force, (onset%force - along%force)/pad%tangent)/scale
-         value(4, 1) = onset%max_pressure/(drive%pressure_unit*scale/drive%force_unit)
-         value(:, 2) = [still%force, 0.0_wp, 0.0_wp]
-         if (drive%acts) value(:, 2) = value(:, 2)/scale
-         slope = 0
-         if (.not. want_slopes) return
-         associate (of_along => over_edges(pad, along), of_onset => over_edges(pad, onset))
-            do i = 1, 2
-               slope(:, i, 1) = symmetric(of_along(:, i), (of_onset(:, i) - of_along(:, i))/pad%tangent)/scale &
-                  & + 1.5_wp*value(:, 1)/edges(i)
-            end do
-         end associate
-         if (drive%acts) then
-            ! w = 0 in every place
-            still%derivatives(:, :2) = still%derivatives(:, :2) - matmul(still%derivatives(:, 3:), drive%by_rotation())
-            slope(:2, :, 2) = over_edges(pad, still)/scale
-            do i = 1, 2
-               slope(:2, i, 2) = slope(:2, i, 2) + 1.5_wp*value(:2, 2)/edges(i)
-            end do
-         else
-            slope(:2, :, 2) = over_edges(pad, still)
+         forces%of_velocity = symmetric(along%force, (onset%force - along%force)/pad%tangent)/scale
+         forces%of_velocity(4) = onset%max_pressure/(drive%pressure_unit*scale/drive%force_unit)
+         if (want_slopes) then
+            associate (of_along => over_edges(pad, along), of_onset => over_edges(pad, onset))
+               do i = 1, 2
+                  forces%velocity_slopes(:, i) = symmetric(of_along(:, i), (of_onset(:, i) - of_along(:, i)) &
+                     & /pad%tangent)/scale + 1.5_wp*forces%of_velocity/edges(i)
+               end do
+            end associate
          end if
+         if (self%supplied) then
+            call self%supplied_film%evaluate_pad(1, film_motion(position), drive%oil, 0.0_wp, want_slopes, still)
+            forces%of_supply = [still%force, 0.0_wp, 0.0_wp]
+            forces%supply_slopes = 0
+            if (want_slopes) forces%supply_slopes(:2, :) = over_edges(pad, still)
+         end if
+         if (.not. drive%acts) return
+         call self%film%evaluate_pad(1, film_motion(position, drive%still(position)), drive%oil, drive%speed_unit, &
+            & want_slopes, still)
+         forces%of_rotation = [still%force, 0.0_wp, 0.0_wp]/scale
+         if (.not. want_slopes) return
+         ! w = 0 in every place
+         still%derivatives(:, :2) = still%derivatives(:, :2) - matmul(still%derivatives(:, 3:), drive%by_rotation())
+         forces%rotation_slopes = 0
+         forces%rotation_slopes(:2, :) = over_edges(pad, still)/scale
+         do i = 1, 2
+            forces%rotation_slopes(:2, i) = forces%rotation_slopes(:2, i) + 1.5_wp*forces%of_rotation(:2)/edges(i)
+         end do
       end associate
    end subroutine look_up
 
    !> The highest pressure in the middle plane, or 0, where the film is open and has these thicknesses at its edges, for
-   !> w and a pressure at the leading edge or, of uneven oil, t. `last` as in `look_up`.
+   !> w and a pressure at the leading edge or, where the rotation acts, t. `last` as in `look_up`.
    subroutine highest_pressure(self, edges, w, load, last, counters, pressure)
       class(full_film_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2), w(2), load
@@ -115,10 +120,10 @@ contains
             pressure = film%max_pressure/drive%pressure_unit
          else if (abs(load) > 0) then
             ! that of a pressure 1 at the leading edge, scaled
-            call self%supplied_film%evaluate_pad(1, film_motion(position, w/load), unit_oil, 0.0_wp, .false., film)
+            call self%supplied_film%evaluate_pad(1, film_motion(position, w/load), drive%oil, 0.0_wp, .false., film)
             pressure = max(load*film%max_pressure, load*film%min_pressure)
          else
-            call self%film%evaluate_pad(1, film_motion(position, w), unit_oil, 0.0_wp, .false., film)
+            call self%film%evaluate_pad(1, film_motion(position, w), drive%oil, 0.0_wp, .false., film)
             pressure = film%max_pressure
          end if
       end associate

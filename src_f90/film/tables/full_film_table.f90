@@ -1,7 +1,8 @@
 !> The full film of a pad as a table: force = S M w, with a symmetric M of three functions of the film thicknesses at
-!> both edges (docs/theory/film.md, *The table*), and that of a pressure at the leading edge.
+!> both edges (docs/theory/film.md, *The table*), and those of a pressure at the leading edge
+!> and of the rotation.
 !>
-!> Both are analytic, so one polynomial stands for them over half an octave of either thickness; where it does not, next
+!> All are analytic, so one polynomial stands for them over half an octave of either thickness; where it does not, next
 !> to a film that closes, a cell is cut in four. Polynomials go through values at the faces of their cells, too, so that
 !> the force is continuous from cell to cell of one size. What is in a cell does not depend on what came before.
 module full_film_table
@@ -9,8 +10,8 @@ module full_film_table
    use clock, only: wall_clock
    use dimensionless_pad, only: dimensionless_pad_type
    use film_solver, only: film_counters
-   use full_film, only: full_film_type, new_full_film, loads
-   use uneven_drive, only: uneven_drive_type
+   use full_film, only: full_film_type, full_film_forces, new_full_film
+   use rotation_drive, only: rotation_drive_type
    use cell_polynomials, only: nodes, simd_width, node_points, fitted, evaluate_patch, patch_values
    use pressure_profile, only: pressure_profile_type, new_pressure_profile, profile_nodes => nodes
    use cell_index, only: cell_index_type, cell_key, interval, lower_end
@@ -38,8 +39,9 @@ module full_film_table
       integer :: visits = 0, pressures = 0
       !> Whether it has been tried to build it; its functions are as close as they should be; it is cut in four.
       logical :: tried = .false., good = .false., cut = .false.
-      !> Of the functions of full_film.
-      real(wp) :: coefficients(simd_width, nodes, nodes, loads) = 0
+      !> Of the functions of full_film, by load; of those that there are.
+      real(wp) :: of_velocity(simd_width, nodes, nodes) = 0
+      real(wp), allocatable :: of_supply(:, :, :), of_rotation(:, :, :)
       !> Built when pressures are often asked for.
       type(pressure_profile_type), allocatable :: profile
    end type cell_type
@@ -64,50 +66,61 @@ module full_film_table
 
 contains
 
-   !> An empty table for a pad with its drive, with a pressure at its leading edge (of even oil) or without: M to a
-   !> tolerance, over its norm; `filled`, every cell is built. A pad of uneven oil has its own table,
-   !> so that else none of its cells is built at once.
+   !> An empty table for a pad with its drive, with a pressure at its leading edge or without: M to a tolerance,
+   !> over its norm; `filled`, every cell is built. A pad whose law varies has its own table, so that else none of its
+   !> cells is built at once.
    function new_full_film_table(pad, drive, supplied, tolerance, most, filled) result(table)
       type(dimensionless_pad_type), intent(in) :: pad
-      type(uneven_drive_type), intent(in) :: drive
+      type(rotation_drive_type), intent(in) :: drive
       logical, intent(in) :: supplied
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
       logical, intent(in), optional :: filled
       type(full_film_table_type) :: table
       table%full_film_type = new_full_film(pad, drive, supplied, tolerance)
-      if (drive%acts) table%built = built_at_once
+      if (drive%oil%varies) table%built = built_at_once
       table%tolerance = tolerance
       table%most = most
       if (present(filled)) table%filled = filled
       allocate (table%cells(8))
    end function new_full_film_table
 
-   subroutine look_up(self, edges, want_slopes, last, counters, value, slope, good)
+   subroutine look_up(self, edges, want_slopes, last, counters, forces, good)
       class(full_film_table_type), intent(inout) :: self
       real(wp), intent(in) :: edges(2)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
       type(film_counters), intent(inout) :: counters
-      real(wp), intent(out) :: value(simd_width, loads), slope(simd_width, 2, loads)
+      type(full_film_forces), intent(out) :: forces
       logical, intent(out) :: good
-      integer :: load
       if (.not. holds(self, last, edges)) call self%find_cell(edges, counters, last)
       associate (cell => self%cells(last))
          good = cell%good
          if (.not. good) then
             counters%fourier = counters%fourier + 1
-            call self%full_film_type%look_up(edges, want_slopes, last, counters, value, slope, good)
+            call self%full_film_type%look_up(edges, want_slopes, last, counters, forces, good)
             return
          end if
-         do load = 1, merge(loads, 1, self%supplied .or. self%drive%acts)
-            call evaluate_patch(cell%coefficients(:, :, :, load), (edges - cell%middle)*cell%per_half, want_slopes, &
-               & value(:, load), slope(:, :, load))
-            slope(:, 1, load) = slope(:, 1, load)*cell%per_half(1)
-            slope(:, 2, load) = slope(:, 2, load)*cell%per_half(2)
-         end do
+         associate (place => (edges - cell%middle)*cell%per_half)
+            call take(cell, cell%of_velocity, place, want_slopes, forces%of_velocity, forces%velocity_slopes)
+            if (self%supplied) call take(cell, cell%of_supply, place, want_slopes, forces%of_supply, &
+               & forces%supply_slopes)
+            if (self%drive%acts) call take(cell, cell%of_rotation, place, want_slopes, forces%of_rotation, &
+               & forces%rotation_slopes)
+         end associate
       end associate
    end subroutine look_up
+
+   !> Functions of a cell at a place in it, and their derivatives over the thicknesses.
+   pure subroutine take(cell, coefficients, place, want_slopes, value, slope)
+      type(cell_type), intent(in) :: cell
+      real(wp), intent(in) :: coefficients(simd_width, nodes, nodes), place(2)
+      logical, intent(in) :: want_slopes
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
+      call evaluate_patch(coefficients, place, want_slopes, value, slope)
+      slope(:, 1) = slope(:, 1)*cell%per_half(1)
+      slope(:, 2) = slope(:, 2)*cell%per_half(2)
+   end subroutine take
 
    subroutine highest_pressure(self, edges, w, load, last, counters, pressure)
       class(full_film_table_type), intent(inout) :: self
@@ -199,8 +212,9 @@ contains
       integer, intent(in) :: level, place(2)
       type(film_counters), intent(inout) :: counters
       type(cell_type), intent(inout) :: cell
-      real(wp) :: values(simd_width, nodes, nodes, loads), points(nodes)
-      real(wp) :: exact(simd_width, loads), found(simd_width), unused(simd_width, 2, loads)
+      type(full_film_forces) :: forces
+      real(wp), dimension(simd_width, nodes, nodes) :: of_velocity, of_supply, of_rotation
+      real(wp) :: points(nodes), found(simd_width)
       integer :: i, k, none
       logical :: open
       points = node_points(nodes)
@@ -213,19 +227,24 @@ contains
       do k = 1, nodes
          do i = 1, nodes
             call self%full_film_type%look_up(cell%middle + points([i, k])/cell%per_half, .false., none, counters, &
-               & values(:, i, k, :), unused, open)
+               & forces, open)
             if (.not. open) return
+            of_velocity(:, i, k) = forces%of_velocity
+            if (self%supplied) of_supply(:, i, k) = forces%of_supply
+            if (self%drive%acts) of_rotation(:, i, k) = forces%of_rotation
          end do
       end do
-      do k = 1, loads
-         cell%coefficients(:, :, :, k) = fitted(values(:, :, :, k))
-      end do
+      cell%of_velocity = fitted(of_velocity)
+      if (self%supplied) cell%of_supply = fitted(of_supply)
+      if (self%drive%acts) cell%of_rotation = fitted(of_rotation)
       do i = 1, size(checks, 2)
-         call self%full_film_type%look_up(cell%middle + checks(:, i)/cell%per_half, .false., none, counters, exact, &
-            & unused, open)
+         call self%full_film_type%look_up(cell%middle + checks(:, i)/cell%per_half, .false., none, counters, forces, &
+            & open)
          if (.not. open) return
-         found = patch_values(simd_width, nodes, cell%coefficients(:, :, :, 1), checks(:, i))
-         if (norm2(found(:3) - exact(:3, 1)) > self%tolerance*norm2(exact(:3, 1))) return
+         found = patch_values(simd_width, nodes, cell%of_velocity, checks(:, i))
+         associate (exact => forces%of_velocity(:3))
+            if (norm2(found(:3) - exact) > self%tolerance*norm2(exact)) return
+         end associate
       end do
       cell%good = .true.
       cell%cut = .false.

@@ -6,7 +6,7 @@
 !> set of the last motion (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002, theorem 3.2).
 module elimination_film
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_not_converged
+   use film_solver, only: film_motion, film_law_type, film_response, film_counters, film_not_converged
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use volume_equations, only: volume_equations_type, new_volume_equations, boundary_conductance
@@ -60,7 +60,7 @@ contains
    subroutine evaluate(self, motion, oil, speed, cavitates, want_derivatives, counters, response)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: cavitates, want_derivatives
       type(film_counters), intent(inout) :: counters
@@ -176,7 +176,7 @@ contains
    subroutine field(self, motion, oil, speed, cavitates, phi, z, pressure)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: cavitates
       !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
@@ -212,7 +212,7 @@ contains
    subroutine force_of_cavitation(self, motion, oil, speed, counters, force, is_local)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_counters), intent(inout) :: counters
       real(wp), intent(out) :: force(2)
