@@ -204,6 +204,7 @@ contains
       !> Derivative over the logarithm of the inverse root, by node.
       real(wp), intent(in) :: rise, of_root(0:pad%n)
       real(wp) :: derivatives(2), h, slope, of_v, bent, of_across, of_a(0:2), a(2, 0:2), x(2), x_slope(2), at_edge
+      real(wp) :: power(0:2), across_power
       integer :: i
       derivatives = 0
       associate (of => pad%adjoints, law => pad%law, e => pad%e, n => pad%n)
@@ -218,17 +219,16 @@ contains
             of_v = pad%d**2/12*of%over_v(i, m)
             bent = 1.5_wp*h*slope + h**2*law%flow_slopes(i + 1, 1)/2
             of_across = pad%d**2/12*of%over_h2(i, m)*h**2 + of%along(i, m)*pad%narrow_share(i)*pad%narrow(i)
-            associate (power => law%flow_power(i + 1, :), across_power => law%across_power(i + 1, 0))
-               of_a(0) = of_v*(bent*power(1) + h**2*power(2)/2) - power(0)/2*of_root(i) + of_across*across_power
-               of_a(1) = of_v*(bent*power(0) + h**2*power(1))
-               of_a(2) = of_v*h**2/2*power(0)
-               if (i == 0 .or. i == n) then
-                  at_edge = -pad%axial%tail(3)*pad%radius*x(m)*pad%narrow(i)/h*pad%inverse_root(i) &
-                     & /sqrt(law%across(i + 1))
-                  of_a(0) = of_a(0) - at_edge*(power(0)/2 + 1.5_wp*across_power)
-               end if
-               if (i == n) of_a(0) = of_a(0) + power(0)/2*(of%boundary(m)*h + of%along(n, m)*of%solved(n))
-            end associate
+            power = law%flow_power(i + 1, :)
+            across_power = law%across_power(i + 1, 0)
+            of_a(0) = of_v*(bent*power(1) + h**2*power(2)/2) - power(0)/2*of_root(i) + of_across*across_power
+            of_a(1) = of_v*(bent*power(0) + h**2*power(1))
+            of_a(2) = of_v*h**2/2*power(0)
+            if (i == 0 .or. i == n) then
+               at_edge = -pad%axial%tail(3)*pad%radius*x(m)*pad%narrow(i)/h*pad%inverse_root(i)/sqrt(law%across(i + 1))
+               of_a(0) = of_a(0) - at_edge*(power(0)/2 + 1.5_wp*across_power)
+            end if
+            if (i == n) of_a(0) = of_a(0) + power(0)/2*(of%boundary(m)*h + of%along(n, m)*of%solved(n))
             if (i == n) of_a(:1) = of_a(:1) + by_supply(pad, m, rise)
             derivatives = derivatives + matmul(a, of_a) + of_across*law%across_slope(i + 1)*of%shift(i, :)
          end do
@@ -241,9 +241,10 @@ contains
       type(fourier_pad_type), intent(in) :: pad
       integer, intent(in) :: m
       real(wp), intent(in) :: rise
-      real(wp) :: of_a(0:1), psi, psi_slope, second, falling
-      associate (n => pad%n, law => pad%law, across => pad%law%across(pad%n + 1), &
-         & power => pad%law%flow_power(pad%n + 1, :), across_power => pad%law%across_power(pad%n + 1, :))
+      real(wp) :: of_a(0:1), power(0:2), across_power(0:1), psi, psi_slope, second, falling
+      associate (n => pad%n, law => pad%law, across => pad%law%across(pad%n + 1))
+         power = law%flow_power(n + 1, :)
+         across_power = law%across_power(n + 1, :)
          psi = -pad%radius*merge(pad%sine(n), pad%cosine(n), m == 1)
          psi_slope = -pad%radius*merge(pad%cosine(n), -pad%sine(n), m == 1)
          second = rise*pad%axial%tail(2)/across

@@ -28,7 +28,7 @@ module cavitated_film
    !> Functions: real and imaginary part of q, the logarithm of the pressure ratio over (1 - T)^3, and 0. Their values,
    !> and derivatives over the axes, (function, value or derivative).
    type :: node_type
-      real(wp) :: data(simd_width, 1 + axes) = 0
+      real(wp) :: data(simd_width, 1 + axes)
       !> Whether the film is open and was solved.
       logical :: ok = .false.
    end type node_type
@@ -48,7 +48,6 @@ module cavitated_film
       procedure :: look_up
       procedure :: solve
       procedure :: set_ratio
-      procedure, private :: find
    end type cavitated_film_type
 
 contains
@@ -69,29 +68,14 @@ contains
          & gumbel, max(tolerance, least_tolerance))
    end function new_cavitated_film
 
-   !> The functions of node_type and, if they are wanted, their derivatives over the axes, (function, axis), for an open
-   !> film with 0 < T < 1; where w_1 < 0, seen in a mirror. `last` is the caller's memory of the
-   !> place in a table, 0 at first. `good` is false where the film has no solution.
-   subroutine look_up(self, place, want_slopes, last, counters, value, slope, good)
+   !> The functions of an open film with 0 < T < 1, with their derivatives if they are wanted; where w_1 < 0, seen in a
+   !> mirror. `last` is the caller's memory of the place in a table, 0 at first. Here films are solved, unless they are
+   !> among the last that were: a state is often evaluated again, for its derivatives.
+   subroutine look_up(self, place, want_slopes, last, counters, node)
       class(cavitated_film_type), intent(inout) :: self
       real(wp), intent(in) :: place(axes)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
-      type(film_counters), intent(inout) :: counters
-      real(wp), intent(out) :: value(simd_width), slope(simd_width, axes)
-      logical, intent(out) :: good
-      type(node_type) :: node
-      call self%find(place, counters, node)
-      value = node%data(:, 1)
-      slope = node%data(:, 2:)
-      good = node%ok
-   end subroutine look_up
-
-   !> The film at a place, from memory if it is among the last that were solved: a state is often evaluated again, for
-   !> its derivatives.
-   subroutine find(self, place, counters, node)
-      class(cavitated_film_type), intent(inout) :: self
-      real(wp), intent(in) :: place(axes)
       type(film_counters), intent(inout) :: counters
       type(node_type), intent(out) :: node
       integer :: i
@@ -108,7 +92,7 @@ contains
       self%remember_next = modulo(self%remember_next, size(self%remembered)) + 1
       self%remembered(self%remember_next) = node
       self%remembered_at(:, self%remember_next) = place
-   end subroutine find
+   end subroutine look_up
 
    !> The functions of a film.
    subroutine solve(self, place, counters, node)
@@ -130,6 +114,7 @@ contains
             ratio = self%ratios%at(edges, w_2, t)
          end if
       end associate
+      node%data = 0
       node%ok = ratio%ok
       if (.not. node%ok) return
       part = ratio%value/room**force_power + self%floor
@@ -146,13 +131,14 @@ contains
 
    !> The force of a film over that of the film that is just full, its derivatives over the axes, and the same ratio of
    !> the highest pressures (where the rotation acts that film has t = 0), from what `look_up` found at a T.
-   pure subroutine set_ratio(self, t, value, slope, force, force_slopes, pressure)
+   pure subroutine set_ratio(self, t, node, force, force_slopes, pressure)
       class(cavitated_film_type), intent(in) :: self
-      real(wp), intent(in) :: t, value(simd_width), slope(simd_width, axes)
+      real(wp), intent(in) :: t
+      type(node_type), intent(in) :: node
       complex(wp), intent(out) :: force, force_slopes(axes)
       real(wp), intent(out) :: pressure
       complex(wp) :: part
-      associate (room => 1 - t)
+      associate (room => 1 - t, value => node%data(:, 1), slope => node%data(:, 2:))
          part = room**force_power*exp(cmplx(value(1), value(2), wp))
          force = part - self%floor*room**force_power
          force_slopes(:3) = part*cmplx(slope(1, :3), slope(2, :3), wp)

@@ -105,25 +105,23 @@ contains
       allocate (table%cells(32), table%nodes(128))
    end function new_cavitation_table
 
-   subroutine look_up(self, place, want_slopes, last, counters, value, slope, good)
+   subroutine look_up(self, place, want_slopes, last, counters, node)
       class(cavitation_table_type), intent(inout) :: self
       real(wp), intent(in) :: place(axes)
       logical, intent(in) :: want_slopes
       integer, intent(inout) :: last
       type(film_counters), intent(inout) :: counters
-      real(wp), intent(out) :: value(simd_width), slope(simd_width, axes)
-      logical, intent(out) :: good
+      type(node_type), intent(out) :: node
       integer :: axis
       self%cost_without = self%cost_without + film_cost(class_of(place(3)))
       if (.not. holds(self, last, place)) call self%find_cell(place, counters, last)
-      good = last > 0
-      if (.not. good) then
+      node%ok = last > 0
+      if (.not. node%ok) then
          self%cost = self%cost + film_cost(class_of(place(3)))
-         if (self%is_closer) call self%cavitated_film_type%look_up(place, want_slopes, last, counters, value, slope, &
-            & good)
+         if (self%is_closer) call self%cavitated_film_type%look_up(place, want_slopes, last, counters, node)
          return
       end if
-      associate (cell => self%cells(last))
+      associate (cell => self%cells(last), value => node%data(:, 1), slope => node%data(:, 2:))
          if (self%drive%acts) then
             call evaluate_blend(cell%blend, (place - cell%lower)*cell%per_size, want_slopes, value, slope)
             slope(:, 4) = slope(:, 4)*cell%per_size(4)

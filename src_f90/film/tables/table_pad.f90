@@ -7,7 +7,7 @@ module table_pad
       & new_mid_arc_frame, thickness_scale
    use cell_polynomials, only: simd_width
    use full_film, only: full_film_type, full_film_forces
-   use cavitated_film, only: cavitated_film_type, axes
+   use cavitated_film, only: cavitated_film_type, node_type, axes
    use rotation_drive, only: rotation_drive_type
    use film_law, only: most_numbers
    implicit none (type, external)
@@ -173,7 +173,8 @@ contains
       logical, intent(in) :: want_derivatives
       type(film_counters), intent(inout) :: counters
       type(cavitated_part), intent(out) :: part
-      real(wp) :: value(simd_width), slope(simd_width, axes), place(axes), drive
+      type(node_type) :: node
+      real(wp) :: place(axes), drive
       complex(wp) :: slopes(axes)
       integer :: leading, trailing
       associate (w => seen%w)
@@ -182,14 +183,11 @@ contains
          trailing = 3 - leading
          drive = 0
          if (tables%drive%acts) drive = seen%t/w(1)
-         place(1) = seen%edges(leading)
-         place(2) = seen%edges(trailing)
-         place(3) = t
-         place(4) = drive
-         call tables%cavitation%look_up(place, want_derivatives, self%cavitation_cell, counters, value, slope, &
-            & part%found)
+         place = [seen%edges([leading, trailing]), t, drive]
+         call tables%cavitation%look_up(place, want_derivatives, self%cavitation_cell, counters, node)
+         part%found = node%ok
          if (.not. part%found) return
-         call tables%cavitation%set_ratio(t, value, slope, part%force, slopes, part%pressure)
+         call tables%cavitation%set_ratio(t, node, part%force, slopes, part%pressure)
          if (.not. w(1) > 0) then
             part%force = conjg(part%force)
             slopes = conjg(slopes)

@@ -83,13 +83,21 @@ contains
       if (want_derivatives) call self%differentiate(response)
    end subroutine evaluate
 
-   !> The derivatives of the last film's forces.
+   !> The derivatives of the last film's forces over position and velocity, by an adjoint for each.
    subroutine differentiate(self, response)
       class(elimination_film_type), intent(inout) :: self
       type(film_response), intent(inout) :: response
+      real(wp) :: along(0:self%grid%columns), weight(self%grid%columns, 2)
+      real(wp), dimension(self%grid%columns) :: across, total, none
+      integer :: m
       if (self%ends_between .and. self%first <= self%grid%columns) call end_between(self)
-      call find_adjoints(self)
-      call set_derivatives(self, response)
+      weight = self%grid%weight()
+      none = 0
+      do m = 1, 2
+         call self%solve(weight(:, m), none, self%adjoint(:, :, m))
+         call self%multiply(self%pressure, self%adjoint(:, :, m), along, across, total)
+         response%derivatives(m, :) = self%grid%derivatives_of_products(along, across, total)
+      end do
    end subroutine differentiate
 
    !> Pivots and blocks for changes of the pressure in a film that ends between its cells.
@@ -107,30 +115,6 @@ contains
       end do
       call self%eliminate(.true., boundary_conductance(self%grid, self%film, p, first, last))
    end subroutine end_between
-
-   !> The adjoints of both forces.
-   pure subroutine find_adjoints(self)
-      type(elimination_film_type), intent(inout) :: self
-      real(wp) :: weight(self%grid%columns, 2), none(self%grid%columns)
-      integer :: m
-      weight = self%grid%weight()
-      none = 0
-      do m = 1, 2
-         call self%solve(weight(:, m), none, self%adjoint(:, :, m))
-      end do
-   end subroutine find_adjoints
-
-   !> The derivatives of both forces over position and velocity.
-   pure subroutine set_derivatives(self, response)
-      type(elimination_film_type), intent(in) :: self
-      type(film_response), intent(inout) :: response
-      real(wp) :: along(0:self%grid%columns), across(self%grid%columns), total(self%grid%columns)
-      integer :: m
-      do m = 1, 2
-         call self%multiply(self%pressure, self%adjoint(:, :, m), along, across, total)
-         response%derivatives(m, :) = self%grid%derivatives_of_products(along, across, total)
-      end do
-   end subroutine set_derivatives
 
    !> Derivatives of both forces over the journal speed, N s, once they have been found over the motion.
    pure function over_speed(self) result(slopes)
