@@ -10,10 +10,8 @@ module table_film
    use rotation_drive, only: new_rotation_drive
    use pad_gap, only: pad_gap_type
    use direct_film, only: direct_film_type
-   use full_film, only: new_full_film
-   use cavitated_film, only: new_cavitated_film
-   use full_film_table, only: new_full_film_table
-   use cavitation_table, only: new_cavitation_table
+   use full_film, only: new_full_film, new_full_film_table
+   use cavitated_film, only: new_cavitated_film, new_cavitation_table
    use table_pad, only: table_pad_type, shape_tables, new_table_pad
    implicit none (type, external)
    private

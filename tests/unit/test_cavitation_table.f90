@@ -7,10 +7,10 @@ program test_cavitation_table
    use pad_gap, only: pad_gap_type
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad, unit_oil
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver
-   use cavitated_film, only: cavitated_film_type, node_type, new_cavitated_film, axes
+   use cavitated_film, only: cavitated_film_type, cavitation_table_type, node_type, new_cavitated_film, &
+      & new_cavitation_table, axes
    use rotation_drive, only: rotation_drive_type, new_rotation_drive
    use cell_index, only: interval, lower_end
-   use cavitation_table, only: cavitation_table_type, new_cavitation_table
    use check, only: runs, expect, expect_close, between, report
    use film_solver, only: film_counters
    implicit none (type, external)

@@ -1,6 +1,6 @@
-!> A law whose mobilities turn with the film thickness, in every solver: modes against finite volumes, which share nothing
-!> with them but the law; derivatives against differences; over-relaxation against elimination; tables against films that
-!> are solved; heat against the power that drives the film. A law of mobilities 1 is a uniform film.
+!> A law whose mobilities turn with the film thickness, in every solver: modes against finite volumes, which share
+!> nothing with them but the law; derivatives against differences; over-relaxation against elimination; tables against
+!> films that are solved; heat against the power that drives the film. A law of mobilities 1 is a uniform film.
 program test_film_law
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_counters, cavitation_none, &

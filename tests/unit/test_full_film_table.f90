@@ -9,9 +9,8 @@ program test_full_film_table
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad, unit_oil
    use cell_index, only: interval, lower_end
    use rotation_drive, only: rotation_drive_type, new_rotation_drive
-   use full_film_table, only: full_film_table_type, new_full_film_table
    use check, only: runs, expect, expect_close, between, report
-   use full_film, only: full_film_forces
+   use full_film, only: full_film_forces, full_film_table_type, new_full_film_table
    implicit none (type, external)
 
    real(wp), parameter :: half_arc = 35*degree, tolerance = 1e-5_wp

@@ -12,8 +12,8 @@ program test_uneven_table
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
    use rotation_drive, only: rotation_drive_type, new_rotation_drive
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver
-   use cavitated_film, only: cavitated_film_type, node_type, new_cavitated_film, axes
-   use cavitation_table, only: cavitation_table_type, new_cavitation_table
+   use cavitated_film, only: cavitated_film_type, cavitation_table_type, node_type, new_cavitated_film, &
+      & new_cavitation_table, axes
    use paper_bearing, only: offset_pad, paper_oil, uneven, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)

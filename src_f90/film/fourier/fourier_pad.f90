@@ -16,8 +16,8 @@ module fourier_pad
 
    !> Points and weights across the half width, over it: Gauss-Legendre's over the root of the distance from the side,
    !> beside which the pressure of a film that is not uniform falls steeply. Behind them those where cavitation is
-   !> looked for, without weight: the middle, and towards the side, where a film that diverges at its trailing edge first falls
-   !> below the pressure of its edges.
+   !> looked for, without weight: the middle, and towards the side, where a film that diverges at its trailing edge
+   !> first falls below the pressure of its edges.
    integer, parameter :: gauss = 8, middle = 9, all_points = gauss + looks
    real(wp), parameter :: half_points(4) = [0.183434642495650_wp, 0.525532409916329_wp, &
       & 0.796666477413627_wp, 0.960289856497536_wp]

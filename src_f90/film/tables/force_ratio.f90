@@ -79,8 +79,8 @@ contains
       if (gumbel) solver%clipped = converged_film(drive%gap, .true., tolerance)
    end function new_force_ratio_solver
 
-   !> The ratio of a film with these thicknesses at its edges, w = (1, w_2) and, where the rotation acts, t; not ok where
-   !> it is closed.
+   !> The ratio of a film with these thicknesses at its edges, w = (1, w_2) and, where the rotation acts, t; not ok
+   !> where it is closed.
    type(force_ratio_type) function at(self, edges, w_2, t) result(ratio)
       class(force_ratio_solver), intent(inout) :: self
       real(wp), intent(in) :: edges(2), w_2, t

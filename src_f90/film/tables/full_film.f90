@@ -1,17 +1,29 @@
-!> The full film of a dimensionless pad: force = S M w, with a symmetric M of three functions of the film thicknesses at
-!> both edges (docs/theory/film.md); the highest pressure, over S, of the film that is just full, a fourth; the force of
-!> a pressure 1 at the leading edge; and, over S, that of the rotation's own drive (rotation_drive). Here all are solved
-!> where they are asked for, the forces with exact derivatives; full_film_table interpolates them.
+!> The full film of a dimensionless pad, solved or from a table: force = S M w, with a symmetric M of three functions of
+!> the film thicknesses at both edges (docs/theory/film.md, *The table*); the highest pressure, over S, of the film that
+!> is just full, a fourth; the force of a pressure 1 at the leading edge; and, over S, that of the rotation's own drive
+!> (rotation_drive).
+!>
+!> `full_film_type` solves all of these where they are asked for, the forces with exact derivatives. The table has them
+!> over half an octave of either thickness: they are analytic, so one polynomial stands for each; where it does not,
+!> next to a film that closes, a cell is cut in four. Polynomials go through values at the faces of their cells, too, so
+!> that the force is continuous from cell to cell of one size. What is in a cell does not depend on what came before.
+!>
+!> The highest pressure is sampled, not integrated. A cell in which it is often asked for has the pressure along the
+!> middle plane: at points that crowd where the film is thin, pressure times film thickness squared is a polynomial of
+!> the thicknesses, for either component of w and for a pressure at the leading edge or what the rotation drives
+!> besides.
 module full_film
    use kinds, only: wp
+   use clock, only: wall_clock
    use film_solver, only: film_motion, film_response, film_counters, film_ok
    use dimensionless_pad, only: dimensionless_pad_type, thickness_scale
    use fourier_film, only: fourier_film_type, converged_film
    use rotation_drive, only: rotation_drive_type
-   use cell_polynomials, only: simd_width
+   use cell_polynomials, only: nodes, simd_width, node_points, fitted, evaluate_patch, patch_values
+   use cell_index, only: cell_index_type, cell_key, interval, lower_end
    implicit none (type, external)
    private
-   public :: full_film_type, full_film_forces, new_full_film
+   public :: full_film_type, full_film_forces, full_film_table_type, new_full_film, new_full_film_table
 
    !> Error of what is solved over the tolerance.
    real(wp), parameter :: share_of_nodes = 0.3_wp
@@ -37,6 +49,67 @@ module full_film
       procedure :: look_up
       procedure :: highest_pressure
    end type full_film_type
+
+   !> Points along the arc, without the edges; nodes along either axis of the cell.
+   integer, parameter :: points = 12, profile_nodes = 4
+
+   type :: pressure_profile_type
+      private
+      type(dimensionless_pad_type) :: pad
+      real(wp) :: sines(points), cosines(points)
+      !> (point and load, power of the second thickness, power of the first); loads are the components of w and, where
+      !> there is one, a pressure 1 at the leading edge, or D at t = 1 (rotation_drive).
+      real(wp), allocatable :: coefficients(:, :, :)
+      !> Pressure at the leading edge over the third load.
+      real(wp) :: at_edge = 1
+   contains
+      procedure :: highest
+   end type pressure_profile_type
+
+   !> Levels of cells that are not cut and of the smallest.
+   integer, parameter :: first_level = 1, last_level = 6
+   !> Where a new cell is checked, between its nodes: near its corners and in its middle.
+   real(wp), parameter :: off = 0.92_wp, checks(2, 5) = reshape([-off, -off, off, -off, -off, off, off, off, 0.0_wp, &
+      & 0.0_wp], [2, 5])
+   !> Cells that are built at the first visit, in all: some 10 ms. Beyond, a cell is built once the films solved in it
+   !> have cost as much as building does, so that both together cost at most twice the cheaper of them, in a cell that
+   !> need not be cut ("ski rental": Karlin, Manasse, Rudolph, Sleator, Algorithmica 3, 1988). A visit solves a film at
+   !> two velocities, with derivatives that cost as much again.
+   integer, parameter :: built_at_once = 32, visits_of_cell = nodes**2/2
+   !> The same for profiles of the pressure: films solved for one, of which each costs as much as a pressure solved.
+   integer, parameter :: visits_of_profile = 2*profile_nodes**2
+
+   !> Thicknesses in a cell are `middle + s/per_half`, -1 <= s <= 1 along either axis.
+   type :: cell_type
+      real(wp) :: lower(2) = 0, upper(2) = 0, middle(2) = 0, per_half(2) = 0
+      !> Films, and pressures, that have been asked for in it.
+      integer :: visits = 0, pressures = 0
+      !> Whether it has been tried to build it; its functions are as close as they should be; it is cut in four.
+      logical :: tried = .false., good = .false., cut = .false.
+      !> Of the functions of full_film_forces; of those that there are.
+      real(wp) :: of_velocity(simd_width, nodes, nodes) = 0
+      real(wp), allocatable :: of_supply(:, :, :), of_rotation(:, :, :)
+      !> Built when pressures are often asked for.
+      type(pressure_profile_type), allocatable :: profile
+   end type cell_type
+
+   type, extends(full_film_type) :: full_film_table_type
+      private
+      !> Error of M over its norm.
+      real(wp) :: tolerance
+      type(cell_index_type) :: index
+      type(cell_type), allocatable :: cells(:)
+      !> Most cells: when they are used up all are forgotten.
+      integer :: most
+      !> Cells that have been built; whether all are at their first visit.
+      integer :: built = 0
+      logical :: filled = .false.
+   contains
+      procedure :: look_up => look_up_in_table
+      procedure :: highest_pressure => highest_in_table
+      procedure, private :: find_cell
+      procedure, private :: build
+   end type full_film_table_type
 
 contains
 
@@ -145,4 +218,266 @@ contains
       slopes(1, :) = pad%over_edges(film%derivatives(1, :2))
       slopes(2, :) = pad%over_edges(film%derivatives(2, :2))
    end function over_edges
+
+   !> An empty table for a pad with its drive, with a pressure at its leading edge or without: M to a tolerance,
+   !> over its norm; `filled`, every cell is built. A pad whose law varies has its own table, so that else none of its
+   !> cells is built at once.
+   function new_full_film_table(pad, drive, supplied, tolerance, most, filled) result(table)
+      type(dimensionless_pad_type), intent(in) :: pad
+      type(rotation_drive_type), intent(in) :: drive
+      logical, intent(in) :: supplied
+      real(wp), intent(in) :: tolerance
+      integer, intent(in) :: most
+      logical, intent(in), optional :: filled
+      type(full_film_table_type) :: table
+      table%full_film_type = new_full_film(pad, drive, supplied, tolerance)
+      if (drive%oil%varies) table%built = built_at_once
+      table%tolerance = tolerance
+      table%most = most
+      if (present(filled)) table%filled = filled
+      allocate (table%cells(8))
+   end function new_full_film_table
+
+   subroutine look_up_in_table(self, edges, want_slopes, last, counters, forces, good)
+      class(full_film_table_type), intent(inout) :: self
+      real(wp), intent(in) :: edges(2)
+      logical, intent(in) :: want_slopes
+      integer, intent(inout) :: last
+      type(film_counters), intent(inout) :: counters
+      type(full_film_forces), intent(out) :: forces
+      logical, intent(out) :: good
+      if (.not. holds(self, last, edges)) call self%find_cell(edges, counters, last)
+      associate (cell => self%cells(last))
+         good = cell%good
+         if (.not. good) then
+            counters%fourier = counters%fourier + 1
+            call self%full_film_type%look_up(edges, want_slopes, last, counters, forces, good)
+            return
+         end if
+         associate (place => (edges - cell%middle)*cell%per_half)
+            call take(cell, cell%of_velocity, place, want_slopes, forces%of_velocity, forces%velocity_slopes)
+            if (self%supplied) call take(cell, cell%of_supply, place, want_slopes, forces%of_supply, &
+               & forces%supply_slopes)
+            if (self%drive%acts) call take(cell, cell%of_rotation, place, want_slopes, forces%of_rotation, &
+               & forces%rotation_slopes)
+         end associate
+      end associate
+   end subroutine look_up_in_table
+
+   !> Functions of a cell at a place in it, and their derivatives over the thicknesses.
+   pure subroutine take(cell, coefficients, place, want_slopes, value, slope)
+      type(cell_type), intent(in) :: cell
+      real(wp), intent(in) :: coefficients(simd_width, nodes, nodes), place(2)
+      logical, intent(in) :: want_slopes
+      real(wp), intent(out) :: value(simd_width), slope(simd_width, 2)
+      call evaluate_patch(coefficients, place, want_slopes, value, slope)
+      slope(:, 1) = slope(:, 1)*cell%per_half(1)
+      slope(:, 2) = slope(:, 2)*cell%per_half(2)
+   end subroutine take
+
+   subroutine highest_in_table(self, edges, w, load, last, counters, pressure)
+      class(full_film_table_type), intent(inout) :: self
+      real(wp), intent(in) :: edges(2), w(2), load
+      integer, intent(inout) :: last
+      type(film_counters), intent(inout) :: counters
+      real(wp), intent(out) :: pressure
+      real(wp) :: started
+      if (.not. holds(self, last, edges)) call self%find_cell(edges, counters, last)
+      associate (cell => self%cells(last))
+         cell%pressures = cell%pressures + 1
+         ! below a supply pressure, profiles alone tell
+         if (cell%good .and. .not. allocated(cell%profile) &
+            & .and. (cell%pressures >= visits_of_profile .or. load < 0 .and. self%supplied)) then
+            started = wall_clock()
+            cell%profile = new_pressure_profile(self, cell%middle, cell%per_half)
+            counters%profiles = counters%profiles + 1
+            counters%building = counters%building + wall_clock() - started
+         end if
+         if (allocated(cell%profile)) then
+            pressure = cell%profile%highest(edges, (edges - cell%middle)*cell%per_half, [w, load])
+         else
+            call self%full_film_type%highest_pressure(edges, w, load, last, counters, pressure)
+         end if
+      end associate
+   end subroutine highest_in_table
+
+   !> True where a cell of this number holds these thicknesses and has been built.
+   pure logical function holds(self, number, edges)
+      class(full_film_table_type), intent(in) :: self
+      integer, intent(in) :: number
+      real(wp), intent(in) :: edges(2)
+      holds = .false.
+      if (number == 0 .or. number > self%index%count) return
+      associate (cell => self%cells(number))
+         holds = cell%good .and. edges(1) >= cell%lower(1) .and. edges(1) < cell%upper(1) &
+            & .and. edges(2) >= cell%lower(2) .and. edges(2) < cell%upper(2)
+      end associate
+   end function holds
+
+   !> The cell that holds these thicknesses and is not cut. One visit more, after which it is built if that is due;
+   !> where this cuts it, the same for the next smaller one.
+   subroutine find_cell(self, edges, counters, number)
+      class(full_film_table_type), intent(inout) :: self
+      real(wp), intent(in) :: edges(2)
+      type(film_counters), intent(inout) :: counters
+      integer, intent(out) :: number
+      type(cell_type), allocatable :: more(:)
+      real(wp) :: started
+      integer :: level, place(2)
+      do level = first_level, last_level
+         place = interval(edges, level)
+         associate (key => cell_key(level, place(1), place(2), 0, 0))
+            number = self%index%find(key)
+            if (number == 0) then
+               if (self%index%count == self%most) call self%index%clear()
+               number = self%index%count + 1
+               if (number > size(self%cells)) then
+                  allocate (more(2*size(self%cells)))
+                  more(:size(self%cells)) = self%cells
+                  call move_alloc(more, self%cells)
+               end if
+               self%cells(number) = cell_type()
+               self%cells(number)%cut = level < last_level .and. self%pad%least_film(lower_end(place, level)) <= 0
+               self%cells(number)%tried = self%cells(number)%cut
+               call self%index%add(key, number)
+            end if
+         end associate
+         associate (cell => self%cells(number))
+            if (.not. cell%tried) then
+               cell%visits = cell%visits + 1
+               if (self%filled .or. self%built < built_at_once .or. cell%visits >= visits_of_cell) then
+                  started = wall_clock()
+                  call self%build(level, place, counters, cell)
+                  self%built = self%built + 1
+                  counters%cells = counters%cells + 1
+                  counters%building = counters%building + wall_clock() - started
+               end if
+            end if
+            if (.not. cell%cut) exit
+         end associate
+      end do
+   end subroutine find_cell
+
+   !> Builds the cell at a place of a level, and checks it.
+   subroutine build(self, level, place, counters, cell)
+      class(full_film_table_type), intent(inout) :: self
+      integer, intent(in) :: level, place(2)
+      type(film_counters), intent(inout) :: counters
+      type(cell_type), intent(inout) :: cell
+      type(full_film_forces) :: forces
+      real(wp), dimension(simd_width, nodes, nodes) :: of_velocity, of_supply, of_rotation
+      real(wp) :: at(nodes), found(simd_width)
+      integer :: i, k, none
+      logical :: open
+      at = node_points(nodes)
+      cell%tried = .true.
+      cell%lower = lower_end(place, level)
+      cell%upper = lower_end(place + 1, level)
+      cell%middle = 0.5_wp*(cell%lower + cell%upper)
+      cell%per_half = 2/(cell%upper - cell%lower)
+      cell%cut = level < last_level
+      do k = 1, nodes
+         do i = 1, nodes
+            call self%full_film_type%look_up(cell%middle + at([i, k])/cell%per_half, .false., none, counters, &
+               & forces, open)
+            if (.not. open) return
+            of_velocity(:, i, k) = forces%of_velocity
+            if (self%supplied) of_supply(:, i, k) = forces%of_supply
+            if (self%drive%acts) of_rotation(:, i, k) = forces%of_rotation
+         end do
+      end do
+      cell%of_velocity = fitted(of_velocity)
+      if (self%supplied) cell%of_supply = fitted(of_supply)
+      if (self%drive%acts) cell%of_rotation = fitted(of_rotation)
+      do i = 1, size(checks, 2)
+         call self%full_film_type%look_up(cell%middle + checks(:, i)/cell%per_half, .false., none, counters, forces, &
+            & open)
+         if (.not. open) return
+         found = patch_values(simd_width, nodes, cell%of_velocity, checks(:, i))
+         associate (exact => forces%of_velocity(:3))
+            if (norm2(found(:3) - exact) > self%tolerance*norm2(exact)) return
+         end associate
+      end do
+      cell%good = .true.
+      cell%cut = .false.
+   end subroutine build
+
+   !> The profile of films over thicknesses `middle + s/per_half`, -1 <= s <= 1.
+   function new_pressure_profile(films, middle, per_half) result(profile)
+      class(full_film_type), intent(inout) :: films
+      real(wp), intent(in) :: middle(2), per_half(2)
+      type(pressure_profile_type) :: profile
+      real(wp) :: values(points, 3, profile_nodes, profile_nodes), edges(0:points + 1), s(profile_nodes), position(2)
+      integer :: i, k
+      s = node_points(profile_nodes)
+      associate (pad => films%pad, drive => films%drive, speed => films%drive%speed_unit)
+         profile%pad = pad
+         edges = pad%spread_angles(pad%position(middle), -pad%half_arc, pad%half_arc, points + 1)
+         profile%sines = sin(edges(1:points))
+         profile%cosines = cos(edges(1:points))
+         do k = 1, profile_nodes
+            do i = 1, profile_nodes
+               position = pad%position(middle + s([i, k])/per_half)
+               values(:, 1, i, k) = solved(films%film, [1.0_wp, 0.0_wp], 0.0_wp)
+               values(:, 2, i, k) = solved(films%film, [0.0_wp, 1.0_wp], 0.0_wp)
+               if (drive%acts) values(:, 3, i, k) = solved(films%film, drive%still(position), speed)
+               if (films%supplied) values(:, 3, i, k) = solved(films%supplied_film, [0.0_wp, 0.0_wp], 0.0_wp)
+            end do
+         end do
+         if (drive%acts) profile%at_edge = 0
+         associate (loads => merge(3, 2, films%supplied .or. drive%acts))
+            profile%coefficients = fitted(reshape(values(:, :loads, :, :), [loads*points, profile_nodes, &
+               & profile_nodes]))
+         end associate
+         if (drive%acts) profile%coefficients = profile%coefficients/drive%pressure_unit
+      end associate
+   contains
+      !> Pressure times thickness squared at the points, of the journal at the position with a velocity and a speed.
+      function solved(film, velocity, speed)
+         type(fourier_film_type), intent(inout) :: film
+         real(wp), intent(in) :: velocity(2), speed
+         real(wp) :: solved(points), pressure(1, points)
+         call film%field_of_pad(1, film_motion(position, velocity), films%drive%oil, speed, edges(1:points), [0.0_wp], &
+            & pressure)
+         solved = pressure(1, :)*(1 - position(1)*profile%sines - position(2)*profile%cosines)**2
+      end function solved
+   end function new_pressure_profile
+
+   !> The highest pressure in the middle plane of the unit pad, or 0, where the film has these thicknesses at its edges,
+   !> which lie at s in the cell, under these loads.
+   pure real(wp) function highest(self, edges, s, load)
+      class(pressure_profile_type), intent(in) :: self
+      real(wp), intent(in) :: edges(2), s(2), load(3)
+      real(wp) :: values(size(self%coefficients, 1)), pressure(0:points + 1), position(2), bend
+      integer :: top, first, i
+      values = patch_values(size(values), profile_nodes, self%coefficients, s)
+      position = self%pad%position(edges)
+      pressure(0) = 0
+      pressure(points + 1) = self%at_edge*load(3)
+      pressure(1:points) = load(1)*values(:points) + load(2)*values(points + 1:2*points)
+      if (size(values) > 2*points) pressure(1:points) = pressure(1:points) + load(3)*values(2*points + 1:)
+      pressure(1:points) = pressure(1:points)/(1 - position(1)*self%sines - position(2)*self%cosines)**2
+      top = 1
+      do i = 2, points
+         if (pressure(i) > pressure(top)) top = i
+      end do
+      highest = max(0.0_wp, pressure(points + 1), pressure(top))
+      if (.not. pressure(top) >= highest) return
+      ! the parabola through the highest point and its neighbours tells where, a polynomial through five how high
+      bend = 2*pressure(top) - pressure(top - 1) - pressure(top + 1)
+      if (.not. bend > 0) return
+      first = min(max(top - 2, 0), points - 3)
+      highest = max(highest, quartic(pressure(first:first + 4), &
+         & top - first - 2 + (pressure(top + 1) - pressure(top - 1))/(2*bend)))
+   end function highest
+
+   !> At t the polynomial with these values at -2, ..., 2.
+   pure real(wp) function quartic(values, t)
+      real(wp), intent(in) :: values(-2:2), t
+      associate (even => 0.5_wp*(values(1) + values(-1)) - values(0), odd => 0.5_wp*(values(1) - values(-1)), &
+         & far_even => 0.5_wp*(values(2) + values(-2)) - values(0), far_odd => 0.5_wp*(values(2) - values(-2)))
+         quartic = values(0) + t*((8*odd - far_odd)/6 + t*((16*even - far_even)/12 + t*((far_odd - 2*odd)/6 &
+            & + t*(far_even - 4*even)/12)))
+      end associate
+   end function quartic
 end module full_film
