@@ -23,7 +23,7 @@ module fourier_film
    use fourier_field, only: field_of_modes, edge_flows, add_layer_left_out
    use fourier_pad, only: fourier_pad_type, set_weights, set_motion, gauss, middle, point_weights
    use fourier_slopes, only: force_slopes
-   use fourier_passes, only: simd_width, solve_modes, sum_modes, lowest_pressure
+   use fourier_passes, only: simd_width, weigh_nodes, solve_modes, sum_modes, lowest_pressure
    use sommerfeld_nodes, only: span
    implicit none (type, external)
    private
@@ -144,7 +144,8 @@ contains
       real(wp) :: force(2), edge(0:1), lowest, slope, layers(2)
       integer :: b
       associate (gap => pad%gap, n => pad%n, h => pad%h, tail => pad%axial%tail, sine => pad%sine, cosine => pad%cosine)
-         call weigh_nodes(pad, along, outward, force, p_middle)
+         call weigh_nodes(n, pad%weight, pad%inverse_root, sine, cosine, pad%narrow, tail(2), pad%point_tail(middle), &
+            & along, outward, force, p_middle)
          do b = 1, pad%axial%blocks
             associate (first => simd_width*b - simd_width + 1, last => simd_width*b)
                call sum_modes(n, along, outward, pad%axial%c(first:last), pad%at_middle(first:last), pad%q(:, :, b), &
@@ -179,28 +180,6 @@ contains
          response%max_pressure = gap%ambient_pressure + peak(n, p_middle)
       end associate
    end subroutine sum_up
-
-   !> Weights of q in the sums over the nodes, and the narrow-pad part (the modes left out) of these sums and of
-   !> the pressure in the middle (times H).
-   pure subroutine weigh_nodes(pad, along, outward, sums, p_middle)
-      type(fourier_pad_type), intent(in) :: pad
-      real(wp), intent(out) :: along(0:pad%n), outward(0:pad%n), sums(2), p_middle(0:pad%n)
-      real(wp) :: sum_along, sum_outward, tail, tail_middle
-      integer :: i
-      tail = pad%axial%tail(2)
-      tail_middle = pad%point_tail(middle)
-      sum_along = 0
-      sum_outward = 0
-      !$omp simd reduction(+:sum_along, sum_outward)
-      do i = 0, pad%n
-         along(i) = pad%weight(i)*pad%inverse_root(i)*pad%sine(i)
-         outward(i) = pad%weight(i)*pad%inverse_root(i)*pad%cosine(i)
-         sum_along = sum_along - tail*along(i)*pad%narrow(i)
-         sum_outward = sum_outward - tail*outward(i)*pad%narrow(i)
-         p_middle(i) = -tail_middle*pad%narrow(i)
-      end do
-      sums = [sum_along, sum_outward]
-   end subroutine weigh_nodes
 
    !> Highest value of a function given at nodes 0:n, n >= 4: that of the quartic through the five nodes around the
    !> highest, found by Newton's method from the top of the parabola through three. Beside an edge that is higher than

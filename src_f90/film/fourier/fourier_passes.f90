@@ -4,7 +4,8 @@ module fourier_passes
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: simd_width, solve_modes, solve_adjoints, sum_modes, looks, lowest_pressure, sum_adjoint
+   public :: simd_width, weigh_nodes, solve_modes, solve_adjoints, sum_modes, looks, &
+      & lowest_pressure, sum_adjoint
 
    !> Modes solved side by side: the length of a vector register.
    integer, parameter :: simd_width = 8
@@ -126,6 +127,28 @@ contains
          adjoint(:, n, m) = 0
       end do
    end subroutine solve_adjoints
+
+   !> Weights of q in the sums over the nodes, and the narrow-pad part (the modes left out) of these sums and of
+   !> the pressure in the middle (times H).
+   pure subroutine weigh_nodes(n, weight, root, sine, cosine, narrow, tail, tail_middle, along, outward, sums, p_middle)
+      integer, intent(in) :: n
+      !> Of the quadrature; inverse root of the mobility; sine, cosine and s/H^2 by node; sums over the modes left out.
+      real(wp), intent(in) :: weight(0:n), root(0:n), sine(0:n), cosine(0:n), narrow(0:n), tail, tail_middle
+      real(wp), intent(out) :: along(0:n), outward(0:n), sums(2), p_middle(0:n)
+      real(wp) :: sum_along, sum_outward
+      integer :: i
+      sum_along = 0
+      sum_outward = 0
+      !$omp simd reduction(+:sum_along, sum_outward)
+      do i = 0, n
+         along(i) = weight(i)*root(i)*sine(i)
+         outward(i) = weight(i)*root(i)*cosine(i)
+         sum_along = sum_along - tail*along(i)*narrow(i)
+         sum_outward = sum_outward - tail*outward(i)*narrow(i)
+         p_middle(i) = -tail_middle*narrow(i)
+      end do
+      sums = [sum_along, sum_outward]
+   end subroutine weigh_nodes
 
    !> Adds a block's sums over nodes and `simd_width` of c q (along, outward), and its part of the pressure in
    !> the middle (times H).
