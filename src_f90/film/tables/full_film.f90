@@ -7,11 +7,6 @@
 !> over half an octave of either thickness: they are analytic, so one polynomial stands for each; where it does not,
 !> next to a film that closes, a cell is cut in four. Polynomials go through values at the faces of their cells, too, so
 !> that the force is continuous from cell to cell of one size. What is in a cell does not depend on what came before.
-!>
-!> The highest pressure is sampled, not integrated. A cell in which it is often asked for has the pressure along the
-!> middle plane: at points that crowd where the film is thin, pressure times film thickness squared is a polynomial of
-!> the thicknesses, for either component of w and for a pressure at the leading edge or what the rotation drives
-!> besides.
 module full_film
    use kinds, only: wp
    use clock, only: wall_clock
@@ -21,6 +16,7 @@ module full_film
    use rotation_drive, only: rotation_drive_type
    use cell_polynomials, only: nodes, simd_width, node_points, fitted, evaluate_patch, patch_values
    use cell_index, only: cell_index_type, cell_key, interval, lower_end
+   use pressure_profile, only: pressure_profile_type, new_pressure_profile, profile_nodes => nodes
    implicit none (type, external)
    private
    public :: full_film_type, full_film_forces, full_film_table_type, new_full_film, new_full_film_table
@@ -49,22 +45,6 @@ module full_film
       procedure :: look_up
       procedure :: highest_pressure
    end type full_film_type
-
-   !> Points along the arc, without the edges; nodes along either axis of the cell.
-   integer, parameter :: points = 12, profile_nodes = 4
-
-   type :: pressure_profile_type
-      private
-      type(dimensionless_pad_type) :: pad
-      real(wp) :: sines(points), cosines(points)
-      !> (point and load, power of the second thickness, power of the first); loads are the components of w and, where
-      !> there is one, a pressure 1 at the leading edge, or D at t = 1 (rotation_drive).
-      real(wp), allocatable :: coefficients(:, :, :)
-      !> Pressure at the leading edge over the third load.
-      real(wp) :: at_edge = 1
-   contains
-      procedure :: highest
-   end type pressure_profile_type
 
    !> Levels of cells that are not cut and of the smallest.
    integer, parameter :: first_level = 1, last_level = 6
@@ -289,7 +269,8 @@ contains
          if (cell%good .and. .not. allocated(cell%profile) &
             & .and. (cell%pressures >= visits_of_profile .or. load < 0 .and. self%supplied)) then
             started = wall_clock()
-            cell%profile = new_pressure_profile(self, cell%middle, cell%per_half)
+            cell%profile = new_pressure_profile(self%pad, self%drive, self%film, self%supplied_film, self%supplied, &
+               & cell%middle, cell%per_half)
             counters%profiles = counters%profiles + 1
             counters%building = counters%building + wall_clock() - started
          end if
@@ -401,83 +382,4 @@ contains
       cell%good = .true.
       cell%cut = .false.
    end subroutine build
-
-   !> The profile of films over thicknesses `middle + s/per_half`, -1 <= s <= 1.
-   function new_pressure_profile(films, middle, per_half) result(profile)
-      class(full_film_type), intent(inout) :: films
-      real(wp), intent(in) :: middle(2), per_half(2)
-      type(pressure_profile_type) :: profile
-      real(wp) :: values(points, 3, profile_nodes, profile_nodes), edges(0:points + 1), s(profile_nodes), position(2)
-      integer :: i, k
-      s = node_points(profile_nodes)
-      associate (pad => films%pad, drive => films%drive, speed => films%drive%speed_unit)
-         profile%pad = pad
-         edges = pad%spread_angles(pad%position(middle), -pad%half_arc, pad%half_arc, points + 1)
-         profile%sines = sin(edges(1:points))
-         profile%cosines = cos(edges(1:points))
-         do k = 1, profile_nodes
-            do i = 1, profile_nodes
-               position = pad%position(middle + s([i, k])/per_half)
-               values(:, 1, i, k) = solved(films%film, [1.0_wp, 0.0_wp], 0.0_wp)
-               values(:, 2, i, k) = solved(films%film, [0.0_wp, 1.0_wp], 0.0_wp)
-               if (drive%acts) values(:, 3, i, k) = solved(films%film, drive%still(position), speed)
-               if (films%supplied) values(:, 3, i, k) = solved(films%supplied_film, [0.0_wp, 0.0_wp], 0.0_wp)
-            end do
-         end do
-         if (drive%acts) profile%at_edge = 0
-         associate (loads => merge(3, 2, films%supplied .or. drive%acts))
-            profile%coefficients = fitted(reshape(values(:, :loads, :, :), [loads*points, profile_nodes, &
-               & profile_nodes]))
-         end associate
-         if (drive%acts) profile%coefficients = profile%coefficients/drive%pressure_unit
-      end associate
-   contains
-      !> Pressure times thickness squared at the points, of the journal at the position with a velocity and a speed.
-      function solved(film, velocity, speed)
-         type(fourier_film_type), intent(inout) :: film
-         real(wp), intent(in) :: velocity(2), speed
-         real(wp) :: solved(points), pressure(1, points)
-         call film%field_of_pad(1, film_motion(position, velocity), films%drive%oil, speed, edges(1:points), [0.0_wp], &
-            & pressure)
-         solved = pressure(1, :)*(1 - position(1)*profile%sines - position(2)*profile%cosines)**2
-      end function solved
-   end function new_pressure_profile
-
-   !> The highest pressure in the middle plane of the unit pad, or 0, where the film has these thicknesses at its edges,
-   !> which lie at s in the cell, under these loads.
-   pure real(wp) function highest(self, edges, s, load)
-      class(pressure_profile_type), intent(in) :: self
-      real(wp), intent(in) :: edges(2), s(2), load(3)
-      real(wp) :: values(size(self%coefficients, 1)), pressure(0:points + 1), position(2), bend
-      integer :: top, first, i
-      values = patch_values(size(values), profile_nodes, self%coefficients, s)
-      position = self%pad%position(edges)
-      pressure(0) = 0
-      pressure(points + 1) = self%at_edge*load(3)
-      pressure(1:points) = load(1)*values(:points) + load(2)*values(points + 1:2*points)
-      if (size(values) > 2*points) pressure(1:points) = pressure(1:points) + load(3)*values(2*points + 1:)
-      pressure(1:points) = pressure(1:points)/(1 - position(1)*self%sines - position(2)*self%cosines)**2
-      top = 1
-      do i = 2, points
-         if (pressure(i) > pressure(top)) top = i
-      end do
-      highest = max(0.0_wp, pressure(points + 1), pressure(top))
-      if (.not. pressure(top) >= highest) return
-      ! the parabola through the highest point and its neighbours tells where, a polynomial through five how high
-      bend = 2*pressure(top) - pressure(top - 1) - pressure(top + 1)
-      if (.not. bend > 0) return
-      first = min(max(top - 2, 0), points - 3)
-      highest = max(highest, quartic(pressure(first:first + 4), &
-         & top - first - 2 + (pressure(top + 1) - pressure(top - 1))/(2*bend)))
-   end function highest
-
-   !> At t the polynomial with these values at -2, ..., 2.
-   pure real(wp) function quartic(values, t)
-      real(wp), intent(in) :: values(-2:2), t
-      associate (even => 0.5_wp*(values(1) + values(-1)) - values(0), odd => 0.5_wp*(values(1) - values(-1)), &
-         & far_even => 0.5_wp*(values(2) + values(-2)) - values(0), far_odd => 0.5_wp*(values(2) - values(-2)))
-         quartic = values(0) + t*((8*odd - far_odd)/6 + t*((16*even - far_even)/12 + t*((far_odd - 2*odd)/6 &
-            & + t*(far_even - 4*even)/12)))
-      end associate
-   end function quartic
 end module full_film
