@@ -287,7 +287,8 @@ contains
       integer :: k, i
       moment = -pad%ball_radius*friction%force_normal*self%contact_over_positions(:m)
       moment_rates = -pad%ball_radius*friction%force_normal*self%contact_over_rates(:m)
-      moment_rates(of_journal + tilt) = moment_rates(of_journal + tilt) - pad%ball_radius**2*friction%force_velocity
+      moment_rates(of_journal + tilt) = -pad%ball_radius*friction%force_normal &
+         & *self%contact_over_rates(of_journal + tilt) - pad%ball_radius**2*friction%force_velocity
       do k = 1, m
          do i = of_journal + 1, m
             over_positions(i, k) = over_positions(i, k) + per_moment(i)*moment(k)

@@ -326,7 +326,7 @@ contains
       do k = 1, m
          own = 0
          own_rates = 0
-         do i = of_journal + 1, m
+         do i = m, of_journal + 1, -1
             own = own + self%per_mass(:, i - of_journal, part)*over_positions(i, k)
             own_rates = own_rates + self%per_mass(:, i - of_journal, part)*over_rates(i, k)
          end do
@@ -375,12 +375,15 @@ contains
       type(element_layout_type), intent(in) :: layout
       real(wp), intent(in) :: y(:)
       real(wp), intent(inout) :: dydt(:)
-      integer :: i, k, o
+      integer :: i, j, k, o
       do i = 1, layout%pads
          o = layout%before(i)
          do k = 1, layout%coordinates
             dydt(o + 2*k - 1) = y(o + 2*k)
-            dydt(o + 2*k) = dot_product(self%per_mass(:, k, i), self%loads(i)%own(:layout%coordinates))
+            dydt(o + 2*k) = 0
+            do j = layout%coordinates, 1, -1
+               dydt(o + 2*k) = dydt(o + 2*k) + self%per_mass(k, j, i)*self%loads(i)%own(j)
+            end do
          end do
          if (layout%bristles) dydt(o + layout%per_pad) = self%loads(i)%friction%rate
       end do

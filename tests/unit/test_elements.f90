@@ -10,6 +10,7 @@ program test_elements
    use state_layout, only: pad_state
    use abstract_element, only: element_slot
    use linear_element, only: linear_element_type
+   use bearing_supports, only: support_element
    use equations_of_motion, only: machine_model, new_machine_model
    use bearing_samples, only: element_forces
    use force_balance, only: forces, force_derivatives, masses
@@ -380,7 +381,7 @@ contains
       type(machine_model) :: folded, acting
       type(case_type) :: inputs, part
       type(linear_element_type) :: rest(2)
-      integer :: b, p
+      integer :: b
       inputs = symmetric_rotor('lugre', 4100.0_wp, 0.01_wp)
       part = inputs
       do b = 1, 2
@@ -392,10 +393,9 @@ contains
             part%bearings(b)%support = support
             part%bearings(b)%support%stiffness = 0.25_wp*support%stiffness
             part%bearings(b)%support%damping = 0.5_wp*support%damping
-            do p = 1, 2
-               rest(b)%stiffness(p, p) = 0.75_wp*support%stiffness(p)
-               rest(b)%damping(p, p) = 0.5_wp*support%damping(p)
-            end do
+            rest(b) = support_element(support)
+            rest(b)%stiffness = 0.75_wp*rest(b)%stiffness
+            rest(b)%damping = 0.5_wp*rest(b)%damping
          end associate
       end do
       folded = new_machine_model(inputs)
