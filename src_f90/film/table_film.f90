@@ -109,13 +109,12 @@ contains
          k = pad%shape
          if (k == 0 .or. .not. oil%varies) return
          k = 0
-         if (.not. self%in_tables) return
-         if (oil%slides_unevenly() .and. (abs(pad%rise) > 0 .or. self%condition == cavitation_gumbel)) return
+         if (.not. self%in_tables .or. abs(pad%rise) > 0) return
+         if (oil%slides_unevenly() .and. self%condition == cavitation_gumbel) return
          k = size(self%shapes) - size(self%tabulated) + i
          associate (shape => self%shapes(k))
             if (oil%has_numbers(shape%numbers)) return
             shape%pad = self%shapes(pad%shape)%pad
-            shape%supplied = self%shapes(pad%shape)%supplied
             call set_tables(self, oil, shape)
          end associate
       end associate

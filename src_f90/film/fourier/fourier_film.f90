@@ -141,7 +141,7 @@ contains
       real(wp), intent(in) :: rise
       type(film_response), intent(inout) :: response
       real(wp), dimension(0:pad%n) :: along, outward, p_middle
-      real(wp) :: force(2), edge(0:1), lowest, slope, layers(2)
+      real(wp) :: force(2), edge(0:1), lowest, slope
       integer :: b
       associate (gap => pad%gap, n => pad%n, h => pad%h, tail => pad%axial%tail, sine => pad%sine, cosine => pad%cosine)
          call weigh_nodes(n, pad%weight, pad%inverse_root, sine, cosine, pad%narrow, tail(2), pad%point_tail(middle), &
@@ -155,20 +155,12 @@ contains
          ! layers at the edges of the modes left out, and the supply pressure in them
          slope = pad%e(2)*sine(n) - pad%e(1)*cosine(n)
          edge = tail(3)*[pad%narrow(0)/h(0), pad%narrow(n)/h(n)]*[pad%inverse_root(0), pad%inverse_root(n)]
-         layers = tail(:2)
-         if (pad%turns) then
-            ! they decay with Lambda sqrt(K)
-            associate (across => pad%law%across)
-               edge = edge/sqrt([across(1), across(n + 1)])
-               layers = layers/[sqrt(across(n + 1)), across(n + 1)]
-               edge(1) = edge(1) + rise*layers(2)*0.75_wp*pad%law%across_slope(n + 1)
-            end associate
-         end if
-         edge(1) = edge(1) + rise*(layers(1) + layers(2)*1.5_wp*slope/h(n))
-         if (pad%varies) edge(1) = edge(1) + rise*layers(2)*pad%law%flow_slopes(n + 1, 1)/2
+         edge(1) = edge(1) + rise*(tail(1) + tail(2)*1.5_wp*slope/h(n))
+         if (pad%varies) edge(1) = edge(1) + rise*tail(2)*pad%law%flow_slopes(n + 1, 1)/2
          force = pad%d*force + edge(0)*[sine(0), cosine(0)] + edge(1)*[sine(n), cosine(n)] &
-            & - layers(2)*rise*[cosine(n), -sine(n)] &
+            & - tail(2)*rise*[cosine(n), -sine(n)] &
             & + gap%ambient_pressure*gap%axial_length*[cosine(0) - cosine(n), sine(n) - sine(0)]
+         if (pad%turns) force = force + turned_layers(pad, rise)
          response%force = -pad%radius*force
          lowest = lowest_pressure(n, pad%axial%blocks, pad%narrow, pad%lift, pad%point_tail(gauss + 1:), pad%look, &
             & pad%q)
@@ -180,6 +172,23 @@ contains
          response%max_pressure = gap%ambient_pressure + peak(n, p_middle)
       end associate
    end subroutine sum_up
+
+   !> What K changes in the layers at the edges of the modes left out, which decay with Lambda sqrt(K).
+   pure function turned_layers(pad, rise) result(change)
+      type(fourier_pad_type), intent(in) :: pad
+      real(wp), intent(in) :: rise
+      real(wp) :: change(2), edge(0:1), by_root, falling
+      associate (n => pad%n, h => pad%h, tail => pad%axial%tail, law => pad%law, across => pad%law%across(pad%n + 1), &
+         & x => [pad%sine(pad%n), pad%cosine(pad%n)])
+         by_root = 1/sqrt(across)
+         edge = tail(3)*[pad%narrow(0)*pad%inverse_root(0)/h(0)*(1/sqrt(law%across(1)) - 1), &
+            & pad%narrow(n)*pad%inverse_root(n)/h(n)*(by_root - 1)]
+         falling = 1.5_wp*(pad%e(2)*x(1) - pad%e(1)*x(2))/h(n) + law%flow_slopes(n + 1, 1)/2
+         edge(1) = edge(1) + rise*(tail(1)*(by_root - 1) + tail(2)*((1/across - 1)*falling &
+            & + 0.75_wp*law%across_slope(n + 1)/across))
+         change = edge(0)*[pad%sine(0), pad%cosine(0)] + edge(1)*x - tail(2)*rise*(1/across - 1)*[x(2), -x(1)]
+      end associate
+   end function turned_layers
 
    !> Highest value of a function given at nodes 0:n, n >= 4: that of the quartic through the five nodes around the
    !> highest, found by Newton's method from the top of the parabola through three. Beside an edge that is higher than

@@ -93,7 +93,7 @@ module full_film
 
 contains
 
-   !> The full films of a pad with its drive, with a pressure at its leading edge (not where the rotation acts) or
+   !> The full films of a pad with its drive, with a pressure at its leading edge (where the law does not vary) or
    !> without, to a tolerance over the norm of M.
    function new_full_film(pad, drive, supplied, tolerance) result(films)
       type(dimensionless_pad_type), intent(in) :: pad

@@ -7,7 +7,7 @@
 module pressure_profile
    use kinds, only: wp
    use film_solver, only: film_motion
-   use dimensionless_pad, only: dimensionless_pad_type
+   use dimensionless_pad, only: dimensionless_pad_type, unit_oil
    use rotation_drive, only: rotation_drive_type
    use fourier_film, only: fourier_film_type
    use cell_polynomials, only: node_points, fitted, patch_values
@@ -66,7 +66,7 @@ contains
                   values(:, 3, i, k) = pressure(1, :)*square
                end if
                if (.not. supplied) cycle
-               call supplied_film%field_of_pad(1, film_motion(position), drive%oil, 0.0_wp, phi, [0.0_wp], pressure)
+               call supplied_film%field_of_pad(1, film_motion(position), unit_oil, 0.0_wp, phi, [0.0_wp], pressure)
                values(:, 3, i, k) = pressure(1, :)*square
             end associate
          end do
