@@ -30,6 +30,8 @@ module recorder
       type(bearing_file_type), allocatable, private :: bearings(:)
       !> y and z of the stations in the last sample, (2, station), m.
       real(wp), allocatable, private :: stations(:, :)
+      !> Forces of other elements in the last sample, (2, element), N.
+      real(wp), allocatable, private :: elements(:, :)
       integer(i8), private :: samples = 0
    contains
       procedure :: sample
@@ -58,7 +60,7 @@ contains
       do b = 1, size(self%bearings)
          self%bearings(b) = run%bearing(b)
       end do
-      allocate (self%stations(2, run%model%rotor%stations))
+      allocate (self%stations(2, run%model%rotor%stations), self%elements(2, size(run%model%others)))
       self%progress = new_progress(t, run%inputs%operation%duration, run%quiet)
       if (run%inputs%integration%stop_when_periodic > 0) call self%follow_orbit()
    end subroutine begin_recording
@@ -135,8 +137,9 @@ contains
                & y(:rotor%states))
          end if
       end associate
+      if (size(self%elements) > 0) self%elements(:, :) = element_forces(self%run%model, t, y)
       call add_sample(self%run%file, self%bearings, self%taken, self%stations, &
-         & self%run%model%point%excitation_forces(t), element_forces(self%run%model, t, y), error)
+         & self%run%model%point%excitation_forces(t), self%elements, error)
       self%run%reached = t
       associate (limit => self%run%inputs%integration%stop_when_periodic)
          if (limit > 0) then

@@ -42,15 +42,17 @@ module tilting_pad
       character(len=20) :: name = '', series = '', units = '', label = ''
    end type coordinate_type
 
-   !> The coordinates of the pads of a bearing: displacements, which its states have in this order, each with its rate.
+   !> The coordinates of the pads of a bearing: displacements, which its states have in this order, each with its rate;
+   !> the first is the tilt.
    type :: pad_coordinates_type
       integer :: n = 0
       !> Of each its place in pad_state, and its words.
       integer :: kind(most_coordinates) = 0
       type(coordinate_type) :: words(most_coordinates)
+      !> Which coordinate is the pivot deflection; 0: the pivots are rigid.
+      integer :: deflection = 0
    contains
       procedure :: add
-      procedure :: place
       procedure :: length
       procedure :: loads
       procedure :: derivatives
@@ -103,14 +105,8 @@ contains
       self%n = self%n + 1
       self%kind(self%n) = kind
       self%words(self%n) = words
+      if (kind == pivot_deflection) self%deflection = self%n
    end subroutine add
-
-   !> Which coordinate is of a kind; 0: none.
-   pure integer function place(self, kind)
-      class(pad_coordinates_type), intent(in) :: self
-      integer, intent(in) :: kind
-      place = findloc(self%kind(:self%n), kind, dim=1)
-   end function place
 
    !> What stands for a unit of a coordinate of a pad, m: for 1 rad of its tilt the distance from the pivot to the
    !> centre of its arc.
@@ -177,7 +173,7 @@ contains
       if (self%n == 0) return
       inertial = pad%mass*pad%centre_radial*state%v(tilt)**2
       radial = -force(2) - pad%weight*frame%s + inertial
-      if (self%place(pivot_deflection) > 0) then
+      if (self%deflection > 0) then
          call contact%lookup(state%x(pivot_deflection), answer%contact, answer%contact_stiffness)
       else
          answer%contact = max(0.0_wp, radial)
@@ -212,7 +208,8 @@ contains
       real(wp), dimension(2, of_journal + self%n) :: over_positions, over_rates
       real(wp), dimension(of_journal + self%n) :: radial, radial_rates, moment, moment_rates
       real(wp) :: across(2)
-      integer :: k, m, of_tilt
+      integer, parameter :: of_tilt = of_journal + tilt
+      integer :: k, m
       m = of_journal + self%n
       call motion_slopes(pad%position, frame, motion, state%v(tilt), self%kind(:self%n), of_positions, of_rates)
       call add_film(of_positions, answer%film_over_positions(:, :m), over_positions)
@@ -224,23 +221,15 @@ contains
          answer%over_rates(:2, k) = to_global(frame, over_rates(:, k))
       end do
       if (self%n == 0) return
-      of_tilt = of_journal + self%place(tilt)
       ! the frame turns with the pad
       answer%over_positions(:2, of_tilt) = answer%over_positions(:2, of_tilt) + to_global(frame, across)
       radial = -over_positions(2, :)
       radial(of_tilt) = radial(of_tilt) + pad%weight*frame%c
       radial_rates = -over_rates(2, :)
       radial_rates(of_tilt) = radial_rates(of_tilt) + 2*pad%mass*pad%centre_radial*state%v(tilt)
-      associate (contact => answer%contact_over_positions(:m), contact_rates => answer%contact_over_rates(:m), &
-         & deflection => self%place(pivot_deflection))
-         if (deflection > 0) then
-            contact = 0
-            contact(of_journal + deflection) = loads%contact_stiffness
-            contact_rates = 0
-         else
-            contact = merge(radial, 0.0_wp, loads%contact > 0)
-            contact_rates = merge(radial_rates, 0.0_wp, loads%contact > 0)
-         end if
+      associate (contact => answer%contact_over_positions(:m), contact_rates => answer%contact_over_rates(:m))
+         call take_contact(self, loads, radial, contact)
+         contact_rates = merge(radial_rates, 0.0_wp, self%deflection == 0 .and. loads%contact > 0)
          moment = -over_positions(1, :)*pad%position%centre_distance
          moment(of_tilt) = -over_positions(1, of_tilt)*pad%position%centre_distance &
             & + (pad%weight*(pad%centre_tangential*frame%c + pad%centre_radial*frame%s))
@@ -273,6 +262,20 @@ contains
       end subroutine add_film
    end subroutine derivatives
 
+   !> Derivatives of the pivot load over displacements, of which that of a rigid pivot has those of the force on it.
+   pure subroutine take_contact(self, loads, radial, contact)
+      class(pad_coordinates_type), intent(in) :: self
+      type(pad_loads), intent(in) :: loads
+      real(wp), intent(in) :: radial(:)
+      real(wp), intent(out) :: contact(:)
+      if (self%deflection > 0) then
+         contact = 0
+         contact(of_journal + self%deflection) = loads%contact_stiffness
+      else
+         contact = merge(radial, 0.0_wp, loads%contact > 0)
+      end if
+   end subroutine take_contact
+
    !> Adds what the friction of the pivot does to derivatives of the forces, in whose rows of the pad its moment counts
    !> as `per_moment` says, and what it does to these rows per deflection of the bristles.
    pure subroutine add_friction(self, pad, friction, m, per_moment, over_positions, over_rates, over_bristle)
@@ -283,10 +286,11 @@ contains
       real(wp), intent(in) :: per_moment(of_journal + 1:m)
       real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
       real(wp), intent(out) :: over_bristle(of_journal + 1:m)
-      real(wp) :: moment(m), moment_rates(m)
+      real(wp) :: moment(most), moment_rates(most)
       integer :: k, i
-      moment = -pad%ball_radius*friction%force_normal*self%contact_over_positions(:m)
-      moment_rates = -pad%ball_radius*friction%force_normal*self%contact_over_rates(:m)
+      ! of all that there may be: a size that the compiler knows is faster
+      moment = -pad%ball_radius*friction%force_normal*self%contact_over_positions
+      moment_rates = -pad%ball_radius*friction%force_normal*self%contact_over_rates
       moment_rates(of_journal + tilt) = -pad%ball_radius*friction%force_normal &
          & *self%contact_over_rates(of_journal + tilt) - pad%ball_radius**2*friction%force_velocity
       do k = 1, m

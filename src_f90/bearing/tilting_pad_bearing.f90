@@ -136,7 +136,11 @@ contains
          self%clearance = given%clearance()
          call make_frictions(given%friction, self%pivots)
          self%asperities = new_asperities(given%asperity, inputs%highest_speed()*given%journal_radius)
-         call self%set_coordinates(new_pad_coordinates(given%tilting(), given%tilting_radial()))
+         if (allocated(self%coordinates)) then
+            call set_masses(self)
+         else
+            call self%set_coordinates(new_pad_coordinates(given%tilting(), given%tilting_radial()))
+         end if
          call set_scales(self, given)
       end associate
    end subroutine set_parts
@@ -145,11 +149,19 @@ contains
    subroutine set_coordinates(self, coordinates)
       class(tilting_pad_bearing_type), intent(inout) :: self
       class(pad_coordinates_type), intent(in) :: coordinates
-      integer :: i
-      self%coordinates = coordinates
-      self%per_mass = reshape([(coordinates%inverse_masses(self%pads(i)), i=1, size(self%pads))], &
-         & [coordinates%n, coordinates%n, size(self%pads)])
+      ! an assignment of gfortran 12 would keep the room of another type
+      if (allocated(self%coordinates)) deallocate (self%coordinates)
+      allocate (self%coordinates, source=coordinates)
+      call set_masses(self)
    end subroutine set_coordinates
+
+   subroutine set_masses(self)
+      class(tilting_pad_bearing_type), intent(inout) :: self
+      integer :: i
+      associate (n => self%coordinates%n, pads => size(self%pads))
+         self%per_mass = reshape([(self%coordinates%inverse_masses(self%pads(i)), i=1, pads)], [n, n, pads])
+      end associate
+   end subroutine set_masses
 
    !> Clearance over pad length for tilts; a thousandth of the clearance for pivot deflections without load; the
    !> deflection at which bristles yield.
@@ -375,15 +387,17 @@ contains
       type(element_layout_type), intent(in) :: layout
       real(wp), intent(in) :: y(:)
       real(wp), intent(inout) :: dydt(:)
+      real(wp) :: rate
       integer :: i, j, k, o
       do i = 1, layout%pads
          o = layout%before(i)
          do k = 1, layout%coordinates
             dydt(o + 2*k - 1) = y(o + 2*k)
-            dydt(o + 2*k) = 0
+            rate = 0
             do j = layout%coordinates, 1, -1
-               dydt(o + 2*k) = dydt(o + 2*k) + self%per_mass(k, j, i)*self%loads(i)%own(j)
+               rate = rate + self%per_mass(k, j, i)*self%loads(i)%own(j)
             end do
+            dydt(o + 2*k) = rate
          end do
          if (layout%bristles) dydt(o + layout%per_pad) = self%loads(i)%friction%rate
       end do

@@ -222,7 +222,7 @@ contains
       integer :: method, k
       logical :: ok
       if (allocated(found%pads)) deallocate (found%pads)
-      call make_quick(static%inputs, static%oil%viscosity, static%point%cavitation, quick)
+      call make_quick(static, quick)
       do method = 1, size(methods)
          do k = 1, starts
             if (asked(give_up)) return
@@ -312,7 +312,7 @@ contains
       integer :: k
       call make_static(model, model%point%cavitation, static)
       if (has_warm_oil(model)) call guess_oil(static, 1)
-      call make_quick(model%inputs, static%oil%viscosity, model%point%cavitation, quick)
+      call make_quick(static, quick)
       do k = 1, starts
          y = start(quick, k)
          call eliminate_pads(quick, y, in_equilibrium, ok, give_up)

@@ -80,13 +80,15 @@ contains
       logical, intent(inout) :: in_equilibrium(:)
       logical, intent(out) :: ok
       real(wp), dimension(size(pads)) :: time_step, unbalanced, last
+      real(wp) :: limit
       integer :: iteration, i
       time_step = 1/model%point%speed(0.0_wp)
       do iteration = 0, pad_iterations
          call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. in_equilibrium)
          if (.not. ok) return
          unbalanced = unbalanced_forces(model)
-         in_equilibrium = in_equilibrium .or. unbalanced <= pad_limit*reference_force(model)
+         limit = pad_limit*reference_force(model)
+         in_equilibrium = in_equilibrium .or. unbalanced <= limit
          if (all(in_equilibrium) .or. iteration == pad_iterations) exit
          if (iteration > 0) time_step = next_time_step(time_step, last, unbalanced)
          last = unbalanced

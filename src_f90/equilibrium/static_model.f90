@@ -2,7 +2,6 @@
 !> the searches start.
 module static_model
    use kinds, only: wp
-   use case_inputs, only: case_type
    use film_solver, only: film_oil
    use film_network, only: warm_films_type
    use bearing_shape, only: bearing_shape_type
@@ -72,23 +71,20 @@ contains
       call model%set_point(point)
    end subroutine stand_still
 
-   !> A static model of a case with quick films, which are nearly the case's.
-   subroutine make_quick(inputs, viscosity, cavitation, quick)
-      type(case_type), intent(in) :: inputs
-      !> Of the oil on every pad, Pa s.
-      real(wp), intent(in) :: viscosity(:)
-      logical, intent(in) :: cavitation
+   !> The same as a static model with quick films, which are nearly the case's.
+   subroutine make_quick(static, quick)
+      type(machine_model), intent(in) :: static
       type(machine_model), intent(out) :: quick
-      quick = new_machine_model(inputs, quick_films)
-      call stand_still(quick, cavitation)
-      quick%oil%viscosity = viscosity
+      quick = new_machine_model(static%inputs, quick_films, static%others)
+      call stand_still(quick, static%point%cavitation)
+      quick%oil%viscosity = static%oil%viscosity
    end subroutine make_quick
 
    !> The same with films that are converged, where the case leaves their solver to the program.
    subroutine make_fine(model, fine)
       type(machine_model), intent(in) :: model
       type(machine_model), intent(out) :: fine
-      fine = new_machine_model(model%inputs, converged_films)
+      fine = new_machine_model(model%inputs, converged_films, model%others)
       call stand_still(fine, model%point%cavitation)
    end subroutine make_fine
 

@@ -7,7 +7,7 @@ module bordered_system
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: bordered_matrix, block_group, new_bordered_matrix
+   public :: bordered_matrix, new_bordered_matrix
 
    !> Unknowns of the border that a group knows: the displacements of a journal.
    integer, parameter :: pair = 2
@@ -82,14 +82,11 @@ contains
       border = 0
       do j = 1, n
          border(:n, j) = self%border(j, :)
-         border(n + 1, j) = b(j)
-      end do
-      do g = 1, n/pair
-         associate (at => pair*(g - 1))
-            do j = 1, pair
-               border(at + 1:at + pair, at + j) = border(at + 1:at + pair, at + j) - gamma*self%corner(j, :, g)
-            end do
+         associate (before => pair*((j - 1)/pair))
+            border(before + 1:before + pair, j) = border(before + 1:before + pair, j) &
+               & - gamma*self%corner(j - before, :, before/pair + 1)
          end associate
+         border(n + 1, j) = b(j)
       end do
       o = n
       do g = 1, size(self%groups)

@@ -19,9 +19,11 @@ contains
       class(rotor_type), intent(in) :: rotor
       type(element_pointer), intent(in) :: elements(:)
       type(state_layout_type), intent(in) :: layout
-      real(wp) :: scale(layout%n), loads(2, rotor%journals)
+      real(wp) :: scale(layout%n), loads(2, rotor%positions/2)
       integer :: e
-      loads = rotor%loads(point)
+      ! what is no journal has none of them
+      loads = 0
+      loads(:, :rotor%journals) = rotor%loads(point)
       associate (n => rotor%positions)
          scale(:n) = rotor%scales(clearances)
          scale(n + 1:2*n) = scale(:n)*highest_speed

@@ -86,19 +86,20 @@ contains
       class(machine_model), intent(inout), target :: self
       type(element_pointer), allocatable :: elements(:)
       type(element_layout_type), allocatable :: layouts(:)
+      integer, allocatable :: pairs(:)
       integer :: e
       elements = self%elements()
       allocate (layouts(size(elements)))
       do e = 1, size(elements)
          layouts(e) = elements(e)%to%layout()
       end do
-      self%layout = new_state_layout(self%rotor%states, layouts, [(e, e=1, size(self%bearings)), self%others%pair])
+      pairs = [(e, e=1, size(self%bearings)), self%others%pair]
+      self%layout = new_state_layout(self%rotor%states, layouts, pairs)
       self%n = self%layout%n
       self%outputs = pad_outputs*sum(layouts(:size(self%bearings))%pads)
-      self%oil = [self%oil, [(film_oil(), e=size(self%oil) + 1, self%layout%pads)]]
       self%scale = state_scales(self%inputs%highest_speed(), self%point, self%rotor, elements, &
          & self%bearings%clearance, self%layout)
-      self%newton = new_newton_system(self%layout, self%rotor%journals)
+      self%newton = new_newton_system(self%layout, max(self%rotor%journals, maxval(pairs)))
    end subroutine lay_out
 
    !> All elements: bearings, then others.

@@ -83,7 +83,7 @@ contains
       over_rates = 0
       elements = model%elements()
       do e = first, last
-         do i = 1, model%layout%elements(e)%pads
+         do i = 1, model%layout%elements(e)%parts
             call part_derivatives(elements(e)%to, i, model%layout%elements(e)%coordinates, positions, rates)
             associate (at => model%layout%elements(e)%positions_of(i))
                over_positions(at, at) = over_positions(at, at) + positions

@@ -50,7 +50,14 @@ contains
          end do
       end do
       name = 'pads'
-      if (second < share_of_pad*largest) name = model%inputs%bearings(bearing)%label(', ')//'pad '//to_text(pad)
+      if (second < share_of_pad*largest) then
+         name = 'pad '//to_text(pad)
+         if (bearing <= size(model%bearings)) then
+            name = model%inputs%bearings(bearing)%label(', ')//name
+         else
+            name = 'element '//to_text(bearing - size(model%bearings))//', '//name
+         end if
+      end if
       elements = model%elements()
       associate (of => model%layout%elements(bearing))
          name = trim(name)//', '//replaced(elements(bearing)%to%position_name(maxloc(sizes(of%own_positions(pad)), &

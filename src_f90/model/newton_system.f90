@@ -4,9 +4,9 @@ module newton_system
    use kinds, only: wp
    use linear_algebra, only: dgesv
    use abstract_rotor, only: rotor_type
-   use state_layout, only: state_layout_type, element_layout_type, of_journal
+   use state_layout, only: state_layout_type, of_journal
    use abstract_element, only: element_type, element_pointer
-   use bordered_system, only: bordered_matrix, block_group, new_bordered_matrix
+   use bordered_system, only: bordered_matrix, new_bordered_matrix
    implicit none (type, external)
    private
    public :: newton_system_type, new_newton_system
@@ -68,11 +68,11 @@ contains
       do e = 1, size(layout%elements)
          associate (of => system%elements(e), from => layout%elements(e))
             of%m = of_journal + from%coordinates
-            allocate (of%over_positions(of%m, of%m, from%pads), of%over_rates(of%m, of%m, from%pads), source=0.0_wp)
+            allocate (of%over_positions(of%m, of%m, from%parts), of%over_rates(of%m, of%m, from%parts), source=0.0_wp)
          end associate
       end do
       system%matrix = new_bordered_matrix(pairs, [(layout%elements(e)%pair(), e=1, size(layout%elements))], &
-         & layout%elements%coordinates, layout%elements%pads)
+         & layout%elements%coordinates, layout%elements%parts)
    end function new_newton_system
 
    !> Takes the derivatives of elements, which have them, at a speed, rad/s.
@@ -111,8 +111,8 @@ contains
       self%matrix%corner = 0
       do e = 1, size(elements)
          associate (of => self%layout%elements(e))
-            do i = 1, of%pads
-               n = of%other_pads + i
+            do i = 1, of%parts
+               n = min(of%other_pads + i, size(bristle, 2))
                if (of%bristles) bristle(:, n) = bristle_of(elements(e)%to%bristle_slopes(i), gamma, b(of%bristle(i)))
                call put_part(self, e, elements(e)%to, i, gamma, x, bristle(:, n), u)
             end do
@@ -272,7 +272,7 @@ contains
          end do
       end associate
       do e = 1, size(elements)
-         do i = 1, self%layout%elements(e)%pads
+         do i = 1, self%layout%elements(e)%parts
             call add_part(self, rotor, e, elements(e)%to, i, matrix)
          end do
       end do

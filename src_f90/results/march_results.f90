@@ -151,7 +151,8 @@ contains
             call each(trim(words%series)//to_series, value, trim(words%units)//to_units, trim(words%label)//to_label)
          else
             ! texts take longer than the number
-            call each('', value, '', '')
+            values(n + k*size(sample%states) + i) = value
+            k = k + 1
          end if
       end subroutine coordinate
 

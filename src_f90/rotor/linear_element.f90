@@ -27,10 +27,10 @@ module linear_element
 
 contains
 
-   !> One part without displacements.
+   !> It has no displacements of its own.
    pure type(element_layout_type) function layout(self)
       class(linear_element_type), intent(in) :: self
-      layout = new_element_layout(1, [integer ::], .false.)
+      layout = new_element_layout(0, [integer ::], .false.)
    end function layout
 
    subroutine evaluate(self, journal, pads, oil, speed, want_derivatives, refusal, ok, chosen)

@@ -1,8 +1,8 @@
 !> This module alone knows where the states lie. Those of the rotor come first, displacements and then their rates.
 !> Those of the elements follow, of each those of its first pad, of its second, ..: each of its displacements with its
 !> rate (of a pad its tilt and, on a flexible pivot, its pivot deflection) and (LuGre) the bristle deflection. A state
-!> that an element lacks is left out: fixed pads have none. The bearings are the first elements; an element without
-!> pads counts as one pad without displacements.
+!> that an element lacks is left out: fixed pads have none. The bearings are the first elements; others need have no
+!> pads.
 module state_layout
    use kinds, only: wp
    implicit none (type, external)
@@ -32,6 +32,8 @@ module state_layout
    type :: element_layout_type
       !> Pads, displacements of a pad, states of a pad (displacements, rates and bristles).
       integer :: pads = 0, coordinates = 0, per_pad = 0
+      !> Parts that act on the pair of the rotor: the pads, or one where there are none.
+      integer :: parts = 0
       !> Of each displacement its place in pad_state.
       integer :: kind(most_coordinates) = 0
       !> Whether there are bristles.
@@ -70,7 +72,7 @@ module state_layout
 
 contains
 
-   pure type(pad_state) function new_pad_state(angle, rate, deflection, deflection_rate, bristle) result(pad)
+   elemental type(pad_state) function new_pad_state(angle, rate, deflection, deflection_rate, bristle) result(pad)
       real(wp), intent(in), optional :: angle, rate, deflection, deflection_rate, bristle
       if (present(angle)) pad%x(tilt) = angle
       if (present(rate)) pad%v(tilt) = rate
@@ -85,6 +87,7 @@ contains
       integer, intent(in) :: pads, kind(:)
       logical, intent(in) :: bristles
       layout%pads = pads
+      layout%parts = max(1, pads)
       layout%coordinates = size(kind)
       layout%kind(:size(kind)) = kind
       layout%bristles = bristles .and. size(kind) > 0

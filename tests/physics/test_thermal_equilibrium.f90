@@ -99,8 +99,8 @@ contains
       inputs%thermal%model = 'none'
       call solve(inputs, cold, of_cold)
       call expect(.not. any(abs([warm%rotor - cold%rotor, warm%pads%x(tilt) - cold%pads%x(tilt), &
-         & warm%pads%x(pivot_deflection) - cold%pads%x(pivot_deflection), warm%oil%viscosity - cold%oil%viscosity]) > 0), &
-         & 'state')
+         & warm%pads%x(pivot_deflection) - cold%pads%x(pivot_deflection), &
+         & warm%oil%viscosity - cold%oil%viscosity]) > 0), 'state')
       call expect(.not. any(abs(figures%pads%power() - of_cold%pads%power()) > 0), 'losses')
       call expect(allocated(figures%oil) .and. .not. allocated(of_cold%oil), 'temperatures of warm oil alone')
    end subroutine isothermal

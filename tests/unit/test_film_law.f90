@@ -5,7 +5,6 @@ program test_film_law
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_counters, cavitation_none, &
       & cavitation_reynolds, film_ok
-   use film_law, only: film_law_type
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film, converged_film
    use elimination_film, only: elimination_film_type, new_elimination_film

@@ -19,7 +19,7 @@ module film_law
    type, abstract :: film_law_type
       !> Dynamic viscosity, Pa s, to which forces and shear are proportional.
       real(wp) :: viscosity = 0
-      !> False where E, G, K and S are 1 in the whole film.
+      !> False where E, G, K and S are 1 everywhere.
       logical :: varies = .false.
    contains
       procedure(answer_nodes), deferred :: at_nodes

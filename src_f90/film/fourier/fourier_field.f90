@@ -92,7 +92,7 @@ contains
          if (pad%varies) then
             call oil%at_nodes(pad%gap, motion, sin(phi), cos(phi), there)
             left = left*there%inverse_root
-            if (pad%turns) left = left*(pad%law%across(n + 1)/there%across)**0.25_wp
+            if (pad%by_thickness) left = left*(pad%law%across(n + 1)/there%across)**0.25_wp
          end if
       end associate
    end function layer_at
@@ -102,7 +102,7 @@ contains
       type(fourier_pad_type), intent(in) :: pad
       integer, intent(in) :: i
       layer_left = (pad%h(pad%n)/pad%h(i))**1.5_wp*pad%inverse_root(i)/pad%inverse_root(pad%n)
-      if (pad%turns) layer_left = layer_left*(pad%law%across(pad%n + 1)/pad%law%across(i + 1))**0.25_wp
+      if (pad%by_thickness) layer_left = layer_left*(pad%law%across(pad%n + 1)/pad%law%across(i + 1))**0.25_wp
    end function layer_left
 
    !> Distance of an angle from the leading edge, rad; for the decay of layers, which is Lambda sqrt(K), stretched.
@@ -110,7 +110,7 @@ contains
       type(fourier_pad_type), intent(in) :: pad
       real(wp), intent(in) :: phi
       from_edge = pad%gap%leading_angle - phi
-      if (pad%turns) from_edge = from_edge*sqrt(pad%law%across(pad%n + 1))
+      if (pad%by_thickness) from_edge = from_edge*sqrt(pad%law%across(pad%n + 1))
    end function from_edge
 
    !> Adds what the modes left out have of the layer at the leading edge to the pressure in the middle plane at the

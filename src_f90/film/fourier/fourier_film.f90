@@ -160,7 +160,7 @@ contains
          force = pad%d*force + edge(0)*[sine(0), cosine(0)] + edge(1)*[sine(n), cosine(n)] &
             & - tail(2)*rise*[cosine(n), -sine(n)] &
             & + gap%ambient_pressure*gap%axial_length*[cosine(0) - cosine(n), sine(n) - sine(0)]
-         if (pad%turns) force = force + turned_layers(pad, rise)
+         if (pad%by_thickness) force = force + turned_layers(pad, rise)
          response%force = -pad%radius*force
          lowest = lowest_pressure(n, pad%axial%blocks, pad%narrow, pad%lift, pad%point_tail(gauss + 1:), pad%look, &
             & pad%q)

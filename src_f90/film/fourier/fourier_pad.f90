@@ -11,7 +11,7 @@ module fourier_pad
    use fourier_passes, only: simd_width, looks
    implicit none (type, external)
    private
-   public :: fourier_pad_type, force_adjoints, init_pad, set_weights, set_motion
+   public :: fourier_pad_type, init_pad, set_weights, set_motion
    public :: gauss, middle, point_weights
 
    !> Points and weights across the half width, over it: Gauss-Legendre's over the root of the distance from the side,
@@ -60,7 +60,7 @@ module fourier_pad
       !> What the film's law makes of q and s at the nodes (fourier_film): q over pressure, and the inverse root of the
       !> mobility E, with which q counts. Whether it varies, and turns with the thickness; where it varies the law.
       real(wp), allocatable, dimension(:) :: lift, inverse_root
-      logical :: varies = .false., turns = .false.
+      logical :: varies = .false., by_thickness = .false.
       type(law_at_nodes) :: law
       !> By slot, node and block: a = 1 - d^2 V/12, factors f of the elimination, q.
       real(wp), allocatable :: a(:, :, :), f(:, :, :), q(:, :, :)
@@ -140,11 +140,11 @@ contains
       call set_nodes(pad)
       if (oil%varies) then
          call oil%at_nodes(pad%gap, motion, pad%sine, pad%cosine, pad%law)
-         pad%turns = oil%turns_with_thickness()
+         pad%by_thickness = oil%turns_with_thickness()
          call set_varied_nodes(pad)
       else if (pad%varies) then
          pad%inverse_root(:) = 1
-         pad%turns = .false.
+         pad%by_thickness = .false.
       end if
       pad%varies = oil%varies
       call set_load(pad)
@@ -187,7 +187,7 @@ contains
                & + pad%squeeze*(w(1)*pad%sine(i) + w(2)*pad%cosine(i)))
             pad%narrow(i) = pad%s(i)/h**2
          end do
-         if (.not. pad%turns) return
+         if (.not. pad%by_thickness) return
          pad%rate(:) = pad%rate*of%across
          pad%narrow(:) = pad%narrow/of%across
       end associate

@@ -48,7 +48,7 @@ contains
             of%floor_share = of%floor_share*pad%lift/pad%h
             of%boundary = of%boundary*pad%lift(n)/pad%h(n)
          end if
-         if (pad%turns) of%over_h2 = of%over_h2*spread(pad%law%across, 2, 2)
+         if (pad%by_thickness) of%over_h2 = of%over_h2*spread(pad%law%across, 2, 2)
          do m = 1, 2
             derivatives(m, :) = from_nodes(pad, n, m, rise, pad%h, pad%s, pad%narrow, pad%narrow_share, &
                & of%floor_share, of%solved, of%along(:, m), of%along(:, 3 - m), of%over_s(:, m), of%over_v(:, m), &
@@ -98,7 +98,7 @@ contains
       end do
       ! the pressure at the leading edge
       by_slope = pad%axial%tail(2)*rise*1.5_wp*psi/h(n)
-      if (pad%turns) by_slope = by_slope/pad%law%across(n + 1)
+      if (pad%by_thickness) by_slope = by_slope/pad%law%across(n + 1)
       by_h(n) = by_h(n) + boundary + along(n)*solved(n)/h(n) &
          & - by_slope*(pad%e(2)*pad%sine(n) - pad%e(1)*pad%cosine(n))/h(n)
       derivatives = 0
@@ -139,12 +139,12 @@ contains
       over_h = by_h
       associate (of => pad%adjoints)
          held = of%along(:, m)*(of%solved - pad%narrow_share*pad%narrow)
-         if (pad%turns) over_s = over_s + of%along(:, m)*pad%narrow_share/pad%h**2*(1 - 1/pad%law%across)
+         if (pad%by_thickness) over_s = over_s + of%along(:, m)*pad%narrow_share/pad%h**2*(1 - 1/pad%law%across)
       end associate
       ! the layers of the modes left out, which are there without the law
       do i = 0, pad%n, pad%n
          factor = pad%inverse_root(i)
-         if (pad%turns) factor = factor/pad%law%across(i + 1)**1.5_wp
+         if (pad%by_thickness) factor = factor/pad%law%across(i + 1)**1.5_wp
          layer = -pad%axial%tail(3)*pad%radius*merge(pad%sine(i), pad%cosine(i), m == 1)/pad%h(i)**3*(factor - 1)
          over_s(i) = over_s(i) + layer
          over_h(i) = over_h(i) - 3*layer*pad%s(i)/pad%h(i)
@@ -154,7 +154,7 @@ contains
             & pad%inverse_root, law%sliding, law%flow_slopes, law%sliding_slopes, held, of%over_v(:, m), over_s, &
             & over_h, by_phi, of%shift, of%stretch, derivatives)
       end associate
-      if (pad%turns) derivatives(:2) = derivatives(:2) + over_thickness(pad, m, rise, held + over_s*pad%s)
+      if (pad%by_thickness) derivatives(:2) = derivatives(:2) + over_thickness(pad, m, rise, held + over_s*pad%s)
    end function varied_sum
 
    !> That sum for a law that follows the nodes along the film.
