@@ -199,9 +199,7 @@ contains
             & //' pads, but states of '//to_text(size(viscosity)))
          return
       end if
-      associate (solver => inputs%bearings(1)%film%solver)
-         if (solver == 'auto') solver = 'direct'
-      end associate
+      if (inputs%bearings(1)%film%solver == 'auto') inputs%bearings(1)%film%solver = 'direct'
       model = new_machine_model(inputs)
       if (all(viscosity > 0)) model%oil = [(uneven_oil(viscosity(i), weights(:, :, i)), i=1, size(viscosity))]
    end subroutine read_bearing
