@@ -188,6 +188,8 @@ contains
             answer%own(k) = moment
          case (pivot_deflection)
             answer%own(k) = radial - answer%contact
+         case default
+            answer%own(k) = 0
          end select
       end do
    end subroutine loads
@@ -246,6 +248,9 @@ contains
             case (pivot_deflection)
                answer%over_positions(of_journal + k, :m) = radial - contact
                answer%over_rates(of_journal + k, :m) = radial_rates - contact_rates
+            case default
+               answer%over_positions(of_journal + k, :m) = 0
+               answer%over_rates(of_journal + k, :m) = 0
             end select
          end do
       end associate
@@ -326,6 +331,8 @@ contains
          coupling = pad%mass*pad%centre_tangential
          determinant = pad%inertia*pad%mass - coupling**2
          inverse = reshape([pad%mass, -coupling, -coupling, pad%inertia], [2, 2])/determinant
+      case default
+         inverse = 0
       end select
    end function inverse_masses
 end module tilting_pad

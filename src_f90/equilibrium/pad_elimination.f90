@@ -151,8 +151,9 @@ contains
       associate (of => model%bearings(1)%pads(i))
          frame = frame_of(of%position, journal, pad)
          on_pivot = of%gap%machined_clearance - of%position%centre_distance + norm2([frame%along, frame%outward])
-         if (model%layout%elements(1)%has(pivot_deflection)) &
-            & pad%x(pivot_deflection) = min(gap*of%gap%machined_clearance - on_pivot, 0.0_wp)
+         if (model%layout%elements(1)%has(pivot_deflection)) then
+            pad%x(pivot_deflection) = min(gap*of%gap%machined_clearance - on_pivot, 0.0_wp)
+         end if
          pad%x(tilt) = atan2(frame%along, -frame%outward) + part*max(on_pivot + pad%x(pivot_deflection), 0.0_wp) &
             & /(0.5_wp*of%gap%arc()*of%gap%pad_radius())
       end associate
