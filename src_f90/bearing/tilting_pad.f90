@@ -210,6 +210,7 @@ contains
       real(wp), dimension(2, of_journal + self%n) :: over_positions, over_rates
       real(wp), dimension(of_journal + self%n) :: radial, radial_rates, moment, moment_rates
       real(wp) :: across(2)
+      ! long: one list of the derivatives of all loads
       integer, parameter :: of_tilt = of_journal + tilt
       integer :: k, m
       m = of_journal + self%n
