@@ -18,6 +18,8 @@ module tilting_pad
 
    !> Most displacements of a pad's equations: those of the journal, y and z, and its own.
    integer, parameter :: most = of_journal + most_coordinates
+   !> Those of a pad on a flexible pivot.
+   integer, parameter :: usual = of_journal + 2
 
    !> What a pad is; SI units.
    type :: tilting_pad_type
@@ -289,23 +291,36 @@ contains
       type(tilting_pad_type), intent(in) :: pad
       type(friction_response), intent(in) :: friction
       integer, intent(in) :: m
-      real(wp), intent(in) :: per_moment(of_journal + 1:m)
+      real(wp), intent(in) :: per_moment(m - of_journal)
       real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
-      real(wp), intent(out) :: over_bristle(of_journal + 1:m)
+      real(wp), intent(out) :: over_bristle(m - of_journal)
       real(wp) :: moment(most), moment_rates(most)
-      integer :: k, i
-      ! of all that there may be: a size that the compiler knows is faster
+      ! sizes that the compiler knows are faster
       moment = -pad%ball_radius*friction%force_normal*self%contact_over_positions
       moment_rates = -pad%ball_radius*friction%force_normal*self%contact_over_rates
       moment_rates(of_journal + tilt) = -pad%ball_radius*friction%force_normal &
          & *self%contact_over_rates(of_journal + tilt) - pad%ball_radius**2*friction%force_velocity
-      do k = 1, m
-         do i = of_journal + 1, m
-            over_positions(i, k) = over_positions(i, k) + per_moment(i)*moment(k)
-            over_rates(i, k) = over_rates(i, k) + per_moment(i)*moment_rates(k)
-         end do
-      end do
+      if (m == usual) then
+         call add(usual, per_moment, moment, moment_rates, over_positions, over_rates)
+      else
+         call add(m, per_moment, moment, moment_rates, over_positions, over_rates)
+      end if
       over_bristle = per_moment*(-pad%ball_radius*friction%force_deflection)
+
+   contains
+
+      pure subroutine add(m, per_moment, moment, moment_rates, over_positions, over_rates)
+         integer, value :: m
+         real(wp), intent(in) :: per_moment(m - of_journal), moment(m), moment_rates(m)
+         real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
+         integer :: k, i
+         do k = 1, m
+            do i = 1, m - of_journal
+               over_positions(of_journal + i, k) = over_positions(of_journal + i, k) + per_moment(i)*moment(k)
+               over_rates(of_journal + i, k) = over_rates(of_journal + i, k) + per_moment(i)*moment_rates(k)
+            end do
+         end do
+      end subroutine add
    end subroutine add_friction
 
    !> The mass matrix of the coordinates, eqs (3)-(4): moment and force per rate of tilt rate and pivot deflection rate.

@@ -10,7 +10,8 @@ module tilting_pad_bearing
    use asperity_contact, only: asperity_contact_type, asperity_load
    use friction, only: friction_law
    use abstract_rotor, only: journal_motion
-   use state_layout, only: pad_state, element_layout_type, new_element_layout, tilt, pivot_deflection, of_journal
+   use state_layout, only: pad_state, element_layout_type, new_element_layout, tilt, pivot_deflection, of_journal, &
+      & most_coordinates
    use abstract_element, only: element_type
    use kinematics, only: pad_frame, frame_of, motion_of
    use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads, pad_derivatives
@@ -387,17 +388,17 @@ contains
       type(element_layout_type), intent(in) :: layout
       real(wp), intent(in) :: y(:)
       real(wp), intent(inout) :: dydt(:)
-      real(wp) :: rate
-      integer :: i, j, k, o
+      real(wp) :: rates(most_coordinates)
+      integer :: i, k, o
       do i = 1, layout%pads
          o = layout%before(i)
+         rates = 0
+         do k = layout%coordinates, 1, -1
+            rates(:layout%coordinates) = rates(:layout%coordinates) + self%per_mass(:, k, i)*self%loads(i)%own(k)
+         end do
          do k = 1, layout%coordinates
             dydt(o + 2*k - 1) = y(o + 2*k)
-            rate = 0
-            do j = layout%coordinates, 1, -1
-               rate = rate + self%per_mass(k, j, i)*self%loads(i)%own(j)
-            end do
-            dydt(o + 2*k) = rate
+            dydt(o + 2*k) = rates(k)
          end do
          if (layout%bristles) dydt(o + layout%per_pad) = self%loads(i)%friction%rate
       end do

@@ -249,14 +249,16 @@ contains
       class(machine_model), intent(in), target :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
-      real(wp) :: force(self%rotor%positions)
+      real(wp) :: force(self%rotor%positions), on_pair(of_journal)
       type(element_pointer) :: elements(size(self%layout%elements))
       integer :: e
       elements = self%elements()
       force = self%rotor%force(y(:self%rotor%states), self%point, t)
       do e = 1, size(elements)
          associate (of => self%layout%elements(e))
-            call elements(e)%to%add_force(force(of%journal(1):of%journal(of_journal)))
+            on_pair = force(of%journal)
+            call elements(e)%to%add_force(on_pair)
+            force(of%journal) = on_pair
             call elements(e)%to%add_rates(of, y, dydt)
          end associate
       end do

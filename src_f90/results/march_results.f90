@@ -122,9 +122,14 @@ contains
             call each('min_film_thickness', pad%min_film_thickness, 'm', 'minimum film thickness')
             call each('max_pressure', pad%max_pressure, 'Pa', 'maximum film pressure')
             do j = 1, sample%coordinates%n
-               associate (words => sample%coordinates%words(j), kind => sample%coordinates%kind(j))
-                  call coordinate(words, state%x(kind), '', '', '')
-                  call coordinate(words, state%v(kind), '_rate', '/s', ' rate')
+               associate (kind => sample%coordinates%kind(j))
+                  if (first .and. i == 1) then
+                     call declare(sample%coordinates%words(j), '', '', '')
+                     call declare(sample%coordinates%words(j), '_rate', '/s', ' rate')
+                  end if
+                  values(n + k*size(sample%states) + i) = state%x(kind)
+                  values(n + (k + 1)*size(sample%states) + i) = state%v(kind)
+                  k = k + 2
                end associate
             end do
             if (sample%bristles) call each('bristle_deflection', state%bristle, 'm', 'bristle deflection')
@@ -142,19 +147,13 @@ contains
          values(n) = value
       end subroutine one
 
-      !> Of a coordinate, or of its rate, with what stands behind its words then.
-      subroutine coordinate(words, value, to_series, to_units, to_label)
+      !> A coordinate of the pads, or its rate, with what stands behind its words then.
+      subroutine declare(words, to_series, to_units, to_label)
          type(coordinate_type), intent(in) :: words
-         real(wp), intent(in) :: value
          character(len=*), intent(in) :: to_series, to_units, to_label
-         if (first .and. i == 1) then
-            call each(trim(words%series)//to_series, value, trim(words%units)//to_units, trim(words%label)//to_label)
-         else
-            ! texts take longer than the number
-            values(n + k*size(sample%states) + i) = value
-            k = k + 1
-         end if
-      end subroutine coordinate
+         call file%declare(trim(words%series)//to_series, size(sample%states), 'pad', trim(words%units)//to_units, &
+            & trim(words%label)//to_label)
+      end subroutine declare
 
       !> Of pad i; the k-th series of the pads.
       subroutine each(name, value, units, long_name)

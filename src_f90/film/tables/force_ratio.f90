@@ -135,11 +135,10 @@ contains
 
    !> The ratio by finite volumes on two grids, extrapolated; slopes over the position.
    type(force_ratio_type) function by_volumes(self, motion, t) result(ratio)
-      type(force_ratio_solver), intent(in) :: self
+      class(force_ratio_solver), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: t
       type(force_ratio_type) :: coarse_ratio
-      type(elimination_film_type) :: coarse, fine
       type(film_response) :: coarse_cavitated, cavitated
       type(film_counters) :: unused
       real(wp) :: line(0:self%columns/2), rim, turn, speed
@@ -151,25 +150,26 @@ contains
       given = 0
       do narrowed = 0, most_narrowed
          line = angles(self%pad, motion, turn, rim, self%columns/2, 1)
-         call make_grid(self, line, 2, coarse)
-         call coarse%evaluate(driven(self, motion, t), self%drive%oil, speed, .true., .false., unused, coarse_cavitated)
-         gone = coarse%empty_columns() - margin - given
+         call set_grid(self, line, 2)
+         call self%grids(2)%evaluate(driven(self, motion, t), self%drive%oil, speed, .true., .false., unused, &
+            & coarse_cavitated)
+         gone = self%grids(2)%empty_columns() - margin - given
          if (gone <= empty_allowed*self%columns/2) exit
          rim = line(given + gone)
          if (.not. rim < turn) return
          given = ceiling(empty_share*self%columns/2)
       end do
-      call coarse%differentiate(coarse_cavitated)
-      coarse_over_t = over_t(coarse, coarse_cavitated)
-      call make_grid(self, angles(self%pad, motion, turn, rim, self%columns/2, 2), 1, fine)
-      call fine%start_from(coarse)
-      call fine%evaluate(driven(self, motion, t), self%drive%oil, speed, .true., .true., unused, cavitated)
-      fine_over_t = over_t(fine, cavitated)
+      call self%grids(2)%differentiate(coarse_cavitated)
+      coarse_over_t = over_t(self%grids(2), coarse_cavitated)
+      call set_grid(self, angles(self%pad, motion, turn, rim, self%columns/2, 2), 1)
+      call self%grids(1)%start_from(self%grids(2))
+      call self%grids(1)%evaluate(driven(self, motion, t), self%drive%oil, speed, .true., .true., unused, cavitated)
+      fine_over_t = over_t(self%grids(1), cavitated)
       line = angles(self%pad, motion, turn, -self%pad%half_arc, self%columns/2, 1)
-      call make_grid(self, line, 2, coarse)
-      call make_grid(self, angles(self%pad, motion, turn, -self%pad%half_arc, self%columns/2, 2), 1, fine)
-      call compare(coarse_cavitated, coarse_over_t, coarse, coarse_ratio)
-      call compare(cavitated, fine_over_t, fine, ratio)
+      call set_grid(self, line, 2)
+      call set_grid(self, angles(self%pad, motion, turn, -self%pad%half_arc, self%columns/2, 2), 1)
+      call compare(coarse_cavitated, coarse_over_t, self%grids(2), coarse_ratio)
+      call compare(cavitated, fine_over_t, self%grids(1), ratio)
       ratio%ok = ratio%ok .and. coarse_ratio%ok
       if (.not. ratio%ok) return
       ! by Richardson's rule, of the logarithms
@@ -208,14 +208,13 @@ contains
    end function by_volumes
 
    !> The grid with these angles between its columns, and a part of the columns and rows.
-   subroutine make_grid(self, line, part, grid)
-      type(force_ratio_solver), intent(in) :: self
+   subroutine set_grid(self, line, part)
+      class(force_ratio_solver), intent(inout) :: self
       real(wp), intent(in) :: line(0:)
       integer, intent(in) :: part
-      type(elimination_film_type), intent(out) :: grid
-      grid = self%grids(part)
-      grid%grid = new_film_grid(self%drive%gap, self%columns/part, self%rows/part, line)
-   end subroutine make_grid
+      self%grids(part)%grid = new_film_grid(self%drive%gap, self%columns/part, self%rows/part, line)
+      call self%grids(part)%start_from()
+   end subroutine set_grid
 
    !> The ratio by axial modes, with Guembel's condition; slopes over the position.
    type(force_ratio_type) function by_modes(self, motion) result(ratio)
