@@ -46,7 +46,6 @@ module parameter_study
       procedure :: variables
       procedure :: value
       procedure :: number
-      procedure, private :: namelist_of_run
    end type study_type
 
 contains
@@ -97,7 +96,7 @@ contains
       type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
-      call self%namelist_of_run(k, parsed)
+      call namelist_of_run(self, k, parsed)
       call case_from_namelist(parsed, inputs, error)
    end subroutine case_of_run
 
@@ -169,7 +168,7 @@ contains
       call self%inputs(k, inputs, error)
       if (.not. allocated(error)) call read_tables(inputs, error)
       if (allocated(error)) return
-      call self%namelist_of_run(k, parsed)
+      call namelist_of_run(self, k, parsed)
       text = marked_text(inputs, parsed)//derived_text(inputs)
    end subroutine checked
 
@@ -181,7 +180,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
       type(case_type) :: inputs
-      call self%namelist_of_run(1, parsed)
+      call namelist_of_run(self, 1, parsed)
       call fill_case(parsed, inputs, error)
       if (allocated(error)) return
       text = namelist_of(inputs)//self%varied%text()

@@ -54,8 +54,6 @@ module study_variables
       procedure, public :: find_checksums
       procedure, public :: text => group_text
       procedure :: add
-      procedure :: read_file
-      procedure :: row_of
       procedure :: line
    end type study_variables_type
 
@@ -83,7 +81,7 @@ contains
             & given%origin//': '//assignment_text(given)//': must be one of ''product'', ''zip''', error)
          self%zip = order == 'zip'
       case ('file')
-         call self%read_file(given, base, error)
+         call read_file(self, given, base, error)
       case default
          percent = index(given%name, '%')
          new%target = given
@@ -234,7 +232,7 @@ contains
       class(study_variables_type), intent(in) :: self
       integer, intent(in) :: i, k
       type(token_type), intent(out) :: token
-      associate (v => self%variables(i), row => self%row_of(i, k))
+      associate (v => self%variables(i), row => row_of(self, i, k))
          if (v%column > 0) then
             call self%table%value(row, v%column, token)
          else
@@ -254,7 +252,7 @@ contains
          call self%value(i, k, token)
          call read_number(lower_case(token%text), x, ok)
       else
-         call self%variables(i)%values%number(self%row_of(i, k), x, ok)
+         call self%variables(i)%values%number(row_of(self, i, k), x, ok)
       end if
    end subroutine number_of_run
 
@@ -266,7 +264,7 @@ contains
       found = self%variables(i)%target
       allocate (found%values(1))
       call self%value(i, k, found%values(1))
-      if (self%variables(i)%column > 0) found%origin = self%table%origin(self%row_of(i, k))
+      if (self%variables(i)%column > 0) found%origin = self%table%origin(row_of(self, i, k))
    end subroutine assignment_of_run
 
    !> The values of the k-th run, a line for each variable.
@@ -306,7 +304,7 @@ contains
       do k = 1, runs
          marks(k) = marks(k - 1)
          do i = 1, size(lines)
-            associate (row => self%row_of(i, k))
+            associate (row => row_of(self, i, k))
                if (row /= rows(i)) lines(i)%text = self%line(i, k)//newline
                rows(i) = row
             end associate

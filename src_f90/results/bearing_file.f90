@@ -31,7 +31,6 @@ module bearing_file
       procedure :: part_of_samples
       procedure :: sampled_revolutions
       procedure :: last_revolutions
-      procedure, private :: series
    end type bearing_file_type
 
 contains
@@ -138,7 +137,7 @@ contains
       character(len=*), intent(in) :: name
       integer, intent(in) :: n
       real(wp), allocatable, intent(out) :: values(:, :)
-      call self%run%last_samples(self%series(name), n, values)
+      call self%run%last_samples(series(self, name), n, values)
    end subroutine last_samples
 
    !> The n samples of a series behind the first `skip` ones, (width, n): all kept, or the first one alone.
@@ -148,7 +147,7 @@ contains
       integer(i8), intent(in) :: skip
       integer, intent(in) :: n
       real(wp), allocatable, intent(out) :: values(:, :)
-      call self%run%part_of_samples(self%series(name), skip, n, values)
+      call self%run%part_of_samples(series(self, name), skip, n, values)
    end subroutine part_of_samples
 
    !> Revolutions from the first sample to the last.

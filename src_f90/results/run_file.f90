@@ -57,7 +57,6 @@ module run_file
       procedure :: beat
       !> What has gone wrong with the file so far.
       procedure :: error_of
-      procedure, private :: write_recent
    end type run_file_type
 
 contains
@@ -295,7 +294,7 @@ contains
       call self%provenance%note(self%record_type, t, status, reason)
       if (status == 0) call self%put_flag('complete', 1)
       if (.not. self%filed) return
-      if (self%keep == 'last_revolutions') call self%write_recent()
+      if (self%keep == 'last_revolutions') call write_recent(self)
       call self%publish(.false., error)
    end subroutine finish
 

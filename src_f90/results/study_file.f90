@@ -58,9 +58,6 @@ module study_file
       procedure :: path
       !> What has gone wrong with the file so far.
       procedure :: error_of
-      procedure, private :: note
-      procedure, private :: close_all
-      procedure, private :: open_part
    end type study_file_type
 
 contains
@@ -116,7 +113,7 @@ contains
          call found%close()
       end if
       if (.not. allocated(error)) call self%working%copy_published(error)
-      if (.not. allocated(error)) call self%open_part(error)
+      if (.not. allocated(error)) call open_part(self, error)
       if (.not. allocated(error)) then
          parameters = parameters_of(study)
          call self%rows%read_layout(self, names_of(parameters))
@@ -184,12 +181,12 @@ contains
       logical :: exchanged
       started = wall_clock()
       self%grown = .false.
-      call self%note()
-      call self%close_all()
+      call note(self)
+      call close_all(self)
       call self%error_of(error)
       if (.not. allocated(error)) call self%working%publish(exchanged, error)
       if (.not. allocated(error)) call self%working%copy_published(error)
-      if (.not. allocated(error)) call self%open_part(error)
+      if (.not. allocated(error)) call open_part(self, error)
       if (.not. allocated(error)) then
          call self%rows%open(self)
          call self%error_of(error)
@@ -217,8 +214,8 @@ contains
       class(study_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       logical :: exchanged
-      call self%note()
-      call self%close_all()
+      call note(self)
+      call close_all(self)
       call self%error_of(error)
       if (.not. allocated(error)) call self%working%publish(exchanged, error)
    end subroutine publish
@@ -243,7 +240,7 @@ contains
    subroutine let_go(self)
       class(study_file_type), intent(inout) :: self
       call empty(self%hdf5_type)
-      call self%close_all()
+      call close_all(self)
    end subroutine let_go
 
    !> Opens the part, unless another run has taken the place of this one, whose part then has the name.
@@ -264,7 +261,7 @@ contains
 
    subroutine abandon(self)
       class(study_file_type), intent(inout) :: self
-      call self%close_all()
+      call close_all(self)
       call self%working%release()
    end subroutine abandon
 

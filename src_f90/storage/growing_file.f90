@@ -59,12 +59,6 @@ module growing_file
       procedure :: taken_from
       !> What has gone wrong with the file so far.
       procedure :: error_of
-      procedure, private :: open_part
-      procedure, private :: open_series
-      procedure, private :: close_part
-      procedure, private :: write_held
-      procedure, private :: catch_up
-      procedure, private :: copy_missing
    end type growing_file_type
 
 contains
@@ -90,7 +84,7 @@ contains
       class(growing_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       call self%working%copy_published(error)
-      if (.not. allocated(error)) call self%open_part(error)
+      if (.not. allocated(error)) call open_part(self, error)
    end subroutine reopen
 
    !> Opens the part, unless another run has taken the place of this one, whose part then has the name.
@@ -159,7 +153,7 @@ contains
       integer :: i
       if (.not. allocated(self%buffer)) allocate (self%buffer(chunk_samples*size(values)))
       ! chunks of the file are filled up, also after a checkpoint in the middle of one
-      if (self%held > 0 .and. mod(self%samples, int(chunk_samples, i8)) == 0) call self%write_held()
+      if (self%held > 0 .and. mod(self%samples, int(chunk_samples, i8)) == 0) call write_held(self)
       do i = 1, size(values)
          self%buffer(self%place(i) + self%stride(i)*self%held) = values(i)
       end do
@@ -203,7 +197,7 @@ contains
       real(wp), allocatable, intent(out) :: values(:, :)
       type(hdf5_series_type) :: data
       integer :: k
-      call self%write_held()
+      call write_held(self)
       do k = 1, size(self%series)
          if (self%series(k)%name /= name) cycle
          call self%series(k)%data%read(self%hdf5_type, skip, n, values)
@@ -224,11 +218,11 @@ contains
       logical, intent(out) :: behind
       logical :: exchanged
       behind = .false.
-      call self%write_held()
-      call self%close_part()
+      call write_held(self)
+      call close_part(self)
       call self%error_of(error)
       if (.not. allocated(error)) call self%working%publish(exchanged, error)
-      if (.not. allocated(error) .and. continued) call self%catch_up(exchanged, error, behind)
+      if (.not. allocated(error) .and. continued) call catch_up(self, exchanged, error, behind)
       if (allocated(error) .or. .not. continued) call self%abandon()
    end subroutine publish
 
@@ -241,20 +235,20 @@ contains
       logical, intent(inout) :: behind
       type(hdf5_type) :: published
       if (exchanged) then
-         call self%open_part(error)
+         call open_part(self, error)
          if (allocated(error)) return
          call published%open(self%working%path, writing=.false.)
-         call self%open_series()
-         call self%copy_missing(published)
+         call open_series(self)
+         call copy_missing(self, published)
          call published%close()
          behind = .not. allocated(self%failure) .and. .not. allocated(published%failure)
          if (behind) return
-         call self%close_part()
+         call close_part(self)
       end if
       call self%working%copy_published(error)
-      if (.not. allocated(error)) call self%open_part(error)
+      if (.not. allocated(error)) call open_part(self, error)
       if (allocated(error)) return
-      call self%open_series()
+      call open_series(self)
       call self%error_of(error)
    end subroutine catch_up
 
@@ -301,7 +295,7 @@ contains
 
    subroutine abandon(self)
       class(growing_file_type), intent(inout) :: self
-      call self%close_part()
+      call close_part(self)
       call self%working%release()
    end subroutine abandon
 

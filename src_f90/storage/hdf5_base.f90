@@ -48,8 +48,6 @@ module hdf5_base
       procedure :: check
       procedure :: check_read
       procedure :: write_attribute
-      procedure, private :: open_attribute
-      procedure, private :: ready
    end type hdf5_base_type
 
    interface
@@ -105,7 +103,7 @@ contains
       character(len=*), intent(in) :: path
       integer(hid_t) :: access
       integer :: status
-      call self%ready()
+      call ready(self)
       call h5pcreate_f(h5p_file_access_f, access, status)
       ! in this version structures have checksums: damaged ones are refused before they are changed
       call h5pset_libver_bounds_f(access, h5f_libver_v110_f, h5f_libver_v110_f, status)
@@ -120,7 +118,7 @@ contains
       logical, intent(in) :: writing
       integer :: status
       logical :: exists
-      call self%ready()
+      call ready(self)
       call h5fopen_f(path, merge(h5f_acc_rdwr_f, h5f_acc_rdonly_f, writing), self%id, status)
       ! where it could not write HDF5 looks for other files, too
       inquire (file=path, exist=exists)
@@ -220,7 +218,7 @@ contains
       logical :: variable
       text = ''
       if (allocated(self%failure)) return
-      call self%open_attribute(name, attribute, status)
+      call open_attribute(self, name, attribute, status)
       if (status < 0) return
       call h5aget_type_f(attribute, kind, status)
       call h5tis_variable_str_f(kind, variable, status)
@@ -274,7 +272,7 @@ contains
       value = 0
       if (allocated(self%failure)) return
       pointer = c_loc(buffer)
-      call self%open_attribute(name, attribute, status)
+      call open_attribute(self, name, attribute, status)
       if (status < 0) return
       call h5aread_f(attribute, h5t_native_integer, pointer, status)
       call self%check_read(status, 'read attribute '//name)

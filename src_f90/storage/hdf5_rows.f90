@@ -37,7 +37,6 @@ module hdf5_rows
       procedure :: write => write_rows
       procedure :: read => read_rows
       procedure :: resize
-      procedure, private :: select
    end type hdf5_rows_type
 
 contains
@@ -175,7 +174,7 @@ contains
       integer(hid_t) :: memory, space
       integer :: status
       if (allocated(file%failure) .or. size(values) == 0) return
-      call self%select(first, size(values, 2), memory, space, status)
+      call select(self, first, size(values, 2), memory, space, status)
       if (status >= 0) call h5dwrite_f(self%id, h5t_native_double, c_loc(values), status, memory, space, &
          & self%transfer)
       call file%check(status, 'write rows')
@@ -199,7 +198,7 @@ contains
       allocate (values(self%width(), n), source=0.0_wp)
       if (size(values) == 0) return
       buffer = c_loc(values)
-      call self%select(first, n, memory, space, status)
+      call select(self, first, n, memory, space, status)
       if (status >= 0) call h5dread_f(self%id, h5t_native_double, buffer, status, memory, space, &
          & self%transfer)
       call file%check_read(status, 'read rows')

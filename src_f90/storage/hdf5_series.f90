@@ -30,7 +30,6 @@ module hdf5_series
       procedure :: close => close_series
       procedure :: append
       procedure :: read => read_part
-      procedure, private :: select
    end type hdf5_series_type
 
 contains
@@ -121,7 +120,7 @@ contains
       call h5dset_extent_f(self%id, dims(3 - self%rank:), status)
       call file%check(status, 'lengthen a dataset')
       if (status < 0) return
-      call self%select(self%length, size(values, 2), memory, space, status)
+      call select(self, self%length, size(values, 2), memory, space, status)
       if (status >= 0) call h5dwrite_f(self%id, h5t_native_double, c_loc(values), status, memory, space)
       call file%check(status, 'write samples')
       self%length = self%length + size(values, 2)
@@ -143,7 +142,7 @@ contains
       buffer = c_loc(values)
       if (allocated(file%failure)) values = 0
       if (allocated(file%failure) .or. n == 0) return
-      call self%select(skip, n, memory, space, status)
+      call select(self, skip, n, memory, space, status)
       if (status >= 0) call h5dread_f(self%id, h5t_native_double, buffer, status, memory, space)
       call file%check_read(status, 'read samples')
       if (status < 0) values = 0

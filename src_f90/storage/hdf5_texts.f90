@@ -28,7 +28,6 @@ module hdf5_texts
       procedure :: resize
       procedure :: write => write_texts
       procedure :: read => read_texts
-      procedure, private :: select
    end type hdf5_texts_type
 
    interface
@@ -147,7 +146,7 @@ contains
       end do
       kind = kind_of_texts()
       transfer = small_transfers()
-      call self%select(first, size(texts), memory, space, status)
+      call select(self, first, size(texts), memory, space, status)
       if (status >= 0) call h5dwrite_f(self%id, kind, c_loc(pointers), status, memory, space, transfer)
       call file%check(status, 'write texts')
       call h5sclose_f(space, status)
@@ -173,7 +172,7 @@ contains
       buffer = c_loc(pointers)
       kind = kind_of_texts()
       transfer = small_transfers()
-      call self%select(first, n, memory, space, status)
+      call select(self, first, n, memory, space, status)
       if (status >= 0) call h5dread_f(self%id, kind, buffer, status, memory, space, transfer)
       call file%check_read(status, 'read texts')
       do i = 1, n
