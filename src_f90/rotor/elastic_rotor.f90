@@ -1,7 +1,7 @@
 !> A shaft that bends in several bearings, by the matrices of its equations on its journals.
 module elastic_rotor
    use kinds, only: wp
-   use linear_algebra, only: dgesv
+   use linear_algebra, only: dgesv, identity
    use operating_point, only: operating_point_type
    use rotor_matrices, only: rotor_matrices_type
    use abstract_rotor, only: rotor_type
@@ -204,16 +204,6 @@ contains
       real(wp) :: accelerations(self%positions, size(rows, 2))
       accelerations = matmul(self%per_mass(:, 2*journal - 1:2*journal), rows)
    end function row_accelerations
-
-   pure function identity(n)
-      integer, intent(in) :: n
-      real(wp) :: identity(n, n)
-      integer :: i
-      identity = 0
-      do i = 1, n
-         identity(i, i) = 1
-      end do
-   end function identity
 
    !> x of a x = b; `ok` is false where a is singular, and x is 0 then.
    subroutine solve(a, b, x, ok)
