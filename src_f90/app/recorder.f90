@@ -110,10 +110,10 @@ contains
       real(wp) :: started
       logical :: timed
       timed = mod(self%samples, timing_stride) == timing_stride - 1
-      if (timed) started = wall_clock() - self%run%file%writing_seconds()
+      if (timed) started = wall_clock() - self%run%file%hdf5%writing_seconds
       call record(self, t, y, output, error)
       if (timed) self%run%sampling = self%run%sampling &
-         & + timing_stride*(wall_clock() - self%run%file%writing_seconds() - started)
+         & + timing_stride*(wall_clock() - self%run%file%hdf5%writing_seconds - started)
       self%samples = self%samples + 1
    end subroutine sample
 

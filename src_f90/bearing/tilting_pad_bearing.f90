@@ -15,8 +15,8 @@ module tilting_pad_bearing
    use abstract_element, only: element_type
    use kinematics, only: pad_frame, frame_of, motion_of
    use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads, pad_derivatives
-   use factories, only: make_film, new_asperities, new_pads, march_films, static_films, of_march
-   use pad_pivots, only: pad_pivot, make_contacts, make_frictions
+   use factories, only: make_film, new_asperities, new_pads, march_films, static_films, of_march, pad_pivot, &
+      & make_contacts, make_frictions
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs

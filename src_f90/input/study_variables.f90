@@ -37,7 +37,7 @@ module study_variables
       private
       !> True where all factors change together.
       logical :: zip = .false.
-      type(variable_type), allocatable :: variables(:)
+      type(variable_type), allocatable, public :: variables(:)
       !> How many values each factor has; every list is one, and so is the table.
       integer, allocatable :: counts(:)
       type(study_table_type) :: table
@@ -45,7 +45,6 @@ module study_variables
       procedure, public :: begin
       procedure, public :: read => read_assignment
       procedure, public :: count_runs
-      procedure, public :: number
       procedure, public :: targets
       procedure, public :: assignment_of_run
       procedure, public :: value
@@ -157,12 +156,6 @@ contains
       end do
       if (.not. allocated(error)) self%variables = [self%variables, new]
    end subroutine add
-
-   !> How many variables are varied.
-   pure integer function number(self)
-      class(study_variables_type), intent(in) :: self
-      number = size(self%variables)
-   end function number
 
    !> The assignments to the varied variables, without values.
    function targets(self) result(found)

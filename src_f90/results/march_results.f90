@@ -36,7 +36,7 @@ contains
       logical :: first
       integer :: n, b
       ! its series are declared as the first sample is added
-      first = .not. file%is_declared()
+      first = .not. file%declared
       n = 0
       call one('time', samples(1)%time, 's', 'time')
       call one('shaft_angle', samples(1)%shaft_angle, 'rad', 'shaft angle')

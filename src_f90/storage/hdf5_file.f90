@@ -25,9 +25,6 @@ module hdf5_file
       !> dimension first, as h5py shows them, separated by blanks; a dataset whose only scale is itself becomes
       !> that scale.
       procedure :: put_count
-      procedure :: put_real
-      procedure :: put_list
-      procedure :: put_table
       procedure :: put_array
       procedure :: put_labels
       procedure :: get_count
@@ -58,34 +55,18 @@ contains
       call write_all(self, dataset, kind, c_loc(buffer), path)
    end subroutine put_count
 
-   subroutine put_real(self, path, value, units, long_name)
-      class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name
-      real(wp), intent(in) :: value
-      call write_reals(self, path, [value], [integer(hsize_t) ::], units, long_name, '')
-   end subroutine put_real
-
-   subroutine put_list(self, path, values, units, long_name, scales)
-      class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name, scales
-      real(wp), intent(in) :: values(:)
-      call write_reals(self, path, values, int([size(values)], hsize_t), units, long_name, scales)
-   end subroutine put_list
-
-   subroutine put_table(self, path, values, units, long_name, scales)
-      class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name, scales
-      real(wp), intent(in) :: values(:, :)
-      call write_reals(self, path, [values], int(shape(values), hsize_t), units, long_name, scales)
-   end subroutine put_table
-
-   !> Values in the order of Fortran, with these numbers in each dimension, the fastest first.
+   !> A number, or values in the order of Fortran, with these numbers in each dimension, the fastest first.
    subroutine put_array(self, path, values, counts, units, long_name, scales)
       class(hdf5_type), intent(inout) :: self
       character(len=*), intent(in) :: path, units, long_name, scales
       real(wp), intent(in) :: values(:)
       integer, intent(in) :: counts(:)
-      call write_reals(self, path, values, int(counts, hsize_t), units, long_name, scales)
+      real(wp), target :: buffer(size(values))
+      integer(hid_t) :: dataset
+      if (allocated(self%failure)) return
+      buffer = values
+      call open_or_create(self, path, h5t_native_double, int(counts, hsize_t), units, long_name, scales, dataset)
+      call write_all(self, dataset, h5t_native_double, c_loc(buffer), path)
    end subroutine put_array
 
    !> Texts, all of one length in the file, filled up with zero bytes.
@@ -107,19 +88,6 @@ contains
       call write_all(self, dataset, kind, c_loc(buffer), path)
       call h5tclose_f(kind, status)
    end subroutine put_labels
-
-   subroutine write_reals(self, path, values, dims, units, long_name, scales)
-      class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name, scales
-      real(wp), intent(in) :: values(:)
-      integer(hsize_t), intent(in) :: dims(:)
-      real(wp), target :: buffer(size(values))
-      integer(hid_t) :: dataset
-      if (allocated(self%failure)) return
-      buffer = values
-      call open_or_create(self, path, h5t_native_double, dims, units, long_name, scales, dataset)
-      call write_all(self, dataset, h5t_native_double, c_loc(buffer), path)
-   end subroutine write_reals
 
    !> Opens a dataset whose values are in this file, in chunks of a size that HDF5 may take memory for; a failure, and
    !> a negative status, where there is none.

@@ -26,7 +26,6 @@ module recent_samples
    contains
       procedure :: begin
       procedure :: declare
-      procedure :: is_declared
       procedure :: has
       procedure :: add
       !> Number of the sample, from 0, from which on all are kept.
@@ -63,11 +62,6 @@ contains
       integer, intent(in) :: width
       self%series = [self%series, series_type(name, units, long_name, across, sum(self%series%width), width)]
    end subroutine declare
-
-   pure logical function is_declared(self)
-      class(recent_samples_type), intent(in) :: self
-      is_declared = size(self%series) > 0
-   end function is_declared
 
    pure logical function has(self, name)
       class(recent_samples_type), intent(in) :: self
