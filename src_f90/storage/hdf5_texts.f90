@@ -2,12 +2,14 @@
 !> routine does nothing.
 module hdf5_texts
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_loc, c_null_char, c_null_ptr, c_ptr
-   use hdf5, only: hid_t, hsize_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
-      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sselect_hyperslab_f, h5dcreate_f, h5dwrite_f, &
+   use hdf5, only: hid_t, hsize_t, h5s_unlimited_f, h5screate_simple_f, h5sclose_f, &
+      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5dcreate_f, h5dwrite_f, &
       & h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_space_f, h5dget_type_f, h5pcreate_f, h5pclose_f, &
       & h5pset_chunk_f, h5p_dataset_create_f, h5tclose_f
    use hdf5_base, only: is_of_texts, kind_of_texts, c_free
+   use kinds, only: i8
    use hdf5_file, only: hdf5_type
+   use hdf5_series, only: select_part
    use hdf5_rows, only: rows_a_chunk, small_transfers
    use system_texts, only: fortran_text
    implicit none (type, external)
@@ -124,7 +126,7 @@ contains
       end do
       kind = kind_of_texts()
       transfer = small_transfers()
-      call select(self, first, size(texts), memory, space, status)
+      call select_part(self%id, first - 1_i8, [size(texts, kind=hsize_t)], memory, space, status)
       if (status >= 0) call h5dwrite_f(self%id, kind, c_loc(pointers), status, memory, space, transfer)
       call file%check(status, 'write texts')
       call h5sclose_f(space, status)
@@ -150,7 +152,7 @@ contains
       buffer = c_loc(pointers)
       kind = kind_of_texts()
       transfer = small_transfers()
-      call select(self, first, n, memory, space, status)
+      call select_part(self%id, first - 1_i8, [int(n, hsize_t)], memory, space, status)
       if (status >= 0) call h5dread_f(self%id, kind, buffer, status, memory, space, transfer)
       call file%check_read(status, 'read texts')
       do i = 1, n
@@ -163,19 +165,6 @@ contains
       call h5pclose_f(transfer, status)
       call h5tclose_f(kind, status)
    end subroutine read_texts
-
-   !> Selects n texts from the `first` on, in file and memory.
-   subroutine select(self, first, n, memory, space, status)
-      class(hdf5_texts_type), intent(in) :: self
-      integer, intent(in) :: first, n
-      integer(hid_t), intent(out) :: memory, space
-      integer, intent(out) :: status
-      integer(hsize_t) :: count(1)
-      count = n
-      call h5screate_simple_f(1, count, memory, status)
-      call h5dget_space_f(self%id, space, status)
-      call h5sselect_hyperslab_f(space, h5s_select_set_f, [int(first - 1, hsize_t)], count, status)
-   end subroutine select
 
    subroutine close_texts(self, file)
       class(hdf5_texts_type), intent(inout) :: self
