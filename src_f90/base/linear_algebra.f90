@@ -3,8 +3,8 @@ module linear_algebra
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv, dgbsv, zgesv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, identity, solve_2x2, solve_few, &
-      & simd_width, padded, apply
+   public :: dgesv, dgbsv, zgesv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, identity, &
+      & solve_2x2, solve_few, simd_width, padded, apply
 
    !> Rows are filled up to a multiple of this, so that loops over them have no remainder.
    integer, parameter :: simd_width = 8
