@@ -90,11 +90,12 @@ module tilting_pad
 
 contains
 
-   !> The coordinates of pads that are fixed, or tilt, on pivots that are rigid, or flexible.
-   pure type(pad_coordinates_type) function new_pad_coordinates(tilts, flexible) result(coordinates)
-      logical, intent(in) :: tilts, flexible
-      if (tilts) call coordinates%add(tilt, coordinate_type('tilt', 'pad_tilt', 'rad', 'pad tilt'))
-      if (tilts .and. flexible) call coordinates%add(pivot_deflection, &
+   !> The coordinates of pads with this word of pads%motion.
+   pure type(pad_coordinates_type) function new_pad_coordinates(motion) result(coordinates)
+      character(len=*), intent(in) :: motion
+      if (motion == 'fixed') return
+      call coordinates%add(tilt, coordinate_type('tilt', 'pad_tilt', 'rad', 'pad tilt'))
+      if (motion == 'tilting_radial') call coordinates%add(pivot_deflection, &
          & coordinate_type('pivot_deflection', 'pivot_deflection', 'm', 'pivot deflection'))
    end function new_pad_coordinates
 

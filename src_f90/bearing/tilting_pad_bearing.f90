@@ -137,7 +137,7 @@ contains
          if (allocated(self%coordinates)) then
             call set_masses(self)
          else
-            call self%set_coordinates(new_pad_coordinates(given%tilting(), given%tilting_radial()))
+            call self%set_coordinates(new_pad_coordinates(given%pads%motion))
          end if
          call set_scales(self, given)
       end associate

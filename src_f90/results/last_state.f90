@@ -9,8 +9,8 @@ module last_state
    use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use abstract_rotor, only: journal_motion
-   use state_layout, only: pad_state, element_layout_type, tilt, pivot_deflection
-   use tilting_pad, only: pad_coordinates_type
+   use state_layout, only: pad_state, element_layout_type
+   use tilting_pad, only: pad_coordinates_type, new_pad_coordinates
    use equations_of_motion, only: machine_model
    use machine_results, only: bearing_group, turned_time, turned_state
    use restart, only: restart_type, read_result, open_result
@@ -112,13 +112,16 @@ contains
       type(bearing_type), intent(in) :: there
       type(element_layout_type), intent(in) :: layout
       type(error_type), allocatable, intent(out) :: error
+      type(pad_coordinates_type) :: coordinates
       logical :: bristles
+      integer :: k
       bristles = there%friction%model == 'lugre'
+      coordinates = new_pad_coordinates(there%pads%motion)
       if (there%pad_count() /= layout%pads) then
          call raise(error, system_error, path//': has '//to_text(there%pad_count())//' pads, and this case ' &
             & //to_text(layout%pads)//'; no start for it')
-      else if (any([there%tilting(), there%tilting_radial()] &
-         & .neqv. [layout%has(tilt), layout%has(pivot_deflection)])) then
+      else if (coordinates%n /= layout%coordinates .or. &
+         & .not. all([(layout%has(coordinates%kind(k)), k=1, coordinates%n)])) then
          call raise(error, system_error, path//': has pads%motion = '''//there%pads%motion &
             & //''', and this case another; no start for it')
       else if (bristles .neqv. layout%bristles) then

@@ -34,7 +34,7 @@ contains
    !> Pads that tilt on rigid or flexible pivots, and have the oscillator.
    type(oscillating_pads_type) function new_oscillating_pads(flexible) result(coordinates)
       logical, intent(in) :: flexible
-      coordinates%own = new_pad_coordinates(.true., flexible)
+      coordinates%own = new_pad_coordinates(trim(merge('tilting_radial', 'tilting_only  ', flexible)))
       coordinates%pad_coordinates_type = coordinates%own
       call coordinates%add(third, coordinate_type('third', 'third_coordinate', 'm', 'third coordinate'))
    end function new_oscillating_pads
