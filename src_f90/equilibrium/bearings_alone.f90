@@ -4,7 +4,7 @@ module bearings_alone
    use kinds, only: wp
    use factories, only: march_films, static_films
    use equations_of_motion, only: machine_model, new_machine_model
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    implicit none (type, external)
    private
    public :: bearing_alone, part_of, bearing_loads

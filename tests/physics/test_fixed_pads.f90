@@ -14,7 +14,7 @@ program test_fixed_pads
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
    use abstract_rotor, only: journal_motion
    use kinematics, only: pad_state, frame_of, motion_of
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use equilibrium, only: find_equilibrium
    use pad_behaviour, only: whirl_of
    use sampled_march, only: march_samples

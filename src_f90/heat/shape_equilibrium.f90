@@ -18,13 +18,11 @@ module shape_equilibrium
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: state_balance_type, find_temperatures
    use equations_of_motion, only: machine_model
-   use force_balance, only: stability_at
-   use static_model, only: equilibrium_type, describe, make_static
    use thermal_equilibrium, only: solve_thermal_equilibrium
    use film_equilibrium, only: solve_warm_films
    implicit none (type, external)
    private
-   public :: settle_shape
+   public :: solve_shape
 
    !> Largest change of a length at the end, over the clearance; most rounds; largest change that a round makes.
    real(wp), parameter :: agreement = 1e-7_wp, longest_step = 0.25_wp
@@ -32,64 +30,62 @@ module shape_equilibrium
 
 contains
 
-   !> Brings an equilibrium of a model in the shapes of its case to one in the shapes that it leads to, of each bearing,
-   !> which the record has then; an error where there is none.
-   subroutine settle_shape(model, found, error, give_up)
-      type(machine_model), intent(in) :: model
-      type(equilibrium_type), intent(inout) :: found
+   !> Brings the state y of a static model that is in equilibrium in the shapes of its case to equilibrium in the shapes
+   !> that this leads to, of each bearing; an error where there is none.
+   subroutine solve_shape(static, y, films, shapes, residual, error, give_up)
+      type(machine_model), intent(inout) :: static
+      real(wp), intent(inout) :: y(:)
+      !> Of each bearing, where films have temperatures.
+      type(warm_films_type), allocatable, intent(inout) :: films(:)
+      type(bearing_shape_type), allocatable, intent(out) :: shapes(:)
+      real(wp), intent(inout) :: residual
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      type(machine_model) :: static
-      type(bearing_shape_type), allocatable :: shapes(:), wanted(:)
+      type(case_type) :: cold
+      type(bearing_shape_type), allocatable :: wanted(:)
       type(anderson_type) :: acceleration
-      real(wp), allocatable :: y(:), x(:)
+      real(wp), allocatable :: x(:)
       real(wp) :: change
       integer :: round
       logical :: ok
-      call make_static(model, model%point%cavitation, static)
-      y = static%static_state(found%rotor, found%tilt, found%pivot_deflection)
-      static%oil = found%oil
+      cold = static%inputs
       call static%evaluate(0.0_wp, y, .false., ok)
-      associate (cold => model%inputs)
-         shapes = cold_shapes(cold)
-         do round = 1, most_rounds
-            call find_shapes(cold, static, y, found%films, wanted)
-            change = largest_change(wanted, shapes)
-            if (change <= agreement) exit
-            x = all_lengths(shapes)
-            if (change > longest_step) then
-               call acceleration%forget()
-               x = x + longest_step/change*(all_lengths(wanted) - x)
-            else
-               call acceleration%advance(x, all_lengths(wanted))
-            end if
-            call set_all_lengths(shapes, x)
-            call find_equilibrium_in(static, shapes, cold, y, found, error, give_up)
-            if (allocated(error)) exit
-         end do
-         if (allocated(error)) then
-            if (error%status /= stopped) call explain(wanted, cold, error)
-            return
+      shapes = cold_shapes(cold)
+      do round = 1, most_rounds
+         call find_shapes(cold, static, y, films, wanted)
+         change = largest_change(wanted, shapes)
+         if (change <= agreement) exit
+         x = all_lengths(shapes)
+         if (change > longest_step) then
+            call acceleration%forget()
+            x = x + longest_step/change*(all_lengths(wanted) - x)
+         else
+            call acceleration%advance(x, all_lengths(wanted))
          end if
-         call check_shapes(wanted, cold, error)
-         if (.not. (allocated(error) .or. change <= agreement)) call raise(error, numerics_error, 'the shape of the ' &
-            & //'bearing does not settle: after '//to_text(most_rounds)//' rounds its clearances still change by ' &
-            & //to_text(100*change)//' %')
-         if (allocated(error)) return
-      end associate
-      call move_alloc(wanted, found%shapes)
-      call describe(static, y, found)
-      call stability_at(static, y, found%stability, ok)
-      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
-   end subroutine settle_shape
+         call set_all_lengths(shapes, x)
+         call find_equilibrium_in(static, shapes, cold, y, films, residual, error, give_up)
+         if (allocated(error)) exit
+      end do
+      if (allocated(error)) then
+         if (error%status /= stopped) call explain(wanted, cold, error)
+         return
+      end if
+      call check_shapes(wanted, cold, error)
+      if (.not. (allocated(error) .or. change <= agreement)) call raise(error, numerics_error, 'the shape of the ' &
+         & //'bearing does not settle: after '//to_text(most_rounds)//' rounds its clearances still change by ' &
+         & //to_text(100*change)//' %')
+      if (allocated(error)) return
+      call move_alloc(wanted, shapes)
+   end subroutine solve_shape
 
    !> Equilibrium of the model in these shapes, from the last state, oil and temperatures.
-   subroutine find_equilibrium_in(static, shapes, cold, y, found, error, give_up)
+   subroutine find_equilibrium_in(static, shapes, cold, y, films, residual, error, give_up)
       type(machine_model), intent(inout) :: static
       type(bearing_shape_type), intent(in) :: shapes(:)
       type(case_type), intent(in) :: cold
       real(wp), intent(inout) :: y(:)
-      type(equilibrium_type), intent(inout) :: found
+      type(warm_films_type), allocatable, intent(inout) :: films(:)
+      real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(case_type) :: inputs
@@ -99,10 +95,10 @@ contains
       oil = static%oil
       call static%adopt(inputs, .true.)
       static%oil = oil
-      if (allocated(found%films)) then
-         call solve_warm_films(static, y, found%films, found%residual, error, give_up)
+      if (allocated(films)) then
+         call solve_warm_films(static, y, films, residual, error, give_up)
       else
-         call solve_thermal_equilibrium(static, y, found%residual, error, give_up)
+         call solve_thermal_equilibrium(static, y, residual, error, give_up)
       end if
    end subroutine find_equilibrium_in
 

@@ -12,15 +12,14 @@ module thermal_equilibrium
    use heat_balance, only: oil_temperatures_type
    use oil_properties, only: viscosity
    use equations_of_motion, only: machine_model
-   use force_balance, only: stability_at
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_lack, &
       & find_temperatures, check_heat
-   use static_model, only: equilibrium_type, describe, solve_equilibrium, start
+   use static_model, only: solve_equilibrium, start
    use film_network, only: warm_films_type, new_warm_films
    use film_equilibrium, only: solve_warm_films
    implicit none (type, external)
    private
-   public :: guess_oil, guesses, solve_thermal_equilibrium, settle
+   public :: guess_oil, guesses, solve_thermal_equilibrium
 
    !> Difference of the logarithms of viscosities and of those that the balance wants, at the end; what leaps of
    !> cavitated films may leave.
@@ -126,29 +125,6 @@ contains
          films(b) = new_warm_films(own, oil(b)%mean)
       end do
    end subroutine make_films
-
-   !> Brings an equilibrium that another model has found to that of this one, whose films differ a little; y is its
-   !> state.
-   subroutine settle(model, found, y, error, give_up)
-      type(machine_model), intent(inout) :: model
-      type(equilibrium_type), intent(inout) :: found
-      real(wp), allocatable, intent(out) :: y(:)
-      type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      logical :: ok
-      y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
-      model%oil = found%oil
-      if (any(model%oil%varies)) then
-         ! the temperatures of films stay what they are
-         call solve_equilibrium(model, y, found%residual, error, give_up)
-      else
-         call solve_thermal_equilibrium(model, y, found%residual, error, give_up)
-      end if
-      if (allocated(error)) return
-      call describe(model, y, found)
-      call stability_at(model, y, found%stability, ok)
-      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
-   end subroutine settle
 
    !> Brings a state in equilibrium to equilibrium again after a step of the logarithms of the viscosities, or after the
    !> longest part of it that Newton's method can follow.
