@@ -3,8 +3,8 @@
 !> With warm oil the logarithms of the viscosities are unknowns, too, and the heat balance has an equation for each. The
 !> motion keeps these viscosities.
 !>
-!> Temperatures along and across films follow instead: with those of a point the equations are those of cold oil, and
-!> the rounds of film_equilibrium lead to others, until they agree in a plane across the branch.
+!> Temperatures along and across films are a coupled field instead: with those of a point the equations are those of
+!> cold oil, and rounds of a fixed point lead to others, until they agree in a plane across the branch.
 module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
@@ -16,9 +16,10 @@ module equilibrium_branch
    use pseudo_transient, only: clearances, reference_force
    use linear_bearing, only: linear_bearing_of, pivot_name, rotor_eigenvalues
    use film_network, only: warm_films_type, new_warm_films
-   use film_equilibrium, only: film_rounds_type
+   use fixed_point, only: mixer_type, most_rounds
+   use film_field, only: film_field_type
    use heat_balance, only: oil_temperatures_type
-   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_lack, find_lack_slopes, &
+   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_residual, find_residual_slopes, &
       & find_force_slopes, find_temperatures, check_heat
    use varied_bearing, only: varied_bearing_type
    implicit none (type, external)
@@ -43,9 +44,9 @@ module equilibrium_branch
       real(wp), allocatable, private :: stiffness(:, :), damping(:, :)
       !> The heat balance that was found last.
       type(state_balance_type), private :: balance
-      !> Of each bearing, where films have temperatures along and across; how they follow.
-      type(warm_films_type), allocatable, private :: films(:)
-      type(film_rounds_type), private :: rounds
+      !> Temperatures along and across films, and what leads from round to round of them.
+      type(film_field_type), private :: films
+      type(mixer_type), private :: mixer
    contains
       procedure :: linearize
       procedure :: move
@@ -103,23 +104,24 @@ contains
       problem%unit = unit
    end subroutine begin_equilibria
 
-   !> Readies what follows, with these films or any.
+   !> Readies the temperatures of films, with these or any.
    subroutine begin_films(problem, model, films)
       type(equilibrium_problem_type), intent(inout) :: problem
       type(machine_model), intent(in) :: model
       type(warm_films_type), intent(in), optional :: films(:)
+      type(warm_films_type) :: cold(size(model%bearings))
       type(case_type) :: own
       integer :: b
       if (present(films)) then
-         problem%films = films
+         call problem%films%begin(model, films, gaps_change=.true.)
       else
-         allocate (problem%films(size(model%bearings)))
-         do b = 1, size(problem%films)
+         do b = 1, size(cold)
             own = model%inputs%of_bearing(b)
-            problem%films(b) = new_warm_films(own, spread(own%oil%supply_temperature, 1, own%pad_count()))
+            cold(b) = new_warm_films(own, spread(own%oil%supply_temperature, 1, own%pad_count()))
          end do
+         call problem%films%begin(model, cold, gaps_change=.true.)
       end if
-      call problem%rounds%begin(model, problem%films)
+      call problem%mixer%begin(problem%films)
    end subroutine begin_films
 
    !> The state in equilibrium at the present positions.
@@ -157,7 +159,7 @@ contains
       end do
       if (size(self%viscosity) > 0) then
          associate (model => self%bearing%model, y => self%state())
-            call find_lack_slopes(model, y, self%balance, self%scale(:n), matrix(n + 1:, :self%n))
+            call find_residual_slopes(model, y, self%balance, self%scale(:n), matrix(n + 1:, :self%n))
             call find_force_slopes(model, y, matrix(:n, n + 1:self%n))
          end associate
       end if
@@ -176,16 +178,16 @@ contains
       logical :: ok
       associate (model => self%bearing%model, n => size(self%positions))
          if (size(self%viscosity) > 0) model%oil%viscosity = self%viscosity
-         if (self%has_followers) call self%rounds%set_oil(model, self%films)
+         if (self%has_followers) call self%films%set(self%films%get(), model)
          call model%evaluate(0.0_wp, self%state(), want_derivatives, ok)
          imbalance(:n) = forces(model, 0.0_wp, self%state())
          imbalance(n + 1:) = 0
          if (.not. ok) then
             call raise(error, numerics_error, model%refusal)
          else if (size(self%viscosity) > 0) then
-            call find_lack(model, self%state(), self%balance)
+            call find_residual(model, self%state(), self%balance)
             call check_heat(model, self%balance, error)
-            imbalance(n + 1:) = self%balance%lack
+            imbalance(n + 1:) = self%balance%residual
          end if
       end associate
    end subroutine find_imbalance
@@ -206,25 +208,41 @@ contains
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       self%anew = .true.
-      if (self%has_followers) call self%rounds%begin_anew()
+      call self%films%begin_point()
+      call self%mixer%restart()
       call self%move(change, .false.)
    end subroutine predict
 
-   !> Lets the temperatures of films follow; oil that boils ends the branch.
+   !> A round of the temperatures of films; oil that boils ends the branch.
    subroutine follow(self, again, error)
       class(equilibrium_problem_type), intent(inout) :: self
       logical, intent(out) :: again
       type(error_type), allocatable, intent(out) :: error
-      logical :: agrees
+      real(wp), allocatable :: values(:), wanted(:)
+      real(wp) :: y(self%bearing%model%n)
       again = .false.
       if (.not. self%has_followers) return
       associate (model => self%bearing%model)
          call self%bearing%set_value(self%parameter, .false., error)
          if (.not. allocated(error)) then
-            call self%rounds%set_oil(model, self%films)
-            call self%rounds%make(model, self%state(), self%films, agrees, error)
-            self%refused = agrees .and. allocated(error)
-            again = .not. agrees
+            call self%films%set(self%films%get(), model)
+            values = self%films%get()
+            allocate (wanted, mold=values)
+            y = self%state()
+            call self%films%find_wanted(model, y, wanted, error)
+            if (allocated(error)) return
+            call self%mixer%next(values, wanted, y)
+            again = .not. self%mixer%agrees
+            if (.not. again) then
+               call self%films%check(model, error)
+               self%refused = allocated(error)
+               call self%mixer%restart()
+               call self%films%begin_point()
+            else if (self%mixer%rounds == most_rounds) then
+               call self%films%refuse(model, error)
+            else
+               call self%films%set(values, model)
+            end if
          end if
       end associate
    end subroutine follow
@@ -233,7 +251,7 @@ contains
    subroutine explain(self, error)
       class(equilibrium_problem_type), intent(inout) :: self
       type(error_type), allocatable, intent(inout) :: error
-      if (self%has_followers) call self%rounds%refuse_lost(self%bearing%model, self%state(), error)
+      if (self%has_followers) call self%films%explain(self%bearing%model, self%state(), error)
    end subroutine explain
 
    !> The eigenvalues, 1/s, that of largest real part first; growths are per radian of the shaft.
@@ -273,7 +291,7 @@ contains
       place(3)%values = self%viscosity
       if (.not. self%has_followers) return
       place(3) = place_part_type('warming', 'K', 'temperatures of films and pads above that of the supply')
-      place(3)%values = reshape(self%rounds%fields, [size(self%rounds%fields)])
+      place(3)%values = self%films%get()
    end subroutine get_place
 
    subroutine go_to(self, place)
@@ -282,8 +300,9 @@ contains
       self%parameter = place(1)%values(1)
       self%positions = place(2)%values
       if (self%has_followers) then
-         self%rounds%fields = reshape(place(3)%values, shape(self%rounds%fields))
-         call self%rounds%begin_anew()
+         call self%films%set(place(3)%values, self%bearing%model)
+         call self%films%begin_point()
+         call self%mixer%restart()
       else
          self%viscosity = place(3)%values
       end if
@@ -296,11 +315,13 @@ contains
       type(oil_temperatures_type), intent(out) :: oil(:)
       real(wp), allocatable, intent(out) :: viscosity(:)
       type(error_type), allocatable :: ignored
+      real(wp), allocatable :: wanted(:)
       associate (model => self%bearing%model)
          if (self%has_followers) then
-            call self%rounds%set_oil(model, self%films)
-            call self%rounds%find_oil(model, self%state(), self%films, ignored)
-            oil = self%films%oil
+            call self%films%set(self%films%get(), model)
+            wanted = self%films%get()
+            call self%films%find_wanted(model, self%state(), wanted, ignored)
+            oil = self%films%films%oil
          else
             model%oil%viscosity = self%viscosity
             call find_temperatures(model, self%state(), self%balance, oil)

@@ -8,7 +8,7 @@ module equilibrium
    use force_balance, only: stability_at
    use bearing_equilibrium, only: find_bearing_equilibrium, settle
    use branch_hint, only: offer_branch
-   use shape_equilibrium, only: solve_shape
+   use thermal_equilibrium, only: solve_shape
    use load_shares, only: share_loads
    implicit none (type, external)
    private

@@ -12,7 +12,7 @@ module load_shares
    use equilibrium_record, only: equilibrium_type, describe
    use static_model, only: solve_equilibrium
    use film_network, only: warm_films_type
-   use film_equilibrium, only: solve_warm_films
+   use thermal_equilibrium, only: solve_warm_films
    use bearing_equilibrium, only: find_bearing_equilibrium, settle
    use bearings_alone, only: bearing_alone, part_of, bearing_loads
    implicit none (type, external)

@@ -14,7 +14,7 @@ module heat_balance_equations
    use static_model, only: name_bearing
    implicit none (type, external)
    private
-   public :: state_balance_type, has_warm_oil, find_losses, find_lack, find_lack_slopes, find_force_slopes, &
+   public :: state_balance_type, has_warm_oil, find_losses, find_residual, find_residual_slopes, find_force_slopes, &
       & find_temperatures, check_heat, check_oil
 
    !> The difference of positions over the thinnest film, and of the logarithms of viscosities. Losses and flows are
@@ -34,7 +34,7 @@ module heat_balance_equations
       type(pad_loss), allocatable :: losses(:)
       !> The logarithms of the viscosities that the state leads to, over those that it has; 0 where neither flow nor
       !> shaft carries the heat off, which is then not balanced.
-      real(wp), allocatable :: lack(:)
+      real(wp), allocatable :: residual(:)
       logical :: balanced = .false.
    end type state_balance_type
 
@@ -67,7 +67,7 @@ contains
             of%heat = new_heat_balance(own)
          end associate
       end do
-      if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), balance%lack(model%layout%pads))
+      if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), balance%residual(model%layout%pads))
       call find_again(model, y, balance, balance%losses)
    end subroutine find_losses
 
@@ -89,28 +89,28 @@ contains
    end subroutine find_again
 
    !> What the viscosities lack in a state y.
-   subroutine find_lack(model, y, balance, kept)
+   subroutine find_residual(model, y, balance, kept)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
       !> Where grooves and shaft keep their temperatures: these, of each bearing.
       type(oil_temperatures_type), intent(in), optional :: kept(:)
       call find_losses(model, y, balance)
-      call set_lack(model, balance, balance%losses, model%oil%viscosity, balance%lack, balance%balanced, kept)
-   end subroutine find_lack
+      call set_residual(model, balance, balance%losses, model%oil%viscosity, balance%residual, balance%balanced, kept)
+   end subroutine find_residual
 
    !> The same with these losses of films of these viscosities.
-   subroutine set_lack(model, balance, losses, films, lack, ok, kept)
+   subroutine set_residual(model, balance, losses, films, residual, ok, kept)
       type(machine_model), intent(in) :: model
       type(state_balance_type), intent(in) :: balance
       type(pad_loss), intent(in) :: losses(:)
       real(wp), intent(in) :: films(:)
-      real(wp), intent(out) :: lack(:)
+      real(wp), intent(out) :: residual(:)
       logical, intent(out) :: ok
       type(oil_temperatures_type), intent(in), optional :: kept(:)
       real(wp) :: wanted(size(films))
       integer :: b
-      lack = 0
+      residual = 0
       do b = 1, size(model%bearings)
          associate (first => model%layout%bearings(b)%other_pads + 1, &
             & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads, &
@@ -123,13 +123,13 @@ contains
          end associate
          if (.not. ok) return
       end do
-      lack = log(wanted/films)
-   end subroutine set_lack
+      residual = log(wanted/films)
+   end subroutine set_residual
 
    !> The derivatives of what lacks in the state y, whose balance was found, over positions and then over the logarithms
    !> of the viscosities; positions over their sizes, which are such that a film that is an bearing clearance thick
    !> changes by as much. Pads are moved together: the losses of each follow from the journal and from its own state.
-   subroutine find_lack_slopes(model, y, balance, sizes, slopes)
+   subroutine find_residual_slopes(model, y, balance, sizes, slopes)
       type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:), sizes(:)
       type(state_balance_type), intent(inout) :: balance
@@ -199,10 +199,10 @@ contains
          real(wp), intent(in) :: viscosities(:), by
          real(wp) :: there(model%layout%pads)
          logical :: ok
-         call set_lack(model, balance, losses, viscosities, there, ok)
-         if (ok) slopes(:, column) = (there - balance%lack)/by
+         call set_residual(model, balance, losses, viscosities, there, ok)
+         if (ok) slopes(:, column) = (there - balance%residual)/by
       end subroutine set_slope
-   end subroutine find_lack_slopes
+   end subroutine find_residual_slopes
 
    !> The derivatives of the forces at the state y over the logarithms of the viscosities. The model is evaluated there
    !> with its viscosities at the end.
@@ -256,7 +256,7 @@ contains
       end do
    end subroutine take_temperatures
 
-   !> Refuses a state whose heat, found last by find_lack, has no balance, or at which oil boils.
+   !> Refuses a state whose heat, found last by find_residual, has no balance, or at which oil boils.
    subroutine check_heat(model, balance, error, kept)
       type(machine_model), intent(in) :: model
       type(state_balance_type), intent(in) :: balance

@@ -1,34 +1,29 @@
-!> Thermal equilibrium: the bearing comes to equilibrium with some viscosities, a heat balance of its losses and flows
-!> there gives others, until they agree. Broyden's method finds them: Newton's with the differences of
-!> heat_balance_equations takes 1.3 times the time on input/examples/warm_five_pads.nml, and 1.8 times on
-!> warm_paper.nml; with differences that serve several rounds, 1.08 times on 154 bearings of ordinary_bearings.py, and
-!> it heeds neither pads that are held nor grooves that keep their temperatures.
+!> Thermal equilibrium: forces, heat and, where pads bend or parts expand, the shape of the bearing are in balance
+!> together. The bearing comes to equilibrium with the oil and in the shape that fields have, which says what they are
+!> to be, until they agree (fixed_point).
 module thermal_equilibrium
    use kinds, only: wp
-   use text, only: to_text
-   use errors, only: error_type, raise, numerics_error, asked_to_stop, asked
+   use errors, only: error_type, asked_to_stop
    use film_oils, only: even_oil
    use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
    use oil_properties, only: viscosity
    use equations_of_motion, only: machine_model
-   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_lack, &
-      & find_temperatures, check_heat
+   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_temperatures
    use static_model, only: solve_equilibrium, start
    use film_network, only: warm_films_type, new_warm_films
-   use film_equilibrium, only: solve_warm_films
+   use bearing_shape, only: bearing_shape_type
+   use fixed_point, only: field_reference, solve_fields
+   use oil_field, only: oil_field_type
+   use film_field, only: film_field_type
+   use shape_field, only: shape_field_type
    implicit none (type, external)
    private
-   public :: guess_oil, guesses, solve_thermal_equilibrium
+   public :: guess_oil, guesses, solve_thermal_equilibrium, solve_warm_films, solve_shape
 
-   !> Difference of the logarithms of viscosities and of those that the balance wants, at the end; what leaps of
-   !> cavitated films may leave.
-   real(wp), parameter :: agreement = 1e-8_wp, largest_leap = 1e-4_wp
-   !> The same where temperatures along and across the films follow, which are changed by ten times as much.
-   real(wp), parameter :: rough = 1e-2_wp
-   !> Largest change of such a logarithm in a round, and least that is worth a try; most rounds.
-   real(wp), parameter :: longest_step = 1, shortest_step = 1e-2_wp
-   integer, parameter :: most_rounds = 60
+   !> Residual of the logarithms of viscosities; the same where temperatures along and across the films follow, which are
+   !> changed by ten times as much; where it jumps; longest step.
+   real(wp), parameter :: agreement = 1e-8_wp, rough = 1e-2_wp, jump = 1e-4_wp, longest_step = 1
    !> Warming that is guessed where nothing better is known, K.
    real(wp), parameter :: some_warming = 20
    !> Guesses of viscosities; the start of a search at which the first is made.
@@ -71,46 +66,83 @@ contains
       !> The temperatures of the films of each bearing, where the case wants them along and across.
       type(warm_films_type), allocatable, intent(out), optional :: films(:)
       type(warm_films_type), allocatable :: found(:)
-      type(state_balance_type) :: balance
+      type(oil_field_type), target :: pads
+      type(field_reference) :: fields(1)
       type(oil_temperatures_type) :: oil(size(model%bearings))
-      real(wp), dimension(model%layout%pads) :: last, step
-      real(wp) :: inverse(size(step), size(step))
-      logical :: films_follow
-      integer :: round
       if (.not. has_warm_oil(model)) then
          call solve_equilibrium(model, y, residual, error, give_up, held)
          return
       end if
-      films_follow = model%inputs%thermal%model == 'film'
       ! one temperature for each pad leads to those along and across
       model%oil = even_oil(model%oil%viscosity)
-      step = 0
-      do round = 1, most_rounds
-         call follow(model, y, step, residual, error, give_up, held)
-         if (allocated(error)) return
-         call find_lack(model, y, balance, kept)
-         associate (lack => balance%lack)
-            if (maxval(abs(lack)) <= merge(rough, agreement, films_follow)) exit
-            call improve(round, lack, last, step, inverse)
-            last = lack
-            step = matmul(inverse, lack)
-         end associate
-         step = step*min(1.0_wp, longest_step/maxval(abs(step)))
-      end do
-      call check_heat(model, balance, error, kept)
-      if (allocated(error)) return
-      associate (lack => maxval(abs(balance%lack)))
-         if (.not. lack <= merge(rough, largest_leap, films_follow)) then
-            call raise(error, numerics_error, 'the temperatures of the oil do not settle: after ' &
-               & //to_text(most_rounds)//' rounds its viscosity still changes by '//to_text(100*lack)//' %')
-         end if
-      end associate
-      if (allocated(error) .or. .not. films_follow) return
-      call find_temperatures(model, y, balance, oil)
+      pads = new_oil_field(model, kept)
+      fields(1)%field => pads
+      call solve_fields(model, y, fields, residual, error, give_up, held)
+      if (allocated(error) .or. model%inputs%thermal%model /= 'film') return
+      call find_temperatures(model, y, pads%balance, oil)
       call make_films(model%inputs, oil, found)
       call solve_warm_films(model, y, found, residual, error, give_up, held)
       if (present(films)) call move_alloc(found, films)
    end subroutine solve_thermal_equilibrium
+
+   !> The same of a model whose films have temperatures already, and whose oil is theirs.
+   subroutine solve_warm_films(model, y, films, residual, error, give_up, held)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      type(warm_films_type), allocatable, intent(inout) :: films(:)
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      logical, intent(in), optional :: held(:)
+      type(film_field_type), target :: field
+      type(field_reference) :: fields(1)
+      call field%begin(model, films)
+      fields(1)%field => field
+      call solve_fields(model, y, fields, residual, error, give_up, held)
+      call move_alloc(field%films, films)
+   end subroutine solve_warm_films
+
+   !> Brings the state y of a static model that is in equilibrium in the shapes of its case to equilibrium in the shapes
+   !> that this leads to, of each bearing, with their temperatures; an error where there is none.
+   subroutine solve_shape(model, y, films, shapes, residual, error, give_up)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      !> Of each bearing, where films have temperatures.
+      type(warm_films_type), allocatable, intent(inout) :: films(:)
+      type(bearing_shape_type), allocatable, intent(out) :: shapes(:)
+      real(wp), intent(inout) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(shape_field_type), target :: shape
+      type(film_field_type), target :: field
+      type(oil_field_type), target :: pads
+      type(field_reference) :: fields(2)
+      call shape%begin(model%inputs, field)
+      ! a shape needs the temperatures that its own values change
+      fields(2)%field => shape
+      if (allocated(films)) then
+         call field%begin(model, films, gaps_change=.true.)
+         fields(1)%field => field
+      else if (has_warm_oil(model)) then
+         pads = new_oil_field(model)
+         fields(1)%field => pads
+      end if
+      call solve_fields(model, y, fields(merge(1, 2, has_warm_oil(model)):), residual, error, give_up)
+      if (allocated(field%films)) call move_alloc(field%films, films)
+      if (.not. allocated(error)) call move_alloc(shape%wanted, shapes)
+   end subroutine solve_shape
+
+   !> The oil of the pads of a model.
+   type(oil_field_type) function new_oil_field(model, kept) result(field)
+      type(machine_model), intent(in) :: model
+      type(oil_temperatures_type), intent(in), optional :: kept(:)
+      field%agreement = merge(rough, agreement, model%inputs%thermal%model == 'film')
+      field%jump = jump
+      field%longest = longest_step
+      field%parts = model%layout%pads
+      field%logarithm = log(model%oil%viscosity)
+      if (present(kept)) field%kept = kept
+   end function new_oil_field
 
    !> Films of all bearings of a case that have the mean temperatures of this oil.
    subroutine make_films(inputs, oil, films)
@@ -125,53 +157,4 @@ contains
          films(b) = new_warm_films(own, oil(b)%mean)
       end do
    end subroutine make_films
-
-   !> Brings a state in equilibrium to equilibrium again after a step of the logarithms of the viscosities, or after the
-   !> longest part of it that Newton's method can follow.
-   subroutine follow(model, y, step, residual, error, give_up, held)
-      type(machine_model), intent(inout) :: model
-      real(wp), intent(inout) :: y(:), step(:)
-      real(wp), intent(out) :: residual
-      type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      logical, intent(in), optional :: held(:)
-      real(wp) :: trial(size(y)), before(size(step))
-      before = model%oil%viscosity
-      model%oil%viscosity = before*exp(step)
-      do
-         trial = y
-         call solve_equilibrium(model, trial, residual, error, give_up, held)
-         if (.not. allocated(error)) exit
-         if (asked(give_up) .or. .not. maxval(abs(step)) > shortest_step) return
-         step = step/4
-         model%oil%viscosity = before*exp(step)
-      end do
-      y = trial
-   end subroutine follow
-
-   !> The inverse Jacobian of Broyden's method after a step that has changed what lacks. In the first round, after a
-   !> step for the worse, and where it would turn against what lacks, it is that of a fixed point: viscosities that
-   !> would run away from their balance are none to look for.
-   pure subroutine improve(round, lack, last, step, inverse)
-      integer, intent(in) :: round
-      real(wp), intent(in) :: lack(:), last(:), step(:)
-      real(wp), intent(inout) :: inverse(:, :)
-      real(wp) :: answer(size(lack)), along
-      integer :: i
-      if (round > 1) then
-         if (norm2(lack) < 2*norm2(last)) then
-            answer = -matmul(inverse, lack - last)
-            along = dot_product(step, answer)
-            if (abs(along) > 1e-3_wp*norm2(step)*norm2(answer)) then
-               inverse = inverse + spread((step - answer)/along, 2, size(lack)) &
-                  & *spread(matmul(step, inverse), 1, size(lack))
-               if (dot_product(lack, matmul(inverse, lack)) > 0) return
-            end if
-         end if
-      end if
-      inverse = 0
-      do i = 1, size(lack)
-         inverse(i, i) = 1
-      end do
-   end subroutine improve
 end module thermal_equilibrium

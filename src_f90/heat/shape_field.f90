@@ -1,15 +1,13 @@
-!> The equilibrium of bearings whose pads bend, or whose shaft, pads and housing expand: the rotor comes to equilibrium
-!> in bearings of some shapes, pressures and temperatures there lead to others, until they agree (docs/theory/heat.md,
-!> *Bent pads* and *Warm clearances*).
-module shape_equilibrium
+!> The shape of bearings as a coupled field: where pads bend, or shaft, pads and housing expand, pressures and
+!> temperatures want other lengths (docs/theory/heat.md, *Bent pads* and *Warm clearances*).
+module shape_field
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop
-   use anderson, only: anderson_type
+   use errors, only: error_type, raise, add_context, numerics_error
    use case_groups, only: is_set
    use case_inputs, only: case_type
    use bearing_shape, only: bearing_shape_type, bending_type, part_temperatures_type, new_shape, cold_shapes, &
-      & apply_shapes, check_shapes, largest_change, all_lengths, set_all_lengths
+      & apply_shapes, check_shapes, all_lengths, set_all_lengths
    use tilting_pad_bearing, only: tilting_pad_bearing_type
    use pad_bending, only: points_along, points_across, bending_points, bent_by_pressure, bent_by_heat
    use film_conduction, only: solid_layers
@@ -18,97 +16,101 @@ module shape_equilibrium
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: state_balance_type, find_temperatures
    use equations_of_motion, only: machine_model
-   use thermal_equilibrium, only: solve_thermal_equilibrium
-   use film_equilibrium, only: solve_warm_films
+   use fixed_point, only: coupled_field, most_rounds
+   use film_field, only: film_field_type
    implicit none (type, external)
    private
-   public :: solve_shape
+   public :: shape_field_type
 
-   !> Largest change of a length at the end, over the clearance; most rounds; largest change that a round makes.
-   real(wp), parameter :: agreement = 1e-7_wp, longest_step = 0.25_wp
-   integer, parameter :: most_rounds = 40
+   type, extends(coupled_field) :: shape_field_type
+      !> The case with the shapes that it gives, and those that the bearings have: of these the lengths are the values,
+      !> over the least clearance that the case gives the bearing.
+      type(case_type) :: cold
+      type(bearing_shape_type), allocatable :: shapes(:)
+      !> Those that are wanted; the largest change to these.
+      type(bearing_shape_type), allocatable :: wanted(:)
+      real(wp), private :: change = 0
+      !> The temperatures of the films, where they have some.
+      type(film_field_type), pointer, private :: films => null()
+   contains
+      procedure :: begin
+      procedure :: get
+      procedure :: set
+      procedure :: find_wanted
+      procedure :: check
+      procedure :: refuse
+      procedure :: explain
+   end type shape_field_type
 
 contains
 
-   !> Brings the state y of a static model that is in equilibrium in the shapes of its case to equilibrium in the shapes
-   !> that this leads to, of each bearing; an error where there is none.
-   subroutine solve_shape(static, y, films, shapes, residual, error, give_up)
-      type(machine_model), intent(inout) :: static
-      real(wp), intent(inout) :: y(:)
-      !> Of each bearing, where films have temperatures.
-      type(warm_films_type), allocatable, intent(inout) :: films(:)
-      type(bearing_shape_type), allocatable, intent(out) :: shapes(:)
-      real(wp), intent(inout) :: residual
-      type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      type(case_type) :: cold
-      type(bearing_shape_type), allocatable :: wanted(:)
-      type(anderson_type) :: acceleration
-      real(wp), allocatable :: x(:)
-      real(wp) :: change
-      integer :: round
-      logical :: ok
-      cold = static%inputs
-      call static%evaluate(0.0_wp, y, .false., ok)
-      shapes = cold_shapes(cold)
-      do round = 1, most_rounds
-         call find_shapes(cold, static, y, films, wanted)
-         change = largest_change(wanted, shapes)
-         if (change <= agreement) exit
-         x = all_lengths(shapes)
-         if (change > longest_step) then
-            call acceleration%forget()
-            x = x + longest_step/change*(all_lengths(wanted) - x)
-         else
-            call acceleration%advance(x, all_lengths(wanted))
-         end if
-         call set_all_lengths(shapes, x)
-         call find_equilibrium_in(static, shapes, cold, y, films, residual, error, give_up)
-         if (allocated(error)) exit
-      end do
-      if (allocated(error)) then
-         if (error%status /= stopped) call explain(wanted, cold, error)
-         return
-      end if
-      call check_shapes(wanted, cold, error)
-      if (.not. (allocated(error) .or. change <= agreement)) call raise(error, numerics_error, 'the shape of the ' &
-         & //'bearing does not settle: after '//to_text(most_rounds)//' rounds its clearances still change by ' &
-         & //to_text(100*change)//' %')
-      if (allocated(error)) return
-      call move_alloc(wanted, shapes)
-   end subroutine solve_shape
-
-   !> Equilibrium of the model in these shapes, from the last state, oil and temperatures.
-   subroutine find_equilibrium_in(static, shapes, cold, y, films, residual, error, give_up)
-      type(machine_model), intent(inout) :: static
-      type(bearing_shape_type), intent(in) :: shapes(:)
+   !> Begins with the shapes of a case, whose films may have temperatures.
+   subroutine begin(self, cold, films)
+      class(shape_field_type), intent(inout) :: self
       type(case_type), intent(in) :: cold
-      real(wp), intent(inout) :: y(:)
-      type(warm_films_type), allocatable, intent(inout) :: films(:)
-      real(wp), intent(out) :: residual
-      type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
+      type(film_field_type), intent(in), target :: films
+      self%agreement = 1e-7_wp
+      self%longest = 0.25_wp
+      self%cold = cold
+      self%shapes = cold_shapes(cold)
+      self%films => films
+   end subroutine begin
+
+   pure function get(self) result(values)
+      class(shape_field_type), intent(in) :: self
+      real(wp), allocatable :: values(:)
+      values = all_lengths(self%shapes, self%cold)
+   end function get
+
+   subroutine set(self, values, model)
+      class(shape_field_type), intent(inout) :: self
+      real(wp), intent(in) :: values(:)
+      type(machine_model), intent(inout) :: model
       type(case_type) :: inputs
-      type(film_oil) :: oil(size(static%oil))
-      inputs = cold
-      call apply_shapes(shapes, inputs)
-      oil = static%oil
-      call static%adopt(inputs, .true.)
-      static%oil = oil
-      if (allocated(films)) then
-         call solve_warm_films(static, y, films, residual, error, give_up)
-      else
-         call solve_thermal_equilibrium(static, y, residual, error, give_up)
-      end if
-   end subroutine find_equilibrium_in
+      type(film_oil) :: oil(size(model%oil))
+      call set_all_lengths(self%shapes, values, self%cold)
+      inputs = self%cold
+      call apply_shapes(self%shapes, inputs)
+      oil = model%oil
+      call model%adopt(inputs, .true.)
+      model%oil = oil
+   end subroutine set
+
+   subroutine find_wanted(self, model, y, wanted, error)
+      class(shape_field_type), intent(inout) :: self
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(out) :: wanted(:)
+      type(error_type), allocatable, intent(out) :: error
+      call find_shapes(self%cold, model, y, self%films%films, self%wanted)
+      wanted = all_lengths(self%wanted, self%cold)
+      self%change = maxval(abs(wanted - self%get()))
+   end subroutine find_wanted
+
+   subroutine check(self, model, error)
+      class(shape_field_type), intent(in) :: self
+      type(machine_model), intent(in) :: model
+      type(error_type), allocatable, intent(out) :: error
+      call check_shapes(self%wanted, self%cold, error)
+   end subroutine check
+
+   subroutine refuse(self, model, error)
+      class(shape_field_type), intent(in) :: self
+      type(machine_model), intent(in) :: model
+      type(error_type), allocatable, intent(out) :: error
+      call self%check(model, error)
+      if (.not. allocated(error)) call raise(error, numerics_error, 'the shape of the bearing does not settle: after ' &
+         & //to_text(most_rounds)//' rounds its clearances still change by '//to_text(100*self%change)//' %')
+   end subroutine refuse
 
    !> The reason of a shape, where a search in one on the way to it has failed.
-   subroutine explain(wanted, cold, error)
-      type(bearing_shape_type), intent(in) :: wanted(:)
-      type(case_type), intent(in) :: cold
+   subroutine explain(self, model, y, error)
+      class(shape_field_type), intent(in) :: self
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: reason
-      call check_shapes(wanted, cold, reason)
+      if (allocated(self%wanted)) call self%check(model, reason)
       if (allocated(reason)) then
          call move_alloc(reason, error)
       else
@@ -209,4 +211,4 @@ contains
          end associate
       end do
    end subroutine find_part_temperatures
-end module shape_equilibrium
+end module shape_field

@@ -1,0 +1,352 @@
+!> The fixed point of fields that depend on each other through the equilibrium of forces: with the values of all fields
+!> the forces come to equilibrium, each field says there which values it wants, and the next values follow from what
+!> the last ones lacked, until all agree.
+!>
+!> The step is Anderson's: that combination of the last rounds whose residuals, wanted less present values, would cancel
+!> best (J. ACM 12 (1965) 547-560). Where this turns against the residual or leads away it is the plain one: values that
+!> would run away from their balance are none to look for. What a film wants that cavitates cell by cell may jump, by
+!> what a cell carries or fails to carry: where no round leads on, the part of the values that jumps most keeps the mean
+!> of what it wants on both sides (Filippov), and the others agree beside it.
+module fixed_point
+   use kinds, only: wp
+   use errors, only: error_type, stopped, asked_to_stop
+   use linear_algebra, only: dgesv
+   use equations_of_motion, only: machine_model
+   use pseudo_transient, only: follow_motion
+   use static_model, only: solve_equilibrium
+   implicit none (type, external)
+   private
+   public :: coupled_field, field_reference, mixer_type, solve_fields, most_rounds
+
+   !> Values that follow from an equilibrium of forces, and on which it depends.
+   type, abstract :: coupled_field
+      !> Largest residual of a value at the end; that of a part that jumps; longest step in a round.
+      real(wp) :: agreement = 0, jump = 0, longest = huge(1.0_wp)
+      !> Parts of equal size, one after the other, that may jump by themselves.
+      integer :: parts = 1
+   contains
+      procedure(get_values), deferred :: get
+      procedure(set_values), deferred :: set
+      procedure(find_wanted_values), deferred :: find_wanted
+      procedure(check_values), deferred :: check
+      procedure(refuse_values), deferred :: refuse
+      procedure :: explain
+   end type coupled_field
+
+   type :: field_reference
+      class(coupled_field), pointer :: field => null()
+   end type field_reference
+
+   abstract interface
+      pure function get_values(self) result(values)
+         import :: coupled_field, wp
+         class(coupled_field), intent(in) :: self
+         real(wp), allocatable :: values(:)
+      end function get_values
+
+      !> Takes these values, and gives a model what follows from them.
+      subroutine set_values(self, values, model)
+         import :: coupled_field, machine_model, wp
+         class(coupled_field), intent(inout) :: self
+         real(wp), intent(in) :: values(:)
+         type(machine_model), intent(inout) :: model
+      end subroutine set_values
+
+      !> The values to which the state y in equilibrium with the present ones leads.
+      subroutine find_wanted_values(self, model, y, wanted, error)
+         import :: coupled_field, machine_model, error_type, wp
+         class(coupled_field), intent(inout) :: self
+         type(machine_model), intent(inout) :: model
+         real(wp), intent(in) :: y(:)
+         real(wp), intent(out) :: wanted(:)
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine find_wanted_values
+
+      !> Refuses values that agree with what they lead to but are no answer.
+      subroutine check_values(self, model, error)
+         import :: coupled_field, machine_model, error_type
+         class(coupled_field), intent(in) :: self
+         type(machine_model), intent(in) :: model
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine check_values
+
+      !> Says that the field does not agree after the last round.
+      subroutine refuse_values(self, model, error)
+         import :: coupled_field, machine_model, error_type
+         class(coupled_field), intent(in) :: self
+         type(machine_model), intent(in) :: model
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine refuse_values
+   end interface
+
+   !> Rounds that are combined at most, and rounds at most.
+   integer, parameter :: depth = 6, most_rounds = 120
+   !> Of the largest diagonal element of the normal equations, added to all: differences may be nearly parallel.
+   real(wp), parameter :: regularity = 1e-12_wp
+   !> Rounds without a residual of half the least one, after which it is taken to jump.
+   integer, parameter :: patience = 12
+   !> Part of a step that is tried where the whole does not lead to equilibrium; least part of the longest step.
+   real(wp), parameter :: shorter = 0.25_wp, shortest = 5e-3_wp
+   !> Iterations of a search for the equilibrium of a step.
+   integer, parameter :: most_iterations = 6, most_motion = 60
+
+   !> Of each value what its field says, and the number of its part among all.
+   type :: value_limits
+      real(wp) :: agreement = 0, jump = 0, longest = 0
+      integer :: part = 0
+   end type value_limits
+
+   !> What leads from round to round. Values and residuals are over their agreements.
+   type :: mixer_type
+      integer :: rounds = 0
+      logical :: agrees = .false.
+      type(value_limits), allocatable, private :: limits(:)
+      integer, private :: known = 0
+      real(wp), allocatable, private :: x(:), residual(:), y(:)
+      !> Differences between rounds of values, residuals and states, the newest first.
+      real(wp), allocatable, private :: steps(:, :), differences(:, :), moves(:, :)
+      !> Least residual, and rounds since then; the mean of what was wanted in these.
+      real(wp), private :: least = huge(1.0_wp)
+      integer, private :: since = 0
+      real(wp), allocatable, private :: mean(:)
+      !> Values that are kept.
+      logical, allocatable, private :: kept(:)
+   contains
+      procedure :: begin
+      procedure :: restart
+      procedure :: next
+      procedure, private :: keep
+      procedure, private :: forget
+      procedure, private :: remember
+      procedure, private :: combine
+   end type mixer_type
+
+contains
+
+   !> Adds to the error of a search that did not end what the field knows of it.
+   subroutine explain(self, model, y, error)
+      class(coupled_field), intent(in) :: self
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      type(error_type), allocatable, intent(inout) :: error
+   end subroutine explain
+
+   !> Brings the state y of a model that is near equilibrium to equilibrium, and all fields to the values that this leads
+   !> to. An error where they do not agree, or with values that are no answer.
+   subroutine solve_fields(model, y, fields, residual, error, give_up, held)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      type(field_reference), intent(in) :: fields(:)
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      !> Pads that are held where they are.
+      logical, intent(in), optional :: held(:)
+      type(mixer_type) :: mixer
+      real(wp), allocatable :: x(:), wanted(:)
+      integer :: first(size(fields) + 1), f
+      first(1) = 1
+      x = [real(wp) ::]
+      do f = 1, size(fields)
+         x = [x, fields(f)%field%get()]
+         first(f + 1) = size(x) + 1
+         call mixer%begin(fields(f)%field)
+      end do
+      allocate (wanted(size(x)))
+      do
+         call take_step(model, y, fields, first, x, mixer, residual, error, give_up, held)
+         if (allocated(error)) then
+            if (error%status == stopped) return
+            do f = 1, size(fields)
+               call fields(f)%field%explain(model, y, error)
+            end do
+            return
+         end if
+         do f = 1, size(fields)
+            call fields(f)%field%find_wanted(model, y, wanted(first(f):first(f + 1) - 1), error)
+            if (allocated(error)) return
+         end do
+         call mixer%next(x, wanted, y)
+         if (mixer%agrees) exit
+         if (mixer%rounds == most_rounds) then
+            f = count(first <= maxloc(abs(mixer%residual), 1))
+            call fields(f)%field%refuse(model, error)
+            return
+         end if
+      end do
+      do f = 1, size(fields)
+         call fields(f)%field%check(model, error)
+         if (allocated(error)) return
+      end do
+   end subroutine solve_fields
+
+   !> Brings the state y in equilibrium with the present values of the fields to equilibrium with the values x, or with
+   !> those of the longest part of this step that it can follow. An error where that is next to nothing.
+   subroutine take_step(model, y, fields, first, x, mixer, residual, error, give_up, held)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:), x(:)
+      type(field_reference), intent(in) :: fields(:)
+      integer, intent(in) :: first(:)
+      type(mixer_type), intent(inout) :: mixer
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      logical, intent(in), optional :: held(:)
+      real(wp) :: before(size(x)), trial(size(y))
+      integer :: f
+      before = x
+      if (mixer%rounds > 0) then
+         before = mixer%x*mixer%limits%agreement
+         trial = y
+         y = mixer%y
+      else
+         trial = y
+      end if
+      do
+         do f = 1, size(fields)
+            call fields(f)%field%set(x(first(f):first(f + 1) - 1), model)
+         end do
+         call solve_equilibrium(model, trial, residual, error, give_up, held, &
+            & merge(most_iterations, huge(1), mixer%rounds > 0))
+         if (.not. allocated(error)) exit
+         if (error%status == stopped .or. mixer%rounds == 0) return
+         trial = y
+         call follow_motion(model, trial, residual, error, give_up, held, most=most_motion)
+         if (.not. allocated(error)) exit
+         if (error%status == stopped .or. .not. any(abs(x - before) > shortest*mixer%limits%longest)) return
+         call mixer%forget()
+         x = before + shorter*(x - before)
+         trial = y
+      end do
+      y = trial
+   end subroutine take_step
+
+   !> Begins with the values of a field, behind those of others.
+   pure subroutine begin(self, field)
+      class(mixer_type), intent(inout) :: self
+      class(coupled_field), intent(in) :: field
+      integer :: i, n, before
+      n = size(field%get())
+      before = 0
+      if (allocated(self%limits)) before = maxval(self%limits%part)
+      if (.not. allocated(self%limits)) allocate (self%limits(0))
+      self%limits = [self%limits, [(value_limits(field%agreement, field%jump, field%longest, &
+         & before + 1 + (i - 1)*field%parts/n), i=1, n)]]
+      call self%restart()
+   end subroutine begin
+
+   !> Begins anew.
+   pure subroutine restart(self)
+      class(mixer_type), intent(inout) :: self
+      self%rounds = 0
+      self%least = huge(self%least)
+      self%since = 0
+      self%kept = spread(.false., 1, size(self%limits))
+      self%mean = spread(0.0_wp, 1, size(self%limits))
+      call self%forget()
+   end subroutine restart
+
+   !> Forgets the rounds before the last one.
+   pure subroutine forget(self)
+      class(mixer_type), intent(inout) :: self
+      self%known = -1
+   end subroutine forget
+
+   !> The next values x after a round that wants others, unless they agree, and the state y in which the forces are then
+   !> nearly in equilibrium.
+   subroutine next(self, x, wanted, y)
+      class(mixer_type), intent(inout) :: self
+      real(wp), intent(inout) :: x(:)
+      real(wp), intent(in) :: wanted(:)
+      real(wp), intent(inout) :: y(:)
+      real(wp) :: residual(size(x)), step(size(x))
+      residual = (wanted - x)/self%limits%agreement
+      self%rounds = self%rounds + 1
+      self%kept = self%kept .and. abs(wanted - x) <= self%limits%jump
+      where (self%kept) residual = 0
+      associate (largest => maxval(abs(residual)))
+         self%agrees = largest <= 1
+         if (largest < 0.5_wp*self%least) then
+            self%least = largest
+            self%since = 0
+         end if
+      end associate
+      self%since = self%since + 1
+      self%mean = self%mean + (wanted - self%mean)/self%since
+      call self%remember(x/self%limits%agreement, residual, y)
+      if (self%agrees) return
+      if (self%since > patience) call self%keep(x, residual)
+      call self%combine(residual, step, y)
+      step = step*self%limits%agreement
+      x = x + min(1.0_wp, minval(self%limits%longest/max(abs(step), tiny(1.0_wp))))*step
+   end subroutine next
+
+   !> Lets the part of the values that jumps most keep the mean of what it wanted, if it jumps by no more than it may.
+   pure subroutine keep(self, x, residual)
+      class(mixer_type), intent(inout) :: self
+      real(wp), intent(inout) :: x(:), residual(:)
+      logical :: jumps(size(x))
+      jumps = self%limits%part == self%limits(maxloc(abs(residual), 1))%part
+      if (any(jumps .and. abs(residual)*self%limits%agreement > self%limits%jump)) return
+      self%kept = self%kept .or. jumps
+      where (jumps) x = self%mean
+      where (jumps) residual = 0
+      self%least = huge(self%least)
+      self%since = 0
+      call self%forget()
+   end subroutine keep
+
+   !> Takes a round into the memory.
+   pure subroutine remember(self, x, residual, y)
+      class(mixer_type), intent(inout) :: self
+      real(wp), intent(in) :: x(:), residual(:), y(:)
+      if (.not. allocated(self%steps)) allocate (self%steps(size(x), depth), self%differences(size(x), depth), &
+         & self%moves(size(y), depth))
+      self%known = min(self%known + 1, depth)
+      if (self%known > 0) then
+         ! after a step for the worse the rounds before say nothing
+         if (norm2(residual) > 2*norm2(self%residual)) self%known = 0
+         self%steps = eoshift(self%steps, -1, dim=2)
+         self%differences = eoshift(self%differences, -1, dim=2)
+         self%moves = eoshift(self%moves, -1, dim=2)
+         self%steps(:, 1) = x - self%x
+         self%differences(:, 1) = residual - self%residual
+         self%moves(:, 1) = y - self%y
+      end if
+      self%x = x
+      self%residual = residual
+      self%y = y
+   end subroutine remember
+
+   !> The step from the rounds in the memory; the plain one, without memory, where they are of no use.
+   subroutine combine(self, residual, step, y)
+      class(mixer_type), intent(inout) :: self
+      real(wp), intent(in) :: residual(:)
+      real(wp), intent(out) :: step(:)
+      real(wp), intent(inout) :: y(:)
+      real(wp) :: matrix(depth, depth), part(depth)
+      integer :: i, pivots(depth), info
+      step = residual
+      if (any(abs(residual)*self%limits%agreement > self%limits%longest)) call self%forget()
+      associate (n => self%known)
+         if (n < 1) return
+         associate (d => self%differences(:, :n))
+            matrix(:n, :n) = matmul(transpose(d), d)
+            part(:n) = matmul(residual, d)
+         end associate
+         do i = 1, n
+            matrix(i, i) = matrix(i, i)*(1 + regularity) + regularity*matrix(1, 1)
+         end do
+         call dgesv(n, 1, matrix, depth, pivots, part, depth, info)
+         if (info == 0) then
+            step = residual - matmul(self%steps(:, :n) + self%differences(:, :n), part(:n))
+            if (dot_product(step, residual) > 0) then
+               y = y - matmul(self%moves(:, :n), part(:n))
+               return
+            end if
+         end if
+         step = residual
+         call self%forget()
+      end associate
+   end subroutine combine
+end module fixed_point
