@@ -51,7 +51,7 @@ module equilibrium_branch
       procedure :: linearize
       procedure :: move
       procedure :: predict
-      procedure :: follow
+      procedure :: update_fields
       procedure :: explain
       procedure :: spectrum
       procedure :: kind => kind_of
@@ -81,8 +81,8 @@ contains
       associate (model => bearing%model)
          problem%positions = y(model%layout%positions())
          problem%viscosity = [real(wp) ::]
-         problem%has_followers = model%inputs%thermal%model == 'film'
-         if (problem%has_followers) then
+         problem%has_fields = model%inputs%thermal%model == 'film'
+         if (problem%has_fields) then
             call begin_films(problem, model, films)
          else if (has_warm_oil(model)) then
             problem%viscosity = model%oil%viscosity
@@ -168,7 +168,7 @@ contains
       b = -now/self%force
    end subroutine linearize
 
-   !> What is out of balance at the present unknowns: the forces, and what the viscosities lack. An error where the
+   !> What is out of balance at the present unknowns: the forces, and the residual of viscosities. An error where the
    !> model admits no such state.
    subroutine find_imbalance(self, want_derivatives, imbalance, error)
       class(equilibrium_problem_type), intent(inout) :: self
@@ -178,7 +178,7 @@ contains
       logical :: ok
       associate (model => self%bearing%model, n => size(self%positions))
          if (size(self%viscosity) > 0) model%oil%viscosity = self%viscosity
-         if (self%has_followers) call self%films%set(self%films%get(), model)
+         if (self%has_fields) call self%films%apply(model)
          call model%evaluate(0.0_wp, self%state(), want_derivatives, ok)
          imbalance(:n) = forces(model, 0.0_wp, self%state())
          imbalance(n + 1:) = 0
@@ -214,44 +214,38 @@ contains
    end subroutine predict
 
    !> A round of the temperatures of films; oil that boils ends the branch.
-   subroutine follow(self, again, error)
+   subroutine update_fields(self, again, error)
       class(equilibrium_problem_type), intent(inout) :: self
       logical, intent(out) :: again
       type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable :: values(:), wanted(:)
+      real(wp), allocatable :: wanted(:)
       real(wp) :: y(self%bearing%model%n)
       again = .false.
-      if (.not. self%has_followers) return
+      if (.not. self%has_fields) return
       associate (model => self%bearing%model)
          call self%bearing%set_value(self%parameter, .false., error)
          if (.not. allocated(error)) then
-            call self%films%set(self%films%get(), model)
-            values = self%films%get()
-            allocate (wanted, mold=values)
+            call self%films%apply(model)
+            allocate (wanted, mold=self%films%values)
             y = self%state()
             call self%films%find_wanted(model, y, wanted, error)
             if (allocated(error)) return
-            call self%mixer%next(values, wanted, y)
-            again = .not. self%mixer%agrees
-            if (.not. again) then
-               call self%films%check(model, error)
-               self%refused = allocated(error)
-               call self%mixer%restart()
-               call self%films%begin_point()
-            else if (self%mixer%rounds == most_rounds) then
-               call self%films%refuse(model, error)
-            else
-               call self%films%set(values, model)
-            end if
+            call self%mixer%next(self%films%values, wanted, y)
+            again = .not. self%mixer%agrees .and. self%mixer%rounds < most_rounds
+            if (again) return
+            call self%films%check(model, self%mixer%agrees, error)
+            self%refused = self%mixer%agrees .and. allocated(error)
+            call self%mixer%restart()
+            call self%films%begin_point()
          end if
       end associate
-   end subroutine follow
+   end subroutine update_fields
 
    !> Says of an error behind a change of the temperatures of films whose pad it is.
    subroutine explain(self, error)
       class(equilibrium_problem_type), intent(inout) :: self
       type(error_type), allocatable, intent(inout) :: error
-      if (self%has_followers) call self%films%explain(self%bearing%model, self%state(), error)
+      if (self%has_fields) call self%films%explain(self%bearing%model, self%state(), error)
    end subroutine explain
 
    !> The eigenvalues, 1/s, that of largest real part first; growths are per radian of the shaft.
@@ -276,7 +270,7 @@ contains
       if (abs(value%im) > 0) then
          kind = 'hopf'
       else
-         kind = trim(merge('divergence', 'fold      ', size(self%viscosity) > 0 .or. self%has_followers))
+         kind = trim(merge('divergence', 'fold      ', size(self%viscosity) > 0 .or. self%has_fields))
       end if
    end function kind_of
 
@@ -289,9 +283,9 @@ contains
       place(1)%values = [self%parameter]
       place(2)%values = self%positions
       place(3)%values = self%viscosity
-      if (.not. self%has_followers) return
+      if (.not. self%has_fields) return
       place(3) = place_part_type('warming', 'K', 'temperatures of films and pads above that of the supply')
-      place(3)%values = self%films%get()
+      place(3)%values = self%films%values
    end subroutine get_place
 
    subroutine go_to(self, place)
@@ -299,8 +293,8 @@ contains
       type(place_part_type), intent(in) :: place(:)
       self%parameter = place(1)%values(1)
       self%positions = place(2)%values
-      if (self%has_followers) then
-         call self%films%set(place(3)%values, self%bearing%model)
+      if (self%has_fields) then
+         self%films%values = place(3)%values
          call self%films%begin_point()
          call self%mixer%restart()
       else
@@ -317,9 +311,9 @@ contains
       type(error_type), allocatable :: ignored
       real(wp), allocatable :: wanted(:)
       associate (model => self%bearing%model)
-         if (self%has_followers) then
-            call self%films%set(self%films%get(), model)
-            wanted = self%films%get()
+         if (self%has_fields) then
+            call self%films%apply(model)
+            wanted = self%films%values
             call self%films%find_wanted(model, self%state(), wanted, ignored)
             oil = self%films%films%oil
          else

@@ -24,12 +24,11 @@ module film_field
    private
    public :: film_field_type
 
+   !> Its values are temperatures above that of the supply, K, of layers, stations and pads, the first first, as these
+   !> stay nearly what they are where the supply warms.
    type, extends(coupled_field) :: film_field_type
       !> Of each bearing; after a round `films%oil` has the temperatures that are wanted.
       type(warm_films_type), allocatable :: films(:)
-      !> The values: of the pads of all bearings temperatures above that of the supply, K, (layer, station, pad), as
-      !> these stay nearly what they are where the supply warms.
-      real(wp), allocatable, private :: warming(:, :, :)
       !> By how much the temperatures of each pad were to change in the last round, K; none before the first.
       real(wp), allocatable, private :: changes(:)
       !> Of the oil that the model was given last, (station, pad).
@@ -40,11 +39,9 @@ module film_field
    contains
       procedure :: begin
       procedure :: begin_point
-      procedure :: get
-      procedure :: set
+      procedure :: apply
       procedure :: find_wanted
       procedure :: check
-      procedure :: refuse
       procedure :: explain
       procedure, private :: find_streams
    end type film_field_type
@@ -67,12 +64,8 @@ contains
       self%parts = model%layout%pads
       if (present(gaps_change)) self%gaps_change = gaps_change
       self%films = films
-      associate (layers => size(films(1)%fields, 1), stations => size(films(1)%fields, 2), pads => model%layout%pads)
-         allocate (self%warming(layers, stations, pads), self%profiles(stations, pads))
-      end associate
-      do b = 1, size(films)
-         self%warming(:, :, model%layout%bearings(b)%all_pads()) = films(b)%fields - supply_of(model, b)
-      end do
+      self%values = [(films(b)%fields - supply_of(model, b), b=1, size(films))]
+      allocate (self%profiles(size(films(1)%fields, 2), model%layout%pads))
    end subroutine begin
 
    !> Begins at another state, where no round was made.
@@ -81,29 +74,25 @@ contains
       if (allocated(self%changes)) deallocate (self%changes)
    end subroutine begin_point
 
-   pure function get(self) result(values)
-      class(film_field_type), intent(in) :: self
-      real(wp), allocatable :: values(:)
-      values = reshape(self%warming, [size(self%warming)])
-   end function get
-
-   subroutine set(self, values, model)
+   subroutine apply(self, model)
       class(film_field_type), intent(inout) :: self
-      real(wp), intent(in) :: values(:)
       type(machine_model), intent(inout) :: model
       type(case_type) :: own
       integer :: b, i, pad
-      self%warming = reshape(values, shape(self%warming))
+      pad = 0
       do b = 1, size(self%films)
          own = model%inputs%of_bearing(b)
-         do i = 1, size(self%films(b)%heat)
-            pad = model%layout%bearings(b)%other_pads + i
-            self%films(b)%fields(:, :, i) = self%warming(:, :, pad) + own%oil%supply_temperature
-            call oil_of_field(own%oil, self%films(b)%heat(i)%zeta, self%films(b)%fields(:, :, i), &
-               & self%profiles(:, pad), model%oil(pad))
-         end do
+         associate (fields => self%films(b)%fields, n => size(self%films(b)%fields(:, :, 1)))
+            do i = 1, size(fields, 3)
+               fields(:, :, i) = reshape(self%values(n*pad + 1:n*(pad + 1)), shape(fields(:, :, i))) &
+                  & + own%oil%supply_temperature
+               pad = pad + 1
+               call oil_of_field(own%oil, self%films(b)%heat(i)%zeta, fields(:, :, i), self%profiles(:, pad), &
+                  & model%oil(pad))
+            end do
+         end associate
       end do
-   end subroutine set
+   end subroutine apply
 
    subroutine find_wanted(self, model, y, wanted, error)
       class(film_field_type), intent(inout) :: self
@@ -111,8 +100,8 @@ contains
       real(wp), intent(in) :: y(:)
       real(wp), intent(out) :: wanted(:)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: fields(size(self%warming, 1), size(self%warming, 2), size(self%warming, 3))
-      type(film_stream) :: streams(size(self%warming, 3))
+      real(wp) :: fields(size(self%films(1)%fields, 1), size(self%profiles, 1), size(self%profiles, 2))
+      type(film_stream) :: streams(size(self%profiles, 2))
       type(case_type) :: own
       integer :: b, i
       logical :: ok
@@ -137,8 +126,8 @@ contains
          call name_bearing(model, b, error)
          if (allocated(error)) return
       end do
-      self%changes = maxval(maxval(abs(fields - self%warming), 1), 1)
       wanted = reshape(fields, [size(fields)])
+      self%changes = maxval(reshape(abs(wanted - self%values), [size(wanted)/size(fields, 3), size(fields, 3)]), 1)
    end subroutine find_wanted
 
    !> The volumes of the streams of all pads' films.
@@ -179,8 +168,8 @@ contains
                call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
                position = motion%position
                if (asperity%touches) motion%position = asperity%film_position
-               call find_stream(self%volumes(before + i), bearing%film%condition, motion, model%oil(before + i), speed, &
-                  & size(self%profiles, 1), streams(i), ok)
+               call find_stream(self%volumes(before + i), bearing%film%condition, motion, model%oil(before + i), &
+                  & speed, size(self%profiles, 1), streams(i), ok)
                if (.not. ok) return
                if (asperity%touches) streams(i)%boundary_heat = bearing%asperities%heat(pad%gap, position, &
                   & speed*pad%gap%journal_radius, size(self%profiles, 1))
@@ -189,35 +178,32 @@ contains
       end associate
    end subroutine find_streams
 
-   !> Refuses oil that boils, and films in which oil runs against the rotation and out of the leading edge: what comes in elsewhere instead
-   !> has no temperature in the balance of the grooves.
-   subroutine check(self, model, error)
+   !> Refuses temperatures that do not settle, oil that boils, and films in which oil runs against the rotation and out
+   !> of the leading edge: what comes in elsewhere instead has no temperature in the balance of the grooves.
+   subroutine check(self, model, agrees, error)
       class(film_field_type), intent(in) :: self
       type(machine_model), intent(in) :: model
+      logical, intent(in) :: agrees
       type(error_type), allocatable, intent(out) :: error
       integer :: b, pad
+      if (.not. agrees) then
+         call raise(error, numerics_error, 'after '//to_text(most_rounds)//' rounds they still change by ' &
+            & //to_text(maxval(self%changes))//' K'//remedy)
+         call name_pad(model, maxloc(self%changes, 1), error)
+         return
+      end if
       do b = 1, size(self%films)
          pad = maxloc(self%films(b)%reversed, 1)
          if (.not. self%films(b)%reversed(pad) > 0) cycle
          call raise(error, numerics_error, 'the pressures around pad '//to_text(pad)//' drive its oil against the ' &
-            & //'rotation and out of the leading edge, over '//to_text(nint(100*self%films(b)%reversed(pad)))//' % of its ' &
-            & //'arc, and the oil that comes in elsewhere instead has no temperature in this model; try ' &
+            & //'rotation and out of the leading edge, over '//to_text(nint(100*self%films(b)%reversed(pad))) &
+            & //' % of its arc, and the oil that comes in elsewhere instead has no temperature in this model; try ' &
             & //'bearing%supply_pressure above bearing%ambient_pressure, or more speed')
          call name_bearing(model, b, error)
          return
       end do
       call check_oil(model, self%films%oil, error)
    end subroutine check
-
-   !> Says which pad's temperatures still change most, by how much, K, after the last round.
-   subroutine refuse(self, model, error)
-      class(film_field_type), intent(in) :: self
-      type(machine_model), intent(in) :: model
-      type(error_type), allocatable, intent(out) :: error
-      call raise(error, numerics_error, 'after '//to_text(most_rounds)//' rounds they still change by ' &
-         & //to_text(maxval(self%changes))//' K'//remedy)
-      call name_pad(model, maxloc(self%changes, 1), error)
-   end subroutine refuse
 
    !> Says of a search that ended with an error in the state y which pad's temperatures led nowhere: those that change
    !> most, or, before the first round, those of the pad that Newton's method would move most.

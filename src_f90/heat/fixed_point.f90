@@ -3,7 +3,7 @@
 !> the last ones lacked, until all agree.
 !>
 !> The step is Anderson's: that combination of the last rounds whose residuals, wanted less present values, would cancel
-!> best (J. ACM 12 (1965) 547-560). Where this turns against the residual or leads away it is the plain one: values that
+!> best (J. ACM 12 (1965) 547-560). Where this turns against the residual it is the plain one: values that
 !> would run away from their balance are none to look for. What a film wants that cavitates cell by cell may jump, by
 !> what a cell carries or fails to carry: where no round leads on, the part of the values that jumps most keeps the mean
 !> of what it wants on both sides (Filippov), and the others agree beside it.
@@ -20,16 +20,15 @@ module fixed_point
 
    !> Values that follow from an equilibrium of forces, and on which it depends.
    type, abstract :: coupled_field
+      real(wp), allocatable :: values(:)
       !> Largest residual of a value at the end; that of a part that jumps; longest step in a round.
       real(wp) :: agreement = 0, jump = 0, longest = huge(1.0_wp)
       !> Parts of equal size, one after the other, that may jump by themselves.
       integer :: parts = 1
    contains
-      procedure(get_values), deferred :: get
-      procedure(set_values), deferred :: set
+      procedure(apply_values), deferred :: apply
       procedure(find_wanted_values), deferred :: find_wanted
       procedure(check_values), deferred :: check
-      procedure(refuse_values), deferred :: refuse
       procedure :: explain
    end type coupled_field
 
@@ -38,19 +37,12 @@ module fixed_point
    end type field_reference
 
    abstract interface
-      pure function get_values(self) result(values)
-         import :: coupled_field, wp
-         class(coupled_field), intent(in) :: self
-         real(wp), allocatable :: values(:)
-      end function get_values
-
-      !> Takes these values, and gives a model what follows from them.
-      subroutine set_values(self, values, model)
-         import :: coupled_field, machine_model, wp
+      !> Gives a model what follows from the values.
+      subroutine apply_values(self, model)
+         import :: coupled_field, machine_model
          class(coupled_field), intent(inout) :: self
-         real(wp), intent(in) :: values(:)
          type(machine_model), intent(inout) :: model
-      end subroutine set_values
+      end subroutine apply_values
 
       !> The values to which the state y in equilibrium with the present ones leads.
       subroutine find_wanted_values(self, model, y, wanted, error)
@@ -62,21 +54,14 @@ module fixed_point
          type(error_type), allocatable, intent(out) :: error
       end subroutine find_wanted_values
 
-      !> Refuses values that agree with what they lead to but are no answer.
-      subroutine check_values(self, model, error)
+      !> Refuses values of the last round, those that do not agree with what they lead to and those that are no answer.
+      subroutine check_values(self, model, agrees, error)
          import :: coupled_field, machine_model, error_type
          class(coupled_field), intent(in) :: self
          type(machine_model), intent(in) :: model
+         logical, intent(in) :: agrees
          type(error_type), allocatable, intent(out) :: error
       end subroutine check_values
-
-      !> Says that the field does not agree after the last round.
-      subroutine refuse_values(self, model, error)
-         import :: coupled_field, machine_model, error_type
-         class(coupled_field), intent(in) :: self
-         type(machine_model), intent(in) :: model
-         type(error_type), allocatable, intent(out) :: error
-      end subroutine refuse_values
    end interface
 
    !> Rounds that are combined at most, and rounds at most.
@@ -131,8 +116,8 @@ contains
       type(error_type), allocatable, intent(inout) :: error
    end subroutine explain
 
-   !> Brings the state y of a model that is near equilibrium to equilibrium, and all fields to the values that this leads
-   !> to. An error where they do not agree, or with values that are no answer.
+   !> Brings the state y of a model that is near equilibrium to equilibrium, and all fields to the values to which this
+   !> leads. An error where they do not agree, or with values that are no answer.
    subroutine solve_fields(model, y, fields, residual, error, give_up, held)
       type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
@@ -148,7 +133,7 @@ contains
       first(1) = 1
       x = [real(wp) ::]
       do f = 1, size(fields)
-         x = [x, fields(f)%field%get()]
+         x = [x, fields(f)%field%values]
          first(f + 1) = size(x) + 1
          call mixer%begin(fields(f)%field)
       end do
@@ -167,17 +152,20 @@ contains
             if (allocated(error)) return
          end do
          call mixer%next(x, wanted, y)
-         if (mixer%agrees) exit
-         if (mixer%rounds == most_rounds) then
-            f = count(first <= maxloc(abs(mixer%residual), 1))
-            call fields(f)%field%refuse(model, error)
-            return
-         end if
+         if (mixer%agrees .or. mixer%rounds == most_rounds) exit
       end do
       do f = 1, size(fields)
-         call fields(f)%field%check(model, error)
+         call fields(f)%field%check(model, mixer%agrees .or. .not. lacks(f), error)
          if (allocated(error)) return
       end do
+
+   contains
+
+      !> Whether the residual of this field is too large.
+      pure logical function lacks(f)
+         integer, intent(in) :: f
+         lacks = any(abs(mixer%residual(first(f):first(f + 1) - 1)) > 1)
+      end function lacks
    end subroutine solve_fields
 
    !> Brings the state y in equilibrium with the present values of the fields to equilibrium with the values x, or with
@@ -195,16 +183,15 @@ contains
       real(wp) :: before(size(x)), trial(size(y))
       integer :: f
       before = x
+      trial = y
       if (mixer%rounds > 0) then
          before = mixer%x*mixer%limits%agreement
-         trial = y
          y = mixer%y
-      else
-         trial = y
       end if
       do
          do f = 1, size(fields)
-            call fields(f)%field%set(x(first(f):first(f + 1) - 1), model)
+            fields(f)%field%values = x(first(f):first(f + 1) - 1)
+            call fields(f)%field%apply(model)
          end do
          call solve_equilibrium(model, trial, residual, error, give_up, held, &
             & merge(most_iterations, huge(1), mixer%rounds > 0))
@@ -214,7 +201,6 @@ contains
          call follow_motion(model, trial, residual, error, give_up, held, most=most_motion)
          if (.not. allocated(error)) exit
          if (error%status == stopped .or. .not. any(abs(x - before) > shortest*mixer%limits%longest)) return
-         call mixer%forget()
          x = before + shorter*(x - before)
          trial = y
       end do
@@ -226,7 +212,7 @@ contains
       class(mixer_type), intent(inout) :: self
       class(coupled_field), intent(in) :: field
       integer :: i, n, before
-      n = size(field%get())
+      n = size(field%values)
       before = 0
       if (allocated(self%limits)) before = maxval(self%limits%part)
       if (.not. allocated(self%limits)) allocate (self%limits(0))
@@ -304,8 +290,6 @@ contains
          & self%moves(size(y), depth))
       self%known = min(self%known + 1, depth)
       if (self%known > 0) then
-         ! after a step for the worse the rounds before say nothing
-         if (norm2(residual) > 2*norm2(self%residual)) self%known = 0
          self%steps = eoshift(self%steps, -1, dim=2)
          self%differences = eoshift(self%differences, -1, dim=2)
          self%moves = eoshift(self%moves, -1, dim=2)

@@ -1,5 +1,5 @@
-!> The heat balance as equations beside the balance of forces: what the viscosities of a state lack to those that its
-!> losses and flows lead to, how this changes with positions and viscosities, and which balances are refused.
+!> The heat balance as equations beside the balance of forces: the residual of the viscosities of a state, to those that
+!> its losses and flows lead to, how this changes with positions and viscosities, and which balances are refused.
 !> Derivatives are differences.
 module heat_balance_equations
    use kinds, only: wp
@@ -67,7 +67,8 @@ contains
             of%heat = new_heat_balance(own)
          end associate
       end do
-      if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), balance%residual(model%layout%pads))
+      if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), &
+         & balance%residual(model%layout%pads))
       call find_again(model, y, balance, balance%losses)
    end subroutine find_losses
 
@@ -88,7 +89,7 @@ contains
       end do
    end subroutine find_again
 
-   !> What the viscosities lack in a state y.
+   !> The residual of the viscosities in a state y.
    subroutine find_residual(model, y, balance, kept)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
@@ -126,9 +127,10 @@ contains
       residual = log(wanted/films)
    end subroutine set_residual
 
-   !> The derivatives of what lacks in the state y, whose balance was found, over positions and then over the logarithms
-   !> of the viscosities; positions over their sizes, which are such that a film that is an bearing clearance thick
-   !> changes by as much. Pads are moved together: the losses of each follow from the journal and from its own state.
+   !> The derivatives of the residual in the state y, whose balance was found, over positions and then over the
+   !> logarithms of the viscosities; positions over their sizes, which are such that a film that is one bearing
+   !> clearance thick changes by as much. Pads are moved together: the losses of each follow from the journal and from
+   !> its own state.
    subroutine find_residual_slopes(model, y, balance, sizes, slopes)
       type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:), sizes(:)

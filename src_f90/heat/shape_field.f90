@@ -22,23 +22,19 @@ module shape_field
    private
    public :: shape_field_type
 
+   !> Its values are the lengths of the shapes, over the least clearance that the case gives the bearing.
    type, extends(coupled_field) :: shape_field_type
-      !> The case with the shapes that it gives, and those that the bearings have: of these the lengths are the values,
-      !> over the least clearance that the case gives the bearing.
-      type(case_type) :: cold
-      type(bearing_shape_type), allocatable :: shapes(:)
-      !> Those that are wanted; the largest change to these.
+      !> The case with the shapes that it gives, and the shapes that are wanted; the largest change to these.
+      type(case_type), private :: cold
       type(bearing_shape_type), allocatable :: wanted(:)
       real(wp), private :: change = 0
       !> The temperatures of the films, where they have some.
       type(film_field_type), pointer, private :: films => null()
    contains
       procedure :: begin
-      procedure :: get
-      procedure :: set
+      procedure :: apply
       procedure :: find_wanted
       procedure :: check
-      procedure :: refuse
       procedure :: explain
    end type shape_field_type
 
@@ -52,29 +48,24 @@ contains
       self%agreement = 1e-7_wp
       self%longest = 0.25_wp
       self%cold = cold
-      self%shapes = cold_shapes(cold)
+      self%values = all_lengths(cold_shapes(cold), cold)
       self%films => films
    end subroutine begin
 
-   pure function get(self) result(values)
-      class(shape_field_type), intent(in) :: self
-      real(wp), allocatable :: values(:)
-      values = all_lengths(self%shapes, self%cold)
-   end function get
-
-   subroutine set(self, values, model)
+   subroutine apply(self, model)
       class(shape_field_type), intent(inout) :: self
-      real(wp), intent(in) :: values(:)
       type(machine_model), intent(inout) :: model
+      type(bearing_shape_type), allocatable :: shapes(:)
       type(case_type) :: inputs
       type(film_oil) :: oil(size(model%oil))
-      call set_all_lengths(self%shapes, values, self%cold)
+      shapes = cold_shapes(self%cold)
+      call set_all_lengths(shapes, self%values, self%cold)
       inputs = self%cold
-      call apply_shapes(self%shapes, inputs)
+      call apply_shapes(shapes, inputs)
       oil = model%oil
       call model%adopt(inputs, .true.)
       model%oil = oil
-   end subroutine set
+   end subroutine apply
 
    subroutine find_wanted(self, model, y, wanted, error)
       class(shape_field_type), intent(inout) :: self
@@ -84,24 +75,20 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call find_shapes(self%cold, model, y, self%films%films, self%wanted)
       wanted = all_lengths(self%wanted, self%cold)
-      self%change = maxval(abs(wanted - self%get()))
+      self%change = maxval(abs(wanted - self%values))
    end subroutine find_wanted
 
-   subroutine check(self, model, error)
+   !> Refuses shapes in which a bearing cannot run, and those that do not settle.
+   subroutine check(self, model, agrees, error)
       class(shape_field_type), intent(in) :: self
       type(machine_model), intent(in) :: model
+      logical, intent(in) :: agrees
       type(error_type), allocatable, intent(out) :: error
       call check_shapes(self%wanted, self%cold, error)
+      if (.not. (allocated(error) .or. agrees)) call raise(error, numerics_error, 'the shape of the bearing does not ' &
+         & //'settle: after '//to_text(most_rounds)//' rounds its clearances still change by ' &
+         & //to_text(100*self%change)//' %')
    end subroutine check
-
-   subroutine refuse(self, model, error)
-      class(shape_field_type), intent(in) :: self
-      type(machine_model), intent(in) :: model
-      type(error_type), allocatable, intent(out) :: error
-      call self%check(model, error)
-      if (.not. allocated(error)) call raise(error, numerics_error, 'the shape of the bearing does not settle: after ' &
-         & //to_text(most_rounds)//' rounds its clearances still change by '//to_text(100*self%change)//' %')
-   end subroutine refuse
 
    !> The reason of a shape, where a search in one on the way to it has failed.
    subroutine explain(self, model, y, error)
@@ -110,7 +97,7 @@ contains
       real(wp), intent(in) :: y(:)
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: reason
-      if (allocated(self%wanted)) call self%check(model, reason)
+      if (allocated(self%wanted)) call check_shapes(self%wanted, self%cold, reason)
       if (allocated(reason)) then
          call move_alloc(reason, error)
       else

@@ -21,8 +21,8 @@ module thermal_equilibrium
    private
    public :: guess_oil, guesses, solve_thermal_equilibrium, solve_warm_films, solve_shape
 
-   !> Residual of the logarithms of viscosities; the same where temperatures along and across the films follow, which are
-   !> changed by ten times as much; where it jumps; longest step.
+   !> Residual of the logarithms of viscosities; the same where temperatures along and across the films follow, which
+   !> are changed by ten times as much; where it jumps; longest step.
    real(wp), parameter :: agreement = 1e-8_wp, rough = 1e-2_wp, jump = 1e-4_wp, longest_step = 1
    !> Warming that is guessed where nothing better is known, K.
    real(wp), parameter :: some_warming = 20
@@ -140,7 +140,7 @@ contains
       field%jump = jump
       field%longest = longest_step
       field%parts = model%layout%pads
-      field%logarithm = log(model%oil%viscosity)
+      field%values = log(model%oil%viscosity)
       if (present(kept)) field%kept = kept
    end function new_oil_field
 

@@ -28,15 +28,15 @@ module newton_method
       real(wp) :: correction = 0
       !> Whether the last error of `linearize` says that there can be no solution here: no Newton's method would help.
       logical :: refused = .false.
-      !> Whether something follows the unknowns that is frozen in the equations: `follow` lets it.
-      logical :: has_followers = .false.
-      !> Length of the branch to the point beside another that tells its tangent where something follows.
+      !> Whether coupled fields depend on the unknowns that are frozen in the equations: `update_fields` leads them on.
+      logical :: has_fields = .false.
+      !> Length of the branch to the point beside another that tells its tangent where there are such fields.
       real(wp) :: beside = 1e-3_wp
    contains
       procedure(linearize_problem), deferred :: linearize
       procedure(move_problem), deferred :: move
       procedure :: predict
-      procedure :: follow
+      procedure :: update_fields
       procedure :: explain
       procedure, non_overridable :: dot
       procedure(find_spectrum), deferred :: spectrum
@@ -153,20 +153,20 @@ contains
       call self%move(change, .false.)
    end subroutine predict
 
-   !> Lets what is frozen in the equations follow a solution of them; where that changes it, they are to be solved
-   !> `again`.
-   subroutine follow(self, again, error)
+   !> Leads the coupled fields, which are frozen in the equations, on from a solution of these; where that changes them,
+   !> the equations are to be solved `again`.
+   subroutine update_fields(self, again, error)
       class(branch_problem_type), intent(inout) :: self
       logical, intent(out) :: again
       type(error_type), allocatable, intent(out) :: error
       again = .false.
-   end subroutine follow
+   end subroutine update_fields
 
-   !> Adds to the error of a Newton's method that was to bring a problem to the equations of what followed last.
+   !> Adds to the error of a Newton's method that was to bring a problem to the equations of the last fields.
    subroutine explain(self, error)
       class(branch_problem_type), intent(inout) :: self
       type(error_type), allocatable, intent(inout) :: error
-      if (self%has_followers) call add_context(error, 'what follows does not settle')
+      if (self%has_fields) call add_context(error, 'the coupled fields do not settle')
    end subroutine explain
 
    !> The product of two directions.
@@ -197,12 +197,12 @@ contains
       call problem%spectrum(point%values, point%growth, ok)
       if (.not. ok) then
          call raise(error, numerics_error, 'the eigenvalues that tell stability were not found')
-      else if (present(normal) .and. problem%has_followers) then
+      else if (present(normal) .and. problem%has_fields) then
          call find_tangent(problem, options, normal, point, error)
       end if
    end subroutine correct
 
-   !> The tangent of a branch at a point where the problem stands, from that in which what follows is frozen: by the
+   !> The tangent of a branch at a point where the problem stands, from that in which coupled fields are frozen: by the
    !> point in a plane beside it.
    subroutine find_tangent(problem, options, normal, point, error)
       class(branch_problem_type), intent(inout) :: problem
@@ -220,7 +220,7 @@ contains
       call return_to(problem, point)
    end subroutine find_tangent
 
-   !> The iterations of Newton's method, again and again until what follows the unknowns has followed. The point has the
+   !> The iterations of Newton's method, again and again until coupled fields agree with the unknowns. The point has the
    !> number of those that took most, and the tangent of the equations.
    subroutine iterate(problem, options, point, way, error, normal)
       class(branch_problem_type), intent(inout) :: problem
@@ -260,7 +260,7 @@ contains
             if (left <= options%tolerance) exit
          end do
          most = max(most, point%iterations)
-         call problem%follow(again, error)
+         call problem%update_fields(again, error)
          if (allocated(error)) return
       end do
       point%iterations = most

@@ -16,7 +16,7 @@ module branch_problems
    type, extends(branch_problem_type) :: parabola
       real(wp) :: x = 1, least = -1, leap = 0, follower = 1
    contains
-      procedure :: follow => follow_parabola
+      procedure :: update_fields => update_parabola
       procedure :: linearize => parabola_equations
       procedure :: move => move_parabola
       procedure :: spectrum => parabola_spectrum
@@ -63,7 +63,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       matrix(1, :) = [-2*self%x, self%unit]
       b = self%x**2 - self%parameter - sign(self%leap, self%x + 1)
-      if (self%has_followers) b = b + self%follower/2
+      if (self%has_fields) b = b + self%follower/2
       self%refused = self%parameter < self%least
       if (self%refused) call raise(error, input_error, 'too small')
    end subroutine parabola_equations
@@ -83,18 +83,18 @@ contains
       real(wp), allocatable, intent(out) :: growth(:)
       logical, intent(out) :: ok
       growth = [-2*self%x]
-      if (self%has_followers) growth = -1
+      if (self%has_fields) growth = -1
       values = cmplx(growth, 0.0_wp, wp)
       ok = .true.
    end subroutine parabola_spectrum
 
-   subroutine follow_parabola(self, again, error)
+   subroutine update_parabola(self, again, error)
       class(parabola), intent(inout) :: self
       logical, intent(out) :: again
       type(error_type), allocatable, intent(out) :: error
-      again = self%has_followers .and. abs(self%follower - self%x) > 1e-12_wp
+      again = self%has_fields .and. abs(self%follower - self%x) > 1e-12_wp
       if (again) self%follower = self%x
-   end subroutine follow_parabola
+   end subroutine update_parabola
 
    pure function parabola_kind(self, value) result(kind)
       class(parabola), intent(in) :: self
@@ -282,7 +282,7 @@ contains
       type(bifurcation_type), allocatable :: special(:)
       type(branch_options) :: options
       options = branch_options(low=-1.0_wp, high=1.0_wp, tolerance=1e-10_wp)
-      problem%has_followers = .true.
+      problem%has_fields = .true.
       call begin_parabola(problem, options, here)
       call expect_close(problem%x, (sqrt(17.0_wp) - 1)/4, 1e-11_wp, 'the start')
       associate (slope => here%tangent(2)/here%tangent(1))
