@@ -70,6 +70,9 @@ module fixed_point
    real(wp), parameter :: regularity = 1e-12_wp
    !> Rounds without a residual of half the least one, after which it is taken to jump.
    integer, parameter :: patience = 12
+   !> Residual up to which the equilibrium is sought from the last one: from where it is expected to be, a pad that
+   !> carries little would be left as far from it as the residual of the forces lets it.
+   real(wp), parameter :: far = 1e4_wp
    !> Part of a step that is tried where the whole does not lead to equilibrium; least part of the longest step.
    real(wp), parameter :: shorter = 0.25_wp, shortest = 5e-3_wp
    !> Iterations of a search for the equilibrium of a step.
@@ -264,7 +267,7 @@ contains
       if (self%since > patience) call self%keep(x, residual)
       call self%combine(residual, step, y)
       step = step*self%limits%agreement
-      x = x + min(1.0_wp, minval(self%limits%longest/max(abs(step), tiny(1.0_wp))))*step
+      x = x + step/max(1.0_wp, maxval(abs(step)/self%limits%longest))
    end subroutine next
 
    !> Lets the part of the values that jumps most keep the mean of what it wanted, if it jumps by no more than it may.
@@ -325,7 +328,7 @@ contains
          if (info == 0) then
             step = residual - matmul(self%steps(:, :n) + self%differences(:, :n), part(:n))
             if (dot_product(step, residual) > 0) then
-               y = y - matmul(self%moves(:, :n), part(:n))
+               if (any(abs(residual) > far)) y = y - matmul(self%moves(:, :n), part(:n))
                return
             end if
          end if

@@ -1,14 +1,14 @@
-!> The rounds of a fixed point: a map that would diverge if it were repeated, values that jump, and steps that are too
-!> long.
-program test_fixed_point
+!> A field that wants what a linear map makes of its values.
+module linear_map
    use kinds, only: wp
    use errors, only: error_type
    use equations_of_motion, only: machine_model
-   use fixed_point, only: coupled_field, mixer_type, most_rounds
-   use check, only: runs, expect, between, report
+   use fixed_point, only: coupled_field
    implicit none (type, external)
+   private
+   public :: linear_field, wanted_of
 
-   !> Values that want what a linear map makes of them; the last one wants less above 0 and more below.
+   !> The last value wants less above 0 and more below.
    type, extends(coupled_field) :: linear_field
       real(wp) :: matrix(4, 4) = 0, constant(4) = [1.0_wp, -2.0_wp, 0.5_wp, 3.0_wp], leap = 0
    contains
@@ -16,6 +16,46 @@ program test_fixed_point
       procedure :: find_wanted => find_linear
       procedure :: check => check_nothing
    end type linear_field
+
+contains
+
+   pure function wanted_of(field) result(wanted)
+      class(linear_field), intent(in) :: field
+      real(wp) :: wanted(4)
+      wanted = matmul(field%matrix, field%values) + field%constant
+      wanted(4) = wanted(4) - sign(field%leap, field%values(4))
+   end function wanted_of
+
+   subroutine apply_nothing(self, model)
+      class(linear_field), intent(inout) :: self
+      type(machine_model), intent(inout) :: model
+   end subroutine apply_nothing
+
+   subroutine find_linear(self, model, y, wanted, error)
+      class(linear_field), intent(inout) :: self
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(out) :: wanted(:)
+      type(error_type), allocatable, intent(out) :: error
+      wanted = wanted_of(self)
+   end subroutine find_linear
+
+   subroutine check_nothing(self, model, agrees, error)
+      class(linear_field), intent(in) :: self
+      type(machine_model), intent(in) :: model
+      logical, intent(in) :: agrees
+      type(error_type), allocatable, intent(out) :: error
+   end subroutine check_nothing
+end module linear_map
+
+!> The rounds of a fixed point: a map that would diverge if it were repeated, values that jump, and steps that are too
+!> long.
+program test_fixed_point
+   use kinds, only: wp
+   use fixed_point, only: mixer_type, most_rounds
+   use linear_map, only: linear_field, wanted_of
+   use check, only: runs, expect, between, report
+   implicit none (type, external)
 
    if (runs('divergent')) call divergent()
    if (runs('jump')) call jump()
@@ -60,13 +100,6 @@ contains
          call mixer%next(field%values, wanted_of(field), y)
       end do
    end subroutine solve
-
-   pure function wanted_of(field) result(wanted)
-      class(linear_field), intent(in) :: field
-      real(wp) :: wanted(4)
-      wanted = matmul(field%matrix, field%values) + field%constant
-      wanted(4) = wanted(4) - sign(field%leap, field%values(4))
-   end function wanted_of
 
    !> It ends after few rounds.
    subroutine divergent()
@@ -117,25 +150,4 @@ contains
       end do
       call expect(mixer%agrees, 'it ends')
    end subroutine longest
-
-   subroutine apply_nothing(self, model)
-      class(linear_field), intent(inout) :: self
-      type(machine_model), intent(inout) :: model
-   end subroutine apply_nothing
-
-   subroutine find_linear(self, model, y, wanted, error)
-      class(linear_field), intent(inout) :: self
-      type(machine_model), intent(inout) :: model
-      real(wp), intent(in) :: y(:)
-      real(wp), intent(out) :: wanted(:)
-      type(error_type), allocatable, intent(out) :: error
-      wanted = wanted_of(self)
-   end subroutine find_linear
-
-   subroutine check_nothing(self, model, agrees, error)
-      class(linear_field), intent(in) :: self
-      type(machine_model), intent(in) :: model
-      logical, intent(in) :: agrees
-      type(error_type), allocatable, intent(out) :: error
-   end subroutine check_nothing
 end program test_fixed_point
