@@ -208,8 +208,10 @@ contains
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       self%anew = .true.
-      call self%films%begin_point()
-      call self%mixer%restart()
+      if (self%has_fields) then
+         call self%films%begin_point()
+         call self%mixer%restart()
+      end if
       call self%move(change, .false.)
    end subroutine predict
 

@@ -12,7 +12,9 @@ module oil_field
    private
    public :: oil_field_type
 
+   !> Its values are the logarithms over those of the viscosities with which it began, Pa s.
    type, extends(coupled_field) :: oil_field_type
+      real(wp), allocatable :: first(:)
       !> Where grooves and shaft keep their temperatures: these, of each bearing.
       type(oil_temperatures_type), allocatable :: kept(:)
       !> Of the last state.
@@ -28,7 +30,7 @@ contains
    subroutine apply(self, model)
       class(oil_field_type), intent(inout) :: self
       type(machine_model), intent(inout) :: model
-      model%oil%viscosity = exp(self%values)
+      model%oil%viscosity = self%first*exp(self%values)
    end subroutine apply
 
    subroutine find_wanted(self, model, y, wanted, error)

@@ -140,7 +140,8 @@ contains
       field%jump = jump
       field%longest = longest_step
       field%parts = model%layout%pads
-      field%values = log(model%oil%viscosity)
+      field%first = model%oil%viscosity
+      field%values = 0*field%first
       if (present(kept)) field%kept = kept
    end function new_oil_field
 
