@@ -3,7 +3,8 @@ module example_machine
    use kinds, only: wp, pi
    use linear_algebra, only: dgesv, zgesv, find_eigenvalues
    use errors, only: error_type
-   use machine_groups, only: machine_type
+   use case_inputs, only: case_type
+   use rotor_groups, only: disc_type, unbalance_type
    use rotor_matrices, only: rotor_matrices_type
    use shaft_in_bearings, only: find_rotor
    use check, only: expect_no_error
@@ -14,16 +15,15 @@ module example_machine
 
    !> More modes than there are: all.
    integer, parameter :: all_modes = 1000
-   real(wp), parameter :: gravity = 9.81_wp
 
 contains
 
    !> A turbine's rotor of 4 t in two bearings: a disc in the middle of a shaft of 1.8 m.
    function turbine() result(machine)
-      type(machine_type) :: machine
+      type(case_type) :: machine
       integer :: i
       machine = plain_shaft([0.05_wp, 0.05_wp, (0.2_wp, i=1, 8), 0.05_wp, 0.05_wp], 0.34_wp)
-      machine%shaft%diameter([1, 2, 11, 12]) = 0.0998_wp
+      machine%rotor%elastic%shaft%diameter([1, 2, 11, 12]) = 0.0998_wp
       call put_disc(machine, 7, 2847.3706547456786_wp, 512.526717854222_wp, 280.5609218476075_wp)
       call put_bearings(machine, [2, 12])
       call put_unbalance(machine, 7, 0.02_wp, 0.0_wp)
@@ -32,49 +32,38 @@ contains
    !> A shaft of steel without discs and bearings.
    function plain_shaft(lengths, diameter) result(machine)
       real(wp), intent(in) :: lengths(:), diameter
-      type(machine_type) :: machine
-      machine%shaft%length = lengths
-      machine%shaft%diameter = 0*lengths + diameter
-      machine%shaft%bore = 0*lengths
-      machine%rotor_file = ''
-      allocate (machine%discs(0), machine%unbalances(0), machine%loads(0), machine%bearings(0))
+      type(case_type) :: machine
+      allocate (machine%rotor%elastic, machine%bearings(0))
+      call machine%rotor%elastic%begin(0, 0, 0)
+      associate (shaft => machine%rotor%elastic%shaft)
+         shaft%length = lengths
+         shaft%diameter = 0*lengths + diameter
+         shaft%bore = 0*lengths
+      end associate
    end function plain_shaft
 
    subroutine put_disc(machine, station, mass, polar_inertia, diametral_inertia)
-      type(machine_type), intent(inout) :: machine
+      type(case_type), intent(inout) :: machine
       integer, intent(in) :: station
       real(wp), intent(in) :: mass, polar_inertia, diametral_inertia
-      type(machine_type) :: longer
-      integer :: n
-      n = size(machine%discs)
-      allocate (longer%discs(n + 1))
-      longer%discs(:n) = machine%discs
-      longer%discs(n + 1)%station = station
-      longer%discs(n + 1)%mass = mass
-      longer%discs(n + 1)%polar_inertia = polar_inertia
-      longer%discs(n + 1)%diametral_inertia = diametral_inertia
-      call move_alloc(longer%discs, machine%discs)
+      associate (elastic => machine%rotor%elastic)
+         elastic%discs = [elastic%discs, disc_type(station, mass, polar_inertia, diametral_inertia)]
+      end associate
    end subroutine put_disc
 
    !> Adds an unbalance, kg m, at an angle, deg.
    subroutine put_unbalance(machine, station, moment, angle_deg)
-      type(machine_type), intent(inout) :: machine
+      type(case_type), intent(inout) :: machine
       integer, intent(in) :: station
       real(wp), intent(in) :: moment, angle_deg
-      type(machine_type) :: longer
-      integer :: n
-      n = size(machine%unbalances)
-      allocate (longer%unbalances(n + 1))
-      longer%unbalances(:n) = machine%unbalances
-      longer%unbalances(n + 1)%station = station
-      longer%unbalances(n + 1)%moment = moment
-      longer%unbalances(n + 1)%angle_deg = angle_deg
-      call move_alloc(longer%unbalances, machine%unbalances)
+      associate (elastic => machine%rotor%elastic)
+         elastic%unbalances = [elastic%unbalances, unbalance_type(station, moment, angle_deg)]
+      end associate
    end subroutine put_unbalance
 
    !> Bearings at these stations in place of those that are there.
    subroutine put_bearings(machine, stations)
-      type(machine_type), intent(inout) :: machine
+      type(case_type), intent(inout) :: machine
       integer, intent(in) :: stations(:)
       integer :: b
       deallocate (machine%bearings)
@@ -87,12 +76,12 @@ contains
 
    !> The rotor of a valid machine for a highest speed, rad/s.
    function rotor_of(machine, speed, modes) result(rotor)
-      type(machine_type), intent(in) :: machine
+      type(case_type), intent(in) :: machine
       real(wp), intent(in) :: speed
       integer, intent(in), optional :: modes
       type(rotor_matrices_type) :: rotor
       type(error_type), allocatable :: error
-      call find_rotor(machine, gravity, speed, 1.0_wp, rotor, error, modes)
+      call find_rotor(machine, speed, rotor, error, modes)
       call expect_no_error(error, 'a rotor is found')
    end function rotor_of
 
@@ -134,39 +123,39 @@ contains
    !> The largest error of amplitudes of journals and discs at ten speeds up to the highest, rad/s, relative to the
    !> largest one of a speed: of leaving out modes.
    real(wp) function response_error(machine, highest, springs, dampers, modes, growth) result(error)
-      type(machine_type), intent(in) :: machine
+      type(case_type), intent(in) :: machine
       real(wp), intent(in) :: highest, springs(:), dampers(:)
       integer, intent(in), optional :: modes
       real(wp), intent(in), optional :: growth
-      type(machine_type) :: undamped
+      type(case_type) :: undamped
       undamped = machine
-      undamped%reduction%damping_ratio = 0
+      undamped%rotor%elastic%reduction%damping_ratio = 0
       error = largest_difference(machine, rotor_of(undamped, highest, modes), rotor_of(undamped, highest, all_modes), &
          & highest, springs, dampers, growth)
    end function response_error
 
    !> The same error of the damping of high modes.
    real(wp) function damping_error(machine, highest, springs, dampers, growth) result(error)
-      type(machine_type), intent(in) :: machine
+      type(case_type), intent(in) :: machine
       real(wp), intent(in) :: highest, springs(:), dampers(:)
       real(wp), intent(in), optional :: growth
-      type(machine_type) :: undamped
+      type(case_type) :: undamped
       undamped = machine
-      undamped%reduction%damping_ratio = 0
+      undamped%rotor%elastic%reduction%damping_ratio = 0
       error = largest_difference(machine, rotor_of(machine, highest), rotor_of(undamped, highest), highest, springs, &
          & dampers, growth)
    end function damping_error
 
    !> Of amplitudes of journals and discs of a rotor from those of an exact one.
    real(wp) function largest_difference(machine, rotor, exact, highest, springs, dampers, growth) result(largest)
-      type(machine_type), intent(in) :: machine
+      type(case_type), intent(in) :: machine
       type(rotor_matrices_type), intent(in) :: rotor, exact
       real(wp), intent(in) :: highest, springs(:), dampers(:)
       real(wp), intent(in), optional :: growth
       complex(wp), allocatable :: expected(:), difference(:)
       integer, allocatable :: rows(:)
       integer :: i
-      rows = [machine%bearings%station, machine%discs%station]
+      rows = [machine%bearings%station, machine%rotor%elastic%discs%station]
       rows = [2*rows - 1, 2*rows]
       largest = 0
       do i = 1, 10

@@ -1,7 +1,8 @@
 !> Derivatives of a film's force over its motion, by differences.
 module film_differences
    use kinds, only: wp
-   use film_solver, only: film_solver_type, film_motion, film_oil, film_response
+   use film_law, only: film_law_type
+   use film_solver, only: film_solver_type, film_motion, film_response
    implicit none (type, external)
    private
    public :: shifted, difference
@@ -24,17 +25,17 @@ contains
    subroutine difference(solver, motion, oil, speed, column, step, derivative, doubt)
       class(film_solver_type), intent(inout) :: solver
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed, step
       integer, intent(in) :: column
       real(wp), intent(out) :: derivative(2)
       real(wp), intent(out), optional :: doubt
-      type(film_response) :: r(1)
+      type(film_response) :: film
       real(wp) :: forces(2, -2:2), central(2, 2)
       integer :: k
       do k = -2, 2
-         call solver%evaluate([shifted(motion, column, k*step)], [oil], speed, .false., r)
-         forces(:, k) = r(1)%force
+         call solver%evaluate_pad(1, shifted(motion, column, k*step), oil, speed, .false., film)
+         forces(:, k) = film%force
       end do
       do k = 1, 2
          central(:, k) = (forces(:, k) - forces(:, -k))/(2*k*step)

@@ -2,7 +2,8 @@
 module machine_cases
    use kinds, only: wp
    use case_inputs, only: case_type
-   use machine_groups, only: machine_type
+   use case_groups, only: bearing_type
+   use rotor_groups, only: disc_type, unbalance_type
    implicit none (type, external)
    private
    public :: symmetric_rotor, add_bearing, disc_station
@@ -19,53 +20,41 @@ contains
    type(case_type) function symmetric_rotor(friction, speed_rpm, unbalance) result(inputs)
       character(len=*), intent(in) :: friction
       real(wp), intent(in) :: speed_rpm, unbalance
-      type(machine_type) :: machine
       inputs = case_type()
       inputs%operation%speed_rpm = speed_rpm
       inputs%operation%final_speed_rpm = speed_rpm
-      inputs%friction%model = friction
-      inputs%film%cavitation = 'none'
-      machine%shaft%length = [0.05_wp, 0.05_wp, spread(0.2_wp, 1, 8), 0.05_wp, 0.05_wp]
-      machine%shaft%diameter = [spread(0.0998_wp, 1, 2), spread(0.34_wp, 1, 8), spread(0.0998_wp, 1, 2)]
-      machine%shaft%bore = spread(0.0_wp, 1, 12)
-      machine%rotor_file = ''
-      allocate (machine%discs(1), machine%unbalances(1), machine%loads(0), machine%bearings(0))
-      machine%discs(1)%station = disc_station
-      machine%discs(1)%mass = disc_mass
-      machine%discs(1)%polar_inertia = polar
-      machine%discs(1)%diametral_inertia = diametral
-      machine%unbalances(1)%station = disc_station
-      machine%unbalances(1)%moment = unbalance
-      inputs%machine = machine
-      call add_bearing(inputs, 'left', 2)
+      allocate (inputs%rotor%elastic)
+      associate (elastic => inputs%rotor%elastic, shaft => inputs%rotor%elastic%shaft)
+         call elastic%begin(discs=1, unbalances=1, loads=0)
+         shaft%length = [0.05_wp, 0.05_wp, spread(0.2_wp, 1, 8), 0.05_wp, 0.05_wp]
+         shaft%diameter = [spread(0.0998_wp, 1, 2), spread(0.34_wp, 1, 8), spread(0.0998_wp, 1, 2)]
+         shaft%bore = spread(0.0_wp, 1, 12)
+         elastic%discs(1) = disc_type(disc_station, disc_mass, polar, diametral)
+         elastic%unbalances(1) = unbalance_type(disc_station, unbalance)
+      end associate
+      associate (left => inputs%bearings(1))
+         left%name = 'left'
+         left%station = 2
+         left%friction%model = friction
+         left%film%cavitation = 'none'
+      end associate
       call add_bearing(inputs, 'right', 12)
    end function symmetric_rotor
 
-   !> Another bearing with the groups of the case.
+   !> Another bearing with the groups of the first.
    subroutine add_bearing(inputs, name, station)
       type(case_type), intent(inout) :: inputs
       character(len=*), intent(in) :: name
       integer, intent(in) :: station
-      type(machine_type) :: machine, before
-      integer :: b
-      before = inputs%machine
-      machine = before
-      deallocate (machine%bearings)
-      allocate (machine%bearings(size(before%bearings) + 1))
-      do b = 1, size(before%bearings)
-         machine%bearings(b) = before%bearings(b)
+      type(bearing_type), allocatable :: longer(:)
+      integer :: b, n
+      n = size(inputs%bearings) + 1
+      allocate (longer(n))
+      do b = 1, n
+         longer(b) = inputs%bearings(merge(b, 1, b < n))
       end do
-      associate (own => machine%bearings(size(machine%bearings)))
-         own%name = name
-         own%station = station
-         own%bearing = inputs%bearing
-         own%oil = inputs%oil
-         own%pads = inputs%pads
-         own%pivot = inputs%pivot
-         own%friction = inputs%friction
-         own%asperity = inputs%asperity
-         own%film = inputs%film
-      end associate
-      inputs%machine = machine
+      longer(n)%name = name
+      longer(n)%station = station
+      call move_alloc(longer, inputs%bearings)
    end subroutine add_bearing
 end module machine_cases

@@ -48,8 +48,7 @@ contains
       call stand(inputs, model, static)
       options%relative_tolerance = tolerance
       options%absolute_tolerance = tolerance*model%scale
-      call find_periodic_orbit(model, options, model%static_state(static%rotor, static%tilt, &
-         & static%pivot_deflection), found, error)
+      call find_periodic_orbit(model, options, model%static_state(static%rotor, static%pads), found, error)
       call expect_no_error(error, 'the orbit is found')
    end subroutine close_orbit
 

@@ -54,7 +54,7 @@ contains
    end subroutine rhs
 
    subroutine linearize(self, t, y, ok)
-      class(small_ode_type), intent(inout) :: self
+      class(small_ode_type), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       logical, intent(out) :: ok
       self%seen = y
@@ -63,7 +63,7 @@ contains
    end subroutine linearize
 
    subroutine rhs_and_jacobian(self, t, y, dydt, matrix, ok)
-      class(small_ode_type), intent(inout) :: self
+      class(small_ode_type), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:), matrix(:, :)
       logical, intent(out) :: ok
@@ -72,7 +72,7 @@ contains
    end subroutine rhs_and_jacobian
 
    subroutine solve(self, gamma, b, ok)
-      class(small_ode_type), intent(inout) :: self
+      class(small_ode_type), intent(inout), target :: self
       real(wp), intent(in) :: gamma
       real(wp), intent(inout) :: b(:)
       logical, intent(out) :: ok

@@ -12,7 +12,7 @@ module tiltpad_library
    use film_oils, only: uneven_oil
    use factories, only: make_law, make_friction
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state
+   use state_layout, only: pad_state
    use tilting_pad_bearing, only: pad_sample
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use equations_of_motion, only: machine_model, new_machine_model
@@ -63,10 +63,10 @@ contains
          if (.not. ok) call raise(error, numerics_error, name//': '//model%refusal)
       end if
       if (.not. allocated(error)) then
-         associate (arc => inputs%pads%arc_deg*degree)
+         associate (bearing => inputs%bearings(1), arc => inputs%bearings(1)%pads%arc_deg*degree)
             do i = 1, pads
-               phi(:, i) = (along - 1 + inputs%pads%pivot_ratio(i))*arc(i)
-               z(:, i) = 0.5_c_double*inputs%bearing%axial_length(i)*across
+               phi(:, i) = (along - 1 + bearing%pads%pivot_ratio(i))*arc(i)
+               z(:, i) = 0.5_c_double*bearing%axial_length(i)*across
             end do
          end associate
          samples = model%bearings(1)%sampled()
@@ -100,7 +100,7 @@ contains
       integer :: i, k
       call read_bearing(text, name, viscosity, weights, inputs, model, error)
       if (.not. allocated(error)) then
-         finder = new_bearing_losses(inputs)
+         finder = new_bearing_losses(inputs%bearings(1))
          do k = 1, n
             call finder%find(model%bearings(1), journal_motion(journal(:2, k), journal(3:4, k)), &
                & [(pad_state(tilt(1, i, k), tilt(2, i, k), pivot_deflection(1, i, k), pivot_deflection(2, i, k)), &
@@ -172,7 +172,7 @@ contains
       integer :: i
       call read_pad(text, name, pad, inputs, error)
       if (.not. allocated(error)) then
-         call make_friction(inputs, pad, law)
+         call make_friction(inputs%bearings(1)%friction, pad, law)
          do i = 1, n
             call law%evaluate(velocity(i), deflection(i), normal(i), response)
             force(i) = response%force
@@ -194,12 +194,12 @@ contains
       call case_from_text(text, name, inputs, error)
       if (.not. allocated(error)) call read_tables(inputs, error)
       if (allocated(error)) return
-      if (inputs%pad_count() /= size(viscosity)) then
-         call raise(error, input_error, name//': '//to_text(inputs%pad_count()) &
+      if (inputs%bearings(1)%pad_count() /= size(viscosity)) then
+         call raise(error, input_error, name//': '//to_text(inputs%bearings(1)%pad_count()) &
             & //' pads, but states of '//to_text(size(viscosity)))
          return
       end if
-      if (inputs%film%solver == 'auto') inputs%film%solver = 'direct'
+      if (inputs%bearings(1)%film%solver == 'auto') inputs%bearings(1)%film%solver = 'direct'
       model = new_machine_model(inputs)
       if (all(viscosity > 0)) model%oil = [(uneven_oil(viscosity(i), weights(:, :, i)), i=1, size(viscosity))]
    end subroutine read_bearing
@@ -216,7 +216,7 @@ contains
       integer :: i
       call read_pad(text, name, pad, inputs, error)
       if (allocated(error)) return
-      call make_law(inputs, pad, law)
+      call make_law(inputs%bearings(1)%pivot, pad, law)
       do i = 1, size(points)
          if (pivot_deflection(i) > 0) points(i) = law%at(pivot_deflection(i))
       end do
@@ -231,8 +231,9 @@ contains
       call case_from_text(text, name, inputs, error)
       if (.not. allocated(error)) call read_tables(inputs, error)
       if (allocated(error)) return
-      if (pad < 1 .or. pad > inputs%pad_count()) call raise(error, input_error, name//': no pad '//to_text(pad) &
-         & //', of '//to_text(inputs%pad_count()))
+      if (pad < 1 .or. pad > inputs%bearings(1)%pad_count()) call raise(error, input_error, name//': no pad ' &
+         & //to_text(pad) &
+         & //', of '//to_text(inputs%bearings(1)%pad_count()))
    end subroutine read_pad
 
    !> An error as status and message, or neither.

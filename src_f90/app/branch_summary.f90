@@ -61,8 +61,8 @@ contains
                & //precise(minval(value(1, :), mask=own))//' to '//precise(maxval(value(1, :), mask=own))//', ' &
                & //to_text(count(own .and. stable(1, :) > 0))//' of them stable' &
                & //frozen(warm)
-            do b = 1, merge(inputs%bearing_count(), 0, warm)
-               call print_oil(new_bearing_file(file, inputs, b), pad_title(inputs, b), own)
+            do b = 1, merge(size(inputs%bearings), 0, warm)
+               call print_oil(new_bearing_file(file, inputs%bearings(b)), inputs%bearings(b)%label(', ')//'pad ', own)
             end do
          end associate
       end do
@@ -78,15 +78,6 @@ contains
       if (warm) text = ' at frozen viscosity'
    end function frozen
 
-   !> What stands before the number of a pad.
-   pure function pad_title(inputs, b) result(title)
-      type(case_type), intent(in) :: inputs
-      integer, intent(in) :: b
-      character(len=:), allocatable :: title
-      title = '  pad '
-      if (inputs%is_machine()) title = '  bearing '''//inputs%machine%bearings(b)%name//''', pad '
-   end function pad_title
-
    !> The range of the temperatures and viscosity of each pad of a bearing over the points of a branch.
    subroutine print_oil(file, title, own)
       type(bearing_file_type), intent(in) :: file
@@ -98,8 +89,9 @@ contains
       call file%last_samples('maximum_temperature', size(own), highest)
       call file%last_samples('viscosity', size(own), viscosity)
       do i = 1, size(mean, 1)
-         print '(a)', title//to_text(i)//': mean '//span(mean(i, :), 1)//' C, '//span(1e3_wp*viscosity(i, :), 2) &
-            & //' mPa s, pad at most '//fixed_text(maxval(highest(i, :), mask=own), 1)//' C'
+         print '(a)', '  '//title//to_text(i)//': mean '//span(mean(i, :), 1)//' C, ' &
+            & //span(1e3_wp*viscosity(i, :), 2)//' mPa s, pad at most ' &
+            & //fixed_text(maxval(highest(i, :), mask=own), 1)//' C'
       end do
    contains
       !> "lowest to highest", with this number of decimals.

@@ -80,7 +80,7 @@ contains
       run%quiet = quiet
       run%file%filed = path /= ''
       run%remarks = ''
-      allocate (run%extremes(inputs%bearing_count()))
+      allocate (run%extremes(size(inputs%bearings)))
       run%started = wall_clock()
       run%last_checkpoint = run%started
    end subroutine begin_run
@@ -89,20 +89,18 @@ contains
    type(bearing_file_type) function bearing(self, b)
       class(case_run_type), intent(in), target :: self
       integer, intent(in) :: b
-      bearing = new_bearing_file(self%file, self%inputs, b)
+      bearing = new_bearing_file(self%file, self%inputs%bearings(b))
    end function bearing
 
    !> Writes the shapes of the bearings that have changed theirs.
    subroutine note_shapes(self)
       class(case_run_type), intent(in) :: self
       type(bearing_file_type) :: file
-      type(case_type) :: own
       integer :: b
       if (.not. allocated(self%shapes)) return
       do b = 1, size(self%shapes)
-         own = self%inputs%of_bearing(b)
          file = self%bearing(b)
-         if (own%changes_shape()) call put_shape(file, self%shapes(b))
+         if (self%inputs%bearings(b)%changes_shape()) call put_shape(file, self%shapes(b))
       end do
    end subroutine note_shapes
 
@@ -114,11 +112,11 @@ contains
       if (self%inputs%about%task == 'branch' .or. self%file%samples == 0) return
       file = self%bearing(1)
       call put_progress(self%file, file)
-      if (self%inputs%is_machine()) call put_station_figures(self%file, file)
+      if (self%model%rotor%stations > 0) call put_station_figures(self%file, file)
       associate (loads => self%model%rotor%loads(self%model%point))
-         do b = 1, self%inputs%bearing_count()
+         do b = 1, size(self%inputs%bearings)
             file = self%bearing(b)
-            call put_march_figures(file, self%inputs%of_bearing(b), self%extremes(b), norm2(loads(:, b)))
+            call put_march_figures(file, self%inputs, b, self%extremes(b), norm2(loads(:, b)))
          end do
       end associate
    end subroutine note_figures

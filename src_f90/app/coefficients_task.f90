@@ -8,7 +8,7 @@ module coefficients_task
    use equations_of_motion, only: machine_model
    use equilibrium_record, only: equilibrium_type
    use static_model, only: make_fine
-   use mode_names, only: is_of_rotor
+   use mode_names, only: is_of_rotor, position_names
    use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type
    use equilibrium, only: settle_equilibrium
    use stability_threshold, only: find_thresholds
@@ -72,12 +72,13 @@ contains
       integer :: b
       do b = 1, size(fine%bearings)
          part = run%bearing(b)
-         associate (layout => fine%layout%bearings(b))
-            call put_coefficients(part, found, layout, b, run%inputs%coefficients%frequency_ratio)
+         associate (layout => fine%layout%elements(b))
+            call put_coefficients(part, found, layout, position_names(fine, b), b, &
+               & run%inputs%coefficients%frequency_ratio)
             call put_shapes(part, found, layout)
          end associate
       end do
-      if (run%inputs%is_machine()) then
+      if (fine%rotor%stations > 0) then
          call find_rotor_response(fine, found, response, error)
          if (allocated(error)) return
          call put_rotor_response(run%file, found, response, run%inputs%sense())
@@ -88,7 +89,7 @@ contains
       if (.not. allocated(response%of_reduction)) allocate (response%of_reduction(2*size(found%bearings(1)%moves), &
          & size(found%modes)), source=0.0_wp)
       call print_coefficients(found, run%inputs, response%of_reduction > mostly)
-      if (run%inputs%is_machine()) call print_response(found, response, run%inputs)
+      if (allocated(response%unbalance)) call print_response(found, response, run%inputs)
    end subroutine write_coefficients
 
    subroutine print_coefficients(found, inputs, of_reduction)
@@ -100,14 +101,16 @@ contains
       integer :: b, i, k
       kept = ''
       if (inputs%thermal%model /= 'none') kept = 'viscosities'
-      if (inputs%changes_shape() .and. kept /= '') kept = kept//' and '
-      if (inputs%changes_shape()) kept = kept//'clearances'
+      if (any(inputs%bearings%changes_shape())) then
+         if (kept /= '') kept = kept//' and '
+         kept = kept//'clearances'
+      end if
       if (kept /= '') print '(a)', 'stiffness and damping at the '//kept//' of this equilibrium:'
       associate (ratios => inputs%coefficients%frequency_ratio)
          do i = 1, size(found%bearings)
             print '(a)', pivots_of(found, i, inputs)//':'
             do b = 1, size(found%stiffness, 5)
-               if (inputs%is_machine()) print '(a)', '  bearing '''//inputs%machine%bearings(b)%name//''':'
+               if (inputs%bearings(b)%name /= '') print '(a)', '  '//inputs%bearings(b)%label(':')
                do k = 1, min(most, size(ratios))
                   print '(a)', '  whirl at '//to_text(ratios(k))//' of the speed: K ' &
                      & //of_journal(found%stiffness(:, :, k, i, b))//' MN/m, C ' &
@@ -231,13 +234,8 @@ contains
       integer, intent(in) :: i
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: title
-      type(case_type) :: own
-      integer :: b
       title = 'coefficients'
-      do b = 1, inputs%bearing_count()
-         own = inputs%of_bearing(b)
-         if (own%tilting()) title = 'pivots '//trim(found%bearings(i)%pivot)
-      end do
+      if (any(inputs%bearings%tilting())) title = 'pivots '//trim(found%bearings(i)%pivot)
    end function pivots_of
 
    !> The four elements, in millions.

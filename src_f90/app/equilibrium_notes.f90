@@ -1,6 +1,7 @@
 !> What a run writes and prints of its equilibrium: of each bearing the same, of a machine besides what is of the whole.
 module equilibrium_notes
    use kinds, only: wp
+   use state_layout, only: tilt
    use equilibrium_record, only: equilibrium_type
    use equations_of_motion, only: machine_model
    use static_figures, only: static_figures_type, find_static_figures
@@ -26,12 +27,14 @@ contains
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
       real(wp), allocatable :: loads(:, :), slopes(:)
+      character(len=:), allocatable :: title
       integer :: b, as
       run%model%oil = static%oil
       run%computed = .true.
       call run%note_shapes()
-      if (.not. run%inputs%is_machine()) then
-         call note_bearing(run, run%model, static, 1, 'equilibrium: ', .not. run%quiet)
+      if (run%model%rotor%stations == 0) then
+         call note_bearing(run, run%model, static, 1, 'equilibrium: ', .not. run%quiet, '; ' &
+            & //stability_text(static%stability, 'journal', run%inputs%bearings(1)%tilting()))
          call put_stability(run%file, static)
          call run%note_remarks(shown=.true.)
          return
@@ -41,15 +44,16 @@ contains
       slopes = bearing_slopes(run, static)
       call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads)
       if (.not. run%quiet) call print_shaft(run%file)
-      if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static, run%inputs)
+      if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static%stability, 'shaft', &
+         & any(run%inputs%bearings%tilting()))
       do b = 1, size(loads, 2)
          as = b
          if (.not. run%quiet) as = same_equilibrium(run, static, loads, slopes, b)
-         call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, &
-            & bearing_title(run%inputs, b, loads(:, b)), as == b .and. .not. run%quiet)
+         title = bearing_title(run%inputs%bearings(b), loads(:, b))
+         call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, title, &
+            & as == b .and. .not. run%quiet, '')
          call note_misalignment(run, static, slopes(b), b, as == b .and. .not. run%quiet)
-         if (as < b .and. .not. run%quiet) print '(a)', bearing_title(run%inputs, b, loads(:, b)) &
-            & //'all else as of bearing '''//run%inputs%machine%bearings(as)%name//''''
+         if (as < b .and. .not. run%quiet) print '(a)', title//'all else as of '//run%inputs%bearings(as)%label()
       end do
       call run%note_remarks(shown=.true.)
    end subroutine note_equilibrium
@@ -67,7 +71,8 @@ contains
       do first = 1, b - 1
          if (first_equal(run%inputs, b) /= first_equal(run%inputs, first)) cycle
          one = part_of(run%model, static, first)
-         if (agree(loads(:, first), loads(:, b)) .and. agree(one%rotor, own%rotor) .and. agree(one%tilt, own%tilt) &
+         if (agree(loads(:, first), loads(:, b)) .and. agree(one%rotor, own%rotor) &
+            & .and. agree(one%pads%x(tilt), own%pads%x(tilt)) &
             & .and. agree(one%min_film_thickness, own%min_film_thickness) &
             & .and. agree([slopes(first)], [slopes(b)])) return
       end do
@@ -83,9 +88,9 @@ contains
    function bearing_slopes(run, static) result(slopes)
       type(case_run_type), intent(in) :: run
       type(equilibrium_type), intent(in) :: static
-      real(wp) :: slopes(size(run%inputs%machine%bearings)), at_stations(2, run%model%rotor%stations)
+      real(wp) :: slopes(size(run%inputs%bearings)), at_stations(2, run%model%rotor%stations)
       at_stations = run%model%rotor%station_slopes(static%rotor)
-      slopes = norm2(at_stations(:, run%inputs%machine%bearings%station), dim=1)
+      slopes = norm2(at_stations(:, run%inputs%bearings%station), dim=1)
    end function bearing_slopes
 
    !> What the slope of the shaft in bearing b of a machine, rad, does to its films, which leave it out.
@@ -98,26 +103,25 @@ contains
       type(bearing_file_type) :: file
       real(wp) :: misalignment
       file = run%bearing(b)
-      associate (of => run%inputs%machine%bearings(b), bearing => run%model%layout%bearings(b))
-         misalignment = maxval(slope*of%bearing%axial_length/2/static%min_film_thickness(bearing%all_pads()))
-      end associate
+      misalignment = maxval(slope*run%inputs%bearings(b)%axial_length/2 &
+         & /static%min_film_thickness(run%model%layout%elements(b)%all_pads()))
       call put_misalignment(file, misalignment)
       if (shown) call print_misalignment(slope, misalignment)
    end subroutine note_misalignment
 
-   !> Bearing b, of this model of it alone; `title` begins its first line. `shown`: it is printed, too.
-   subroutine note_bearing(run, model, static, b, title, shown)
+   !> Bearing b, of this model of it alone. `shown`: it is printed, too; title and ending are those of its first line.
+   subroutine note_bearing(run, model, static, b, title, shown, ending)
       type(case_run_type), intent(inout) :: run
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(in) :: static
       integer, intent(in) :: b
-      character(len=*), intent(in) :: title
+      character(len=*), intent(in) :: title, ending
       logical, intent(in) :: shown
       type(static_figures_type) :: figures
       type(bearing_file_type) :: file
       file = run%bearing(b)
-      associate (inputs => model%inputs)
-         call put_equilibrium(file, static, inputs%tilting(), inputs%tilting_radial())
+      associate (inputs => model%inputs, bearing => run%inputs%bearings(b))
+         call put_equilibrium(file, static, model%bearings(1)%coordinates)
          call find_static_figures(model, static, figures)
          call put_figures(file, inputs, figures)
          if (allocated(figures%oil)) then
@@ -126,10 +130,10 @@ contains
          end if
          if (allocated(static%films)) call put_film_temperatures(file, static%films(1))
          if (.not. shown) return
-         call print_equilibrium(title, static, inputs, .not. run%inputs%is_machine())
+         call print_equilibrium(title, static, bearing%tilting(), ending)
          call print_figures(inputs, figures)
          if (allocated(figures%oil)) call print_temperatures(figures%oil, static%oil%viscosity)
-         if (inputs%changes_shape()) call print_shape(run%inputs%of_bearing(b), run%shapes(b))
+         if (bearing%changes_shape()) call print_shape(bearing, run%shapes(b))
       end associate
    end subroutine note_bearing
 end module equilibrium_notes

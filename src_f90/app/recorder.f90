@@ -6,7 +6,8 @@ module recorder
    use marching, only: march_observer_type
    use ode_model, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
-   use bearing_samples, only: bearing_sample, take_sample
+   use state_layout, only: pad_state, tilt
+   use bearing_samples, only: bearing_sample, take_sample, element_forces
    use march_results, only: add_sample, put_spectra
    use machine_results, only: put_turned_rotor
    use result_size, only: sample_interval
@@ -29,6 +30,8 @@ module recorder
       type(bearing_file_type), allocatable, private :: bearings(:)
       !> y and z of the stations in the last sample, (2, station), m.
       real(wp), allocatable, private :: stations(:, :)
+      !> Forces of other elements in the last sample, (2, element), N.
+      real(wp), allocatable, private :: elements(:, :)
       integer(i8), private :: samples = 0
    contains
       procedure :: sample
@@ -53,11 +56,11 @@ contains
       real(wp), intent(in) :: t
       integer :: b
       self%run => run
-      allocate (self%taken(run%inputs%bearing_count()), self%bearings(run%inputs%bearing_count()))
+      allocate (self%taken(size(run%inputs%bearings)), self%bearings(size(run%inputs%bearings)))
       do b = 1, size(self%bearings)
          self%bearings(b) = run%bearing(b)
       end do
-      allocate (self%stations(2, run%model%rotor%stations))
+      allocate (self%stations(2, run%model%rotor%stations), self%elements(2, size(run%model%others)))
       self%progress = new_progress(t, run%inputs%operation%duration, run%quiet)
       if (run%inputs%integration%stop_when_periodic > 0) call self%follow_orbit()
    end subroutine begin_recording
@@ -65,7 +68,8 @@ contains
    !> Readies the watch for a periodic orbit, with what was sampled before the run was resumed.
    subroutine follow_orbit(self)
       class(recorder_type), intent(inout) :: self
-      real(wp), allocatable :: rotor(:, :), tilt(:, :), values(:, :), none(:)
+      real(wp), allocatable :: rotor(:, :), values(:, :)
+      type(pad_state), allocatable :: pads(:, :)
       integer :: passed, n, b, i
       associate (samples => self%run%inputs%output%samples_per_revolution, model => self%run%model)
          ! the last whole revolution and what came after it; comparing begins with the revolution after
@@ -73,18 +77,19 @@ contains
          n = int(self%run%file%samples - int(passed, i8)*samples)
          self%orbit = new_periodicity(samples, 2*model%rotor%journals + size(model%layout%tilts()), passed)
          if (n == 0) return
-         allocate (rotor(model%rotor%positions, n), tilt(model%layout%pads, n), none(model%layout%pads), source=0.0_wp)
+         allocate (rotor(model%rotor%positions, n), source=0.0_wp)
+         allocate (pads(model%layout%pads, n))
          do b = 1, size(self%bearings)
             call self%bearings(b)%last_samples('journal_y', n, values)
             rotor(2*b - 1, :) = values(1, :)
             call self%bearings(b)%last_samples('journal_z', n, values)
             rotor(2*b, :) = values(1, :)
-            if (.not. model%layout%bearings(b)%tilting) cycle
+            if (.not. model%layout%elements(b)%has(tilt)) cycle
             call self%bearings(b)%last_samples('pad_tilt', n, values)
-            tilt(model%layout%bearings(b)%all_pads(), :) = values
+            pads(model%layout%elements(b)%all_pads(), :)%x(tilt) = values
          end do
          do i = 1, n
-            call self%orbit%add(self%watched(model%static_state(rotor(:, i), tilt(:, i), none)))
+            call self%orbit%add(self%watched(model%static_state(rotor(:, i), pads(:, i))))
          end do
       end associate
    end subroutine follow_orbit
@@ -132,8 +137,9 @@ contains
                & y(:rotor%states))
          end if
       end associate
+      if (size(self%elements) > 0) self%elements(:, :) = element_forces(self%run%model, t, y)
       call add_sample(self%run%file, self%bearings, self%taken, self%stations, &
-         & self%run%model%point%excitation_forces(t), error)
+         & self%run%model%point%excitation_forces(t), self%elements, error)
       self%run%reached = t
       associate (limit => self%run%inputs%integration%stop_when_periodic)
          if (limit > 0) then
@@ -157,7 +163,7 @@ contains
       integer :: b
       if (.not. self%run%file%filed) return
       do b = 1, size(self%bearings)
-         call put_spectra(self%bearings(b), self%run%inputs%of_bearing(b), interval)
+         call put_spectra(self%bearings(b), self%run%inputs, b, interval)
       end do
    end subroutine put_all_spectra
 

@@ -59,7 +59,7 @@ contains
       if (.not. allocated(error)) call check_memory(inputs, error)
       if (allocated(error)) return
       call begin_run(run, inputs, path, tag, verified_states, quiet)
-      if (inputs%is_machine()) call read_rotor(run%inputs%machine, error)
+      call read_rotor(run%inputs%rotor, error)
       if (.not. allocated(error)) call read_tables(run%inputs, error)
       if (allocated(error)) return
       complete = .false.
@@ -202,15 +202,14 @@ contains
    subroutine print_bearings(run)
       type(case_run_type), intent(inout) :: run
       type(bearing_file_type) :: file
+      character(len=:), allocatable :: title
       integer :: b
-      if (run%inputs%is_machine()) call print_stations(run%file)
-      do b = 1, run%inputs%bearing_count()
+      if (run%model%rotor%stations > 0) call print_stations(run%file)
+      do b = 1, size(run%inputs%bearings)
          file = run%bearing(b)
-         if (run%inputs%is_machine()) then
-            call print_march('last revolution, '//bearing_title(run%inputs, b), file, run%inputs%of_bearing(b))
-         else
-            call print_march('last revolution: ', file, run%inputs)
-         end if
+         title = bearing_title(run%inputs%bearings(b))
+         call print_march('last revolution'//merge(': ', ', ', title == '')//title, file, &
+            & run%inputs%bearings(b)%tilting())
       end do
    end subroutine print_bearings
 

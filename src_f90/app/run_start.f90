@@ -8,7 +8,7 @@ module run_start
    use files, only: real_path
    use read_files, only: file_marks, marks_name
    use film_oils, only: film_oil
-   use kinematics, only: pad_state
+   use state_layout, only: pad_state, tilt, pivot_deflection
    use equilibrium_record, only: equilibrium_type
    use bearing_equilibrium, only: find_partial_equilibrium
    use equilibrium, only: find_equilibrium
@@ -57,7 +57,7 @@ contains
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
       call note_equilibrium(run, static)
-      if (present(y)) y = run%model%static_state(static%rotor, static%tilt, static%pivot_deflection)
+      if (present(y)) y = run%model%static_state(static%rotor, static%pads)
    end subroutine start_at_equilibrium
 
    !> Creates the file and finds the equilibrium.
@@ -90,14 +90,14 @@ contains
       class(run_file_type), intent(in), target :: file
       type(error_type), allocatable, intent(inout) :: error
       type(bearing_shape_type), allocatable :: shapes(:)
-      type(case_type) :: own
       integer :: b
-      if (.not. run%inputs%changes_shape()) return
+      if (.not. any(run%inputs%bearings%changes_shape())) return
       shapes = cold_shapes(run%inputs)
       do b = 1, size(shapes)
-         own = run%inputs%of_bearing(b)
-         if (own%changes_shape() .and. .not. allocated(error)) call read_shape(new_bearing_file(file, run%inputs, b), &
-            & shapes(b), error)
+         associate (bearing => run%inputs%bearings(b))
+            if (bearing%changes_shape() .and. .not. allocated(error)) call read_shape(new_bearing_file(file, bearing), &
+               & shapes(b), error)
+         end associate
       end do
       call add_context(error, run%path)
       if (.not. allocated(error)) call take_shapes(run, shapes)
@@ -128,7 +128,7 @@ contains
             if (present(equilibrium_state) .and. .not. allocated(error)) equilibrium_state = y
             if (allocated(error) .or. .not. run%inputs%is_disturbed()) return
             rotor = y(:model%rotor%states)
-            pads = model%layout%bearings(1)%pad_states(y)
+            pads = model%layout%elements(1)%pad_states(y)
          else
             allocate (pads(model%layout%pads), rotor(model%rotor%states))
             rotor = 0
@@ -152,7 +152,7 @@ contains
          end if
       end associate
       run%computed = .true.
-      if (.not. run%quiet) call print_start(run%inputs, rotor, pads%tilt)
+      if (.not. run%quiet) call print_start(run%inputs, rotor, pads)
    end subroutine make_start
 
    !> Writes the viscosities of warm oil at the start of the march, and their course where they change. A branch has
@@ -164,7 +164,7 @@ contains
       if (run%inputs%about%task == 'branch') return
       do b = 1, size(run%model%bearings)
          file = run%bearing(b)
-         associate (pads => run%model%layout%bearings(b)%all_pads())
+         associate (pads => run%model%layout%elements(b)%all_pads())
             if (has_warm_oil(run%model)) call put_oil(file, '', run%model%oil(pads))
             if (run%model%oil_history%runs()) call put_viscosity_history(file, run%model%oil_history, pads)
          end associate
@@ -183,7 +183,7 @@ contains
       type(equilibrium_type) :: static
       real(wp), allocatable :: y(:)
       logical, allocatable :: held(:)
-      if (.not. (has_warm_oil(run%model) .or. run%inputs%changes_shape())) return
+      if (.not. (has_warm_oil(run%model) .or. any(run%inputs%bearings%changes_shape()))) return
       if (partly) then
          call find_partial_equilibrium(run%model, static, held, error, stop_requested)
       else
@@ -192,7 +192,7 @@ contains
       if (.not. allocated(error)) then
          call take_shapes(run, static%shapes)
          run%model%oil = static%oil
-         y = run%model%static_state(static%rotor, static%tilt, static%pivot_deflection)
+         y = run%model%static_state(static%rotor, static%pads)
          call let_grooves_warm(run, y, error)
          if (present(equilibrium_state)) equilibrium_state = y
       else if (error%status == stopped) then
@@ -215,9 +215,9 @@ contains
          return
       end if
       do b = 1, size(run%model%bearings)
-         associate (pads => run%model%layout%bearings(b)%all_pads())
+         associate (pads => run%model%layout%elements(b)%all_pads())
             oil = run%model%oil(pads)
-            if (.not. allocated(error)) call read_oil(new_bearing_file(file, run%inputs, b), '', oil, error)
+            if (.not. allocated(error)) call read_oil(new_bearing_file(file, run%inputs%bearings(b)), '', oil, error)
             run%model%oil(pads) = oil
          end associate
       end do
@@ -269,7 +269,7 @@ contains
             call raise(error, input_error, 'start%file = '''//file//''': is the result of this run itself; name ' &
                & //'another with --output')
          else
-            call read_last_state(file, run%inputs, run%model%layout, rotor, pads, error)
+            call read_last_state(file, run%inputs, run%model, rotor, pads, error)
             call add_context(error, 'start%file')
          end if
       end associate
@@ -287,25 +287,24 @@ contains
       call say_nothing_computed(error)
       if (allocated(error)) return
       rotor(:size(static%rotor)) = static%rotor
-      pads%tilt = static%tilt
-      pads%pivot_deflection = static%pivot_deflection
+      pads = static%pads
       run%model%oil = static%oil
       call put_figure(run%file, 'pad_without_equilibrium', merge(1.0_wp, 0.0_wp, held), '1', &
          & '1 where it has no equilibrium: the march starts without tilt')
    end subroutine start_partially
 
-   !> Adds the values of the group, which are for a rigid journal.
+   !> Adds the values of the group, if it has any.
    pure subroutine disturb(run, rotor, pads)
       type(case_run_type), intent(in) :: run
       real(wp), intent(inout) :: rotor(:)
       type(pad_state), intent(inout) :: pads(:)
-      if (run%inputs%is_machine()) return
+      if (.not. run%inputs%is_disturbed()) return
       associate (s => run%inputs%start)
          rotor = rotor + [s%journal, s%journal_velocity]
-         pads%tilt = pads%tilt + s%pad_tilt
-         pads%tilt_rate = pads%tilt_rate + s%pad_tilt_rate
-         pads%pivot_deflection = pads%pivot_deflection + s%pivot_deflection
-         pads%pivot_deflection_rate = pads%pivot_deflection_rate + s%pivot_deflection_rate
+         pads%x(tilt) = pads%x(tilt) + s%pad_tilt
+         pads%v(tilt) = pads%v(tilt) + s%pad_tilt_rate
+         pads%x(pivot_deflection) = pads%x(pivot_deflection) + s%pivot_deflection
+         pads%v(pivot_deflection) = pads%v(pivot_deflection) + s%pivot_deflection_rate
       end associate
    end subroutine disturb
 end module run_start

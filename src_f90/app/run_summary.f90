@@ -3,11 +3,14 @@ module run_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, pi, degree
    use text, only: to_text, fixed_text, micro, list_text
+   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use result_size, only: size_note
    use case_remarks, only: behind
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number, of_supply
+   use state_layout, only: pad_state, tilt, pivot_deflection
+   use force_balance, only: stability_type
    use equilibrium_record, only: equilibrium_type
    use static_figures, only: static_figures_type
    use record, only: record_type
@@ -24,16 +27,13 @@ module run_summary
 
 contains
 
-   !> "bearing 'drive_end' at station 2: load y -19620.0, z 0.0 N, "
-   function bearing_title(inputs, b, load) result(title)
-      type(case_type), intent(in) :: inputs
-      integer, intent(in) :: b
+   !> "bearing 'drive_end' at station 2: load y -19620.0, z 0.0 N, "; empty for a bearing without name.
+   function bearing_title(bearing, load) result(title)
+      type(bearing_type), intent(in) :: bearing
       !> Along y and z, N.
       real(wp), intent(in), optional :: load(2)
       character(len=:), allocatable :: title
-      associate (bearing => inputs%machine%bearings(b))
-         title = 'bearing '''//bearing%name//''' at station '//to_text(bearing%station)//': '
-      end associate
+      title = bearing%label(' at station '//to_text(bearing%station)//': ')
       if (present(load)) title = title//'load y '//fixed_text(load(1), 1)//', z '//fixed_text(load(2), 1)//' N, '
    end function bearing_title
 
@@ -78,41 +78,38 @@ contains
    end subroutine print_size
 
    !> Where a march starts that does not start at the equilibrium itself: displacements of the journals, which stand
-   !> first, m, and tilts of the pads of all bearings, rad.
-   subroutine print_start(inputs, journals, tilt)
+   !> first, m, and states of the pads of all bearings.
+   subroutine print_start(inputs, journals, pads)
       type(case_type), intent(in) :: inputs
-      real(wp), intent(in) :: journals(:), tilt(:)
-      type(case_type) :: own
-      character(len=:), allocatable :: tilts, of
+      real(wp), intent(in) :: journals(:)
+      type(pad_state), intent(in) :: pads(:)
+      character(len=:), allocatable :: tilts
       integer :: b, before
       before = 0
-      do b = 1, inputs%bearing_count()
-         own = inputs%of_bearing(b)
-         of = ''
-         if (inputs%is_machine()) of = bearing_title(inputs, b)
-         tilts = ''
-         if (own%tilting()) tilts = ', tilts '//list_text(1e3_wp*tilt(before + 1:before + own%pad_count()), 4)//' mrad'
-         before = before + own%pad_count()
-         print '(a)', 'start from '''//inputs%start%from//''': '//of//'journal y '//micro(journals(2*b - 1))//', z ' &
-            & //micro(journals(2*b))//' um'//tilts
+      do b = 1, size(inputs%bearings)
+         associate (own => inputs%bearings(b))
+            tilts = ''
+            if (own%tilting()) tilts = ', tilts ' &
+               & //list_text(1e3_wp*pads(before + 1:before + own%pad_count())%x(tilt), 4)//' mrad'
+            before = before + own%pad_count()
+            print '(a)', 'start from '''//inputs%start%from//''': '//bearing_title(own)//'journal y ' &
+               & //micro(journals(2*b - 1))//', z '//micro(journals(2*b))//' um'//tilts
+         end associate
       end do
    end subroutine print_start
 
-   !> An equilibrium of a bearing, behind this title, and the stability of one that is alone.
-   subroutine print_equilibrium(title, static, inputs, alone)
-      character(len=*), intent(in) :: title
+   !> An equilibrium of a bearing, behind this title; `ending` ends its first line.
+   subroutine print_equilibrium(title, static, tilting, ending)
+      character(len=*), intent(in) :: title, ending
       type(equilibrium_type), intent(in) :: static
-      type(case_type), intent(in) :: inputs
-      logical, intent(in) :: alone
-      character(len=:), allocatable :: pivot, stability
+      logical, intent(in) :: tilting
+      character(len=:), allocatable :: pivot
       integer :: i
-      stability = ''
-      if (alone) stability = '; '//stability_text(static, inputs)
-      print '(a)', title//'journal y '//micro(static%rotor(1))//', z '//micro(static%rotor(2))//' um'//stability
-      do i = 1, size(static%tilt)
+      print '(a)', title//'journal y '//micro(static%rotor(1))//', z '//micro(static%rotor(2))//' um'//ending
+      do i = 1, size(static%pads)
          pivot = ''
-         if (inputs%tilting()) pivot = 'tilt '//milli(static%tilt(i))//' mrad, pivot deflection ' &
-            & //micro(static%pivot_deflection(i))//' um, contact '//fixed_text(static%pivot_load(i), 1)//' N, '
+         if (tilting) pivot = 'tilt '//milli(static%pads(i)%x(tilt))//' mrad, pivot deflection ' &
+            & //micro(static%pads(i)%x(pivot_deflection))//' um, contact '//fixed_text(static%pivot_load(i), 1)//' N, '
          print '(a)', '  pad '//to_text(i)//': '//pivot//'minimum film thickness ' &
             & //micro(static%min_film_thickness(i))//' um, maximum pressure '//mega(static%max_pressure(i))//' MPa'
       end do
@@ -125,19 +122,20 @@ contains
          & //'change by '//fixed_text(100*misalignment, 1)//' % of the minimum thickness, which is left out'
    end subroutine print_misalignment
 
-   !> "the journal is stable, the pads are unstable: oscillatory instability, eigenvalue 69.4 1/s at 37.0 Hz".
-   function stability_text(static, inputs) result(text)
-      type(equilibrium_type), intent(in) :: static
-      type(case_type), intent(in) :: inputs
+   !> "the journal is stable, the pads are unstable: oscillatory instability, eigenvalue 69.4 1/s at 37.0 Hz"; what is
+   !> told of the pads where they tilt.
+   function stability_text(found, rotor, tilting) result(text)
+      type(stability_type), intent(in) :: found
+      !> "journal" or "shaft".
+      character(len=*), intent(in) :: rotor
+      logical, intent(in) :: tilting
       character(len=:), allocatable :: text
-      associate (found => static%stability)
-         text = trim(merge('the shaft is  ', 'the journal is', inputs%is_machine()))//verdict(found%rotor_grows)
-         if (inputs%tilting()) text = text//', the pads are'//verdict(found%pads_grow)
-         text = text//': '
-         if (found%name /= 'stable') text = text//found%name//', '
-         text = text//'eigenvalue '//fixed_text(found%eigenvalue%re, 1)//' 1/s at ' &
-            & //fixed_text(found%eigenvalue%im/(2*pi), 1)//' Hz'
-      end associate
+      text = 'the '//rotor//' is'//verdict(found%rotor_grows)
+      if (tilting) text = text//', the pads are'//verdict(found%pads_grow)
+      text = text//': '
+      if (found%name /= 'stable') text = text//found%name//', '
+      text = text//'eigenvalue '//fixed_text(found%eigenvalue%re, 1)//' 1/s at ' &
+         & //fixed_text(found%eigenvalue%im/(2*pi), 1)//' Hz'
    contains
       function verdict(grows)
          logical, intent(in) :: grows
@@ -155,7 +153,7 @@ contains
       of_load = ''
       if (load(inputs) > 0) of_load = ', attitude angle '//fixed_text(figures%attitude_angle/degree, 2) &
          & //' deg, specific load '//mega(specific_load(inputs))//' MPa, Sommerfeld number ' &
-         & //fixed_text(sommerfeld_number(inputs), 4)//' ('//of_supply(inputs)//')'
+         & //fixed_text(sommerfeld_number(inputs), 4)//' ('//of_supply(inputs%bearings(1))//')'
       print '(a)', '  eccentricity ratio '//fixed_text(figures%eccentricity_ratio, 4)//of_load
       do i = 1, size(figures%pads)
          associate (pad => figures%pads(i))
@@ -197,11 +195,11 @@ contains
          & //' C'
    end subroutine print_temperatures
 
-   !> Figures of a bearing in the last revolution (or in what there is), behind this title.
-   subroutine print_march(title, file, inputs)
+   !> Figures of a bearing in the last revolution (or in what there is), behind this title; of pivots where pads tilt.
+   subroutine print_march(title, file, tilting)
       character(len=*), intent(in) :: title
       class(record_type), intent(inout) :: file
-      type(case_type), intent(in) :: inputs
+      logical, intent(in) :: tilting
       character(len=:), allocatable :: before, after
       integer :: i
       print '(a)', title//'journal y '//micro(figure(file, 'journal_y_min'))//' to ' &
@@ -214,7 +212,7 @@ contains
             & worn => pad_figures(file, 'pad_wear_rate'), deep => pad_figures(file, 'pad_wear_depth_rate'), &
             & film => pad_figures(file, 'pad_min_film_thickness'), pressure => pad_figures(file, 'pad_max_pressure'))
          do i = 1, size(film)
-            if (inputs%tilting()) then
+            if (tilting) then
                before = 'tilt '//milli(lowest(i))//' to '//milli(highest(i))//' mrad, '
                after = ', mean contact '//fixed_text(contact(i), 1)//' N'
                if (has_figure(file, 'pad_friction_work')) after = after//', friction work ' &

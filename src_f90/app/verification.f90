@@ -9,7 +9,7 @@ module verification
    use case_inputs, only: case_type
    use result_size, only: sample_count
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state
+   use state_layout, only: pad_state
    use equations_of_motion, only: machine_model
    use film_comparison, only: film_comparison_type, film_difference, new_film_comparison
    use static_model, only: make_static, make_fine
@@ -37,8 +37,8 @@ contains
       integer, intent(in) :: states
       type(error_type), allocatable, intent(out) :: error
       integer(i8) :: samples
-      call require(.not. inputs%is_machine(), '--verify: compares the films of one bearing with a rigid journal, not ' &
-         & //'those of a machine; run each bearing alone, with its load as rotor%static_load', error)
+      call require(size(inputs%bearings) == 1, '--verify: compares the films of one bearing with a rigid journal, ' &
+         & //'not those of a machine; run each bearing alone, with its load as rotor%static_load', error)
       call require(inputs%about%task /= 'branch', '--verify: the points of a branch keep no states to verify; run ' &
          & //'one of them with case%task = ''equilibrium'' or ''periodic''', error)
       call require(inputs%output%keep == 'all' .or. .not. any(inputs%about%task == ['march   ', 'periodic']), &
@@ -114,7 +114,8 @@ contains
          sample = sample_of(k, n, file%samples, run%inputs%output%samples_per_revolution)
          call file%part_of_samples('time', sample, 1, at)
          time(k) = at(1, 1)
-         call read_states(file%hdf5, '', run%model%layout%bearings(1), sample, journal, pads)
+         call read_states(file%hdf5, '', run%model%bearings(1)%coordinates, &
+            & run%model%layout%elements(1)%bristles, sample, journal, pads)
          call file%error_of(error)
          if (.not. allocated(error) .and. .not. all_finite(journal, pads)) call raise(error, system_error, run%path &
             & //': damaged: a state is not a number')
@@ -153,6 +154,7 @@ contains
       type(machine_model) :: static
       type(pad_state) :: pads(run%model%layout%pads)
       real(wp) :: journal(2)
+      integer :: k
       allocate (time(0), found(size(pads), 1))
       if (file%has('coefficients')) then
          call make_fine(run%model, static)
@@ -160,12 +162,15 @@ contains
          call make_static(run%model, run%model%point%cavitation, static)
       end if
       journal = [file%get_real('equilibrium/journal_y'), file%get_real('equilibrium/journal_z')]
-      if (static%layout%bearings(1)%tilting) call file%get_list('equilibrium/pad_tilt', pads%tilt)
-      if (static%layout%bearings(1)%radial) call file%get_list('equilibrium/pivot_deflection', pads%pivot_deflection)
+      associate (coordinates => static%bearings(1)%coordinates)
+         do k = 1, coordinates%n
+            call file%get_list('equilibrium/'//trim(coordinates%words(k)%series), pads%x(coordinates%kind(k)))
+         end do
+      end associate
       if (has_warm_oil(static)) call read_oil(file, 'equilibrium/', static%oil, error)
       if (allocated(error)) return
       comparison = new_film_comparison(run%model%inputs)
-      call comparison%compare(static, 0.0_wp, static%static_state(journal, pads%tilt, pads%pivot_deflection), &
+      call comparison%compare(static, 0.0_wp, static%static_state(journal, pads), &
          & found(:, 1))
    end subroutine verify_equilibrium
 end module verification

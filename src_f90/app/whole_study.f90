@@ -262,7 +262,7 @@ contains
       type(error_type), allocatable :: error
       marks = ''
       call study%inputs(k, inputs, error)
-      if (.not. allocated(error) .and. inputs%is_machine()) call read_rotor(inputs%machine, error)
+      if (.not. allocated(error)) call read_rotor(inputs%rotor, error)
       if (.not. allocated(error)) call read_tables(inputs, error)
       if (.not. allocated(error)) marks = file_marks(inputs)
    end function marks_of_run

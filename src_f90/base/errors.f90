@@ -53,7 +53,7 @@ contains
    pure subroutine add_context(error, context)
       type(error_type), allocatable, intent(inout) :: error
       character(len=*), intent(in) :: context
-      if (allocated(error)) error%message = context//': '//error%message
+      if (allocated(error) .and. context /= '') error%message = context//': '//error%message
    end subroutine add_context
 
    !> The answer, where somebody is there to ask.

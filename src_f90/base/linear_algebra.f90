@@ -3,7 +3,7 @@ module linear_algebra
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv, dgbsv, zgesv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, solve_2x2, &
+   public :: dgesv, dgbsv, zgesv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, solve_2x2, solve_few, &
       & simd_width, padded, apply
 
    !> Rows are filled up to a multiple of this, so that loops over them have no remainder.
@@ -150,6 +150,25 @@ contains
       determinant = a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1)
       if (abs(determinant) > 0) x = [a(2, 2)*b(1) - a(1, 2)*b(2), a(1, 1)*b(2) - a(2, 1)*b(1)]/determinant
    end function solve_2x2
+
+   !> x of a x = b with few unknowns; 0 where a is singular.
+   function solve_few(a, b) result(x)
+      real(wp), intent(in) :: a(:, :), b(:)
+      real(wp) :: x(size(b)), factors(size(b), size(b))
+      integer :: pivots(size(b)), info
+      select case (size(b))
+      case (1)
+         x = 0
+         if (abs(a(1, 1)) > 0) x = b/a(1, 1)
+      case (2)
+         x = solve_2x2(a, b)
+      case default
+         factors = a
+         x = b
+         call dgesv(size(b), 1, factors, size(b), pivots, x, size(b), info)
+         if (info /= 0) x = 0
+      end select
+   end function solve_few
 
    !> This many numbers, filled up to whole SIMD vectors.
    elemental integer function padded(numbers)

@@ -2,12 +2,13 @@
 module bearing_losses
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
-   use case_inputs, only: case_type
+   use case_groups, only: bearing_type
    use film_solver, only: film_motion, film_oil, film_ok
    use film_losses, only: film_losses_type, film_loss
    use asperity_contact, only: asperity_load
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, frame_of, motion_of
+   use state_layout, only: pad_state
+   use kinematics, only: frame_of, motion_of
    use tilting_pad, only: tilting_pad_type
    use tilting_pad_bearing, only: tilting_pad_bearing_type
    use factories, only: new_losses
@@ -45,11 +46,10 @@ module bearing_losses
 
 contains
 
-   !> For the bearing of a case.
-   function new_bearing_losses(inputs) result(losses)
-      type(case_type), intent(in) :: inputs
+   function new_bearing_losses(bearing) result(losses)
+      type(bearing_type), intent(in) :: bearing
       type(bearing_losses_type) :: losses
-      losses%films = new_losses(inputs)
+      losses%films = new_losses(bearing)
    end function new_bearing_losses
 
    !> All heat that a pad makes, W.

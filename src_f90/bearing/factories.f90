@@ -1,9 +1,8 @@
-!> Builds the film solver, contact law, friction law and pads of a case: the only module that turns names of the
+!> Builds the film solver, contact law, friction law and pads of a bearing: the only module that turns names of the
 !> input into types.
 module factories
    use kinds, only: wp, degree
-   use case_groups, only: is_set
-   use case_inputs, only: case_type
+   use case_groups, only: bearing_type, film_type, pivot_type, friction_type, asperity_type, is_set
    use pad_gap, only: pad_gap_type
    use film_solver, only: film_solver_type, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use fourier_film, only: new_fourier_film
@@ -54,19 +53,21 @@ contains
 
    !> The film solver of all pads. No function: gfortran never frees the result of one whose type is chosen within,
    !> and Python makes a solver for every instant.
-   subroutine make_film(inputs, accuracy, film)
-      type(case_type), intent(in) :: inputs
+   subroutine make_film(bearing, tolerance, accuracy, film)
+      type(bearing_type), intent(in) :: bearing
+      !> The relative one of a march.
+      real(wp), intent(in) :: tolerance
       !> One of the five above.
       integer, intent(in) :: accuracy
       class(film_solver_type), allocatable, intent(out) :: film
-      type(pad_gap_type) :: gaps(inputs%pad_count())
+      type(pad_gap_type) :: gaps(bearing%pad_count())
       character(len=:), allocatable :: solver
       integer :: cells, modes, volumes(2), condition
       real(wp), allocatable :: error, of_volumes
       real(wp) :: of_tables
       type(direct_film_type) :: direct
-      gaps = new_gaps(inputs)
-      associate (f => inputs%film)
+      gaps = new_gaps(bearing)
+      associate (f => bearing%film)
          condition = cavitation_of(f%cavitation)
          cells = merge(f%circumferential_cells, enough_cells(gaps), f%circumferential_cells > 0)
          modes = merge(f%axial_modes, enough_modes(gaps), f%axial_modes > 0)
@@ -74,7 +75,7 @@ contains
          if (f%circumferential_cells + f%axial_modes == 0) error = merge(quick_error, usual_error, &
             & accuracy == quick_films)
          if (allocated(error) .and. accuracy == converged_films) error = converged_error
-         volumes = volumes_of(inputs, gaps, cavitation_volumes)
+         volumes = volumes_of(f, gaps, cavitation_volumes)
          if (accuracy == converged_films .and. f%circumferential_cells + f%axial_cells == 0) then
             of_volumes = converged_volumes_error
          end if
@@ -82,7 +83,7 @@ contains
          if (accuracy == quick_films .or. solver == 'auto' .and. accuracy == static_films) solver = 'direct'
          select case (solver)
          case ('sor')
-            film = new_sor_film(gaps, sor_settings(inputs, gaps, accuracy))
+            film = new_sor_film(gaps, sor_settings(f, gaps, tolerance, accuracy))
          case ('fourier')
             film = new_fourier_film(gaps, cells, modes, condition == cavitation_gumbel, error)
          case ('direct')
@@ -92,7 +93,7 @@ contains
             of_tables = max(f%table_tolerance, least_tolerance)
             if (of_march(accuracy)) then
                ! cavitated films by volumes are dear, by modes they are cheap
-               associate (usual => merge(1, 4, condition == cavitation_gumbel)*inputs%integration%relative_tolerance)
+               associate (usual => merge(1, 4, condition == cavitation_gumbel)*tolerance)
                   film = new_table_film(direct, .true., merge(of_tables, usual, f%table_tolerance > 0), &
                      & filled=accuracy == filled_films)
                end associate
@@ -113,27 +114,25 @@ contains
    end function of_march
 
    !> Volumes along the longest arc and along half the width, from those of a usual arc, unless the input names them.
-   pure function volumes_of(inputs, gaps, usual) result(volumes)
-      type(case_type), intent(in) :: inputs
+   pure function volumes_of(film, gaps, usual) result(volumes)
+      type(film_type), intent(in) :: film
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: usual(2)
       integer :: volumes(2)
-      associate (given => [inputs%film%circumferential_cells, inputs%film%axial_cells])
+      associate (given => [film%circumferential_cells, film%axial_cells])
          volumes = merge(given, usual*[max(1, nint(maxval(gaps%arc())/usual_arc)), 1], given > 0)
       end associate
    end function volumes_of
 
-   pure type(sor_options) function sor_settings(inputs, gaps, accuracy) result(options)
-      type(case_type), intent(in) :: inputs
+   pure type(sor_options) function sor_settings(f, gaps, tolerance, accuracy) result(options)
+      type(film_type), intent(in) :: f
       type(pad_gap_type), intent(in) :: gaps(:)
+      real(wp), intent(in) :: tolerance
       integer, intent(in) :: accuracy
       integer :: volumes(2)
-      volumes = volumes_of(inputs, gaps, sor_volumes)
-      associate (f => inputs%film)
-         options = sor_options(volumes(1), volumes(2), f%relaxation, &
-            & min(f%tolerance, max(least_residual, sor_tolerance*inputs%integration%relative_tolerance)), &
-            & f%max_sweeps, cavitation_of(f%cavitation))
-      end associate
+      volumes = volumes_of(f, gaps, sor_volumes)
+      options = sor_options(volumes(1), volumes(2), f%relaxation, &
+         & min(f%tolerance, max(least_residual, sor_tolerance*tolerance)), f%max_sweeps, cavitation_of(f%cavitation))
       if (of_march(accuracy)) return
       options%tolerance = min(options%tolerance, static_residual)
       options%max_sweeps = max(options%max_sweeps, static_sweeps)
@@ -153,23 +152,23 @@ contains
    end function cavitation_of
 
    !> What finds losses and flows of the films of all pads: by converged films, whatever solver the motion takes.
-   pure function new_losses(inputs) result(losses)
-      type(case_type), intent(in) :: inputs
-      type(film_losses_type) :: losses(inputs%pad_count())
-      type(pad_gap_type) :: gaps(inputs%pad_count())
+   pure function new_losses(bearing) result(losses)
+      type(bearing_type), intent(in) :: bearing
+      type(film_losses_type) :: losses(bearing%pad_count())
+      type(pad_gap_type) :: gaps(bearing%pad_count())
       integer :: i
-      gaps = new_gaps(inputs)
+      gaps = new_gaps(bearing)
       do i = 1, size(gaps)
-         losses(i) = new_film_losses(gaps(i), cavitation_of(inputs%film%cavitation))
+         losses(i) = new_film_losses(gaps(i), cavitation_of(bearing%film%cavitation))
       end do
    end function new_losses
 
    !> The gaps between pads and journal.
-   pure function new_gaps(inputs) result(gaps)
-      type(case_type), intent(in) :: inputs
-      type(pad_gap_type) :: gaps(inputs%pad_count())
+   pure function new_gaps(b) result(gaps)
+      type(bearing_type), intent(in) :: b
+      type(pad_gap_type) :: gaps(b%pad_count())
       integer :: i
-      associate (b => inputs%bearing, p => inputs%pads)
+      associate (p => b%pads)
          do i = 1, size(gaps)
             gaps(i) = pad_gap_type(b%journal_radius, b%machined_clearance(i), b%axial_length(i), &
                & p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
@@ -179,29 +178,28 @@ contains
    end function new_gaps
 
    !> The contact law of a pad's pivot.
-   subroutine make_law(inputs, pad, law)
-      type(case_type), intent(in) :: inputs
+   subroutine make_law(v, pad, law)
+      type(pivot_type), intent(in) :: v
       integer, intent(in) :: pad
       class(contact_law_type), allocatable, intent(out) :: law
-      associate (v => inputs%pivot)
-         if (v%law == 'table') then
-            allocate (law, source=new_measured_contact(v%points, v%socket_radius(pad), v%radius_difference(pad)))
-            return
-         end if
-         call make_contact_law(v%law, v%socket_radius(pad), v%radius_difference(pad), v%young_modulus, &
-            & v%poisson_ratio, v%deflection_factor, law)
-      end associate
+      if (v%law == 'table') then
+         allocate (law, source=new_measured_contact(v%points, v%socket_radius(pad), v%radius_difference(pad)))
+         return
+      end if
+      call make_contact_law(v%law, v%socket_radius(pad), v%radius_difference(pad), v%young_modulus, &
+         & v%poisson_ratio, v%deflection_factor, law)
    end subroutine make_law
 
-   !> The contact of a pad's pivot, with a table for a motion: a task without one looks up too seldom.
-   subroutine make_contact(inputs, pad, contact)
-      type(case_type), intent(in) :: inputs
+   !> The contact of a pad's pivot, with a table where it `moves`: a task without motion looks up too seldom.
+   subroutine make_contact(pivot, pad, moves, contact)
+      type(pivot_type), intent(in) :: pivot
       integer, intent(in) :: pad
+      logical, intent(in) :: moves
       type(contact_table_type), intent(out) :: contact
       class(contact_law_type), allocatable :: law
-      call make_law(inputs, pad, law)
+      call make_law(pivot, pad, law)
       ! points are looked up as quickly, and a table would round where their cubics meet
-      if (inputs%moves() .and. inputs%pivot%law /= 'table') then
+      if (moves .and. pivot%law /= 'table') then
          contact = new_contact_table(law)
       else
          contact = new_untabulated_contact(law)
@@ -209,50 +207,46 @@ contains
    end subroutine make_contact
 
    !> The friction law of a pad's pivot.
-   subroutine make_friction(inputs, pad, law)
-      type(case_type), intent(in) :: inputs
+   subroutine make_friction(f, pad, law)
+      type(friction_type), intent(in) :: f
       integer, intent(in) :: pad
       class(friction_law), allocatable, intent(out) :: law
       real(wp) :: damping
-      associate (f => inputs%friction)
-         select case (f%model)
-         case ('bengisu_akay')
-            law = bengisu_akay_friction(.false., f%static_coefficient(pad), f%dynamic_coefficient(pad), &
-               & f%critical_velocity, f%decay)
-         case ('lugre')
-            damping = f%bristle_damping
-            if (.not. is_set(damping)) damping = default_bristle_damping(f%bristle_stiffness, f%characteristic_load)
-            law = lugre_friction(.true., f%static_coefficient(pad), f%dynamic_coefficient(pad), never_sticks, &
-               & f%stribeck_velocity, f%stribeck_exponent, f%bristle_stiffness, damping, f%viscous_coefficient)
-         case default
-            law = friction_law()
-         end select
-      end associate
+      select case (f%model)
+      case ('bengisu_akay')
+         law = bengisu_akay_friction(.false., f%static_coefficient(pad), f%dynamic_coefficient(pad), &
+            & f%critical_velocity, f%decay)
+      case ('lugre')
+         damping = f%bristle_damping
+         if (.not. is_set(damping)) damping = default_bristle_damping(f%bristle_stiffness, f%characteristic_load)
+         law = lugre_friction(.true., f%static_coefficient(pad), f%dynamic_coefficient(pad), never_sticks, &
+            & f%stribeck_velocity, f%stribeck_exponent, f%bristle_stiffness, damping, f%viscous_coefficient)
+      case default
+         law = friction_law()
+      end select
    end subroutine make_friction
 
-   !> The contact of pads and journal.
-   pure type(asperity_contact_type) function new_asperities(inputs) result(contact)
-      type(case_type), intent(in) :: inputs
-      associate (a => inputs%asperity)
-         if (a%model == 'none') then
-            contact = no_asperities
-         else
-            contact = new_asperity_contact(a%roughness, a%elastic_modulus, a%factor, a%friction_coefficient, &
-               & inputs%highest_speed()*inputs%bearing%journal_radius)
-         end if
-      end associate
+   !> The contact of pads and journal, whose surface has this highest speed, m/s.
+   pure type(asperity_contact_type) function new_asperities(a, surface_speed) result(contact)
+      type(asperity_type), intent(in) :: a
+      real(wp), intent(in) :: surface_speed
+      if (a%model == 'none') then
+         contact = no_asperities
+      else
+         contact = new_asperity_contact(a%roughness, a%elastic_modulus, a%factor, a%friction_coefficient, surface_speed)
+      end if
    end function new_asperities
 
-   !> The pads.
-   pure function new_pads(inputs) result(pads)
-      type(case_type), intent(in) :: inputs
-      type(tilting_pad_type) :: pads(inputs%pad_count())
+   !> The pads, for a shaft that turns in this sense, under gravity, m/s^2.
+   pure function new_pads(b, sense, gravity) result(pads)
+      type(bearing_type), intent(in) :: b
+      real(wp), intent(in) :: sense, gravity
+      type(tilting_pad_type) :: pads(b%pad_count())
       integer :: i
-      pads%gap = new_gaps(inputs)
+      pads%gap = new_gaps(b)
       do i = 1, size(pads)
-         associate (b => inputs%bearing, p => inputs%pads, v => inputs%pivot, pad => pads(i), &
-            & position => pads(i)%position)
-            position%mirrored = inputs%sense() < 0
+         associate (p => b%pads, v => b%pivot, pad => pads(i), position => pads(i)%position)
+            position%mirrored = sense < 0
             position%angle = merge(180 - p%pivot_angle_deg(i), p%pivot_angle_deg(i), position%mirrored)*degree
             position%sin_angle = sin(position%angle)
             position%cos_angle = cos(position%angle)
@@ -261,12 +255,10 @@ contains
             pad%directions = pad%gap%directions()
             pad%largest_tilt = 0.5_wp*p%arc_deg(i)*degree
             pad%ball_radius = v%socket_radius(i) - v%radius_difference(i)
-            pad%tilts = inputs%tilting()
-            pad%radial = inputs%tilting_radial()
-            if (.not. pad%tilts) cycle
+            if (.not. b%tilting()) cycle
             pad%mass = p%mass(i)
             pad%inertia = p%inertia(i)
-            pad%weight = p%mass(i)*inputs%rotor%gravity
+            pad%weight = p%mass(i)*gravity
             pad%centre_tangential = p%centre_tangential(i)
             pad%centre_radial = p%centre_radial(i)
          end associate

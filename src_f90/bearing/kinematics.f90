@@ -4,27 +4,10 @@ module kinematics
    use kinds, only: wp
    use film_solver, only: film_motion
    use abstract_rotor, only: journal_motion
+   use state_layout, only: pad_state, tilt, pivot_deflection, of_journal
    implicit none (type, external)
    private
-   public :: pad_state, pad_position, pad_frame, frame_of, motion_of, motion_derivatives, to_global, in_mirror
-   public :: columns, journal_columns, tilt_column, tilt_rate_column, deflection_column
-   public :: position_columns, rate_columns
-
-   !> A pad's derivatives stand in these columns: over y, z of the journal and their rates, and over its own tilt,
-   !> tilt rate, pivot deflection and pivot deflection rate.
-   integer, parameter :: columns = 8, journal_columns = 4
-   integer, parameter :: tilt_column = 5, tilt_rate_column = 6, deflection_column = 7, deflection_rate_column = 8
-   !> Those of displacements, and of their rates in the same order.
-   integer, parameter :: position_columns(4) = [1, 2, tilt_column, deflection_column]
-   integer, parameter :: rate_columns(4) = [3, 4, tilt_rate_column, deflection_rate_column]
-
-   !> State of a pad; what a pad lacks stays 0.
-   type :: pad_state
-      !> rad and rad/s; of the pivot's pivot deflection, m and m/s.
-      real(wp) :: tilt = 0, tilt_rate = 0, pivot_deflection = 0, pivot_deflection_rate = 0
-      !> Deflection of the bristles, m.
-      real(wp) :: deflection = 0
-   end type pad_state
+   public :: pad_position, pad_frame, frame_of, motion_of, motion_slopes, to_global, in_mirror
 
    !> Where a pad sits in the bearing.
    type :: pad_position
@@ -64,9 +47,9 @@ contains
       type(pad_state), intent(in) :: pad
       real(wp) :: r(2)
       r = in_mirror(position%mirrored, journal%position) &
-         & - (position%pivot_radius + pad%pivot_deflection)*[position%sin_angle, position%cos_angle]
-      frame%s = sin(position%angle - pad%tilt)
-      frame%c = cos(position%angle - pad%tilt)
+         & - (position%pivot_radius + pad%x(pivot_deflection))*[position%sin_angle, position%cos_angle]
+      frame%s = sin(position%angle - pad%x(tilt))
+      frame%c = cos(position%angle - pad%x(tilt))
       frame%along = r(1)*frame%c - r(2)*frame%s
       frame%outward = r(1)*frame%s + r(2)*frame%c
       frame%mirrored = position%mirrored
@@ -80,44 +63,63 @@ contains
       type(pad_state), intent(in) :: pad
       real(wp) :: w(2)
       w = in_mirror(position%mirrored, journal%velocity) &
-         & - pad%pivot_deflection_rate*[position%sin_angle, position%cos_angle]
+         & - pad%v(pivot_deflection)*[position%sin_angle, position%cos_angle]
       motion%position = [frame%along, frame%outward + position%centre_distance]
-      motion%velocity = [w(1)*frame%c - w(2)*frame%s + pad%tilt_rate*frame%outward, &
-         & w(1)*frame%s + w(2)*frame%c - pad%tilt_rate*frame%along]
+      motion%velocity = [w(1)*frame%c - w(2)*frame%s + pad%v(tilt)*frame%outward, &
+         & w(1)*frame%s + w(2)*frame%c - pad%v(tilt)*frame%along]
    end function motion_of
 
-   !> Derivatives of (e_y', e_z', their rates) over the columns.
-   pure function motion_derivatives(position, frame, motion, tilt_rate) result(derivatives)
+   !> Derivatives of (e_y', e_z', their rates) over the displacements of the journal, y and z, and over their rates.
+   pure subroutine journal_slopes(frame, tilt_rate, over_positions, over_rates)
+      type(pad_frame), intent(in) :: frame
+      real(wp), intent(in) :: tilt_rate
+      real(wp), intent(out) :: over_positions(4, of_journal), over_rates(4, of_journal)
+      over_positions(1:2, 1) = [frame%c, frame%s]
+      over_positions(1:2, 2) = [-frame%s, frame%c]
+      over_positions(3:4, 1) = tilt_rate*[frame%s, -frame%c]
+      over_positions(3:4, 2) = tilt_rate*[frame%c, frame%s]
+      over_rates(1:2, :) = 0
+      over_rates(3:4, :) = over_positions(1:2, :)
+      if (.not. frame%mirrored) return
+      over_positions(:, 2) = -over_positions(:, 2)
+      over_rates(:, 2) = -over_rates(:, 2)
+   end subroutine journal_slopes
+
+   !> Derivatives of (e_y', e_z', their rates) over the displacements of the journal and then those of the pad, of these
+   !> kinds, and over their rates.
+   pure subroutine motion_slopes(position, frame, motion, tilt_rate, kinds, over_positions, over_rates)
       type(pad_position), intent(in) :: position
       type(pad_frame), intent(in) :: frame
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: tilt_rate
-      real(wp) :: derivatives(4, columns)
-      !> The pivot's outward direction in the pad frame.
-      real(wp) :: out_y, out_z
-      !> Velocity along y' and z' without the part from the tilt rate.
-      real(wp) :: w_y, w_z
-      out_y = position%sin_angle*frame%c - position%cos_angle*frame%s
-      out_z = position%sin_angle*frame%s + position%cos_angle*frame%c
-      w_y = motion%velocity(1) - tilt_rate*frame%outward
-      w_z = motion%velocity(2) + tilt_rate*frame%along
-      derivatives = 0
-      ! journal position
-      derivatives(1:2, 1) = [frame%c, frame%s]
-      derivatives(1:2, 2) = [-frame%s, frame%c]
-      derivatives(3:4, 1) = tilt_rate*[frame%s, -frame%c]
-      derivatives(3:4, 2) = tilt_rate*[frame%c, frame%s]
-      ! journal velocity
-      derivatives(3:4, 3:4) = derivatives(1:2, 1:2)
-      if (frame%mirrored) derivatives(:, 2:journal_columns:2) = -derivatives(:, 2:journal_columns:2)
-      ! tilt: d y' = z' d delta, d z' = -y' d delta
-      derivatives(:, tilt_column) = [frame%outward, -frame%along, w_z - tilt_rate*frame%along, &
-         & -w_y - tilt_rate*frame%outward]
-      derivatives(3:4, tilt_rate_column) = [frame%outward, -frame%along]
-      ! pivot deflection
-      derivatives(:, deflection_column) = [-out_y, -out_z, -tilt_rate*out_z, tilt_rate*out_y]
-      derivatives(3:4, deflection_rate_column) = [-out_y, -out_z]
-   end function motion_derivatives
+      integer, intent(in) :: kinds(:)
+      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      !> The pivot's outward direction in the pad frame; velocity along y' and z' without the part from the tilt rate.
+      real(wp) :: out_y, out_z, w_y, w_z
+      integer :: k
+      call journal_slopes(frame, tilt_rate, over_positions(:, :of_journal), over_rates(:, :of_journal))
+      do k = 1, size(kinds)
+         associate (x => over_positions(:, of_journal + k), v => over_rates(:, of_journal + k))
+            select case (kinds(k))
+            case (tilt)
+               ! d y' = z' d delta, d z' = -y' d delta
+               w_y = motion%velocity(1) - tilt_rate*frame%outward
+               w_z = motion%velocity(2) + tilt_rate*frame%along
+               x = [frame%outward, -frame%along, w_z - tilt_rate*frame%along, -w_y - tilt_rate*frame%outward]
+               v = [0.0_wp, 0.0_wp, frame%outward, -frame%along]
+            case (pivot_deflection)
+               out_y = position%sin_angle*frame%c - position%cos_angle*frame%s
+               out_z = position%sin_angle*frame%s + position%cos_angle*frame%c
+               x = [-out_y, -out_z, -tilt_rate*out_z, tilt_rate*out_y]
+               v = [0.0_wp, 0.0_wp, -out_y, -out_z]
+            case default
+               ! moves no film
+               x = 0
+               v = 0
+            end select
+         end associate
+      end do
+   end subroutine motion_slopes
 
    !> A pad-frame vector in global (y, z), eq (5).
    pure function to_global(frame, vector) result(global)

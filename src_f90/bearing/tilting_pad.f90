@@ -1,5 +1,6 @@
-!> One pad: loads on it and on the journal in a state, and their derivatives, which are not divided by masses. A fixed
-!> pad stays without tilt; only its load on the journal counts.
+!> The pads of a bearing: what one is; which coordinates it has, with their names, units and lengths, and the film
+!> motion that they make; the loads on pad and journal in a state, their derivatives, and the masses that they are not
+!> divided by. A fixed pad has no coordinates; only its load on the journal counts.
 module tilting_pad
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
@@ -9,11 +10,16 @@ module tilting_pad
    use asperity_contact, only: asperity_load
    use contact_table, only: contact_table_type
    use friction, only: friction_law, friction_response
-   use kinematics, only: pad_state, pad_position, pad_frame, motion_derivatives, to_global, columns, &
-      & tilt_column, tilt_rate_column, deflection_column, position_columns, rate_columns
+   use state_layout, only: pad_state, tilt, pivot_deflection, most_coordinates, of_journal
+   use kinematics, only: pad_position, pad_frame, motion_slopes, to_global
    implicit none (type, external)
    private
-   public :: tilting_pad_type, pad_loads, pad_derivatives
+   public :: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, coordinate_type, pad_loads, pad_derivatives
+
+   !> Most displacements of a pad's equations: those of the journal, y and z, and its own.
+   integer, parameter :: most = of_journal + most_coordinates
+   !> Those of a pad on a flexible pivot.
+   integer, parameter :: usual = of_journal + 2
 
    !> What a pad is; SI units.
    type :: tilting_pad_type
@@ -26,48 +32,101 @@ module tilting_pad
       real(wp) :: mass = 0, inertia = 0, weight = 0, centre_tangential = 0, centre_radial = 0
       !> R1 of the pivot.
       real(wp) :: ball_radius
-      !> Whether the pad tilts; whether its pivot yields: then its pivot deflection is a state, else its force is the
-      !> reaction.
-      logical :: tilts, radial
    contains
       procedure :: admitted
       procedure :: why_not
+   end type tilting_pad_type
+
+   !> A displacement of a pad in words.
+   type :: coordinate_type
+      !> In the names of modes and coefficients; of its series in a result, behind which stands '_rate' for its rate;
+      !> its unit, that of its rate having '/s'; what it is.
+      character(len=20) :: name = '', series = '', units = '', label = ''
+   end type coordinate_type
+
+   !> The coordinates of the pads of a bearing: displacements, which its states have in this order, each with its rate;
+   !> the first is the tilt.
+   type :: pad_coordinates_type
+      integer :: n = 0
+      !> Of each its place in pad_state, and its words.
+      integer :: kind(most_coordinates) = 0
+      type(coordinate_type) :: words(most_coordinates)
+      !> Which coordinate is the pivot deflection; 0: the pivots are rigid.
+      integer :: deflection = 0
+   contains
+      procedure :: add
+      procedure :: length
       procedure :: loads
       procedure :: derivatives
-      procedure :: add_friction
       procedure :: masses
       procedure :: inverse_masses
-   end type tilting_pad_type
+   end type pad_coordinates_type
 
    !> Loads of one pad at one instant.
    type :: pad_loads
       !> Force of film and asperities on the journal along global y and z, N.
       real(wp) :: journal(2) = 0
-      !> Pivot load F_bs, N, and its derivative over the pivot deflection, N/m (0 tilting-only).
+      !> Pivot load F_bs, N, and its derivative over the pivot deflection, N/m (0 of a rigid pivot).
       real(wp) :: contact = 0, contact_stiffness = 0
       !> Friction of the pivot.
       type(friction_response) :: friction
-      !> Moment of eq (3), N m, and force of eq (4), N, on the pad.
-      real(wp) :: moment = 0, radial = 0
+      !> Of each coordinate the force on the pad along it: of the tilt the moment of eq (3), N m; of the pivot
+      !> deflection the force of eq (4), N.
+      real(wp) :: own(most_coordinates) = 0
    end type pad_loads
 
-   !> Derivatives of the loads over the columns of kinematics, without what friction adds.
+   !> Derivatives of the loads over the displacements of the journal, y and z, and of the pad, and over their rates,
+   !> without what friction adds.
    type :: pad_derivatives
-      !> Of the film force on the journal in the pad frame; of `journal`, `contact`, `moment` and `radial` of the loads.
-      real(wp) :: film(2, columns) = 0, journal(2, columns) = 0
-      real(wp) :: contact(columns) = 0, moment(columns) = 0, radial(columns) = 0
+      !> Of the forces on the journal, y and z, and of those along the coordinates of the pad.
+      real(wp) :: over_positions(most, most) = 0, over_rates(most, most) = 0
+      !> Of the film force on the journal in the pad frame.
+      real(wp) :: film_over_positions(2, most) = 0, film_over_rates(2, most) = 0
+      !> Of the pivot load.
+      real(wp) :: contact_over_positions(most) = 0, contact_over_rates(most) = 0
    contains
-      procedure :: as_matrices
+      procedure :: add_friction
    end type pad_derivatives
 
 contains
+
+   !> The coordinates of pads that are fixed, or tilt, on pivots that are rigid, or flexible.
+   pure type(pad_coordinates_type) function new_pad_coordinates(tilts, flexible) result(coordinates)
+      logical, intent(in) :: tilts, flexible
+      if (tilts) call coordinates%add(tilt, coordinate_type('tilt', 'pad_tilt', 'rad', 'pad tilt'))
+      if (tilts .and. flexible) call coordinates%add(pivot_deflection, &
+         & coordinate_type('pivot_deflection', 'pivot_deflection', 'm', 'pivot deflection'))
+   end function new_pad_coordinates
+
+   !> Adds a coordinate behind the others.
+   pure subroutine add(self, kind, words)
+      class(pad_coordinates_type), intent(inout) :: self
+      !> Its place in pad_state.
+      integer, intent(in) :: kind
+      type(coordinate_type), intent(in) :: words
+      self%n = self%n + 1
+      self%kind(self%n) = kind
+      self%words(self%n) = words
+      if (kind == pivot_deflection) self%deflection = self%n
+   end subroutine add
+
+   !> What stands for a unit of a coordinate of a pad, m: for 1 rad of its tilt the distance from the pivot to the
+   !> centre of its arc.
+   pure real(wp) function length(self, pad, coordinate)
+      class(pad_coordinates_type), intent(in) :: self
+      type(tilting_pad_type), intent(in) :: pad
+      integer, intent(in) :: coordinate
+      length = 1
+      if (self%kind(coordinate) == tilt) length = pad%position%centre_distance
+   end function length
 
    !> True where a pad stands and its film has a force.
    pure logical function admitted(self, state, film)
       class(tilting_pad_type), intent(in) :: self
       type(pad_state), intent(in) :: state
       type(film_response), intent(in) :: film
-      admitted = abs(state%tilt) < self%largest_tilt .and. film%status == film_ok .and. all(ieee_is_finite(film%force))
+      admitted = abs(state%x(tilt)) < self%largest_tilt .and. film%status == film_ok &
+         & .and. all(ieee_is_finite(film%force))
    end function admitted
 
    !> Why a pad's state is not admitted.
@@ -78,8 +137,8 @@ contains
       type(film_response), intent(in) :: film
       character(len=:), allocatable :: reason, thickness
       thickness = ': thickness '//to_text(film%min_film_thickness)//' m'
-      if (.not. abs(state%tilt) < self%largest_tilt) then
-         reason = 'pad '//to_text(number)//' turned over: tilt '//to_text(state%tilt)//' rad'
+      if (.not. abs(state%x(tilt)) < self%largest_tilt) then
+         reason = 'pad '//to_text(number)//' turned over: tilt '//to_text(state%x(tilt))//' rad'
       else if (film%status == film_closed) then
          reason = 'the film of pad '//to_text(number)//' closed'//thickness
       else if (film%status == film_not_converged .and. .not. film%residual > 0) then
@@ -97,9 +156,10 @@ contains
       end if
    end function why_not
 
-   !> The loads in a state with a film force in the pad frame, N.
-   pure subroutine loads(self, frame, state, film_force, asperities, contact, friction, answer)
-      class(tilting_pad_type), intent(in) :: self
+   !> The loads of a pad in a state with a film force in the pad frame, N.
+   pure subroutine loads(self, pad, frame, state, film_force, asperities, contact, friction, answer)
+      class(pad_coordinates_type), intent(in) :: self
+      type(tilting_pad_type), intent(in) :: pad
       type(pad_frame), intent(in) :: frame
       type(pad_state), intent(in) :: state
       real(wp), intent(in) :: film_force(2)
@@ -107,29 +167,40 @@ contains
       type(contact_table_type), intent(in) :: contact
       class(friction_law), intent(in) :: friction
       type(pad_loads), intent(inout) :: answer
-      real(wp) :: inertial, force(2)
+      real(wp) :: inertial, radial, moment, force(2)
+      integer :: k
       force = film_force
       if (asperities%touches) force = film_force + asperities%force
       answer%journal = to_global(frame, force)
-      if (.not. self%tilts) return
-      inertial = self%mass*self%centre_radial*state%tilt_rate**2
-      answer%radial = -force(2) - self%weight*frame%s + inertial
-      if (self%radial) then
-         call contact%lookup(state%pivot_deflection, answer%contact, answer%contact_stiffness)
+      if (self%n == 0) return
+      inertial = pad%mass*pad%centre_radial*state%v(tilt)**2
+      radial = -force(2) - pad%weight*frame%s + inertial
+      if (self%deflection > 0) then
+         call contact%lookup(state%x(pivot_deflection), answer%contact, answer%contact_stiffness)
       else
-         answer%contact = max(0.0_wp, answer%radial)
+         answer%contact = max(0.0_wp, radial)
       end if
-      answer%radial = answer%radial - answer%contact
-      call friction%evaluate(self%ball_radius*state%tilt_rate, state%deflection, answer%contact, answer%friction)
-      answer%moment = -force(1)*self%position%centre_distance - self%ball_radius*answer%friction%force &
-         & - self%weight*(self%centre_tangential*frame%s - self%centre_radial*frame%c)
-      if (asperities%touches) answer%moment = answer%moment + asperities%moment
+      call friction%evaluate(pad%ball_radius*state%v(tilt), state%bristle, answer%contact, answer%friction)
+      moment = -force(1)*pad%position%centre_distance - pad%ball_radius*answer%friction%force &
+         & - pad%weight*(pad%centre_tangential*frame%s - pad%centre_radial*frame%c)
+      if (asperities%touches) moment = moment + asperities%moment
+      do k = 1, self%n
+         select case (self%kind(k))
+         case (tilt)
+            answer%own(k) = moment
+         case (pivot_deflection)
+            answer%own(k) = radial - answer%contact
+         case default
+            answer%own(k) = 0
+         end select
+      end do
    end subroutine loads
 
-   !> The derivatives of the loads in the state in which these, film and asperities were evaluated, film derivatives
-   !> included.
-   pure subroutine derivatives(self, frame, motion, state, film, asperities, loads, answer)
-      class(tilting_pad_type), intent(in) :: self
+   !> The derivatives of the loads of a pad in the state in which these, film and asperities were evaluated, film
+   !> derivatives included.
+   pure subroutine derivatives(self, pad, frame, motion, state, film, asperities, loads, answer)
+      class(pad_coordinates_type), intent(in) :: self
+      type(tilting_pad_type), intent(in) :: pad
       type(pad_frame), intent(in) :: frame
       type(film_motion), intent(in) :: motion
       type(pad_state), intent(in) :: state
@@ -137,95 +208,147 @@ contains
       type(asperity_load), intent(in) :: asperities
       type(pad_loads), intent(in) :: loads
       type(pad_derivatives), intent(inout) :: answer
-      real(wp) :: force(2, columns), across(2), of_motion(4, columns)
-      integer :: k
-      of_motion = motion_derivatives(self%position, frame, motion, state%tilt_rate)
-      force = matmul(film%derivatives, of_motion)
-      answer%film = force
+      real(wp), dimension(4, of_journal + self%n) :: of_positions, of_rates
+      real(wp), dimension(2, of_journal + self%n) :: over_positions, over_rates
+      real(wp), dimension(of_journal + self%n) :: radial, radial_rates, moment, moment_rates
+      real(wp) :: across(2)
+      ! long: one list of the derivatives of all loads
+      integer, parameter :: of_tilt = of_journal + tilt
+      integer :: k, m
+      m = of_journal + self%n
+      call motion_slopes(pad%position, frame, motion, state%v(tilt), self%kind(:self%n), of_positions, of_rates)
+      call add_film(of_positions, answer%film_over_positions(:, :m), over_positions)
+      call add_film(of_rates, answer%film_over_rates(:, :m), over_rates)
       across = [-film%force(2), film%force(1)]
-      if (asperities%touches) then
-         force = force + matmul(asperities%force_slopes, of_motion(1:2, :))
-         across = across + [-asperities%force(2), asperities%force(1)]
-      end if
-      do k = 1, columns
-         answer%journal(:, k) = to_global(frame, force(:, k))
+      if (asperities%touches) across = across + [-asperities%force(2), asperities%force(1)]
+      do k = 1, m
+         answer%over_positions(:2, k) = to_global(frame, over_positions(:, k))
+         answer%over_rates(:2, k) = to_global(frame, over_rates(:, k))
       end do
-      if (.not. self%tilts) return
+      if (self%n == 0) return
       ! the frame turns with the pad
-      answer%journal(:, tilt_column) = answer%journal(:, tilt_column) + to_global(frame, across)
-      associate (contact => answer%contact, moment => answer%moment, radial => answer%radial)
-         radial = -force(2, :)
-         radial(tilt_column) = radial(tilt_column) + self%weight*frame%c
-         radial(tilt_rate_column) = radial(tilt_rate_column) + 2*self%mass*self%centre_radial*state%tilt_rate
-         if (self%radial) then
-            contact = 0
-            contact(deflection_column) = loads%contact_stiffness
-         else
-            contact = merge(radial, 0.0_wp, loads%contact > 0)
+      answer%over_positions(:2, of_tilt) = answer%over_positions(:2, of_tilt) + to_global(frame, across)
+      radial = -over_positions(2, :)
+      radial(of_tilt) = radial(of_tilt) + pad%weight*frame%c
+      radial_rates = -over_rates(2, :)
+      radial_rates(of_tilt) = radial_rates(of_tilt) + 2*pad%mass*pad%centre_radial*state%v(tilt)
+      associate (contact => answer%contact_over_positions(:m), contact_rates => answer%contact_over_rates(:m))
+         call take_contact(self, loads, radial, contact)
+         contact_rates = merge(radial_rates, 0.0_wp, self%deflection == 0 .and. loads%contact > 0)
+         moment = -over_positions(1, :)*pad%position%centre_distance
+         moment(of_tilt) = -over_positions(1, of_tilt)*pad%position%centre_distance &
+            & + (pad%weight*(pad%centre_tangential*frame%c + pad%centre_radial*frame%s))
+         moment_rates = -over_rates(1, :)*pad%position%centre_distance
+         if (asperities%touches) then
+            moment = moment + matmul(asperities%moment_slopes, of_positions(1:2, :))
+            moment_rates = moment_rates + matmul(asperities%moment_slopes, of_rates(1:2, :))
          end if
-         radial = radial - contact
-         moment = -force(1, :)*self%position%centre_distance
-         moment(tilt_column) = -force(1, tilt_column)*self%position%centre_distance &
-            & + (self%weight*(self%centre_tangential*frame%c + self%centre_radial*frame%s))
-         if (asperities%touches) moment = moment + matmul(asperities%moment_slopes, of_motion(1:2, :))
+         do k = 1, self%n
+            select case (self%kind(k))
+            case (tilt)
+               answer%over_positions(of_journal + k, :m) = moment
+               answer%over_rates(of_journal + k, :m) = moment_rates
+            case (pivot_deflection)
+               answer%over_positions(of_journal + k, :m) = radial - contact
+               answer%over_rates(of_journal + k, :m) = radial_rates - contact_rates
+            case default
+               answer%over_positions(of_journal + k, :m) = 0
+               answer%over_rates(of_journal + k, :m) = 0
+            end select
+         end do
       end associate
+
+   contains
+
+      !> What film and asperities add to derivatives of the force in the pad frame, by those of the film motion.
+      pure subroutine add_film(of_motion, of_film, force)
+         real(wp), intent(in) :: of_motion(:, :)
+         real(wp), intent(out) :: of_film(:, :), force(:, :)
+         force = matmul(film%derivatives, of_motion)
+         of_film = force
+         if (asperities%touches) force = force + matmul(asperities%force_slopes, of_motion(1:2, :))
+      end subroutine add_film
    end subroutine derivatives
 
-   !> The derivatives of the force on the journal, moment and radial force over displacements and over their rates: rows
-   !> and columns in the order journal y, z, tilt, pivot deflection.
-   pure subroutine as_matrices(self, over_positions, over_rates)
-      class(pad_derivatives), intent(in) :: self
-      real(wp), intent(out) :: over_positions(4, 4), over_rates(4, 4)
-      over_positions(1:2, :) = self%journal(:, position_columns)
-      over_positions(3, :) = self%moment(position_columns)
-      over_positions(4, :) = self%radial(position_columns)
-      over_rates(1:2, :) = self%journal(:, rate_columns)
-      over_rates(3, :) = self%moment(rate_columns)
-      over_rates(4, :) = self%radial(rate_columns)
-   end subroutine as_matrices
+   !> Derivatives of the pivot load over displacements, of which that of a rigid pivot has those of the force on it.
+   pure subroutine take_contact(self, loads, radial, contact)
+      class(pad_coordinates_type), intent(in) :: self
+      type(pad_loads), intent(in) :: loads
+      real(wp), intent(in) :: radial(:)
+      real(wp), intent(out) :: contact(:)
+      if (self%deflection > 0) then
+         contact = 0
+         contact(of_journal + self%deflection) = loads%contact_stiffness
+      else
+         contact = merge(radial, 0.0_wp, loads%contact > 0)
+      end if
+   end subroutine take_contact
 
-   !> Adds what the moment of friction does to such matrices, in whose last two rows it counts as `per_moment` says, and
-   !> what it does to these rows per deflection of the bristles.
-   pure subroutine add_friction(self, friction, contact, per_moment, over_positions, over_rates, over_deflection)
-      class(tilting_pad_type), intent(in) :: self
+   !> Adds what the friction of the pivot does to derivatives of the forces, in whose rows of the pad its moment counts
+   !> as `per_moment` says, and what it does to these rows per deflection of the bristles.
+   pure subroutine add_friction(self, pad, friction, m, per_moment, over_positions, over_rates, over_bristle)
+      class(pad_derivatives), intent(in) :: self
+      type(tilting_pad_type), intent(in) :: pad
       type(friction_response), intent(in) :: friction
-      !> Derivatives of the pivot load.
-      real(wp), intent(in) :: contact(columns), per_moment(2)
-      real(wp), intent(inout) :: over_positions(4, 4), over_rates(4, 4)
-      real(wp), intent(out) :: over_deflection(2)
-      real(wp) :: moment(columns)
-      integer :: k
-      moment = -self%ball_radius*friction%force_normal*contact
-      moment(tilt_rate_column) = -self%ball_radius*friction%force_normal*contact(tilt_rate_column) &
-         & - self%ball_radius**2*friction%force_velocity
-      do k = 1, 4
-         over_positions(3:4, k) = over_positions(3:4, k) + per_moment*moment(position_columns(k))
-         over_rates(3:4, k) = over_rates(3:4, k) + per_moment*moment(rate_columns(k))
-      end do
-      over_deflection = per_moment*(-self%ball_radius*friction%force_deflection)
+      integer, intent(in) :: m
+      real(wp), intent(in) :: per_moment(m - of_journal)
+      real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
+      real(wp), intent(out) :: over_bristle(m - of_journal)
+      real(wp) :: moment(most), moment_rates(most)
+      ! sizes that the compiler knows are faster
+      moment = -pad%ball_radius*friction%force_normal*self%contact_over_positions
+      moment_rates = -pad%ball_radius*friction%force_normal*self%contact_over_rates
+      moment_rates(of_journal + tilt) = -pad%ball_radius*friction%force_normal &
+         & *self%contact_over_rates(of_journal + tilt) - pad%ball_radius**2*friction%force_velocity
+      if (m == usual) then
+         call add(usual, per_moment, moment, moment_rates, over_positions, over_rates)
+      else
+         call add(m, per_moment, moment, moment_rates, over_positions, over_rates)
+      end if
+      over_bristle = per_moment*(-pad%ball_radius*friction%force_deflection)
+
+   contains
+
+      pure subroutine add(m, per_moment, moment, moment_rates, over_positions, over_rates)
+         integer, value :: m
+         real(wp), intent(in) :: per_moment(m - of_journal), moment(m), moment_rates(m)
+         real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
+         integer :: k, i
+         do k = 1, m
+            do i = 1, m - of_journal
+               over_positions(of_journal + i, k) = over_positions(of_journal + i, k) + per_moment(i)*moment(k)
+               over_rates(of_journal + i, k) = over_rates(of_journal + i, k) + per_moment(i)*moment_rates(k)
+            end do
+         end do
+      end subroutine add
    end subroutine add_friction
 
-   !> Mass matrix of eqs (3)-(4): moment and force per rate of tilt rate and pivot deflection rate.
-   pure function masses(self)
-      class(tilting_pad_type), intent(in) :: self
-      real(wp) :: masses(2, 2)
-      associate (coupling => self%mass*self%centre_tangential)
-         masses = reshape([self%inertia, coupling, coupling, self%mass], [2, 2])
-      end associate
+   !> The mass matrix of the coordinates, eqs (3)-(4): moment and force per rate of tilt rate and pivot deflection rate.
+   pure function masses(self, pad)
+      class(pad_coordinates_type), intent(in) :: self
+      type(tilting_pad_type), intent(in) :: pad
+      real(wp) :: masses(self%n, self%n)
+      real(wp) :: both(pivot_deflection, pivot_deflection), coupling
+      coupling = pad%mass*pad%centre_tangential
+      both = reshape([pad%inertia, coupling, coupling, pad%mass], [2, 2])
+      masses = both(self%kind(:self%n), self%kind(:self%n))
    end function masses
 
-   !> Its inverse. A pad that only tilts has no second row and column, a fixed one none.
-   pure function inverse_masses(self) result(inverse)
-      class(tilting_pad_type), intent(in) :: self
-      real(wp) :: inverse(2, 2), coupling, determinant
-      inverse = 0
-      if (self%radial) then
+   !> Its inverse.
+   pure function inverse_masses(self, pad) result(inverse)
+      class(pad_coordinates_type), intent(in) :: self
+      type(tilting_pad_type), intent(in) :: pad
+      real(wp) :: inverse(self%n, self%n), coupling, determinant
+      select case (self%n)
+      case (1)
+         inverse = 1/pad%inertia
+      case (2)
          ! coupled where C_xi /= 0
-         coupling = self%mass*self%centre_tangential
-         determinant = self%inertia*self%mass - coupling**2
-         inverse = reshape([self%mass, -coupling, -coupling, self%inertia], [2, 2])/determinant
-      else if (self%tilts) then
-         inverse(1, 1) = 1/self%inertia
-      end if
+         coupling = pad%mass*pad%centre_tangential
+         determinant = pad%inertia*pad%mass - coupling**2
+         inverse = reshape([pad%mass, -coupling, -coupling, pad%inertia], [2, 2])/determinant
+      case default
+         inverse = 0
+      end select
    end function inverse_masses
 end module tilting_pad

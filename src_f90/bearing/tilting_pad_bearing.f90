@@ -1,16 +1,20 @@
 !> A bearing of tilting pads: the motion of the journal, the states of the pads, their oil and the speed go in, the
 !> loads of every pad and their derivatives come out. One evaluation of the film solver serves all pads.
 module tilting_pad_bearing
-   use kinds, only: wp, i8
+   use kinds, only: wp, i8, degree
    use clock, only: wall_clock
    use text, only: to_text
+   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_not_converged
    use asperity_contact, only: asperity_contact_type, asperity_load
    use friction, only: friction_law
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, pad_frame, frame_of, motion_of, columns
-   use tilting_pad, only: tilting_pad_type, pad_loads, pad_derivatives
+   use state_layout, only: pad_state, element_layout_type, new_element_layout, tilt, pivot_deflection, of_journal, &
+      & most_coordinates
+   use abstract_element, only: element_type
+   use kinematics, only: pad_frame, frame_of, motion_of
+   use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads, pad_derivatives
    use factories, only: make_film, new_asperities, new_pads, march_films, static_films, of_march
    use pad_pivots, only: pad_pivot, make_contacts, make_frictions
    implicit none (type, external)
@@ -30,11 +34,15 @@ module tilting_pad_bearing
       real(wp) :: asperity_force = 0
    end type pad_sample
 
-   type :: tilting_pad_bearing_type
+   type, extends(element_type) :: tilting_pad_bearing_type
       type(tilting_pad_type), allocatable :: pads(:)
+      !> What its pads do.
+      class(pad_coordinates_type), allocatable :: coordinates
       type(pad_pivot), allocatable :: pivots(:)
-      !> Of each pad rates of tilt rate and pivot deflection rate per moment and force, (2, 2, pad).
-      real(wp), allocatable :: per_mass(:, :, :)
+      !> Of each pad the inverse of its matrix of masses, (coordinate, coordinate, pad).
+      real(wp), allocatable, private :: per_mass(:, :, :)
+      !> Of each pad the characteristic scales of its states that hang on no load.
+      type(pad_state), allocatable, private :: natural(:)
       type(asperity_contact_type) :: asperities
       class(film_solver_type), allocatable :: film
       !> The loads of each pad in the state evaluated last; their derivatives where they were taken last.
@@ -59,13 +67,28 @@ module tilting_pad_bearing
       integer(i8), private :: evaluations = 0
    contains
       procedure :: adopt
+      procedure :: set_coordinates
+      procedure :: layout
       procedure :: evaluate
+      procedure :: add_force
+      procedure :: part_derivatives
+      procedure :: add_late
+      procedure :: bristle_slopes
+      procedure :: own_force
+      procedure :: add_rates
+      procedure :: part_masses
+      procedure :: length
+      procedure :: clearance_of
+      procedure :: position_name
+      procedure :: scales
+      procedure :: reference_force
+      procedure :: switching_rates
+      procedure :: is_smooth
       procedure :: output
       procedure :: sampled
       procedure :: take_samples
       procedure :: pressure_field
       procedure :: warning
-      procedure :: smooth
       procedure :: films_converge
       procedure :: use_in_statics
       procedure, private :: set_parts
@@ -78,66 +101,123 @@ module tilting_pad_bearing
    !> Film thickness over bearing clearance below which a failed march is put down to it.
    real(wp), parameter :: nearly_closed = 1e-2_wp
    type(friction_law), parameter :: no_friction = friction_law()
+   !> Characteristic scale of the tilt rate over that at which Bengisu-Akay friction changes its direction: with a
+   !> larger one the moment of friction would be no better than 1e-2.
+   real(wp), parameter :: sticking_scale = 10
+   !> Least load over the largest force of a film: preloaded films leave 1e-11 of their forces unbalanced, as a film is
+   !> the small difference of large radii.
+   real(wp), parameter :: least_load = 1e-2_wp
 
 contains
 
-   !> The bearing of a valid case with films for a march or, as factories has it, for something else.
-   function new_tilting_pad_bearing(inputs, accuracy) result(bearing)
+   !> Bearing b of a valid case with films for a march or, as factories has it, for something else.
+   function new_tilting_pad_bearing(inputs, b, accuracy) result(bearing)
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       integer, intent(in), optional :: accuracy
       type(tilting_pad_bearing_type) :: bearing
-      allocate (bearing%pivots(inputs%pad_count()))
-      call bearing%set_parts(inputs)
-      if (present(accuracy)) bearing%accuracy = accuracy
-      call make_film(inputs, bearing%accuracy, bearing%film)
-      call make_contacts(inputs, bearing%pivots)
-      associate (n => inputs%pad_count())
+      associate (given => inputs%bearings(b), n => inputs%bearings(b)%pad_count())
+         allocate (bearing%pivots(n))
+         call bearing%set_parts(inputs, b)
+         if (present(accuracy)) bearing%accuracy = accuracy
+         call make_film(given, inputs%integration%relative_tolerance, bearing%accuracy, bearing%film)
+         call make_contacts(given%pivot, inputs%moves(), bearing%pivots)
          allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
             & bearing%asperity(n), bearing%film_motion(n), bearing%oil(n), bearing%response(n))
       end associate
    end function new_tilting_pad_bearing
 
-   !> Makes the parts that take no time to make those of a case.
-   subroutine set_parts(self, inputs)
+   !> Makes the parts that take no time to make those of bearing b of a case.
+   subroutine set_parts(self, inputs, b)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
-      integer :: i
-      self%pads = new_pads(inputs)
-      self%per_mass = reshape([(self%pads(i)%inverse_masses(), i=1, size(self%pads))], [2, 2, size(self%pads)])
-      self%clearance = inputs%clearance()
-      call make_frictions(inputs, self%pivots)
-      self%asperities = new_asperities(inputs)
+      integer, intent(in) :: b
+      associate (given => inputs%bearings(b))
+         self%pads = new_pads(given, inputs%sense(), inputs%rotor%gravity)
+         self%clearance = given%clearance()
+         call make_frictions(given%friction, self%pivots)
+         self%asperities = new_asperities(given%asperity, inputs%highest_speed()*given%journal_radius)
+         if (allocated(self%coordinates)) then
+            call set_masses(self)
+         else
+            call self%set_coordinates(new_pad_coordinates(given%tilting(), given%tilting_radial()))
+         end if
+         call set_scales(self, given)
+      end associate
    end subroutine set_parts
+
+   !> Gives its pads these coordinates.
+   subroutine set_coordinates(self, coordinates)
+      class(tilting_pad_bearing_type), intent(inout) :: self
+      class(pad_coordinates_type), intent(in) :: coordinates
+      ! an assignment of gfortran 12 would keep the room of another type
+      if (allocated(self%coordinates)) deallocate (self%coordinates)
+      allocate (self%coordinates, source=coordinates)
+      call set_masses(self)
+   end subroutine set_coordinates
+
+   subroutine set_masses(self)
+      class(tilting_pad_bearing_type), intent(inout) :: self
+      integer :: i
+      associate (n => self%coordinates%n, pads => size(self%pads))
+         self%per_mass = reshape([(self%coordinates%inverse_masses(self%pads(i)), i=1, pads)], [n, n, pads])
+      end associate
+   end subroutine set_masses
+
+   !> Clearance over pad length for tilts; a thousandth of the clearance for pivot deflections without load; the
+   !> deflection at which bristles yield.
+   pure subroutine set_scales(self, given)
+      class(tilting_pad_bearing_type), intent(inout) :: self
+      type(bearing_type), intent(in) :: given
+      integer :: i
+      if (.not. allocated(self%natural)) allocate (self%natural(size(self%pads)))
+      do i = 1, size(self%pads)
+         self%natural(i)%x = self%clearance
+         self%natural(i)%x(tilt) = given%assembled_clearance(i)/((given%journal_radius + given%machined_clearance(i)) &
+            & *given%pads%arc_deg(i)*degree)
+         self%natural(i)%x(pivot_deflection) = 1e-3_wp*given%assembled_clearance(i)
+         self%natural(i)%bristle = self%pivots(i)%friction%static_coefficient/given%friction%bristle_stiffness
+      end do
+   end subroutine set_scales
+
+   pure type(element_layout_type) function layout(self)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      layout = new_element_layout(size(self%pads), self%coordinates%kind(:self%coordinates%n), &
+         & self%pivots(1)%friction%has_bristle)
+   end function layout
 
    !> Makes the bearing that of another case, with the same pads but for numbers. Films and contact, which take time to
    !> make, stay where they are the same; `anew`, what was solved last is forgotten.
-   subroutine adopt(self, inputs, pivots_differ, anew)
+   subroutine adopt(self, inputs, b, pivots_differ, anew)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       logical, intent(in) :: pivots_differ, anew
       type(tilting_pad_type) :: before(size(self%pads))
       before = self%pads
-      call self%set_parts(inputs)
+      call self%set_parts(inputs, b)
       if (anew) call self%film%forget()
-      if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, inputs)
-      if (pivots_differ) call make_contacts(inputs, self%pivots)
+      if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, inputs, b)
+      if (pivots_differ) call make_contacts(inputs%bearings(b)%pivot, inputs%moves(), self%pivots)
    end subroutine adopt
 
    !> Has films of a march solved where they are asked for, closely, from here on.
-   subroutine use_in_statics(self, inputs)
+   subroutine use_in_statics(self, inputs, b)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       if (.not. of_march(self%accuracy)) return
       self%accuracy = static_films
-      call make_films_anew(self, inputs)
+      call make_films_anew(self, inputs, b)
    end subroutine use_in_statics
 
    !> Another film solver that goes on in the place of the present one.
-   subroutine make_films_anew(self, inputs)
+   subroutine make_films_anew(self, inputs, b)
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       class(film_solver_type), allocatable :: film
-      call make_film(inputs, self%accuracy, film)
+      call make_film(inputs%bearings(b), inputs%integration%relative_tolerance, self%accuracy, film)
       film%counters = self%film%counters
       call film%set_cavitation(self%film%cavitates())
       call move_alloc(film, self%film)
@@ -181,8 +261,8 @@ contains
       do i = 1, size(self%pads)
          if (skipped(i)) cycle
          call self%set_loads(i, self%frame(i), pads(i), self%response(i)%force, self%asperity(i), self%loads(i))
-         if (want_derivatives) call self%pads(i)%derivatives(self%frame(i), self%motion(i), pads(i), self%response(i), &
-            & self%asperity(i), self%loads(i), self%derivatives(i))
+         if (want_derivatives) call self%coordinates%derivatives(self%pads(i), self%frame(i), self%motion(i), pads(i), &
+            & self%response(i), self%asperity(i), self%loads(i), self%derivatives(i))
       end do
    end subroutine evaluate
 
@@ -227,27 +307,186 @@ contains
       type(asperity_load), intent(in) :: asperity
       type(pad_loads), intent(inout) :: loads
       if (self%rubs) then
-         call self%pads(pad)%loads(frame, state, film_force, asperity, self%pivots(pad)%contact, &
+         call self%coordinates%loads(self%pads(pad), frame, state, film_force, asperity, self%pivots(pad)%contact, &
             & self%pivots(pad)%friction, loads)
       else
-         call self%pads(pad)%loads(frame, state, film_force, asperity, self%pivots(pad)%contact, no_friction, loads)
+         call self%coordinates%loads(self%pads(pad), frame, state, film_force, asperity, self%pivots(pad)%contact, &
+            & no_friction, loads)
       end if
    end subroutine set_loads
 
-   !> What a sample takes from the films, pad by pad: force and maximum pressure as evaluated last, the force with what
-   !> a change of the state, (column, pad), adds to first order.
-   function output(self, change)
+   !> Adds the loads of all pads.
+   pure subroutine add_force(self, force)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      real(wp), intent(inout) :: force(of_journal)
+      integer :: i
+      do i = 1, size(self%pads)
+         force = force + self%loads(i)%journal
+      end do
+   end subroutine add_force
+
+   !> Without friction.
+   pure subroutine part_derivatives(self, part, m, accelerations, over_positions, over_rates)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: part, m
+      logical, intent(in) :: accelerations
+      real(wp), intent(out) :: over_positions(m, m), over_rates(m, m)
+      real(wp), dimension(of_journal + 1:m) :: own, own_rates
+      integer :: i, k
+      over_positions = self%derivatives(part)%over_positions(:m, :m)
+      over_rates = self%derivatives(part)%over_rates(:m, :m)
+      if (.not. accelerations) return
+      do k = 1, m
+         own = 0
+         own_rates = 0
+         do i = m, of_journal + 1, -1
+            own = own + self%per_mass(:, i - of_journal, part)*over_positions(i, k)
+            own_rates = own_rates + self%per_mass(:, i - of_journal, part)*over_rates(i, k)
+         end do
+         over_positions(of_journal + 1:, k) = own
+         over_rates(of_journal + 1:, k) = own_rates
+      end do
+   end subroutine part_derivatives
+
+   !> Friction of the pivot.
+   pure subroutine add_late(self, part, m, accelerations, over_positions, over_rates, over_bristle)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: part, m
+      logical, intent(in) :: accelerations
+      real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
+      real(wp), intent(out) :: over_bristle(m - of_journal)
+      real(wp) :: per_moment(m - of_journal)
+      over_bristle = 0
+      if (m == of_journal .or. self%is_smooth()) return
+      if (accelerations) then
+         per_moment = self%per_mass(:, tilt, part)
+      else
+         per_moment = 0
+         per_moment(tilt) = 1
+      end if
+      call self%derivatives(part)%add_friction(self%pads(part), self%loads(part)%friction, m, per_moment, &
+         & over_positions, over_rates, over_bristle)
+   end subroutine add_late
+
+   pure function bristle_slopes(self, part) result(slopes)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: part
+      real(wp) :: slopes(3)
+      associate (friction => self%loads(part)%friction)
+         slopes = [friction%rate_velocity, friction%rate_deflection, self%pads(part)%ball_radius]
+      end associate
+   end function bristle_slopes
+
+   pure real(wp) function own_force(self, part, coordinate)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: part, coordinate
+      own_force = self%loads(part)%own(coordinate)
+   end function own_force
+
+   pure subroutine add_rates(self, layout, y, dydt)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      type(element_layout_type), intent(in) :: layout
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(inout) :: dydt(:)
+      real(wp) :: rates(most_coordinates)
+      integer :: i, k, o
+      do i = 1, layout%pads
+         o = layout%before(i)
+         rates = 0
+         do k = layout%coordinates, 1, -1
+            rates(:layout%coordinates) = rates(:layout%coordinates) + self%per_mass(:, k, i)*self%loads(i)%own(k)
+         end do
+         do k = 1, layout%coordinates
+            dydt(o + 2*k - 1) = y(o + 2*k)
+            dydt(o + 2*k) = rates(k)
+         end do
+         if (layout%bristles) dydt(o + layout%per_pad) = self%loads(i)%friction%rate
+      end do
+   end subroutine add_rates
+
+   pure subroutine part_masses(self, part, n, masses)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: part, n
+      real(wp), intent(out) :: masses(n, n)
+      masses = self%coordinates%masses(self%pads(part))
+   end subroutine part_masses
+
+   pure real(wp) function length(self, part, coordinate)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: part, coordinate
+      length = self%coordinates%length(self%pads(part), coordinate)
+   end function length
+
+   !> Of a pivot deflection the bearing clearance: that under the load is no limit.
+   pure real(wp) function clearance_of(self, coordinate, scale)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: coordinate
+      real(wp), intent(in) :: scale
+      clearance_of = merge(self%clearance, scale, self%coordinates%kind(coordinate) == pivot_deflection)
+   end function clearance_of
+
+   pure function position_name(self, coordinate) result(name)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: coordinate
+      character(len=:), allocatable :: name
+      name = trim(self%coordinates%words(coordinate)%name)
+   end function position_name
+
+   !> Rates: times the speed, but the tilt rate not above ten times that at which friction changes its direction.
+   pure function scales(self, parts, force, speed)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: parts
+      real(wp), intent(in) :: force, speed
+      type(pad_state) :: scales(parts)
+      integer :: i
+      scales = self%natural
+      do i = 1, parts
+         if (force > 0) scales(i)%x(pivot_deflection) = max(scales(i)%x(pivot_deflection), &
+            & self%pivots(i)%contact%law%pivot_deflection(force))
+         scales(i)%v = scales(i)%x*speed
+         scales(i)%v(tilt) = min(scales(i)%v(tilt), sticking_scale*self%pivots(i)%friction%sticking_velocity &
+            & /self%pads(i)%ball_radius)
+      end do
+   end function scales
+
+   !> The heaviest pad, or the drag of a film as thick as the pad clearance; at least a share of the largest force of a
+   !> film.
+   pure real(wp) function reference_force(self, oil, speed)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      type(film_oil), intent(in) :: oil(:)
+      real(wp), intent(in) :: speed
+      associate (gap => self%pads%gap)
+         reference_force = max(maxval(self%pads%weight), maxval(oil%viscosity*speed*gap%journal_radius**2*gap%arc() &
+            & *gap%axial_length/gap%machined_clearance), &
+            & least_load*maxval(hypot(self%loads%journal(1), self%loads%journal(2))))
+      end associate
+   end function reference_force
+
+   !> The tilt rates at which the pivot passes a switching point of its friction.
+   pure function switching_rates(self, part) result(rates)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: part
+      real(wp), allocatable :: rates(:)
+      allocate (rates(0))
+      if (self%coordinates%n > 0) rates = self%pivots(part)%friction%switching_points()/self%pads(part)%ball_radius
+   end function switching_rates
+
+   !> What a sample takes from the films, pad by pad: force and maximum pressure as evaluated last, the force with
+   !> what a change of the displacements of journal and pad, (displacement, pad), and of their rates adds to first
+   !> order.
+   function output(self, of_positions, of_rates)
       class(tilting_pad_bearing_type), intent(inout) :: self
-      real(wp), intent(in) :: change(:, :)
+      real(wp), intent(in) :: of_positions(:, :), of_rates(:, :)
       real(wp) :: output(pad_outputs*size(self%pads))
       real(wp) :: added(2)
       integer :: i, k
       call self%film%take_pressures(self%film_motion, self%oil, self%speed, self%response)
       do i = 1, size(self%pads)
-         associate (film => self%response(i), derivatives => self%derivatives(i)%film)
+         associate (film => self%response(i), derivatives => self%derivatives(i))
             added = 0
-            do k = 1, columns
-               added = added + derivatives(:, k)*change(k, i)
+            do k = 1, size(of_positions, 1)
+               added = added + derivatives%film_over_positions(:, k)*of_positions(k, i) &
+                  & + derivatives%film_over_rates(:, k)*of_rates(k, i)
             end do
             output(pad_outputs*(i - 1) + 1:pad_outputs*i) = [film%force + added, film%max_pressure]
          end associate
@@ -317,10 +556,10 @@ contains
    end function warning
 
    !> True where no friction puts switching points into the motion.
-   pure logical function smooth(self)
+   pure logical function is_smooth(self)
       class(tilting_pad_bearing_type), intent(in) :: self
-      smooth = .not. self%rubs .or. same_type_as(self%pivots(1)%friction, no_friction)
-   end function smooth
+      is_smooth = .not. self%rubs .or. same_type_as(self%pivots(1)%friction, no_friction)
+   end function is_smooth
 
    !> False where a film of the state evaluated last, solved by iteration, did not converge.
    pure logical function films_converge(self)

@@ -8,7 +8,6 @@
 module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
-   use case_inputs, only: case_type
    use linear_algebra, only: largest_first
    use equations_of_motion, only: machine_model
    use newton_method, only: branch_problem_type, place_part_type
@@ -76,7 +75,6 @@ contains
       real(wp), intent(in) :: parameter, unit
       !> Its temperatures along and across films, where the case wants them; without these `go_to` leads to some.
       type(warm_films_type), intent(in), optional :: films(:)
-      integer, allocatable :: tilts(:)
       problem%bearing = bearing
       associate (model => bearing%model)
          problem%positions = y(model%layout%positions())
@@ -90,8 +88,9 @@ contains
          problem%n = size(problem%positions) + size(problem%viscosity)
          problem%scale = clearances(model)
          allocate (problem%force(size(problem%positions)), source=reference_force(model))
-         tilts = model%layout%tilts()
-         problem%force(tilts) = problem%force(tilts)*model%tilt_lengths()
+         associate (own => problem%force(model%rotor%positions + 1:))
+            own = own*model%own_lengths()
+         end associate
       end associate
       associate (n => size(problem%positions), one => spread(1.0_wp, 1, size(problem%viscosity)))
          ! viscosities count, too: where films are thin they run away while the positions hardly move
@@ -110,14 +109,14 @@ contains
       type(machine_model), intent(in) :: model
       type(warm_films_type), intent(in), optional :: films(:)
       type(warm_films_type) :: cold(size(model%bearings))
-      type(case_type) :: own
       integer :: b
       if (present(films)) then
          call problem%films%begin(model, films, gaps_change=.true.)
       else
          do b = 1, size(cold)
-            own = model%inputs%of_bearing(b)
-            cold(b) = new_warm_films(own, spread(own%oil%supply_temperature, 1, own%pad_count()))
+            associate (own => model%inputs%bearings(b))
+               cold(b) = new_warm_films(own, model%inputs%thermal, spread(own%oil%supply_temperature, 1, own%pad_count()))
+            end associate
          end do
          call problem%films%begin(model, cold, gaps_change=.true.)
       end if

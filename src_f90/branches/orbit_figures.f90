@@ -2,6 +2,7 @@
 !> shaft.
 module orbit_figures
    use kinds, only: wp, i8, pi
+   use state_layout, only: tilt
    use equations_of_motion, only: machine_model
    use bearing_samples, only: bearing_sample, take_sample
    use orbit_problem, only: orbit_problem_type
@@ -83,15 +84,15 @@ contains
       do b = 1, size(figures%bearings)
          if (allocated(sample%states)) deallocate (sample%states, sample%loads)
          call take_sample(model, t, y, none, b, sample)
-         associate (of => figures%bearings(b), tilt => sample%states%tilt, film => sample%loads%min_film_thickness)
+         associate (of => figures%bearings(b), tilts => sample%states%x(tilt), film => sample%loads%min_film_thickness)
             call add_place(of%journal, sample%journal%position, angle)
             if (.not. allocated(of%film)) then
-               of%highest_tilt = tilt
-               of%lowest_tilt = tilt
+               of%highest_tilt = tilts
+               of%lowest_tilt = tilts
                of%film = film
             end if
-            of%highest_tilt = max(of%highest_tilt, tilt)
-            of%lowest_tilt = min(of%lowest_tilt, tilt)
+            of%highest_tilt = max(of%highest_tilt, tilts)
+            of%lowest_tilt = min(of%lowest_tilt, tilts)
             of%film = min(of%film, film)
          end associate
       end do

@@ -2,6 +2,8 @@
 module bearing_numbers
    use kinds, only: wp
    use text, only: to_text, fixed_text
+   use case_groups, only: bearing_type
+   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use oil_properties, only: reference_viscosity
    use operating_point, only: operating_point_type
@@ -13,25 +15,25 @@ module bearing_numbers
 contains
 
    !> Preload of each pad, 1 - c_r/c_m.
-   pure function preload(inputs)
-      type(case_type), intent(in) :: inputs
-      real(wp) :: preload(inputs%pad_count())
-      preload = 1 - inputs%bearing%assembled_clearance/inputs%bearing%machined_clearance
+   pure function preload(bearing)
+      type(bearing_type), intent(in) :: bearing
+      real(wp) :: preload(bearing%pad_count())
+      preload = 1 - bearing%assembled_clearance/bearing%machined_clearance
    end function preload
 
    !> c_r over R_J.
-   pure real(wp) function clearance_ratio(inputs)
-      type(case_type), intent(in) :: inputs
-      clearance_ratio = inputs%clearance()/inputs%bearing%journal_radius
+   pure real(wp) function clearance_ratio(bearing)
+      type(bearing_type), intent(in) :: bearing
+      clearance_ratio = bearing%clearance()/bearing%journal_radius
    end function clearance_ratio
 
    !> L over D, of the longest pad.
-   pure real(wp) function length_over_diameter(inputs)
-      type(case_type), intent(in) :: inputs
-      length_over_diameter = maxval(inputs%bearing%axial_length)/(2*inputs%bearing%journal_radius)
+   pure real(wp) function length_over_diameter(bearing)
+      type(bearing_type), intent(in) :: bearing
+      length_over_diameter = maxval(bearing%axial_length)/(2*bearing%journal_radius)
    end function length_over_diameter
 
-   !> Steady force W on the journal, weight and static load, N.
+   !> Steady force W on a rigid journal, weight and static load, N.
    pure real(wp) function load(inputs)
       type(case_type), intent(in) :: inputs
       type(operating_point_type) :: point
@@ -42,7 +44,7 @@ contains
    !> W/(L D), Pa, with the length of the longest pad.
    pure real(wp) function specific_load(inputs)
       type(case_type), intent(in) :: inputs
-      associate (b => inputs%bearing)
+      associate (b => inputs%bearings(1))
          specific_load = load(inputs)/(2*b%journal_radius*maxval(b%axial_length))
       end associate
    end function specific_load
@@ -51,24 +53,26 @@ contains
    !> has the viscosity of the supply here.
    pure real(wp) function sommerfeld_number(inputs)
       type(case_type), intent(in) :: inputs
-      sommerfeld_number = reference_viscosity(inputs)*inputs%operation%speed_rpm/60/specific_load(inputs) &
-         & /clearance_ratio(inputs)**2
+      associate (b => inputs%bearings(1))
+         sommerfeld_number = reference_viscosity(b)*inputs%operation%speed_rpm/60/specific_load(inputs) &
+            & /clearance_ratio(b)**2
+      end associate
    end function sommerfeld_number
 
    !> Which viscosity the Sommerfeld number has: "28.1 mPa s of the supply at 45 C".
-   pure function of_supply(inputs) result(words)
-      type(case_type), intent(in) :: inputs
+   pure function of_supply(bearing) result(words)
+      type(bearing_type), intent(in) :: bearing
       character(len=:), allocatable :: words
-      words = fixed_text(1e3_wp*reference_viscosity(inputs), 2)//' mPa s'
-      if (inputs%oil%law /= 'constant') words = words//' of the supply at '//to_text(inputs%oil%supply_temperature) &
-         & //' C'
+      words = fixed_text(1e3_wp*reference_viscosity(bearing), 2)//' mPa s'
+      if (bearing%oil%law /= 'constant') words = words//' of the supply at ' &
+         & //to_text(bearing%oil%supply_temperature)//' C'
    end function of_supply
 
    !> Distance of the journal, at (y, z), m, from the middle over c_r.
-   pure real(wp) function eccentricity_ratio(inputs, journal)
-      type(case_type), intent(in) :: inputs
+   pure real(wp) function eccentricity_ratio(bearing, journal)
+      type(bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: journal(2)
-      eccentricity_ratio = norm2(journal)/inputs%clearance()
+      eccentricity_ratio = norm2(journal)/bearing%clearance()
    end function eccentricity_ratio
 
    !> Angle from the load to the journal, at (y, z), m, in the sense of rotation, from -pi to pi; 0 where one of them

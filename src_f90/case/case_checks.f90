@@ -3,7 +3,7 @@ module case_checks
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: clearance_range, is_set
+   use case_groups, only: bearing_type, pivot_type, clearance_range, is_set
    use other_units, only: in_other_units
    use case_inputs, only: case_type
    use excitation_checks, only: check_excitations
@@ -25,17 +25,15 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
       integer :: b
-      if (inputs%is_machine()) then
+      if (.not. inputs%rotor%is_rigid()) then
          call check_machine(inputs, error)
-         if (.not. allocated(error)) call check_start(inputs, error)
-         do b = 1, inputs%bearing_count()
-            if (allocated(error)) return
-            call check_groups(inputs%of_bearing(b), error)
-            call add_context(error, 'bearing '''//inputs%machine%bearings(b)%name//'''')
-         end do
-      else
-         call check_groups(inputs, error)
+         if (.not. allocated(error)) call check_start(inputs, inputs%bearings(1), error)
       end if
+      do b = 1, size(inputs%bearings)
+         if (allocated(error)) return
+         call check_groups(inputs, inputs%bearings(b), error)
+         call add_context(error, inputs%bearings(b)%label())
+      end do
       call check_output(inputs, error)
       call check_tasks(inputs, error)
       call check_shape(inputs, error)
@@ -44,23 +42,24 @@ contains
    end subroutine check_case
 
    !> The groups of one bearing.
-   subroutine check_groups(inputs, error)
+   subroutine check_groups(inputs, bearing, error)
       type(case_type), intent(in) :: inputs
+      type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(inout) :: error
-      call check_film(inputs, error)
-      call check_bearing(inputs, error)
-      call check_thermal(inputs, error)
-      call check_friction(inputs, error)
-      call check_pivot(inputs, error)
-      call check_start(inputs, error)
-      call check_pads(inputs, error)
+      call check_film(bearing, error)
+      call check_bearing(bearing, error)
+      call check_thermal(inputs, bearing, error)
+      call check_friction(bearing, error)
+      call check_pivot(bearing%pivot, error)
+      call check_start(inputs, bearing, error)
+      call check_pads(bearing, error)
    end subroutine check_groups
 
-   subroutine check_film(inputs, error)
-      type(case_type), intent(in) :: inputs
+   subroutine check_film(bearing, error)
+      type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(inout) :: error
       integer :: most
-      associate (f => inputs%film, cells => inputs%film%circumferential_cells)
+      associate (f => bearing%film, cells => bearing%film%circumferential_cells)
          if (mod(cells, 2) /= 0 .or. cells /= 0 .and. cells < 8) call refuse( &
             & 'film%circumferential_cells = '//to_text(cells)//': must be even, and 0 or at least 8', error)
          call require(f%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough', error)
@@ -68,52 +67,51 @@ contains
             & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''', error)
          ! where films cavitate, elimination keeps a block of (axial cells/2)**2 values a column and pad;
          ! 0 stands for some 100 columns
-         most = int(sqrt(most_in_blocks/(max(cells, 100)*inputs%pad_count())))
+         most = int(sqrt(most_in_blocks/(max(cells, 100)*bearing%pad_count())))
          if (.not. (f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most)) call refuse( &
             & 'film%axial_cells = '//to_text(f%axial_cells)//': must be at most '//to_text(most) &
-            & //' with film%circumferential_cells = '//to_text(cells)//' and '//to_text(inputs%pad_count()) &
+            & //' with film%circumferential_cells = '//to_text(cells)//' and '//to_text(bearing%pad_count()) &
             & //' pads, or film%solver = ''sor''', error)
       end associate
    end subroutine check_film
 
-   subroutine check_bearing(inputs, error)
-      type(case_type), intent(in) :: inputs
+   subroutine check_bearing(b, error)
+      type(bearing_type), intent(in) :: b
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: pad
       real(wp) :: ratio
       integer :: i
-      associate (b => inputs%bearing)
-         do i = 1, inputs%pad_count()
-            pad = ' (both in m; pad '//to_text(i)//')'
-            ratio = b%machined_clearance(i)/b%journal_radius
-            if (.not. (ratio >= clearance_range(1) .and. ratio <= clearance_range(2))) call refuse( &
-               & 'bearing%machined_clearance = '//to_text(b%machined_clearance(i))//': must be ' &
-               & //to_text(clearance_range(1))//' to '//to_text(clearance_range(2))//' of bearing%journal_radius = ' &
-               & //to_text(b%journal_radius)//pad//in_other_units(b%machined_clearance(i), &
-               & 'bearing%machined_clearance', 'm', &
-               & clearance_range(1)*b%journal_radius, clearance_range(2)*b%journal_radius), error)
-            if (.not. (b%assembled_clearance(i) <= 2*b%machined_clearance(i))) call refuse( &
-               & 'bearing%assembled_clearance = '//to_text(b%assembled_clearance(i)) &
-               & //': must be at most twice bearing%machined_clearance = '//to_text(b%machined_clearance(i)) &
-               & //pad, error)
-            ratio = b%axial_length(i)/b%journal_radius
-            if (.not. (ratio >= 0.02_wp .and. ratio <= 50)) call refuse('bearing%axial_length = ' &
-               & //to_text(b%axial_length(i))//': must be 0.02 to 50 times bearing%journal_radius = ' &
-               & //to_text(b%journal_radius)//pad//in_other_units(b%axial_length(i), &
-               & 'bearing%axial_length', 'm', &
-               & 0.02_wp*b%journal_radius, 50*b%journal_radius), error)
-         end do
-         if (.not. (b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
-            & .or. inputs%film%cavitation == 'none')) call refuse('bearing%cavitation_pressure = ' &
-            & //to_text(b%cavitation_pressure)//': must not exceed bearing%supply_pressure = ' &
-            & //to_text(b%supply_pressure)//' and bearing%ambient_pressure = '//to_text(b%ambient_pressure), error)
-      end associate
+      do i = 1, b%pad_count()
+         pad = ' (both in m; pad '//to_text(i)//')'
+         ratio = b%machined_clearance(i)/b%journal_radius
+         if (.not. (ratio >= clearance_range(1) .and. ratio <= clearance_range(2))) call refuse( &
+            & 'bearing%machined_clearance = '//to_text(b%machined_clearance(i))//': must be ' &
+            & //to_text(clearance_range(1))//' to '//to_text(clearance_range(2))//' of bearing%journal_radius = ' &
+            & //to_text(b%journal_radius)//pad//in_other_units(b%machined_clearance(i), &
+            & 'bearing%machined_clearance', 'm', &
+            & clearance_range(1)*b%journal_radius, clearance_range(2)*b%journal_radius), error)
+         if (.not. (b%assembled_clearance(i) <= 2*b%machined_clearance(i))) call refuse( &
+            & 'bearing%assembled_clearance = '//to_text(b%assembled_clearance(i)) &
+            & //': must be at most twice bearing%machined_clearance = '//to_text(b%machined_clearance(i)) &
+            & //pad, error)
+         ratio = b%axial_length(i)/b%journal_radius
+         if (.not. (ratio >= 0.02_wp .and. ratio <= 50)) call refuse('bearing%axial_length = ' &
+            & //to_text(b%axial_length(i))//': must be 0.02 to 50 times bearing%journal_radius = ' &
+            & //to_text(b%journal_radius)//pad//in_other_units(b%axial_length(i), &
+            & 'bearing%axial_length', 'm', &
+            & 0.02_wp*b%journal_radius, 50*b%journal_radius), error)
+      end do
+      if (.not. (b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
+         & .or. b%film%cavitation == 'none')) call refuse('bearing%cavitation_pressure = ' &
+         & //to_text(b%cavitation_pressure)//': must not exceed bearing%supply_pressure = ' &
+         & //to_text(b%supply_pressure)//' and bearing%ambient_pressure = '//to_text(b%ambient_pressure), error)
    end subroutine check_bearing
 
-   subroutine check_thermal(inputs, error)
+   subroutine check_thermal(inputs, bearing, error)
       type(case_type), intent(in) :: inputs
+      type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(inout) :: error
-      associate (t => inputs%thermal, oil => inputs%oil)
+      associate (t => inputs%thermal, oil => bearing%oil)
          call require(t%model == 'pad' .or. t%march == 'frozen', 'thermal%march = '''//t%march//''': has no effect ' &
             & //'but with thermal%model = ''pad''', error)
          call require(t%model == 'none' .or. oil%law /= 'constant', 'thermal%model = '''//t%model//''': needs an oil ' &
@@ -126,12 +124,12 @@ contains
       end associate
    end subroutine check_thermal
 
-   subroutine check_friction(inputs, error)
-      type(case_type), intent(in) :: inputs
+   subroutine check_friction(bearing, error)
+      type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(inout) :: error
       integer :: i
-      associate (f => inputs%friction)
-         do i = 1, inputs%pad_count()
+      associate (f => bearing%friction)
+         do i = 1, bearing%pad_count()
             if (.not. (f%dynamic_coefficient(i) <= f%static_coefficient(i))) call refuse( &
                & 'friction%dynamic_coefficient = '//to_text(f%dynamic_coefficient(i)) &
                & //': must not exceed friction%static_coefficient = '//to_text(f%static_coefficient(i)) &
@@ -139,46 +137,45 @@ contains
             call require(f%model /= 'lugre' .or. f%dynamic_coefficient(i) > 0, 'friction%dynamic_coefficient = 0: ' &
                & //'must be > 0 for model = ''lugre'' (pad '//to_text(i)//')', error)
          end do
-         call require(inputs%tilting() .or. f%model == 'none', 'friction%model = '''//f%model//''': must be ''none'' ' &
-            & //'for pads%motion = ''fixed'', whose pads have no pivots', error)
+         call require(bearing%tilting() .or. f%model == 'none', 'friction%model = '''//f%model//''': must be ' &
+            & //'''none'' for pads%motion = ''fixed'', whose pads have no pivots', error)
       end associate
    end subroutine check_friction
 
-   subroutine check_pivot(inputs, error)
-      type(case_type), intent(in) :: inputs
+   subroutine check_pivot(v, error)
+      type(pivot_type), intent(in) :: v
       type(error_type), allocatable, intent(inout) :: error
       integer :: i
-      associate (v => inputs%pivot)
-         call require(v%law /= 'table' .or. v%file /= '', 'pivot%file = '''': must name a CSV file for ' &
-            & //'law = ''table''', error)
-         call require(v%law == 'table' .or. v%file == '', 'pivot%file = '''//v%file &
-            & //''': needs pivot%law = ''table''', error)
-         do i = 1, inputs%pad_count()
-            if (.not. (v%radius_difference(i) <= 0.5_wp*v%socket_radius(i))) call refuse( &
-               & 'pivot%radius_difference = '//to_text(v%radius_difference(i)) &
-               & //': must be at most half of pivot%socket_radius = '//to_text(v%socket_radius(i)) &
-               & //' (pad '//to_text(i)//')', error)
-            call require(v%law /= 'hertz' .or. v%radius_difference(i) > 0, 'pivot%radius_difference = 0: must be > 0 ' &
-               & //'for law = ''hertz'' (pad '//to_text(i)//')', error)
-         end do
-      end associate
+      call require(v%law /= 'table' .or. v%file /= '', 'pivot%file = '''': must name a CSV file for ' &
+         & //'law = ''table''', error)
+      call require(v%law == 'table' .or. v%file == '', 'pivot%file = '''//v%file &
+         & //''': needs pivot%law = ''table''', error)
+      do i = 1, size(v%socket_radius)
+         if (.not. (v%radius_difference(i) <= 0.5_wp*v%socket_radius(i))) call refuse( &
+            & 'pivot%radius_difference = '//to_text(v%radius_difference(i)) &
+            & //': must be at most half of pivot%socket_radius = '//to_text(v%socket_radius(i)) &
+            & //' (pad '//to_text(i)//')', error)
+         call require(v%law /= 'hertz' .or. v%radius_difference(i) > 0, 'pivot%radius_difference = 0: must be > 0 ' &
+            & //'for law = ''hertz'' (pad '//to_text(i)//')', error)
+      end do
    end subroutine check_pivot
 
-   subroutine check_start(inputs, error)
+   subroutine check_start(inputs, bearing, error)
       type(case_type), intent(in) :: inputs
+      type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(inout) :: error
       associate (s => inputs%start)
          call require(s%from /= 'file' .or. s%file /= '', 'start%file = '''': must name a result for start%from = ' &
             & //'''file''', error)
          call require(s%from == 'file' .or. s%file == '', 'start%file = '''//s%file//''': needs start%from = ' &
             & //'''file'', not '''//s%from//'''', error)
-         if (.not. (inputs%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0))) call refuse( &
+         if (.not. (bearing%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0))) call refuse( &
             & 'start%pad_tilt = '//to_text(s%pad_tilt(1))//', pad_tilt_rate = '//to_text(s%pad_tilt_rate(1)) &
             & //': must be 0 for pads%motion = ''fixed''', error)
-         if (.not. (inputs%tilting_radial() &
+         if (.not. (bearing%tilting_radial() &
             & .or. all(abs([s%pivot_deflection, s%pivot_deflection_rate]) <= 0))) call refuse( &
             & 'start%pivot_deflection = '//to_text(s%pivot_deflection(1))//', pivot_deflection_rate = ' &
-            & //to_text(s%pivot_deflection_rate(1))//': must be 0 for pads%motion = '''//inputs%pads%motion &
+            & //to_text(s%pivot_deflection_rate(1))//': must be 0 for pads%motion = '''//bearing%pads%motion &
             & //'''', error)
       end associate
    end subroutine check_start
@@ -204,15 +201,15 @@ contains
       end associate
    end subroutine check_output
 
-   subroutine check_pads(inputs, error)
-      type(case_type), intent(in) :: inputs
+   subroutine check_pads(bearing, error)
+      type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(inout) :: error
       real(wp) :: smallest
       integer :: i
-      associate (p => inputs%pads)
-         do i = 1, inputs%pad_count()
-            call require_room(inputs, i, error)
-            if (.not. inputs%tilting()) cycle
+      associate (p => bearing%pads)
+         do i = 1, bearing%pad_count()
+            call require_room(bearing, i, error)
+            if (.not. bearing%tilting()) cycle
             if (.not. (p%arc_deg(i) <= longest_arc)) call refuse('pads%arc_deg = '//to_text(p%arc_deg(i)) &
                & //': must be at most '//to_text(longest_arc)//' for pads that tilt', error)
             smallest = p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2)
@@ -225,14 +222,14 @@ contains
    end subroutine check_pads
 
    !> A pad reaches from theta - theta_2 to theta + theta_1; the next one must start after that.
-   subroutine require_room(inputs, i, error)
-      type(case_type), intent(in) :: inputs
+   subroutine require_room(bearing, i, error)
+      type(bearing_type), intent(in) :: bearing
       integer, intent(in) :: i
       type(error_type), allocatable, intent(inout) :: error
       real(wp) :: distance
       integer :: j
-      associate (p => inputs%pads)
-         do j = 1, inputs%pad_count()
+      associate (p => bearing%pads)
+         do j = 1, bearing%pad_count()
             if (i == j) cycle
             ! from pivot i on to pivot j, going up
             distance = modulo(p%pivot_angle_deg(j) - p%pivot_angle_deg(i), 360.0_wp)

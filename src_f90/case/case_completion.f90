@@ -4,7 +4,7 @@ module case_completion
    use kinds, only: wp, degree
    use text, only: to_text, list_text
    use errors, only: error_type, raise, require, refuse, add_context, input_error
-   use case_groups, only: bearing_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
+   use case_groups, only: bearing_type, oil_type, pads_type, unset, is_set, mass_range, inertia_range, centre_range, &
       & clearance_range, temperature_range, viscosity_range
    use case_inputs, only: case_type
    use excitation_checks, only: complete_excitations
@@ -32,85 +32,65 @@ contains
    !> Leaves out what `complete_case` can find.
    subroutine leave_out(inputs)
       type(case_type), intent(inout) :: inputs
-      type(case_type) :: one
       integer :: b
       inputs%operation%final_speed_rpm = unset
       inputs%output%keep = ''
-      if (inputs%is_machine()) then
-         do b = 1, inputs%bearing_count()
-            one = inputs%of_bearing(b)
-            call leave_out_of_bearing(one)
-            call inputs%set_bearing(b, one)
-         end do
-      else
-         call leave_out_of_bearing(inputs)
-      end if
+      do b = 1, size(inputs%bearings)
+         associate (bearing => inputs%bearings(b), pads => inputs%bearings(b)%pads)
+            bearing%machined_clearance(:) = unset
+            bearing%viscosity = unset
+            bearing%oil%law = ''
+            pads%mass(:) = unset
+            pads%inertia(:) = unset
+            pads%centre_tangential(:) = unset
+            pads%centre_radial(:) = unset
+         end associate
+      end do
    end subroutine leave_out
-
-   !> The same of the groups of one bearing.
-   pure subroutine leave_out_of_bearing(inputs)
-      type(case_type), intent(inout) :: inputs
-      inputs%bearing%machined_clearance(:) = unset
-      inputs%bearing%viscosity = unset
-      inputs%oil%law = ''
-      associate (pads => inputs%pads)
-         pads%mass(:) = unset
-         pads%inertia(:) = unset
-         pads%centre_tangential(:) = unset
-         pads%centre_radial(:) = unset
-      end associate
-   end subroutine leave_out_of_bearing
 
    !> Finds what is left out; afterwards only the variables from which it follows are unset. Of a machine the message of
    !> an error names the bearing.
    subroutine complete_case(inputs, error)
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(case_type) :: one
       integer :: b
       call inputs%set_final_speed()
       ! what has no samples is a row of a study alone, unless a file of each run is asked for
       if (inputs%output%keep == '') inputs%output%keep = trim(merge('summary', 'all    ', &
          & any(inputs%about%task == ['equilibrium ', 'coefficients'])))
-      if (.not. inputs%is_machine()) then
-         call complete_bearing(inputs, error)
-         if (.not. allocated(error)) call complete_excitations(inputs, error)
-         return
-      end if
-      do b = 1, inputs%bearing_count()
-         one = inputs%of_bearing(b)
-         call complete_bearing(one, error)
-         call add_context(error, 'bearing '''//inputs%machine%bearings(b)%name//'''')
+      do b = 1, size(inputs%bearings)
+         call complete_bearing(inputs%bearings(b), inputs%thermal%model == 'film', error)
+         call add_context(error, inputs%bearings(b)%label())
          if (allocated(error)) return
-         call inputs%set_bearing(b, one)
       end do
       call complete_excitations(inputs, error)
    end subroutine complete_case
 
-   !> The same of the groups of one bearing.
-   subroutine complete_bearing(inputs, error)
-      type(case_type), intent(inout) :: inputs
+   !> The same of the groups of one bearing, through whose pads heat flows or not.
+   subroutine complete_bearing(bearing, heated, error)
+      type(bearing_type), intent(inout) :: bearing
+      logical, intent(in) :: heated
       type(error_type), allocatable, intent(out) :: error
       integer :: i
-      do i = 1, inputs%pad_count()
-         call set_clearance(inputs, i, error)
+      do i = 1, bearing%pad_count()
+         call set_clearance(bearing, i, error)
          if (allocated(error)) return
       end do
-      call complete_oil(inputs, error)
-      do i = 1, inputs%pad_count()
+      call complete_oil(bearing, error)
+      do i = 1, bearing%pad_count()
          if (allocated(error)) return
-         call set_pad(inputs, i, error)
+         call set_pad(bearing, i, heated, error)
       end do
    end subroutine complete_bearing
 
    !> A pad's clearance: as given, by the preload, or the paper's.
-   subroutine set_clearance(inputs, i, error)
-      type(case_type), intent(inout) :: inputs
+   subroutine set_clearance(b, i, error)
+      type(bearing_type), intent(inout) :: b
       integer, intent(in) :: i
       type(error_type), allocatable, intent(out) :: error
-      type(case_type) :: paper
-      paper = case_type()
-      associate (b => inputs%bearing, machined => inputs%bearing%machined_clearance(i))
+      type(bearing_type) :: paper
+      paper = bearing_type()
+      associate (machined => b%machined_clearance(i))
          if (b%assembled_clearance(i) > 2*clearance_range(2)*b%journal_radius) then
             call raise(error, input_error, 'bearing%assembled_clearance = '//to_text(b%assembled_clearance(i)) &
                & //': must be at most '//to_text(2*clearance_range(2))//' of bearing%journal_radius = ' &
@@ -133,7 +113,7 @@ contains
                   & 'bearing%assembled_clearance', 'm', 0.0_wp, clearance_range(2)*b%journal_radius/5))
             end associate
          else
-            call fill(machined, paper%bearing%machined_clearance(1))
+            call fill(machined, paper%machined_clearance(1))
          end if
          b%preload(i) = unset
       end associate
@@ -141,19 +121,21 @@ contains
 
    !> What is left out of a pad's mass, inertia and centre of gravity: that of the paper's pads if it has their size and
    !> neither density nor thickness is given, else that of an annular sector.
-   subroutine set_pad(inputs, i, error)
-      type(case_type), intent(inout) :: inputs
+   subroutine set_pad(bearing, i, heated, error)
+      type(bearing_type), intent(inout) :: bearing
       integer, intent(in) :: i
+      logical, intent(in) :: heated
       type(error_type), allocatable, intent(out) :: error
       type(annular_sector_type) :: sector
-      type(case_type) :: paper
-      paper = case_type()
-      associate (p => inputs%pads, q => paper%pads)
-         call refuse_surplus(inputs, i, error)
+      type(bearing_type) :: paper
+      paper = bearing_type()
+      associate (p => bearing%pads, q => paper%pads, needs_thickness => heated .or. bearing%pads%bending /= 'none')
+         call refuse_surplus(p, i, needs_thickness, error)
          if (allocated(error)) return
-         if (.not. inputs%tilting()) then
+         if (.not. bearing%tilting()) then
             ! fixed pads need no masses
-         else if (has_size_of(inputs, i, paper) .and. .not. (is_set(p%density(i)) .or. is_set(p%thickness(i)))) then
+         else if (all(abs(size_of(bearing, i) - size_of(paper, 1)) <= 0) &
+            & .and. .not. (is_set(p%density(i)) .or. is_set(p%thickness(i)))) then
             call fill(p%mass(i), q%mass(1))
             call fill(p%inertia(i), q%inertia(1))
             call fill(p%centre_tangential(i), q%centre_tangential(1))
@@ -161,9 +143,9 @@ contains
          else
             call fill(p%thickness(i), p%pivot_distance(i))
             call fill(p%density(i), steel)
-            sector = new_annular_sector(inputs%bearing%journal_radius + inputs%bearing%machined_clearance(i), &
+            sector = new_annular_sector(bearing%journal_radius + bearing%machined_clearance(i), &
                & p%thickness(i), p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
-               & inputs%bearing%axial_length(i), p%pivot_distance(i))
+               & bearing%axial_length(i), p%pivot_distance(i))
             call fill(p%mass(i), p%density(i)*sector%volume)
             call fill(p%inertia(i), p%mass(i)*sector%squared_radius)
             call fill(p%centre_tangential(i), sector%centre_tangential)
@@ -174,7 +156,7 @@ contains
             call require_range('centre_radial', p%centre_radial(i), centre_range, error)
          end if
          p%density(i) = unset
-         if (needs_thickness(inputs)) then
+         if (needs_thickness) then
             call fill(p%thickness(i), p%pivot_distance(i))
          else
             p%thickness(i) = unset
@@ -183,41 +165,27 @@ contains
    end subroutine set_pad
 
    !> Refuses a density or thickness that nothing would follow from.
-   subroutine refuse_surplus(inputs, i, error)
-      type(case_type), intent(in) :: inputs
+   subroutine refuse_surplus(p, i, needs_thickness, error)
+      type(pads_type), intent(in) :: p
       integer, intent(in) :: i
+      logical, intent(in) :: needs_thickness
       type(error_type), allocatable, intent(out) :: error
-      associate (p => inputs%pads)
-         if (is_set(p%density(i)) .and. is_set(p%mass(i))) then
-            call raise(error, input_error, 'pads%density = '//to_text(p%density(i))//': pads%mass = ' &
-               & //to_text(p%mass(i))//' is given too; give one of them (pad '//to_text(i)//')')
-         else if (is_set(p%thickness(i)) .and. is_set(p%mass(i)) .and. is_set(p%inertia(i)) &
-            & .and. is_set(p%centre_tangential(i)) .and. is_set(p%centre_radial(i)) &
-            & .and. .not. needs_thickness(inputs)) then
-            call raise(error, input_error, 'pads%thickness = '//to_text(p%thickness(i))//': has no effect where ' &
-               & //'mass, inertia, centre_tangential and centre_radial are given (pad '//to_text(i)//')')
-         end if
-      end associate
+      if (is_set(p%density(i)) .and. is_set(p%mass(i))) then
+         call raise(error, input_error, 'pads%density = '//to_text(p%density(i))//': pads%mass = ' &
+            & //to_text(p%mass(i))//' is given too; give one of them (pad '//to_text(i)//')')
+      else if (is_set(p%thickness(i)) .and. is_set(p%mass(i)) .and. is_set(p%inertia(i)) &
+         & .and. is_set(p%centre_tangential(i)) .and. is_set(p%centre_radial(i)) .and. .not. needs_thickness) then
+         call raise(error, input_error, 'pads%thickness = '//to_text(p%thickness(i))//': has no effect where ' &
+            & //'mass, inertia, centre_tangential and centre_radial are given (pad '//to_text(i)//')')
+      end if
    end subroutine refuse_surplus
 
-   !> Whether heat flows through the pads, or they bend.
-   pure logical function needs_thickness(inputs)
-      type(case_type), intent(in) :: inputs
-      needs_thickness = inputs%thermal%model == 'film' .or. inputs%pads%bending /= 'none'
-   end function needs_thickness
-
-   !> True where a pad has the size of the paper's, clearances apart.
-   pure logical function has_size_of(inputs, i, paper)
-      type(case_type), intent(in) :: inputs, paper
-      integer, intent(in) :: i
-      has_size_of = all(abs(size_of(inputs, i) - size_of(paper, 1)) <= 0)
-   end function has_size_of
-
-   pure function size_of(inputs, i)
-      type(case_type), intent(in) :: inputs
+   !> The size of a pad, clearances apart.
+   pure function size_of(b, i)
+      type(bearing_type), intent(in) :: b
       integer, intent(in) :: i
       real(wp) :: size_of(5)
-      associate (b => inputs%bearing, p => inputs%pads)
+      associate (p => b%pads)
          size_of = [b%journal_radius, b%axial_length(i), p%arc_deg(i), p%pivot_ratio(i), p%pivot_distance(i)]
       end associate
    end function size_of
@@ -256,15 +224,15 @@ contains
    end function new_annular_sector
 
    !> Finds the law where it is left out, checks its numbers, and gives the constant law the paper's viscosity.
-   subroutine complete_oil(inputs, error)
-      type(case_type), intent(inout) :: inputs
+   subroutine complete_oil(b, error)
+      type(bearing_type), intent(inout) :: b
       type(error_type), allocatable, intent(out) :: error
       type(bearing_type) :: paper
-      associate (b => inputs%bearing, oil => inputs%oil)
+      associate (oil => b%oil)
          ! resolved cases once said so of every case without a grade
          if (.not. oil%grade > 0) oil%grade = unset
          if (oil%law == '') oil%law = meant_law(oil)
-         call refuse_other_law(inputs, error)
+         call refuse_other_law(b, error)
          select case (oil%law)
          case ('constant')
             if (.not. is_set(b%viscosity)) b%viscosity = paper%viscosity
@@ -276,7 +244,7 @@ contains
                & //'''exponential'': needs oil%reference_viscosity and oil%temperature_exponent', error)
          end select
          if (allocated(error)) return
-         associate (mu => reference_viscosity(inputs))
+         associate (mu => reference_viscosity(b))
             if (.not. (mu >= viscosity_range(1) .and. mu <= viscosity_range(2))) call refuse( &
                & 'oil%supply_temperature = '//to_text(oil%supply_temperature)//': the oil''s viscosity there is ' &
                & //to_text(mu)//' Pa s; must be '//to_text(viscosity_range(1))//' to ' &
@@ -299,11 +267,11 @@ contains
    end function meant_law
 
    !> Refuses what tells that another law is meant; numbers that merely have no effect may stand.
-   subroutine refuse_other_law(inputs, error)
-      type(case_type), intent(in) :: inputs
+   subroutine refuse_other_law(bearing, error)
+      type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(inout) :: error
-      associate (oil => inputs%oil)
-         call only_of('constant', 'bearing%viscosity', inputs%bearing%viscosity)
+      associate (oil => bearing%oil)
+         call only_of('constant', 'bearing%viscosity', bearing%viscosity)
          call only_of('walther', 'oil%grade', oil%grade)
          call only_of('walther', 'oil%kinematic_viscosity', maxval(oil%kinematic_viscosity))
          call only_of('exponential', 'oil%reference_viscosity', oil%reference_viscosity)
@@ -313,8 +281,8 @@ contains
       subroutine only_of(law, name, value)
          character(len=*), intent(in) :: law, name
          real(wp), intent(in) :: value
-         if (is_set(value) .and. inputs%oil%law /= law) call refuse(name//' = '//to_text(value) &
-            & //': belongs to oil%law = '''//law//''', but this case has oil%law = '''//inputs%oil%law &
+         if (is_set(value) .and. bearing%oil%law /= law) call refuse(name//' = '//to_text(value) &
+            & //': belongs to oil%law = '''//law//''', but this case has oil%law = '''//bearing%oil%law &
             & //'''; take it out of the case', error)
       end subroutine only_of
    end subroutine refuse_other_law

@@ -7,9 +7,9 @@ module case_groups
    private
    public :: max_pads, most_ratios, unset, is_set
    public :: mass_range, inertia_range, centre_range, temperature_range, viscosity_range, clearance_range
-   public :: about_type, rotor_type, operation_type, bearing_type, oil_type, thermal_type, pads_type, pivot_type, &
-      & friction_type, asperity_type, start_type, film_type, integration_type, output_type, coefficients_type, &
+   public :: about_type, operation_type, thermal_type, start_type, integration_type, output_type, coefficients_type, &
       & periodic_type, branch_type
+   public :: bearing_type, oil_type, pads_type, pivot_type, friction_type, asperity_type, film_type, support_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
@@ -32,35 +32,11 @@ module case_groups
       character(len=:), allocatable :: of_paper
    end type about_type
 
-   type :: rotor_type
-      !> Mass carried by the bearing, kg; unbalance, kg m.
-      real(wp) :: mass = 2000, unbalance = 0.010_wp
-      !> ISO 21940-11 grade, mm/s, that replaces the unbalance; its speed (unset: the highest of the run).
-      real(wp) :: balance_grade = unset, balance_speed_rpm = unset
-      real(wp) :: gravity = 9.81_wp
-      !> Extra force on the journal along y and z, N.
-      real(wp) :: static_load(2) = 0
-   end type rotor_type
-
    type :: operation_type
       !> Speed at the start and at the end (linear in between; set in a complete case), and how long, s.
       real(wp) :: speed_rpm = 6500, final_speed_rpm = unset, duration = 2
       character(len=:), allocatable :: rotation
    end type operation_type
-
-   type :: bearing_type
-      real(wp) :: journal_radius = 49.9e-3_wp
-      !> One value a pad. The preload, 1 - assembled over pad clearance, is given instead of the latter; unset in a
-      !> complete case.
-      real(wp), allocatable :: machined_clearance(:), assembled_clearance(:), preload(:), axial_length(:)
-      !> Of the oil, where its law is 'constant'; else unset in a complete case.
-      real(wp) :: viscosity = 19e-3_wp
-      !> C, at which the clearances were measured (unset: they are those in operation); linear expansion of shaft and
-      !> housing, 1/K, that of steel; temperature of the housing (unset: that of the supply).
-      real(wp) :: clearance_temperature = unset, shaft_expansion = 11e-6_wp, housing_expansion = 11e-6_wp
-      real(wp) :: housing_temperature = unset
-      real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
-   end type bearing_type
 
    !> The oil; temperatures in C.
    type :: oil_type
@@ -163,6 +139,53 @@ module case_groups
       character(len=:), allocatable :: cavitation
    end type film_type
 
+   !> What a bearing stands on: the mass that moves with its housing, kg, the pads' included; N/m and N s/m along y
+   !> and z.
+   type :: support_type
+      real(wp) :: mass = 0, stiffness(2) = unset, damping(2) = 0
+   end type support_type
+
+   !> A bearing: its group &bearing, and its other groups.
+   type :: bearing_type
+      !> Empty where it is the only one, with a rigid journal.
+      character(len=:), allocatable :: name
+      !> The station of an elastic rotor that is in it, and how far it stands from the line of the others, y and z, m.
+      integer :: station = 0
+      real(wp) :: offset(2) = 0
+      !> Not allocated: it stands on the ground.
+      type(support_type), allocatable :: support
+      real(wp) :: journal_radius = 49.9e-3_wp
+      !> One value a pad. The preload, 1 - assembled over pad clearance, is given instead of the latter; unset in a
+      !> complete case.
+      real(wp), allocatable :: machined_clearance(:), assembled_clearance(:), preload(:), axial_length(:)
+      !> Of the oil, where its law is 'constant'; else unset in a complete case.
+      real(wp) :: viscosity = 19e-3_wp
+      !> C, at which the clearances were measured (unset: they are those in operation); linear expansion of shaft and
+      !> housing, 1/K, that of steel; temperature of the housing (unset: that of the supply).
+      real(wp) :: clearance_temperature = unset, shaft_expansion = 11e-6_wp, housing_expansion = 11e-6_wp
+      real(wp) :: housing_temperature = unset
+      real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
+      type(oil_type) :: oil
+      type(pads_type) :: pads
+      type(pivot_type) :: pivot
+      type(friction_type) :: friction
+      type(asperity_type) :: asperity
+      type(film_type) :: film
+   contains
+      procedure :: pad_count
+      procedure :: clearance
+      procedure :: changes_shape
+      procedure :: tilting
+      procedure :: tilting_radial
+      procedure :: label
+      procedure :: suffix
+   end type bearing_type
+
+   !> The paper's.
+   interface bearing_type
+      module procedure new_bearing
+   end interface bearing_type
+
    type :: integration_type
       real(wp) :: relative_tolerance = 1e-5_wp, tolerance_scale = 1
       !> 0: no limit.
@@ -219,4 +242,89 @@ contains
       real(wp), intent(in) :: x
       is_set = x > unset
    end function is_set
+
+   pure type(bearing_type) function new_bearing() result(bearing)
+      bearing%name = ''
+      bearing%machined_clearance = [100e-6_wp, 100e-6_wp]
+      bearing%assembled_clearance = [80e-6_wp, 80e-6_wp]
+      bearing%preload = [unset, unset]
+      bearing%axial_length = [100e-3_wp, 100e-3_wp]
+      bearing%oil%law = 'constant'
+      associate (pads => bearing%pads)
+         pads%pivot_angle_deg = [-45.0_wp, 225.0_wp]
+         pads%arc_deg = [69.3_wp, 69.3_wp]
+         pads%pivot_ratio = [0.5_wp, 0.5_wp]
+         pads%pivot_distance = [14e-3_wp, 14e-3_wp]
+         pads%mass = [0.8108_wp, 0.8108_wp]
+         pads%inertia = [4.055e-4_wp, 4.055e-4_wp]
+         pads%centre_tangential = [0.0_wp, 0.0_wp]
+         pads%centre_radial = [-10.1e-3_wp, -10.1e-3_wp]
+         pads%density = [unset, unset]
+         pads%thickness = [unset, unset]
+         pads%conductivity = [50.0_wp, 50.0_wp]
+         pads%motion = 'tilting_radial'
+         pads%bending = 'none'
+         pads%young_modulus = [2.1e11_wp, 2.1e11_wp]
+         pads%poisson_ratio = [0.3_wp, 0.3_wp]
+         pads%expansion = [11e-6_wp, 11e-6_wp]
+         pads%temperature = [unset, unset]
+      end associate
+      bearing%pivot%law = 'fang'
+      bearing%pivot%file = ''
+      bearing%pivot%socket_radius = [13e-3_wp, 13e-3_wp]
+      bearing%pivot%radius_difference = [15e-6_wp, 15e-6_wp]
+      bearing%friction%model = 'none'
+      bearing%friction%static_coefficient = [0.1_wp, 0.1_wp]
+      bearing%friction%dynamic_coefficient = [0.05_wp, 0.05_wp]
+      bearing%asperity%model = 'greenwood_tripp'
+      bearing%film%solver = 'auto'
+      bearing%film%cavitation = 'reynolds'
+   end function new_bearing
+
+   pure integer function pad_count(self)
+      class(bearing_type), intent(in) :: self
+      pad_count = size(self%pads%pivot_angle_deg)
+   end function pad_count
+
+   !> The bearing clearance c_r, m: of pads that differ the smallest.
+   elemental real(wp) function clearance(self)
+      class(bearing_type), intent(in) :: self
+      clearance = minval(self%assembled_clearance)
+   end function clearance
+
+   !> Whether the equilibrium changes its clearances: pads bend, or shaft, pads and housing expand.
+   elemental logical function changes_shape(self)
+      class(bearing_type), intent(in) :: self
+      changes_shape = self%pads%bending /= 'none' .or. is_set(self%clearance_temperature)
+   end function changes_shape
+
+   !> False for pads that are fixed: lobes of a plain bearing.
+   elemental logical function tilting(self)
+      class(bearing_type), intent(in) :: self
+      tilting = self%pads%motion /= 'fixed'
+   end function tilting
+
+   elemental logical function tilting_radial(self)
+      class(bearing_type), intent(in) :: self
+      tilting_radial = self%pads%motion == 'tilting_radial'
+   end function tilting_radial
+
+   !> "bearing 'drive_end'", and what follows it; empty for one without name.
+   pure function label(self, ending) result(text)
+      class(bearing_type), intent(in) :: self
+      character(len=*), intent(in), optional :: ending
+      character(len=:), allocatable :: text
+      text = ''
+      if (self%name == '') return
+      text = 'bearing '''//self%name//''''
+      if (present(ending)) text = text//ending
+   end function label
+
+   !> What stands behind the names of its groups: ":drive_end"; nothing for one without name.
+   pure function suffix(self) result(text)
+      class(bearing_type), intent(in) :: self
+      character(len=:), allocatable :: text
+      text = ''
+      if (self%name /= '') text = ':'//self%name
+   end function suffix
 end module case_groups

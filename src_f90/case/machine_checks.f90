@@ -3,10 +3,10 @@
 module machine_checks
    use text, only: to_text
    use errors, only: error_type, require, refuse
-   use case_groups, only: is_set
+   use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
    use excitations, only: excitation_type
-   use machine_groups, only: machine_type, most_stations
+   use rotor_groups, only: elastic_type, most_stations
    implicit none (type, external)
    private
    public :: check_machine
@@ -17,11 +17,11 @@ contains
    subroutine check_machine(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      associate (machine => inputs%machine, s => inputs%start, q => inputs%coefficients%cross_stiffness)
-         call check_shaft(machine, error)
-         call check_bearings(machine, error)
-         call check_parts(machine, inputs%excitations, error)
-         call check_supports(machine, error)
+      associate (s => inputs%start, q => inputs%coefficients%cross_stiffness)
+         call check_shaft(inputs%rotor%elastic, error)
+         call check_bearings(inputs%bearings, inputs%rotor%station_count(), error)
+         call check_parts(inputs%rotor%elastic, inputs%excitations, inputs%rotor%station_count(), error)
+         call check_supports(inputs%bearings, error)
          call require(any(s%from == ['equilibrium', 'file       ']), 'start%from = '''//s%from//''': must be ' &
             & //'''equilibrium'' or ''file'' for a machine', error)
          if (abs(q) > 0) call refuse('coefficients%cross_stiffness = '//to_text(q)//': must be 0 for a machine', error)
@@ -29,17 +29,17 @@ contains
    end subroutine check_machine
 
    !> A shaft or a rotor from a file, and every section a tube.
-   subroutine check_shaft(machine, error)
-      type(machine_type), intent(in) :: machine
+   subroutine check_shaft(elastic, error)
+      type(elastic_type), intent(in) :: elastic
       type(error_type), allocatable, intent(inout) :: error
       integer :: i
-      associate (shaft => machine%shaft)
+      associate (shaft => elastic%shaft)
          if (.not. shaft%is_given()) then
-            call require(machine%rotor_file /= '', 'shaft%length: must be given, the lengths of the shaft''s ' &
+            call require(elastic%rotor_file /= '', 'shaft%length: must be given, the lengths of the shaft''s ' &
                & //'sections; or rotor%file, the matrices of a rotor', error)
             return
          end if
-         call require(machine%rotor_file == '', 'rotor%file = '''//machine%rotor_file//''': shaft%length is given ' &
+         call require(elastic%rotor_file == '', 'rotor%file = '''//elastic%rotor_file//''': shaft%length is given ' &
             & //'too; give one of them', error)
          call require(all(is_set(shaft%length)), 'shaft%length: every section needs one', error)
          call require(all(is_set(shaft%diameter)), 'shaft%diameter: must be given, of each of the '// &
@@ -53,77 +53,75 @@ contains
    end subroutine check_shaft
 
    !> Enough bearings, each at a station of its own.
-   subroutine check_bearings(machine, error)
-      type(machine_type), intent(in) :: machine
+   subroutine check_bearings(bearings, stations, error)
+      type(bearing_type), intent(in) :: bearings(:)
+      integer, intent(in) :: stations
       type(error_type), allocatable, intent(inout) :: error
       integer :: b, c
-      associate (bearings => machine%bearings)
-         if (size(bearings) < 2) call refuse('a machine needs two or more groups &bearing, each with a name; there ' &
-            & //trim(merge('are none', 'is one  ', size(bearings) == 0)), error)
-         do b = 1, size(bearings)
-            call check_station('bearing:'//bearings(b)%name, bearings(b)%station, machine, error)
-            do c = 1, b - 1
-               if (bearings(b)%station == bearings(c)%station) call refuse('bearing:'//bearings(b)%name//'%station = ' &
-                  & //to_text(bearings(b)%station)//': is that of bearing '''//bearings(c)%name//''' already', error)
-            end do
+      if (size(bearings) < 2) call refuse('a machine needs two or more groups &bearing, each with a name; there ' &
+         & //trim(merge('are none', 'is one  ', size(bearings) == 0)), error)
+      do b = 1, size(bearings)
+         call check_station('bearing'//bearings(b)%suffix(), bearings(b)%station, stations, error)
+         do c = 1, b - 1
+            if (bearings(b)%station == bearings(c)%station) call refuse('bearing'//bearings(b)%suffix() &
+               & //'%station = '//to_text(bearings(b)%station)//': is that of '//bearings(c)%label(' already'), error)
          end do
-      end associate
+      end do
    end subroutine check_bearings
 
    !> What is on the shaft is at its stations.
-   subroutine check_parts(machine, excitations, error)
-      type(machine_type), intent(in) :: machine
+   subroutine check_parts(elastic, excitations, stations, error)
+      type(elastic_type), intent(in) :: elastic
       type(excitation_type), intent(in) :: excitations(:)
+      integer, intent(in) :: stations
       type(error_type), allocatable, intent(inout) :: error
       integer :: i
-      do i = 1, size(machine%discs)
-         associate (disc => machine%discs(i))
-            call check_station('disc('//to_text(i)//')', disc%station, machine, error)
+      do i = 1, size(elastic%discs)
+         associate (disc => elastic%discs(i))
+            call check_station('disc('//to_text(i)//')', disc%station, stations, error)
             ! the moments of inertia of any body
             if (.not. disc%polar_inertia <= 2*disc%diametral_inertia) call refuse('disc('//to_text(i) &
                & //')%polar_inertia = '//to_text(disc%polar_inertia)//': must be at most twice diametral_inertia = ' &
                & //to_text(disc%diametral_inertia), error)
          end associate
       end do
-      do i = 1, size(machine%unbalances)
-         call check_station('unbalance('//to_text(i)//')', machine%unbalances(i)%station, machine, error)
+      do i = 1, size(elastic%unbalances)
+         call check_station('unbalance('//to_text(i)//')', elastic%unbalances(i)%station, stations, error)
       end do
-      do i = 1, size(machine%loads)
-         call check_station('load('//to_text(i)//')', machine%loads(i)%station, machine, error)
+      do i = 1, size(elastic%loads)
+         call check_station('load('//to_text(i)//')', elastic%loads(i)%station, stations, error)
       end do
       do i = 1, size(excitations)
-         call check_station('excitation('//to_text(i)//')', excitations(i)%station, machine, error)
+         call check_station('excitation('//to_text(i)//')', excitations(i)%station, stations, error)
       end do
    end subroutine check_parts
 
    !> A support holds the bearing.
-   subroutine check_supports(machine, error)
-      type(machine_type), intent(in) :: machine
+   subroutine check_supports(bearings, error)
+      type(bearing_type), intent(in) :: bearings(:)
       type(error_type), allocatable, intent(inout) :: error
       integer :: b
-      do b = 1, size(machine%bearings)
-         if (.not. allocated(machine%bearings(b)%support)) cycle
-         associate (k => machine%bearings(b)%support%stiffness, name => machine%bearings(b)%name, &
-            & mass => machine%bearings(b)%support%mass)
-            if (.not. mass > 0) call refuse('support:'//name//'%mass = '//to_text(mass)//': must be above 0, kg', error)
+      do b = 1, size(bearings)
+         if (.not. allocated(bearings(b)%support)) cycle
+         associate (k => bearings(b)%support%stiffness, mass => bearings(b)%support%mass, &
+            & group => 'support'//bearings(b)%suffix())
+            if (.not. mass > 0) call refuse(group//'%mass = '//to_text(mass)//': must be above 0, kg', error)
             if (.not. all(is_set(k))) then
-               call refuse('support:'//name//'%stiffness: must be given, along y and z', error)
+               call refuse(group//'%stiffness: must be given, along y and z', error)
             else if (.not. all(k > 0)) then
-               call refuse('support:'//name//'%stiffness = '//to_text(minval(k))//': must be above 0 along y and z', &
-                  & error)
+               call refuse(group//'%stiffness = '//to_text(minval(k))//': must be above 0 along y and z', error)
             end if
          end associate
       end do
    end subroutine check_supports
 
-   !> Refuses a station that is left out or that the shaft does not have.
-   subroutine check_station(group, station, machine, error)
+   !> Refuses a station that is left out or that the shaft, of this number of stations, does not have.
+   subroutine check_station(group, station, stations, error)
       character(len=*), intent(in) :: group
-      integer, intent(in) :: station
-      type(machine_type), intent(in) :: machine
+      integer, intent(in) :: station, stations
       type(error_type), allocatable, intent(inout) :: error
       integer :: last
-      last = machine%station_count()
+      last = stations
       if (last == 0) last = most_stations
       if (station == 0) then
          call refuse(group//'%station: must be given, 1 to '//to_text(last), error)

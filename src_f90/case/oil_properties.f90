@@ -5,8 +5,7 @@
 !> constant:     bearing%viscosity, whatever the temperature.
 module oil_properties
    use kinds, only: wp
-   use case_groups, only: oil_type, temperature_range, is_set
-   use case_inputs, only: case_type
+   use case_groups, only: bearing_type, oil_type, temperature_range, is_set
    implicit none (type, external)
    private
    public :: viscosity, viscosities, viscosity_slope, density, reference_viscosity, kinematic_points, grades
@@ -90,14 +89,14 @@ contains
       density = density + oil%density_slope*(temperature - density_temperature)
    end function density
 
-   !> The viscosity that films have without a heat balance, Pa s: bearing%viscosity where the law is constant, else that
-   !> at the supply temperature.
-   pure real(wp) function reference_viscosity(inputs)
-      type(case_type), intent(in) :: inputs
-      if (inputs%oil%law == 'constant') then
-         reference_viscosity = inputs%bearing%viscosity
+   !> The viscosity that films of a bearing have without a heat balance, Pa s: bearing%viscosity where the law is
+   !> constant, else that at the supply temperature.
+   pure real(wp) function reference_viscosity(bearing)
+      type(bearing_type), intent(in) :: bearing
+      if (bearing%oil%law == 'constant') then
+         reference_viscosity = bearing%viscosity
       else
-         reference_viscosity = viscosity(inputs%oil, inputs%oil%supply_temperature)
+         reference_viscosity = viscosity(bearing%oil, bearing%oil%supply_temperature)
       end if
    end function reference_viscosity
 

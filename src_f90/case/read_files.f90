@@ -20,16 +20,15 @@ contains
       character(len=:), allocatable :: lines
       integer :: i
       lines = ''
-      if (allocated(inputs%pivot%points)) lines = line('pivot%file', mark([inputs%pivot%points], 0_i8))
-      if (inputs%is_machine()) then
-         do i = 1, size(inputs%machine%bearings)
-            associate (own => inputs%machine%bearings(i))
-               if (allocated(own%pivot%points)) lines = lines//line('pivot:'//own%name//'%file', &
-                  & mark([own%pivot%points], 0_i8))
-            end associate
-         end do
-         if (allocated(inputs%machine%given)) then
-            associate (g => inputs%machine%given)
+      do i = 1, size(inputs%bearings)
+         associate (own => inputs%bearings(i))
+            if (allocated(own%pivot%points)) lines = lines//line('pivot'//own%suffix()//'%file', &
+               & mark([own%pivot%points], 0_i8))
+         end associate
+      end do
+      if (.not. inputs%rotor%is_rigid()) then
+         if (allocated(inputs%rotor%elastic%given)) then
+            associate (g => inputs%rotor%elastic%given)
                lines = lines//line('rotor%file', mark([g%total_mass, g%weighed], mark([g%mass], mark([g%damping], &
                   & mark([g%gyroscopic], mark([g%stiffness], mark([g%station], mark([g%slope], 0_i8))))))))
             end associate

@@ -2,6 +2,8 @@
 module result_size
    use kinds, only: wp, i8, pi
    use text, only: to_text
+   use case_groups, only: bearing_type
+   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    implicit none (type, external)
    private
@@ -72,39 +74,35 @@ contains
    pure integer function values_of_sample(inputs) result(values)
       type(case_type), intent(in) :: inputs
       integer :: b
-      values = 3 + 2*size(inputs%excitations)
-      if (inputs%is_machine()) values = values + 2*inputs%machine%station_count()
-      do b = 1, inputs%bearing_count()
-         values = values + values_of_bearing(inputs%of_bearing(b))
+      values = 3 + 2*size(inputs%excitations) + 2*inputs%rotor%station_count()
+      do b = 1, size(inputs%bearings)
+         values = values + values_of_bearing(inputs%bearings(b))
       end do
    end function values_of_sample
 
    !> Values of a sample that are those of one bearing.
-   pure integer function values_of_bearing(inputs) result(values)
-      type(case_type), intent(in) :: inputs
+   pure integer function values_of_bearing(bearing) result(values)
+      type(bearing_type), intent(in) :: bearing
       integer :: of_pad
       of_pad = 4
-      if (inputs%tilting()) of_pad = of_pad + 4
-      if (inputs%tilting_radial()) of_pad = of_pad + 2
-      if (inputs%tilting() .and. inputs%friction%model == 'lugre') of_pad = of_pad + 1
-      if (inputs%asperity%model /= 'none') of_pad = of_pad + 1
-      values = 4 + of_pad*inputs%pad_count()
+      if (bearing%tilting()) of_pad = of_pad + 4
+      if (bearing%tilting_radial()) of_pad = of_pad + 2
+      if (bearing%tilting() .and. bearing%friction%model == 'lugre') of_pad = of_pad + 1
+      if (bearing%asperity%model /= 'none') of_pad = of_pad + 1
+      values = 4 + of_pad*bearing%pad_count()
    end function values_of_bearing
 
    !> Bytes of memory that a run takes at most beyond those of its start; the figures of its last revolutions, where it
    !> has samples, are the only part that a case can make large.
    pure real(wp) function memory_bytes(inputs) result(bytes)
       type(case_type), intent(in) :: inputs
-      type(case_type) :: own
       integer :: values, b
       ! two series of the pads are held at once, and besides them those of the journal and a spectrum, which takes most
       ! where the number of samples is prime
-      values = 0
-      do b = 1, inputs%bearing_count()
-         own = inputs%of_bearing(b)
-         values = values + 2*own%pad_count() + 17
+      values = 2*inputs%rotor%station_count()
+      do b = 1, size(inputs%bearings)
+         values = values + 2*inputs%bearings(b)%pad_count() + 17
       end do
-      if (inputs%is_machine()) values = values + 2*inputs%machine%station_count()
       if (inputs%output%keep /= 'all') values = values + values_of_sample(inputs)
       bytes = of_run + of_value*values*figure_samples(inputs)
    end function memory_bytes

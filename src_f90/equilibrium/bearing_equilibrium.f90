@@ -8,6 +8,7 @@ module bearing_equilibrium
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
+   use state_layout, only: tilt
    use equations_of_motion, only: machine_model
    use pseudo_transient, only: follow_motion, unbalanced, newtons, residual_limit
    use force_balance, only: stability_at
@@ -59,7 +60,7 @@ contains
          at_rest = .not. allocated(error)
          if (at_rest) then
             call make_static(warm, warm%point%cavitation, static)
-            y = static%static_state(found%rotor, found%tilt, found%pivot_deflection)
+            y = static%static_state(found%rotor, found%pads)
             call solve_thermal_equilibrium(static, y, found%residual, error, give_up, films=found%films)
             if (allocated(error) .and. .not. allocated(found%films)) call name_start(model, error)
          end if
@@ -129,7 +130,7 @@ contains
       if (allocated(error)) deallocate (error)
       if (asked(give_up)) then
          call raise(error, stopped, 'stopped while the equilibrium was sought')
-      else if (.not. allocated(found%tilt)) then
+      else if (.not. allocated(found%pads)) then
          call note_partial(model, traces, give_up)
          call raise(error, numerics_error, refusal(model, traces))
       end if
@@ -143,7 +144,7 @@ contains
       type(equilibrium_type) :: partial
       type(error_type), allocatable :: error
       logical, allocatable :: held(:)
-      if (.not. model%layout%bearings(1)%tilting) return
+      if (.not. model%layout%elements(1)%has(tilt)) return
       call find_partial_equilibrium(model, partial, held, error, give_up)
       if (.not. allocated(error)) traces%held = held
    end subroutine note_partial
@@ -221,8 +222,8 @@ contains
       real(wp) :: y(static%n)
       integer :: method, k
       logical :: ok
-      if (allocated(found%tilt)) deallocate (found%tilt)
-      call make_quick(static%inputs, static%oil%viscosity, static%point%cavitation, quick)
+      if (allocated(found%pads)) deallocate (found%pads)
+      call make_quick(static, quick)
       do method = 1, size(methods)
          do k = 1, starts
             if (asked(give_up)) return
@@ -247,7 +248,7 @@ contains
    !> the films disturbs, then the one that grows less.
    pure logical function is_better(candidate, found)
       type(equilibrium_type), intent(in) :: candidate, found
-      is_better = .not. allocated(found%tilt)
+      is_better = .not. allocated(found%pads)
       if (is_better) return
       if (candidate%residual <= residual_limit .neqv. found%residual <= residual_limit) then
          is_better = candidate%residual <= residual_limit
@@ -312,7 +313,7 @@ contains
       integer :: k
       call make_static(model, model%point%cavitation, static)
       if (has_warm_oil(model)) call guess_oil(static, 1)
-      call make_quick(model%inputs, static%oil%viscosity, model%point%cavitation, quick)
+      call make_quick(static, quick)
       do k = 1, starts
          y = start(quick, k)
          call eliminate_pads(quick, y, in_equilibrium, ok, give_up)
@@ -342,7 +343,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       logical :: ok
-      y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
+      y = model%static_state(found%rotor, found%pads)
       model%oil = found%oil
       if (any(model%oil%varies)) then
          ! the temperatures of films stay what they are

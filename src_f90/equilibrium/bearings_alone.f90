@@ -20,11 +20,11 @@ contains
       integer :: accuracy
       accuracy = model%bearings(b)%accuracy
       if (accuracy == march_films) accuracy = static_films
-      alone = new_machine_model(model%inputs%of_bearing(b, load), accuracy)
+      alone = new_machine_model(model%inputs%alone(b, load), accuracy)
       alone%point%speed_rpm = model%point%speed_rpm
       alone%point%cavitation = model%point%cavitation
       call alone%set_point(alone%point%static())
-      alone%oil = model%oil(model%layout%bearings(b)%all_pads())
+      alone%oil = model%oil(model%layout%elements(b)%all_pads())
    end function bearing_alone
 
    !> What an equilibrium is in bearing b.
@@ -37,9 +37,8 @@ contains
       part%rotor = found%rotor(2*b - 1:2*b)
       if (allocated(found%films)) part%films = found%films(b:b)
       if (allocated(found%shapes)) part%shapes = found%shapes(b:b)
-      associate (pads => model%layout%bearings(b)%all_pads())
-         part%tilt = found%tilt(pads)
-         part%pivot_deflection = found%pivot_deflection(pads)
+      associate (pads => model%layout%elements(b)%all_pads())
+         part%pads = found%pads(pads)
          part%pivot_load = found%pivot_load(pads)
          part%min_film_thickness = found%min_film_thickness(pads)
          part%max_pressure = found%max_pressure(pads)

@@ -26,7 +26,7 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(machine_model) :: static
       logical :: by_heat
-      if (model%inputs%is_machine()) then
+      if (size(model%bearings) > 1) then
          call make_static(model, model%point%cavitation, static)
          call share_loads(static, found, error, give_up)
       else
@@ -35,7 +35,8 @@ contains
             if (error%status /= stopped) call offer_branch(model, error, give_up)
          end if
       end if
-      if (.not. allocated(error) .and. model%inputs%changes_shape()) call settle_shape(model, found, error, give_up)
+      if (allocated(error)) return
+      if (any(model%inputs%bearings%changes_shape())) call settle_shape(model, found, error, give_up)
    end subroutine find_equilibrium
 
    !> Brings an equilibrium of a model in the shapes of its case to one in the shapes that it leads to, of each bearing,
@@ -49,7 +50,7 @@ contains
       real(wp), allocatable :: y(:)
       logical :: ok
       call make_static(model, model%point%cavitation, static)
-      y = static%static_state(found%rotor, found%tilt, found%pivot_deflection)
+      y = static%static_state(found%rotor, found%pads)
       static%oil = found%oil
       call solve_shape(static, y, found%films, found%shapes, found%residual, error, give_up)
       if (allocated(error)) return
@@ -66,9 +67,9 @@ contains
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      if (model%inputs%is_machine()) then
+      if (size(model%bearings) > 1) then
          call share_loads(model, found, error, give_up, known=.true.)
-         if (.not. allocated(error)) y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
+         if (.not. allocated(error)) y = model%static_state(found%rotor, found%pads)
       else
          call settle(model, found, y, error, give_up)
       end if

@@ -4,7 +4,7 @@ module equilibrium_record
    use film_solver, only: film_oil
    use film_network, only: warm_films_type
    use bearing_shape, only: bearing_shape_type
-   use kinematics, only: pad_state
+   use state_layout, only: pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: machine_model
    use force_balance, only: stability_type
@@ -13,9 +13,11 @@ module equilibrium_record
    public :: equilibrium_type, describe
 
    type :: equilibrium_type
-      !> Displacements of the rotor, those of its journals, m, first; per pad of all bearings tilt, rad, pivot
-      !> deflection, m (0 tilting-only), pivot load, N.
-      real(wp), allocatable :: rotor(:), tilt(:), pivot_deflection(:), pivot_load(:)
+      !> Displacements of the rotor, those of its journals, m, first.
+      real(wp), allocatable :: rotor(:)
+      !> Of all bearings: states of the pads at rest; pivot loads, N.
+      type(pad_state), allocatable :: pads(:)
+      real(wp), allocatable :: pivot_load(:)
       !> Per pad minimum film thickness, m, and maximum pressure, Pa.
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
       !> The oil of every pad's film; its temperatures in each bearing, where films have them along and across.
@@ -41,14 +43,13 @@ contains
       type(pad_sample) :: samples(model%layout%pads)
       integer :: b
       do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b))
+         associate (of => model%layout%elements(b))
             pads(of%all_pads()) = of%pad_states(y)
             samples(of%all_pads()) = model%bearings(b)%sampled()
          end associate
       end do
       found%rotor = y(:model%rotor%positions)
-      found%tilt = pads%tilt
-      found%pivot_deflection = pads%pivot_deflection
+      found%pads = pads
       found%pivot_load = samples%pivot_load
       found%min_film_thickness = samples%min_film_thickness
       found%max_pressure = samples%max_pressure

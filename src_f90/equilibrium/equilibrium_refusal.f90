@@ -2,6 +2,7 @@
 module equilibrium_refusal
    use kinds, only: wp, degree, pi
    use text, only: to_text
+   use state_layout, only: tilt
    use kinematics, only: in_mirror
    use equations_of_motion, only: machine_model
    use force_balance, only: masses, force_derivatives, find_vibrations
@@ -68,9 +69,9 @@ contains
       k = maxloc(values%re, dim=1, mask=abs(values%im) <= 0)
       traces%divergence = values(k)%re
       edge = 0
-      do i = 1, merge(size(edge), 0, model%layout%bearings(1)%tilting)
+      do i = 1, merge(size(edge), 0, model%layout%elements(1)%has(tilt))
          associate (gap => model%bearings(1)%pads(i)%gap)
-            edge(i) = abs(shapes(model%layout%bearings(1)%first_position(i), k))*0.5_wp*gap%arc()*gap%pad_radius()
+            edge(i) = abs(shapes(model%layout%elements(1)%first_position(i), k))*0.5_wp*gap%arc()*gap%pad_radius()
          end associate
       end do
       traces%leaving = edge >= moves*max(maxval(edge), norm2(abs(shapes(:2, k))))
@@ -86,7 +87,7 @@ contains
       if (.not. norm2(model%point%load) > 0 .and. pads <= 2) then
          cause = 'without load '//to_text(pads)//trim(merge(' pad pushes', ' pads push ', pads == 1)) &
             & //' the journal away; give it a load or pads on all sides'
-      else if (.not. model%layout%bearings(1)%tilting .and. load_on_pads(model)) then
+      else if (.not. model%layout%elements(1)%has(tilt) .and. load_on_pads(model)) then
          cause = 'the films do not hold the journal; try another load ('//of_load//') or clearance'
       else if (pads == 1 .and. .not. load_on_pads(model)) then
          cause = 'the load points past the only pad; turn the load ('//of_load//') or the pad ' &
@@ -110,7 +111,7 @@ contains
          cause = listed(traces%held)//' (unloaded) did not come to equilibrium'//help(model, traces)
       else
          cause = 'the search did not end; try another load or clearance'
-         if (model%layout%bearings(1)%tilting) cause = cause//', or'//other_start(model, traces)
+         if (model%layout%elements(1)%has(tilt)) cause = cause//', or'//other_start(model, traces)
       end if
    end function cause
 
@@ -157,7 +158,7 @@ contains
       associate (pads => model%bearings(1)%pads)
          load = in_mirror(pads(1)%position%mirrored, model%point%load/norm2(model%point%load))
          angles = pads%position%angle
-         if (.not. model%layout%bearings(1)%tilting) then
+         if (.not. model%layout%elements(1)%has(tilt)) then
             angles = [angles - pads%gap%trailing_angle, angles + pads%gap%leading_angle]
             if (any(pads%gap%arc() >= pi)) return
          end if

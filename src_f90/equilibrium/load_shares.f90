@@ -7,6 +7,7 @@ module load_shares
    use text, only: to_text
    use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop
    use linear_algebra, only: dgesv
+   use state_layout, only: pad_state
    use equations_of_motion, only: machine_model
    use force_balance, only: bearing_derivatives, stability_at
    use equilibrium_record, only: equilibrium_type, describe
@@ -178,8 +179,8 @@ contains
          shares(b)%alone%point%load = loads(2*b - 1:2*b)
          call bear_one(shares(b), error, give_up)
          if (.not. allocated(error)) cycle
-         if (error%status /= stopped) call add_context(error, 'bearing '''//model%inputs%machine%bearings(b)%name &
-            & //''' under '//to_text(loads(2*b - 1))//' N along y and '//to_text(loads(2*b))//' N along z')
+         if (error%status /= stopped) call add_context(error, model%inputs%bearings(b)%label(' under ' &
+            & //to_text(loads(2*b - 1))//' N along y and '//to_text(loads(2*b))//' N along z'))
          return
       end do
    end subroutine bear
@@ -191,7 +192,7 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(equilibrium_type) :: found
       real(wp), allocatable :: y(:)
-      if (allocated(share%found%tilt)) then
+      if (allocated(share%found%pads)) then
          found = share%found
          call settle(share%alone, found, y, error, give_up)
          if (allocated(error)) then
@@ -215,7 +216,7 @@ contains
       integer :: pivots(size(k, 1)), info, n
       logical :: ok
       associate (of => share%found)
-         call share%alone%evaluate(0.0_wp, share%alone%static_state(of%rotor, of%tilt, of%pivot_deflection), .true., ok)
+         call share%alone%evaluate(0.0_wp, share%alone%static_state(of%rotor, of%pads), .true., ok)
       end associate
       if (ok) then
          call bearing_derivatives(share%alone, k, c)
@@ -276,22 +277,22 @@ contains
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
       type(warm_films_type), allocatable :: films(:)
-      real(wp), allocatable :: y(:), tilt(:), deflection(:)
+      type(pad_state), allocatable :: pads(:)
+      real(wp), allocatable :: y(:)
       real(wp) :: journals(2*size(shares))
       logical :: ok
       integer :: b
-      allocate (tilt(0), deflection(0))
+      allocate (pads(0))
       found%search = ''
       do b = 1, size(shares)
          associate (of => shares(b)%found)
-            tilt = [tilt, of%tilt]
-            deflection = [deflection, of%pivot_deflection]
-            model%oil(model%layout%bearings(b)%all_pads()) = of%oil
+            pads = [pads, of%pads]
+            model%oil(model%layout%elements(b)%all_pads()) = of%oil
             if (found%search == '' .or. of%search /= 'first') found%search = of%search
          end associate
       end do
       journals = journals_of(shares)
-      y = model%static_state([journals, rotor%bent - matmul(rotor%follow, journals)], tilt, deflection)
+      y = model%static_state([journals, rotor%bent - matmul(rotor%follow, journals)], pads)
       if (warms .and. allocated(shares(1)%found%films)) then
          allocate (films(size(shares)))
          do b = 1, size(shares)

@@ -4,19 +4,18 @@
 module pad_elimination
    use kinds, only: wp
    use errors, only: asked_to_stop, asked
-   use linear_algebra, only: solve_2x2
+   use linear_algebra, only: solve_few
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, pad_frame, frame_of, motion_of
+   use state_layout, only: pad_state, tilt, pivot_deflection, of_journal
+   use kinematics, only: pad_frame, frame_of, motion_of
    use equations_of_motion, only: machine_model
-   use force_balance, only: forces, pad_derivatives
+   use force_balance, only: forces, part_derivatives
    use pseudo_transient, only: reference_force, next_time_step, longest_move, shortest_move, trace, set_free, &
       & static_derivatives, newton_step
    implicit none (type, external)
    private
    public :: eliminate_pads, search_pads
 
-   !> Positions of the journal.
-   integer, parameter :: of_journal = 2
    !> Unbalanced forces over the reference force at which a pad and the journal are in equilibrium: near enough for
    !> Newton's method on the whole.
    real(wp), parameter :: pad_limit = 1e-9_wp, journal_limit = 1e-6_wp
@@ -50,7 +49,7 @@ contains
       real(wp), allocatable :: force(:), step(:)
       integer :: iteration
       journal = model%rotor%journal(y(:model%rotor%states), 1)
-      pads = model%layout%bearings(1)%pad_states(y)
+      pads = model%layout%elements(1)%pad_states(y)
       time_step = 1/model%point%speed(0.0_wp)
       last = 0
       do iteration = 1, journal_iterations
@@ -81,13 +80,15 @@ contains
       logical, intent(inout) :: in_equilibrium(:)
       logical, intent(out) :: ok
       real(wp), dimension(size(pads)) :: time_step, unbalanced, last
+      real(wp) :: limit
       integer :: iteration, i
       time_step = 1/model%point%speed(0.0_wp)
       do iteration = 0, pad_iterations
          call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. in_equilibrium)
          if (.not. ok) return
          unbalanced = unbalanced_forces(model)
-         in_equilibrium = in_equilibrium .or. unbalanced <= pad_limit*reference_force(model)
+         limit = pad_limit*reference_force(model)
+         in_equilibrium = in_equilibrium .or. unbalanced <= limit
          if (all(in_equilibrium) .or. iteration == pad_iterations) exit
          if (iteration > 0) time_step = next_time_step(time_step, last, unbalanced)
          last = unbalanced
@@ -109,7 +110,7 @@ contains
       logical :: tried(size(pads)), found(size(pads)), ok
       integer :: i, k, n
       journal = model%rotor%journal(y(:model%rotor%states), 1)
-      pads = model%layout%bearings(1)%pad_states(y)
+      pads = model%layout%elements(1)%pad_states(y)
       do n = 1, gaps
          thinnest = huge(thinnest)
          do k = 1, size(leanings)
@@ -119,7 +120,7 @@ contains
                if (.not. tried(i)) cycle
                trial(i) = leaning(model, i, journal, least_gap**(1 - real(n, wp)/gaps), leanings(k))
                tried(i) = film_of(model, i, journal, trial(i)) > 0 &
-                  & .and. abs(trial(i)%tilt) < model%bearings(1)%pads(i)%largest_tilt
+                  & .and. abs(trial(i)%x(tilt)) < model%bearings(1)%pads(i)%largest_tilt
             end do
             found = .not. tried
             call settle_pads(model, journal, trial, found, ok)
@@ -133,7 +134,7 @@ contains
          end do
          in_equilibrium = in_equilibrium .or. thinnest < huge(thinnest)
          ! the gap of a rigid pivot is given
-         if (all(in_equilibrium) .or. .not. model%layout%bearings(1)%radial) exit
+         if (all(in_equilibrium) .or. .not. model%layout%elements(1)%has(pivot_deflection)) exit
       end do
       y = model%state(journal, pads)
    end subroutine search_pads
@@ -150,8 +151,10 @@ contains
       associate (of => model%bearings(1)%pads(i))
          frame = frame_of(of%position, journal, pad)
          on_pivot = of%gap%machined_clearance - of%position%centre_distance + norm2([frame%along, frame%outward])
-         if (of%radial) pad%pivot_deflection = min(gap*of%gap%machined_clearance - on_pivot, 0.0_wp)
-         pad%tilt = atan2(frame%along, -frame%outward) + part*max(on_pivot + pad%pivot_deflection, 0.0_wp) &
+         if (model%layout%elements(1)%has(pivot_deflection)) then
+            pad%x(pivot_deflection) = min(gap*of%gap%machined_clearance - on_pivot, 0.0_wp)
+         end if
+         pad%x(tilt) = atan2(frame%along, -frame%outward) + part*max(on_pivot + pad%x(pivot_deflection), 0.0_wp) &
             & /(0.5_wp*of%gap%arc()*of%gap%pad_radius())
       end associate
    end function leaning
@@ -160,9 +163,9 @@ contains
    pure function unbalanced_forces(model) result(forces)
       type(machine_model), intent(in) :: model
       real(wp) :: forces(model%layout%pads)
-      associate (loads => model%bearings(1)%loads, pads => model%bearings(1)%pads)
-         forces = abs(loads%moment)/pads%position%centre_distance
-         if (model%layout%bearings(1)%radial) forces = max(forces, abs(loads%radial))
+      integer :: i, k
+      associate (bearing => model%bearings(1), n => model%layout%elements(1)%coordinates)
+         forces = [(maxval([(abs(bearing%own_force(i, k))/bearing%length(i, k), k=1, n)]), i=1, size(forces))]
       end associate
    end function unbalanced_forces
 
@@ -174,17 +177,20 @@ contains
       type(pad_state), intent(inout) :: pad
       real(wp), intent(inout) :: time_step
       type(pad_state) :: trial
-      real(wp) :: stiffness(2, 2), damping(2, 2), force(2), step(2), clearance, film
-      clearance = model%inputs%clearance()
+      real(wp), allocatable, dimension(:, :) :: stiffness, damping
+      real(wp), allocatable :: force(:), step(:)
+      real(wp) :: clearance, film
+      clearance = model%bearings(1)%clearance
       call pad_balance(model, i, force, stiffness, damping)
       film = film_of(model, i, journal, pad)
       do
-         step = solve_2x2(stiffness + damping/time_step, -force)
-         trial = pad_state(tilt=pad%tilt + step(1), pivot_deflection=pad%pivot_deflection + step(2))
-         associate (of => model%bearings(1)%pads(i))
-            if (max(abs(step(1)*of%gap%arc()*of%gap%pad_radius()), abs(step(2))) <= longest_move*clearance &
-               & .and. film_of(model, i, journal, trial) >= least_film*film &
-               & .and. abs(trial%tilt) < of%largest_tilt) exit
+         step = solve_few(stiffness + damping/time_step, -force)
+         associate (of => model%bearings(1)%pads(i), kind => model%bearings(1)%coordinates%kind(:size(step)))
+            trial = pad_state()
+            trial%x(kind) = pad%x(kind) + step
+            if (maxval(abs(step)*merge(of%gap%arc()*of%gap%pad_radius(), 1.0_wp, kind == tilt)) &
+               & <= longest_move*clearance .and. film_of(model, i, journal, trial) >= least_film*film &
+               & .and. abs(trial%x(tilt)) < of%largest_tilt) exit
          end associate
          time_step = 0.5_wp*time_step
          if (time_step*model%point%speed(0.0_wp) < shortest_step) return
@@ -193,22 +199,19 @@ contains
    end subroutine move_pad
 
    !> A pad's own forces and their derivatives over its positions and, with the trace of damping, rates, in the state
-   !> evaluated last; the second position of a rigid pivot does not move.
+   !> evaluated last.
    pure subroutine pad_balance(model, i, force, stiffness, damping)
       type(machine_model), intent(in) :: model
       integer, intent(in) :: i
-      real(wp), intent(out) :: force(2), stiffness(2, 2), damping(2, 2)
-      real(wp) :: over_positions(4, 4), over_rates(4, 4)
-      force = [model%bearings(1)%loads(i)%moment, model%bearings(1)%loads(i)%radial]
-      call pad_derivatives(model%bearings(1), i, over_positions, over_rates)
-      stiffness = over_positions(3:4, 3:4)
-      damping = over_rates(3:4, 3:4) - trace*model%point%speed(0.0_wp)*model%bearings(1)%pads(i)%masses()
-      if (model%layout%bearings(1)%radial) return
-      force(2) = 0
-      stiffness(1, 2) = 0
-      stiffness(2, :) = [0, 1]
-      damping(1, 2) = 0
-      damping(2, :) = 0
+      real(wp), allocatable, intent(out) :: force(:), stiffness(:, :), damping(:, :)
+      real(wp), allocatable, dimension(:, :) :: over_positions, over_rates
+      integer :: k
+      associate (bearing => model%bearings(1), n => model%layout%elements(1)%coordinates, own => of_journal + 1)
+         force = [(bearing%own_force(i, k), k=1, n)]
+         call part_derivatives(bearing, i, n, over_positions, over_rates)
+         stiffness = over_positions(own:, own:)
+         damping = over_rates(own:, own:) - trace*model%point%speed(0.0_wp)*bearing%coordinates%masses(bearing%pads(i))
+      end associate
    end subroutine pad_balance
 
    !> Puts the pads that are not in equilibrium at zero tilt on their pivots, where their films are open there, and
@@ -242,7 +245,7 @@ contains
       damping(of_journal + 1:, :) = 0
       damping(:, of_journal + 1:) = 0
       call set_free(model, .not. in_equilibrium, free)
-      associate (longest => longest_move*model%inputs%clearance())
+      associate (longest => longest_move*model%bearings(1)%clearance)
          do
             call newton_step(stiffness, damping, force, free, time_step, step, ok)
             ! what is no number ends here too, and the films refuse it
@@ -267,11 +270,11 @@ contains
          y = model%state(journal, pads)
          y(model%layout%positions()) = y(model%layout%positions()) + step
          moved = model%rotor%journal(y(:model%rotor%states), 1)
-         trial = model%layout%bearings(1)%pad_states(y)
+         trial = model%layout%elements(1)%pad_states(y)
          open = all([(film_of(model, i, moved, trial(i)) >= least_film*film_of(model, i, journal, pads(i)), &
             & i=1, size(pads))])
          ! a film that is closed already, or nearly, stops no journal for ever
-         if (open .or. .not. norm2(step(:of_journal)) > shortest_move*model%inputs%clearance()) exit
+         if (open .or. .not. norm2(step(:of_journal)) > shortest_move*model%bearings(1)%clearance) exit
          step = 0.5_wp*step
          time_step = 0.5_wp*time_step
       end do

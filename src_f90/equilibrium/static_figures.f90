@@ -40,13 +40,14 @@ contains
       type(static_figures_type), intent(out) :: figures
       type(state_balance_type) :: balance
       logical :: balanced
-      figures%eccentricity_ratio = eccentricity_ratio(model%inputs, static%rotor)
+      figures%eccentricity_ratio = eccentricity_ratio(model%inputs%bearings(1), static%rotor)
       figures%attitude_angle = attitude_angle(model%inputs, static%rotor)
-      call find_losses(model, model%static_state(static%rotor, static%tilt, static%pivot_deflection), balance)
+      call find_losses(model, model%static_state(static%rotor, static%pads), balance)
       figures%pads = balance%losses
       figures%reynolds_number = figures%pads%reynolds_number(model%point%speed(0.0_wp) &
-         & *model%inputs%bearing%journal_radius, model%inputs%oil%density, static%oil%viscosity)
-      associate (pads => figures%pads, heat => model%inputs%oil%density*model%inputs%oil%specific_heat)
+         & *model%inputs%bearings(1)%journal_radius, model%inputs%bearings(1)%oil%density, static%oil%viscosity)
+      associate (pads => figures%pads, heat => model%inputs%bearings(1)%oil%density &
+         & *model%inputs%bearings(1)%oil%specific_heat)
          ! oil that leaves at the sides is warmed half of the way
          figures%temperature_rise = rise(pads%power(), heat*(pads%inlet + pads%outlet)/2)
          figures%rise_fresh = rise(sum(pads%power()), heat*sum(pads%inlet))

@@ -7,7 +7,7 @@
 !> discretisations, a loaded pad keeps the modes' accuracy, and an empty pad is left to the finite volumes alone.
 module direct_film
    use kinds, only: wp, i8
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok, cavitation_gumbel, &
+   use film_solver, only: film_motion, film_law_type, film_response, film_counters, film_ok, cavitation_gumbel, &
       & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, new_fourier_film
@@ -80,7 +80,7 @@ contains
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response
@@ -115,7 +115,7 @@ contains
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed, force(2)
       real(wp) :: derivatives(2, 4), step, moved_force(2)
       type(film_motion) :: moved
@@ -134,7 +134,7 @@ contains
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed, c
       real(wp) :: derivatives(4), step
       type(film_motion) :: moved
@@ -172,7 +172,7 @@ contains
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response
@@ -225,7 +225,7 @@ contains
       class(direct_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed, phi(:), z(:)
       real(wp), intent(out) :: pressure(:, :)
       call self%rebuild(i, .false., motion, oil, speed, phi, z, pressure)
@@ -239,7 +239,7 @@ contains
       integer, intent(in) :: i
       logical, intent(in) :: follows
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed, phi(:), z(:)
       real(wp), intent(out) :: pressure(:, :)
       type(elimination_film_type) :: film

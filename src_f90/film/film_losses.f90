@@ -11,10 +11,10 @@
 !> how far the cavitated part is filled.
 module film_losses
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok, cavitation_none, &
+   use film_solver, only: film_motion, film_law_type, film_response, film_counters, film_ok, cavitation_none, &
       & cavitation_reynolds
    use pad_gap, only: pad_gap_type, pad_directions, over_arc
-   use film_oils, only: arc_weights
+   use film_law, only: law_at_nodes
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type
    use direct_film, only: is_cavitated, share_of_modes
@@ -51,13 +51,13 @@ module film_losses
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions
       !> The full film; that of a pressure of 1 Pa at the leading and, in a mirror, at the trailing edge.
-      type(fourier_film_type) :: whole, leading, trailing
+      type(fourier_film_type) :: full, leading, trailing
       !> Of cavitation.
       integer :: condition
    contains
       procedure :: find
       procedure, private :: full_film
-      procedure, private :: uneven_film
+      procedure, private :: varied_film
       procedure, private :: add_cavitation
       procedure, private :: set_heat
    end type film_losses_type
@@ -72,7 +72,7 @@ contains
       self%gap = gap
       self%directions = gap%directions()
       self%condition = condition
-      self%whole = converged_film(gap, .false., tolerance)
+      self%full = converged_film(gap, .false., tolerance)
       edge = gap
       edge%supply_pressure = 1
       edge%ambient_pressure = 0
@@ -87,16 +87,16 @@ contains
    subroutine find(self, motion, oil, speed, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_loss), intent(out) :: loss
       type(film_response) :: response
       type(volume_flow_type) :: driven
-      call self%whole%evaluate_pad(1, motion, oil, speed, .false., response)
+      call self%full%evaluate_pad(1, motion, oil, speed, .false., response)
       loss%status = response%status
       if (loss%status /= film_ok) return
       if (oil%varies) then
-         call self%uneven_film(motion, oil, speed, response, loss)
+         call self%varied_film(motion, oil, speed, response, loss)
          return
       end if
       driven%force = response%force
@@ -112,7 +112,7 @@ contains
    subroutine full_film(self, motion, oil, speed, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(volume_flow_type), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
@@ -144,24 +144,24 @@ contains
       end associate
    end subroutine full_film
 
-   !> Loss and flows of oil of uneven viscosity, all by volumes: what drives it is no longer one velocity.
-   subroutine uneven_film(self, motion, oil, speed, fourier, loss)
+   !> Loss and flows of a film whose law varies, all by volumes: what drives it is no longer one velocity.
+   subroutine varied_film(self, motion, oil, speed, fourier, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       !> That of the modes.
       type(film_response), intent(in) :: fourier
       type(film_loss), intent(inout) :: loss
-      type(volume_flow_type) :: whole(2), found(2)
-      type(arc_weights) :: at_edge
+      type(volume_flow_type) :: full(2), found(2)
+      type(law_at_nodes) :: at_edge
       logical :: cavitates
       cavitates = self%condition /= cavitation_none .and. is_cavitated(self%gap%cavitation_pressure, fourier)
-      call on_two_grids(self, motion, oil, speed, whole, found, loss)
-      if (.not. cavitates) found = whole
+      call on_two_grids(self, motion, oil, speed, full, found, loss)
+      if (.not. cavitates) found = full
       associate (gap => self%gap, d => self%directions, surface => speed*self%gap%journal_radius, &
          & r => finer(found(1), found(2)))
-         call oil%find_weights(gap, d%leading(1:1), d%leading(2:2), at_edge)
+         call oil%at_nodes(gap, motion, d%leading(1:1), d%leading(2:2), at_edge)
          loss%force = r%force
          if (.not. cavitates) loss%force = fourier%force
          loss%couette = surface**2*sliding_shear(gap, motion, oil) - r%lacking
@@ -173,30 +173,48 @@ contains
          loss%side = r%side
          loss%unfed = r%unfed
       end associate
-   end subroutine uneven_film
+   end subroutine varied_film
 
-   !> Films of volumes on a grid and on one of twice as many rows, whole and cavitated.
-   subroutine on_two_grids(self, motion, oil, speed, whole, cavitated, loss)
+   !> Films of film-adapted volumes, full and cavitated, on a grid and on one of twice as many rows, in which cavitation
+   !> starts from what it was on the first.
+   subroutine on_two_grids(self, motion, oil, speed, full, cavitated, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
-      type(volume_flow_type), intent(inout) :: whole(2), cavitated(2)
+      type(volume_flow_type), intent(inout) :: full(2), cavitated(2)
       type(film_loss), intent(inout) :: loss
-      type(elimination_film_type) :: volumes(2)
-      integer :: k, status
-      do k = 1, 2
-         volumes(k) = new_following_grid(self%gap, motion, speed, k*(enough_rows/2))
-         call by_volumes(self, volumes(:k), motion, oil, speed, whole(k), cavitated(k), status)
-         loss%status = max(loss%status, status)
-      end do
+      type(elimination_film_type) :: volumes, coarse
+      type(film_grid_type) :: grid
+      type(film_response) :: response
+      type(film_counters) :: counters
+      real(wp), allocatable :: pressure(:, :), film(:, :)
+      integer :: k
+      associate (surface => speed*self%gap%journal_radius)
+         do k = 1, 2
+            volumes = new_following_grid(self%gap, motion, speed, k*(enough_rows/2))
+            call volumes%evaluate(motion, oil, speed, .false., .false., counters, response)
+            call volumes%cells(grid, pressure, film)
+            full(k) = flows_of_volumes(grid, oil, surface, pressure, film > 0)
+            if (self%condition == cavitation_reynolds) then
+               if (k == 2) call volumes%start_from(coarse)
+               call volumes%evaluate(motion, oil, speed, .true., .false., counters, response)
+               call volumes%cells(grid, pressure, film)
+               cavitated(k) = flows_of_volumes(grid, oil, surface, pressure, film > 0)
+            else
+               cavitated(k) = flows_of_volumes(grid, oil, surface, pressure, pressure > 0)
+            end if
+            loss%status = max(loss%status, response%status)
+            coarse = volumes
+         end do
+      end associate
    end subroutine on_two_grids
 
-   !> Integral of f0/h over the area of a full film, N s/m, by Simpson's rule.
+   !> Integral of S mu/h over the area of a full film, N s/m, by Simpson's rule.
    pure real(wp) function sliding_shear(gap, motion, oil)
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       integer, parameter :: n = 1000
       real(wp) :: phi(0:n), weight(0:n)
       integer :: i
@@ -204,7 +222,7 @@ contains
       weight = [(2 + 2*mod(i, 2), i=0, n)]
       weight([0, n]) = 1
       sliding_shear = oil%viscosity*gap%pad_radius()*gap%axial_length*gap%arc()/(3*n) &
-         & *sum(weight*oil%shear_weight(gap, phi)/gap%thickness(motion, sin(phi), cos(phi)))
+         & *sum(weight*oil%shear_weight(gap, motion, phi)/gap%thickness(motion, sin(phi), cos(phi)))
    end function sliding_shear
 
    !> The part of w that comes from the journal's rotation, m/s.
@@ -221,17 +239,17 @@ contains
    subroutine add_cavitation(self, motion, oil, speed, fourier, driven, loss)
       class(film_losses_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       !> That of the modes.
       type(film_response), intent(in) :: fourier
       type(volume_flow_type), intent(inout) :: driven
       type(film_loss), intent(inout) :: loss
-      type(volume_flow_type) :: whole(2), cavitated(2)
+      type(volume_flow_type) :: full(2), cavitated(2)
       real(wp) :: c
-      call on_two_grids(self, motion, oil, speed, whole, cavitated, loss)
+      call on_two_grids(self, motion, oil, speed, full, cavitated, loss)
       c = share_of_modes(self%gap%cavitation_pressure, fourier)
-      associate (w => finer(whole(1), whole(2)), r => finer(cavitated(1), cavitated(2)))
+      associate (w => finer(full(1), full(2)), r => finer(cavitated(1), cavitated(2)))
          driven%force = r%force + c*(driven%force - w%force)
          driven%inlet = r%inlet + c*(driven%inlet - w%inlet)
          driven%void = r%void
@@ -241,36 +259,6 @@ contains
          loss%unfed = r%unfed
       end associate
    end subroutine add_cavitation
-
-   !> The film on the last of these film-adapted volumes, without and with cavitation; in the film before, if there is
-   !> one, cavitation was found already.
-   subroutine by_volumes(self, volumes, motion, oil, speed, whole, cavitated, status)
-      class(film_losses_type), intent(in) :: self
-      type(elimination_film_type), intent(inout) :: volumes(:)
-      type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
-      real(wp), intent(in) :: speed
-      type(volume_flow_type), intent(out) :: whole, cavitated
-      integer, intent(out) :: status
-      type(film_grid_type) :: grid
-      type(film_response) :: response
-      type(film_counters) :: counters
-      real(wp), allocatable :: pressure(:, :), film(:, :)
-      associate (surface => speed*self%gap%journal_radius, finest => volumes(size(volumes)))
-         call finest%evaluate(motion, oil, speed, .false., .false., counters, response)
-         call finest%cells(grid, pressure, film)
-         whole = flows_of_volumes(grid, oil, surface, pressure, film > 0)
-         if (self%condition == cavitation_reynolds) then
-            if (size(volumes) > 1) call finest%start_from(volumes(1))
-            call finest%evaluate(motion, oil, speed, .true., .false., counters, response)
-            call finest%cells(grid, pressure, film)
-            cavitated = flows_of_volumes(grid, oil, surface, pressure, film > 0)
-         else
-            cavitated = flows_of_volumes(grid, oil, surface, pressure, pressure > 0)
-         end if
-      end associate
-      status = response%status
-   end subroutine by_volumes
 
    !> Flow in at the leading edge, heat of the pressure flow, and the pressure's resistance to rotation.
    pure subroutine set_heat(self, motion, speed, driven, loss)

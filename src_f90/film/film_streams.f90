@@ -5,7 +5,8 @@
 !> rupture boundary (volume_flows); what the film takes up at the reformation boundary beyond it comes from the sides.
 module film_streams
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, cavitation_reynolds, cavitation_gumbel
+   use film_solver, only: film_motion, film_law_type, film_response, film_counters, cavitation_reynolds, &
+      & cavitation_gumbel
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type
    use elimination_film, only: elimination_film_type, new_elimination_film
@@ -45,7 +46,7 @@ contains
       type(elimination_film_type), intent(inout) :: volumes
       integer, intent(in) :: condition, stations
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_stream), intent(out) :: stream
       logical, intent(out) :: ok
@@ -80,7 +81,7 @@ contains
    !> cavitation, (row, column), which count only beside what is filled.
    pure subroutine add_row(grid, oil, surface_speed, k, pressure, filled, stream)
       type(film_grid_type), intent(in) :: grid
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: surface_speed
       integer, intent(in) :: k
       real(wp), intent(in) :: pressure(:, :)

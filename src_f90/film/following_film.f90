@@ -7,7 +7,7 @@
 !> much, all grids are refined.
 module following_film
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok, film_not_resolved
+   use film_solver, only: film_motion, film_law_type, film_response, film_counters, film_ok, film_not_resolved
    use pad_gap, only: pad_gap_type
    use elimination_film, only: elimination_film_type, new_elimination_film
    use dimensionless_pad, only: dimensionless_pad_type, unit_oil, new_dimensionless_pad, mid_arc_frame_type, &
@@ -57,7 +57,7 @@ contains
    subroutine evaluate(self, motion, oil, speed, want_derivatives, counters, cavitated, whole)
       class(following_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_counters), intent(inout) :: counters
@@ -83,7 +83,7 @@ contains
    subroutine solve_grids(self, motion, oil, speed, want_derivatives, counters, answers, wholes)
       class(following_film_type), intent(in) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_counters), intent(inout) :: counters

@@ -5,16 +5,13 @@
 !> around them, is left to the solver whose films are tabulated.
 module table_film
    use kinds, only: wp, i8
-   use film_solver, only: film_motion, film_oil, film_response, film_ok, cavitation_gumbel
-   use film_oils, only: even_oil
-   use uneven_drive, only: new_uneven_drive
+   use film_solver, only: film_motion, film_law_type, film_response, film_ok, cavitation_gumbel
+   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad, unit_oil
+   use rotation_drive, only: new_rotation_drive
    use pad_gap, only: pad_gap_type
    use direct_film, only: direct_film_type
-   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
-   use full_film, only: new_full_film
-   use cavitated_film, only: new_cavitated_film
-   use full_film_table, only: new_full_film_table
-   use cavitation_table, only: new_cavitation_table
+   use full_film, only: new_full_film, new_full_film_table
+   use cavitated_film, only: new_cavitated_film, new_cavitation_table
    use table_pad, only: table_pad_type, shape_tables, new_table_pad
    implicit none (type, external)
    private
@@ -26,13 +23,13 @@ module table_film
    real(wp), parameter :: share_of_full = 0.3_wp
 
    !> Most cells of full films, and most cells and most nodes of cavitated ones, over all shapes: 0.3 GB. Cells of
-   !> uneven oil are three times as large.
+   !> films that the rotation drives besides are three times as large.
    integer, parameter :: most_full = 16000, most_cavitated = 100000
 
    type, extends(direct_film_type) :: table_film_type
       private
       type(table_pad_type), allocatable :: tabulated(:)
-      !> Of pads of one shape with even oil, and one for every pad with uneven oil, which are the last.
+      !> Of pads of one shape whose law does not vary, and one for every pad with a law that does, which are the last.
       type(shape_tables), allocatable :: shapes(:)
       !> Whether films come from tables, and all of their cells are built; error of what cavitation changes and of
       !> full films, over the force.
@@ -77,7 +74,7 @@ contains
          end associate
       end do
       do k = 1, size(solver%shapes)
-         call set_tables(solver, even_oil(1.0_wp), solver%shapes(k))
+         call set_tables(solver, unit_oil, solver%shapes(k))
       end do
       solver%shapes = [solver%shapes, [(shape_tables(), i=1, size(direct%gaps))]]
    end function new_table_film
@@ -85,36 +82,38 @@ contains
    !> Empty tables of a shape for an oil, or the films that stand in.
    subroutine set_tables(self, oil, shape)
       type(table_film_type), intent(in) :: self
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       type(shape_tables), intent(inout) :: shape
-      shape%drive = new_uneven_drive(shape%pad, oil)
+      shape%numbers = oil%numbers()
+      shape%drive = new_rotation_drive(shape%pad, oil)
       associate (pads => size(self%tabulated), gumbel => self%condition == cavitation_gumbel)
          if (self%in_tables) then
-            shape%whole = new_full_film_table(shape%pad, shape%drive, shape%supplied, self%full_tolerance, &
+            shape%full = new_full_film_table(shape%pad, shape%drive, shape%supplied, self%full_tolerance, &
                & most_full/pads, self%filled)
             shape%cavitation = new_cavitation_table(shape%pad, shape%drive, gumbel, self%tolerance, &
-               & most_cavitated/(pads*merge(3, 1, oil%varies)), self%filled)
+               & most_cavitated/(pads*merge(3, 1, shape%drive%acts)), self%filled)
          else
-            shape%whole = new_full_film(shape%pad, shape%drive, shape%supplied, self%full_tolerance)
+            shape%full = new_full_film(shape%pad, shape%drive, shape%supplied, self%full_tolerance)
             shape%cavitation = new_cavitated_film(shape%pad, shape%drive, gumbel, self%tolerance)
          end if
       end associate
    end subroutine set_tables
 
-   !> Which tables hold the films of a pad with an oil; 0: none. Uneven oil stays what it is in a march: where it is
-   !> another than before its tables begin anew.
+   !> Which tables hold the films of a pad with a law; 0: none. One that varies stays what it is in a march: where its
+   !> numbers are others than before, its tables begin anew.
    integer function tables_of(self, i, oil) result(k)
       class(table_film_type), intent(inout) :: self
       integer, intent(in) :: i
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       associate (pad => self%tabulated(i))
          k = pad%shape
          if (k == 0 .or. .not. oil%varies) return
          k = 0
-         if (.not. self%in_tables .or. abs(pad%rise) > 0 .or. self%condition == cavitation_gumbel) return
+         if (.not. self%in_tables .or. abs(pad%rise) > 0) return
+         if (oil%slides_unevenly() .and. self%condition == cavitation_gumbel) return
          k = size(self%shapes) - size(self%tabulated) + i
          associate (shape => self%shapes(k))
-            if (.not. oil%differs(shape%drive%oil)) return
+            if (oil%has_numbers(shape%numbers)) return
             shape%pad = self%shapes(pad%shape)%pad
             call set_tables(self, oil, shape)
          end associate
@@ -137,7 +136,7 @@ contains
       class(table_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response
@@ -145,34 +144,30 @@ contains
       integer :: k
       solved = self%counters%fourier
       k = tables_of(self, i, oil)
-      associate (pad => self%tabulated(i))
-         pad%found = .false.
-         if (k > 0) call pad%look_up(self%shapes(k), motion, oil, speed, self%cavitates(), want_derivatives, &
-            & self%counters, response)
-         if (pad%found) then
-            if (self%counters%fourier == solved) self%counters%looked_up = self%counters%looked_up + 1
-         else
-            call self%direct_film_type%solve(i, motion, oil, speed, want_derivatives, response)
-         end if
-      end associate
+      if (k > 0) call self%tabulated(i)%look_up(self%shapes(k), motion, oil, speed, self%cavitates(), &
+         & want_derivatives, self%counters, response)
+      if (response%from_tables) then
+         if (self%counters%fourier == solved) self%counters%looked_up = self%counters%looked_up + 1
+      else
+         call self%direct_film_type%solve(i, motion, oil, speed, want_derivatives, response)
+      end if
    end subroutine solve
 
    !> The pressures of films from the tables.
    subroutine take_pressures(self, motion, oil, speed, response)
       class(table_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
+      class(film_law_type), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       type(film_response), intent(inout) :: response(:)
       integer :: i, k
       do i = 1, size(motion)
-         associate (pad => self%tabulated(i))
-            if (.not. pad%found .or. response(i)%status /= film_ok) cycle
-            k = tables_of(self, i, oil(i))
-            call pad%look_up_pressures(self%shapes(k), motion(i), oil(i), speed, self%cavitates(), self%counters, &
-               & response(i))
-            if (.not. pad%found) call self%direct_film_type%solve(i, motion(i), oil(i), speed, .false., response(i))
-         end associate
+         if (.not. response(i)%from_tables .or. response(i)%status /= film_ok) cycle
+         k = tables_of(self, i, oil(i))
+         call self%tabulated(i)%look_up_pressures(self%shapes(k), motion(i), oil(i), speed, self%cavitates(), &
+            & self%counters, response(i))
+         if (.not. response(i)%from_tables) call self%direct_film_type%solve(i, motion(i), oil(i), speed, .false., &
+            & response(i))
       end do
    end subroutine take_pressures
 
@@ -181,7 +176,7 @@ contains
       class(table_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed, phi(:), z(:)
       real(wp), intent(out) :: pressure(:, :)
       associate (pad => self%tabulated(i))

@@ -4,7 +4,7 @@ module bearing_shape
    use kinds, only: wp
    use text, only: to_text, fixed_text, micro
    use errors, only: error_type, raise, add_context, numerics_error
-   use case_groups, only: is_set
+   use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
    implicit none (type, external)
    private
@@ -38,17 +38,17 @@ module bearing_shape
 
 contains
 
-   !> The shape of a case whose pads bend, with these temperatures of its parts.
-   pure type(bearing_shape_type) function new_shape(inputs, bending, temperatures) result(shape)
-      type(case_type), intent(in) :: inputs
+   !> The shape of a bearing whose pads bend, with these temperatures of its parts.
+   pure type(bearing_shape_type) function new_shape(b, bending, temperatures) result(shape)
+      type(bearing_type), intent(in) :: b
       type(bending_type), intent(in) :: bending
       type(part_temperatures_type), intent(in) :: temperatures
       real(wp) :: of_shaft, of_housing
-      real(wp), dimension(inputs%pad_count()) :: of_pads
+      real(wp), dimension(b%pad_count()) :: of_pads
       of_shaft = 1
       of_housing = 1
       of_pads = 1
-      associate (b => inputs%bearing, p => inputs%pads, t => temperatures)
+      associate (p => b%pads, t => temperatures)
          if (allocated(t%pads)) then
             of_shaft = 1 + b%shaft_expansion*(t%shaft - b%clearance_temperature)
             of_housing = 1 + b%housing_expansion*(t%housing - b%clearance_temperature)
@@ -65,14 +65,14 @@ contains
       shape%temperatures = temperatures
    end function new_shape
 
-   !> Gives a case the shape.
-   pure subroutine apply(self, inputs)
+   !> Gives a bearing the shape.
+   pure subroutine apply(self, bearing)
       class(bearing_shape_type), intent(in) :: self
-      type(case_type), intent(inout) :: inputs
-      inputs%bearing%journal_radius = self%journal_radius
-      inputs%bearing%machined_clearance = self%machined_clearance
-      inputs%bearing%assembled_clearance = self%assembled_clearance
-      inputs%pads%pivot_distance = self%pivot_distance
+      type(bearing_type), intent(inout) :: bearing
+      bearing%journal_radius = self%journal_radius
+      bearing%machined_clearance = self%machined_clearance
+      bearing%assembled_clearance = self%assembled_clearance
+      bearing%pads%pivot_distance = self%pivot_distance
    end subroutine apply
 
    !> Its lengths in a row, m.
@@ -94,41 +94,40 @@ contains
       end associate
    end subroutine set_lengths
 
-   !> Refuses a shape of a case whose clearance is gone, or of which a pad bends by more than its clearance.
-   subroutine check(self, inputs, error)
+   !> Refuses a shape of a bearing whose clearance is gone, or of which a pad bends by more than its clearance.
+   subroutine check(self, bearing, error)
       class(bearing_shape_type), intent(in) :: self
-      type(case_type), intent(in) :: inputs
+      type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(out) :: error
       integer :: i
       do i = 1, size(self%machined_clearance)
          associate (bent => self%bending%elastic(i) + self%bending%thermal(i), &
-            & c => inputs%bearing%machined_clearance(i))
+            & c => bearing%machined_clearance(i))
             if (abs(bent) > c) then
                call raise(error, numerics_error, 'pad '//to_text(i)//' bends by '//micro(bent, 1)//' um, more than ' &
                   & //'its clearance of '//micro(c, 1)//' um: '//micro(self%bending%elastic(i), 1) &
                   & //' um by pressure, '//micro(self%bending%thermal(i), 1)//' um by heat; ' &
-                  & //reason(inputs, i, self%bending%thermal(i) > self%bending%elastic(i)))
+                  & //reason(i, self%bending%thermal(i) > self%bending%elastic(i)))
             else if (.not. self%machined_clearance(i) > 0) then
                call raise(error, numerics_error, gone('bearing%machined_clearance', c, self%machined_clearance(i)))
             else if (.not. self%assembled_clearance(i) > 0) then
                call raise(error, numerics_error, gone('bearing%assembled_clearance', &
-                  & inputs%bearing%assembled_clearance(i), self%assembled_clearance(i)))
+                  & bearing%assembled_clearance(i), self%assembled_clearance(i)))
             end if
          end associate
          if (allocated(error)) return
       end do
    contains
       !> What bends pad i so far: heat or pressure.
-      function reason(inputs, i, by_heat)
-         type(case_type), intent(in) :: inputs
+      function reason(i, by_heat)
          integer, intent(in) :: i
          logical, intent(in) :: by_heat
          character(len=:), allocatable :: reason
-         reason = 'pads%thickness = '//to_text(inputs%pads%thickness(i))//' m'
+         reason = 'pads%thickness = '//to_text(bearing%pads%thickness(i))//' m'
          if (by_heat) then
             reason = 'too much heat goes through it ('//reason//', pads%conductivity = ' &
-               & //to_text(inputs%pads%conductivity(i))//' W/(m K), oil%back_coefficient = ' &
-               & //to_text(inputs%oil%back_coefficient)//' W/(m^2 K))'
+               & //to_text(bearing%pads%conductivity(i))//' W/(m K), oil%back_coefficient = ' &
+               & //to_text(bearing%oil%back_coefficient)//' W/(m^2 K))'
          else
             reason = 'it is too thin ('//reason//')'
          end if
@@ -140,7 +139,7 @@ contains
          character(len=:), allocatable :: message
          message = 'the clearance of pad '//to_text(i)//' is gone: '//name//' = '//micro(cold, 1)//' um becomes ' &
             & //micro(warm, 1)//' um'
-         if (.not. is_set(inputs%bearing%clearance_temperature)) return
+         if (.not. is_set(bearing%clearance_temperature)) return
          associate (t => self%temperatures)
             message = message//' with the shaft at '//fixed_text(t%shaft, 1)//' C, the pad at ' &
                & //fixed_text(t%pads(i), 1)//' C and the housing at '//fixed_text(t%housing, 1)//' C'
@@ -152,14 +151,12 @@ contains
    function cold_shapes(inputs) result(shapes)
       type(case_type), intent(in) :: inputs
       type(bearing_shape_type), allocatable :: shapes(:)
-      type(case_type) :: own
       real(wp), allocatable :: none(:)
       integer :: b
-      allocate (shapes(inputs%bearing_count()))
+      allocate (shapes(size(inputs%bearings)))
       do b = 1, size(shapes)
-         own = inputs%of_bearing(b)
-         none = 0*own%bearing%machined_clearance
-         shapes(b) = new_shape(own, bending_type(none, none), part_temperatures_type())
+         none = 0*inputs%bearings(b)%machined_clearance
+         shapes(b) = new_shape(inputs%bearings(b), bending_type(none, none), part_temperatures_type())
       end do
    end function cold_shapes
 
@@ -167,17 +164,9 @@ contains
    subroutine apply_shapes(shapes, inputs)
       type(bearing_shape_type), intent(in) :: shapes(:)
       type(case_type), intent(inout) :: inputs
-      type(case_type) :: own
       integer :: b
-      if (.not. inputs%is_machine()) then
-         call shapes(1)%apply(inputs)
-         return
-      end if
       do b = 1, size(shapes)
-         own = inputs%of_bearing(b)
-         if (.not. own%changes_shape()) cycle
-         call shapes(b)%apply(own)
-         call inputs%set_bearing(b, own)
+         if (inputs%bearings(b)%changes_shape()) call shapes(b)%apply(inputs%bearings(b))
       end do
    end subroutine apply_shapes
 
@@ -186,12 +175,10 @@ contains
       type(bearing_shape_type), intent(in) :: shapes(:)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(case_type) :: own
       integer :: b
       do b = 1, size(shapes)
-         own = inputs%of_bearing(b)
-         call shapes(b)%check(own, error)
-         if (inputs%is_machine()) call add_context(error, 'bearing '''//inputs%machine%bearings(b)%name//'''')
+         call shapes(b)%check(inputs%bearings(b), error)
+         call add_context(error, inputs%bearings(b)%label())
          if (allocated(error)) return
       end do
    end subroutine check_shapes
@@ -226,8 +213,8 @@ contains
    pure real(wp) function least_clearance(inputs, b)
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: b
-      type(case_type) :: own
-      own = inputs%of_bearing(b)
-      least_clearance = minval([own%bearing%machined_clearance, own%bearing%assembled_clearance])
+      associate (own => inputs%bearings(b))
+         least_clearance = minval([own%machined_clearance, own%assembled_clearance])
+      end associate
    end function least_clearance
 end module bearing_shape

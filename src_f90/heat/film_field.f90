@@ -5,12 +5,12 @@ module film_field
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, add_context, numerics_error
-   use case_inputs, only: case_type
    use film_solver, only: film_motion
    use elimination_film, only: elimination_film_type
    use film_streams, only: film_stream, new_stream_volumes, find_stream
    use asperity_contact, only: asperity_load
-   use kinematics, only: pad_state, frame_of, motion_of
+   use state_layout, only: pad_state
+   use kinematics, only: frame_of, motion_of
    use heat_balance, only: new_grooves
    use film_profiles, only: film_profile
    use film_network, only: warm_films_type, set_heat, oil_of_field, solve_network
@@ -77,18 +77,16 @@ contains
    subroutine apply(self, model)
       class(film_field_type), intent(inout) :: self
       type(machine_model), intent(inout) :: model
-      type(case_type) :: own
       integer :: b, i, pad
       pad = 0
       do b = 1, size(self%films)
-         own = model%inputs%of_bearing(b)
-         associate (fields => self%films(b)%fields, n => size(self%films(b)%fields(:, :, 1)))
+         associate (fields => self%films(b)%fields, n => size(self%films(b)%fields(:, :, 1)), &
+            & oil => model%inputs%bearings(b)%oil)
             do i = 1, size(fields, 3)
                fields(:, :, i) = reshape(self%values(n*pad + 1:n*(pad + 1)), shape(fields(:, :, i))) &
-                  & + own%oil%supply_temperature
+                  & + oil%supply_temperature
                pad = pad + 1
-               call oil_of_field(own%oil, self%films(b)%heat(i)%zeta, fields(:, :, i), self%profiles(:, pad), &
-                  & model%oil(pad))
+               call oil_of_field(oil, self%films(b)%heat(i)%zeta, fields(:, :, i), self%profiles(:, pad), model%oil(pad))
             end do
          end associate
       end do
@@ -102,22 +100,20 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: fields(size(self%films(1)%fields, 1), size(self%profiles, 1), size(self%profiles, 2))
       type(film_stream) :: streams(size(self%profiles, 2))
-      type(case_type) :: own
       integer :: b, i
       logical :: ok
       if (self%gaps_change .or. .not. allocated(self%volumes)) call make_volumes(model, size(self%profiles, 1), &
          & self%volumes)
       do b = 1, size(self%films)
-         own = model%inputs%of_bearing(b)
-         call set_heat(own, self%films(b))
-         associate (first => model%layout%bearings(b)%other_pads + 1, &
-            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
+         call set_heat(model%inputs%bearings(b), model%inputs%thermal%layers, self%films(b))
+         associate (own => model%inputs%bearings(b), first => model%layout%elements(b)%other_pads + 1, &
+            & last => model%layout%elements(b)%other_pads + model%layout%elements(b)%pads)
             call self%find_streams(model, b, y, streams(first:last), ok, i)
             if (.not. ok) call raise(error, numerics_error, 'the flow in the film of pad '//to_text(i) &
                & //' is not found')
             if (.not. allocated(error)) then
-               call solve_network(own%oil, new_grooves(own), self%films(b), streams(first:last), &
-                  & self%profiles(:, first:last), model%point%speed(0.0_wp)*own%bearing%journal_radius, &
+               call solve_network(own%oil, new_grooves(own, model%inputs%sense()), self%films(b), streams(first:last), &
+                  & self%profiles(:, first:last), model%point%speed(0.0_wp)*own%journal_radius, &
                   & fields(:, :, first:last), ok)
                if (.not. ok) call raise(error, numerics_error, 'nothing carries off the heat of the films')
             end if
@@ -138,7 +134,7 @@ contains
       integer :: b, i
       allocate (volumes(model%layout%pads))
       do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b), pads => model%bearings(b)%pads)
+         associate (of => model%layout%elements(b), pads => model%bearings(b)%pads)
             do i = 1, of%pads
                volumes(of%other_pads + i) = new_stream_volumes(pads(i)%gap, stations)
             end do
@@ -159,9 +155,9 @@ contains
       type(film_motion) :: motion
       type(asperity_load) :: asperity
       real(wp) :: position(2)
-      pads = model%layout%bearings(b)%pad_states(y)
+      pads = model%layout%elements(b)%pad_states(y)
       associate (bearing => model%bearings(b), journal => model%rotor%journal(y(:model%rotor%states), b), &
-         & speed => model%point%speed(0.0_wp), before => model%layout%bearings(b)%other_pads)
+         & speed => model%point%speed(0.0_wp), before => model%layout%elements(b)%other_pads)
          do i = 1, size(streams)
             associate (pad => bearing%pads(i))
                motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
@@ -229,9 +225,9 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: films
       integer :: b
-      b = count(model%layout%bearings%other_pads < pad)
+      b = count(model%layout%elements%other_pads < pad)
       films = 'films'
-      if (pad > 0) films = 'film of pad '//to_text(pad - model%layout%bearings(b)%other_pads)
+      if (pad > 0) films = 'film of pad '//to_text(pad - model%layout%elements(b)%other_pads)
       call add_context(error, 'the temperatures in the '//films//' do not settle at ' &
          & //to_text(model%point%speed_rpm)//' rpm')
       if (pad > 0) call name_bearing(model, b, error)
@@ -261,8 +257,6 @@ contains
    pure real(wp) function supply_of(model, b)
       type(machine_model), intent(in) :: model
       integer, intent(in) :: b
-      type(case_type) :: own
-      own = model%inputs%of_bearing(b)
-      supply_of = own%oil%supply_temperature
+      supply_of = model%inputs%bearings(b)%oil%supply_temperature
    end function supply_of
 end module film_field

@@ -4,8 +4,7 @@ module film_network
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use linear_algebra, only: dgesv
-   use case_groups, only: oil_type, is_set
-   use case_inputs, only: case_type
+   use case_groups, only: bearing_type, oil_type, thermal_type, is_set
    use oil_properties, only: viscosity, viscosities
    use heat_balance, only: oil_temperatures_type, groove_type
    use film_oils, only: film_oil
@@ -31,16 +30,15 @@ module film_network
 
 contains
 
-   !> Films of the bearing of a case with one temperature a pad, C.
-   pure type(warm_films_type) function new_warm_films(inputs, temperature) result(films)
-      type(case_type), intent(in) :: inputs
+   !> Films of a bearing with one temperature a pad, C.
+   pure type(warm_films_type) function new_warm_films(bearing, thermal, temperature) result(films)
+      type(bearing_type), intent(in) :: bearing
+      type(thermal_type), intent(in) :: thermal
       real(wp), intent(in) :: temperature(:)
       integer :: i
-      call set_heat(inputs, films)
-      associate (thermal => inputs%thermal)
-         allocate (films%fields(solid_layers + thermal%layers, thermal%stations, size(temperature)))
-         allocate (films%surfaces(thermal%stations, size(temperature)))
-      end associate
+      call set_heat(bearing, thermal%layers, films)
+      allocate (films%fields(solid_layers + thermal%layers, thermal%stations, size(temperature)))
+      allocate (films%surfaces(thermal%stations, size(temperature)))
       allocate (films%reversed(size(temperature)), source=0.0_wp)
       do i = 1, size(temperature)
          films%fields(:, :, i) = temperature(i)
@@ -48,16 +46,17 @@ contains
       end do
    end function new_warm_films
 
-   !> Gives the films what heat meets in them, in the bearing of a case.
-   pure subroutine set_heat(inputs, films)
-      type(case_type), intent(in) :: inputs
+   !> Gives the films of a bearing what heat meets in them, of this number of layers.
+   pure subroutine set_heat(bearing, layers, films)
+      type(bearing_type), intent(in) :: bearing
+      integer, intent(in) :: layers
       type(warm_films_type), intent(inout) :: films
       integer :: i
-      associate (oil => inputs%oil, pads => inputs%pads)
-         if (.not. allocated(films%heat)) allocate (films%heat(inputs%pad_count()))
+      associate (oil => bearing%oil, pads => bearing%pads)
+         if (.not. allocated(films%heat)) allocate (films%heat(bearing%pad_count()))
          do i = 1, size(films%heat)
             films%heat(i) = film_heat_type(oil%density*oil%specific_heat, oil%conductivity, pads%conductivity(i), &
-               & pads%thickness(i), oil%back_coefficient, oil%supply_temperature, layer_faces(inputs%thermal%layers))
+               & pads%thickness(i), oil%back_coefficient, oil%supply_temperature, layer_faces(layers))
          end do
          if (is_set(oil%back_temperature)) films%heat%back_temperature = oil%back_temperature
       end associate

@@ -47,7 +47,7 @@ contains
          static%point%speed_rpm = model%point%speed(time(k))/rpm
          if (k > 0) then
             do b = 1, size(oil)
-               associate (pads => model%layout%bearings(b)%all_pads())
+               associate (pads => model%layout%elements(b)%all_pads())
                   call renew(oil(b)%inlet, entering(pads), rate(pads), time_constant(pads), time(k) - time(k - 1))
                end associate
             end do
@@ -64,8 +64,8 @@ contains
          end if
          before = entering
          do b = 1, size(next)
-            associate (first => model%layout%bearings(b)%other_pads + 1, &
-               & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
+            associate (first => model%layout%elements(b)%other_pads + 1, &
+               & last => model%layout%elements(b)%other_pads + model%layout%elements(b)%pads)
                call balance%bearings(b)%heat%renewal(balance%losses(first:last), next(b), &
                   & static%point%speed(0.0_wp), entering(first:last), time_constant(first:last))
             end associate

@@ -11,8 +11,7 @@ module heat_balance
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
    use linear_algebra, only: dgesv
-   use case_groups, only: oil_type, is_set
-   use case_inputs, only: case_type
+   use case_groups, only: bearing_type, oil_type, is_set
    use oil_properties, only: viscosity, viscosity_slope
    use bearing_losses, only: pad_loss
    implicit none (type, external)
@@ -78,30 +77,32 @@ module heat_balance
 
 contains
 
-   !> For the bearing and the oil of a case.
-   pure type(heat_balance_type) function new_heat_balance(inputs) result(self)
-      type(case_type), intent(in) :: inputs
-      type(groove_type) :: grooves(inputs%pad_count())
-      self%oil = inputs%oil
-      self%journal_radius = inputs%bearing%journal_radius
-      self%arc = inputs%pads%arc_deg*degree*inputs%bearing%journal_radius
-      self%section = inputs%bearing%machined_clearance*inputs%bearing%axial_length
-      grooves = new_grooves(inputs)
+   !> For a bearing and its oil, and a shaft that turns in this sense.
+   pure type(heat_balance_type) function new_heat_balance(bearing, sense) result(self)
+      type(bearing_type), intent(in) :: bearing
+      real(wp), intent(in) :: sense
+      type(groove_type) :: grooves(bearing%pad_count())
+      self%oil = bearing%oil
+      self%journal_radius = bearing%journal_radius
+      self%arc = bearing%pads%arc_deg*degree*bearing%journal_radius
+      self%section = bearing%machined_clearance*bearing%axial_length
+      grooves = new_grooves(bearing, sense)
       self%upstream = grooves%upstream
       self%carry_over = grooves%carry_over
    end function new_heat_balance
 
-   !> The grooves of the bearing of a case.
-   pure function new_grooves(inputs) result(grooves)
-      type(case_type), intent(in) :: inputs
-      type(groove_type) :: grooves(inputs%pad_count())
+   !> The grooves of a bearing, for a shaft that turns in this sense.
+   pure function new_grooves(bearing, sense) result(grooves)
+      type(bearing_type), intent(in) :: bearing
+      real(wp), intent(in) :: sense
+      type(groove_type) :: grooves(bearing%pad_count())
       real(wp) :: turn, nearest, gap
       integer :: i, k
-      associate (p => inputs%pads)
+      associate (p => bearing%pads)
          do i = 1, size(grooves)
             nearest = huge(nearest)
             do k = 1, size(grooves)
-               turn = modulo(inputs%sense()*(p%pivot_angle_deg(k) - p%pivot_angle_deg(i)), 360.0_wp)
+               turn = modulo(sense*(p%pivot_angle_deg(k) - p%pivot_angle_deg(i)), 360.0_wp)
                ! a pad alone is upstream of itself
                if (k == i) turn = 360
                if (turn >= nearest) cycle
@@ -111,7 +112,7 @@ contains
             associate (up => grooves(i)%upstream)
                gap = nearest - p%pivot_ratio(i)*p%arc_deg(i) - (1 - p%pivot_ratio(up))*p%arc_deg(up)
             end associate
-            if (gap <= inputs%oil%widest_gap_deg) grooves(i)%carry_over = inputs%oil%carry_over
+            if (gap <= bearing%oil%widest_gap_deg) grooves(i)%carry_over = bearing%oil%carry_over
          end do
       end associate
    end function new_grooves

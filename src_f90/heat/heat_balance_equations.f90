@@ -4,7 +4,6 @@
 module heat_balance_equations
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
-   use case_inputs, only: case_type
    use pad_gap, only: pad_gap_type
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance, check_boiling
@@ -51,20 +50,18 @@ contains
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
-      type(case_type) :: own
       logical :: stays
       integer :: b
       if (.not. allocated(balance%bearings)) allocate (balance%bearings(size(model%bearings)))
       do b = 1, size(model%bearings)
-         associate (of => balance%bearings(b), gaps => model%bearings(b)%pads%gap)
-            own = model%inputs%of_bearing(b)
+         associate (of => balance%bearings(b), gaps => model%bearings(b)%pads%gap, own => model%inputs%bearings(b))
             stays = allocated(of%gaps)
             if (stays) stays = .not. any(of%gaps%differs(gaps))
             if (.not. stays) then
                of%finder = new_bearing_losses(own)
                of%gaps = gaps
             end if
-            of%heat = new_heat_balance(own)
+            of%heat = new_heat_balance(own, model%inputs%sense())
          end associate
       end do
       if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), &
@@ -80,9 +77,9 @@ contains
       type(pad_loss), intent(out) :: losses(:)
       integer :: b
       do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b), &
-            & first => model%layout%bearings(b)%other_pads + 1, &
-            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
+         associate (of => model%layout%elements(b), &
+            & first => model%layout%elements(b)%other_pads + 1, &
+            & last => model%layout%elements(b)%other_pads + model%layout%elements(b)%pads)
             call balance%bearings(b)%finder%find(model%bearings(b), model%rotor%journal(y(:model%rotor%states), b), &
                & of%pad_states(y), model%oil(first:last), model%point%speed(0.0_wp), losses(first:last))
          end associate
@@ -113,8 +110,8 @@ contains
       integer :: b
       residual = 0
       do b = 1, size(model%bearings)
-         associate (first => model%layout%bearings(b)%other_pads + 1, &
-            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads, &
+         associate (first => model%layout%elements(b)%other_pads + 1, &
+            & last => model%layout%elements(b)%other_pads + model%layout%elements(b)%pads, &
             & heat => balance%bearings(b)%heat, speed => model%point%speed(0.0_wp))
             if (present(kept)) then
                call heat%viscosities(losses(first:last), films(first:last), speed, wanted(first:last), ok, kept(b))
@@ -159,8 +156,8 @@ contains
          call set_slope(k, moved, films, change)
       end do
       do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b))
-            do k = 0, of%motion/2 - 1
+         associate (of => model%layout%elements(b))
+            do k = 0, of%coordinates - 1
                own = k + [(of%first_position(i), i=1, of%pads)]
                call find_moved(own)
                do i = 1, size(own)
@@ -246,7 +243,7 @@ contains
       type(oil_temperatures_type), intent(in), optional :: kept(:)
       integer :: b
       do b = 1, size(model%bearings)
-         associate (pads => model%layout%bearings(b)%all_pads(), heat => balance%bearings(b)%heat, &
+         associate (pads => model%layout%elements(b)%all_pads(), heat => balance%bearings(b)%heat, &
             & speed => model%point%speed(0.0_wp))
             if (present(kept)) then
                call heat%temperatures(balance%losses(pads), model%oil(pads)%viscosity, speed, oil(b), ok, kept(b))

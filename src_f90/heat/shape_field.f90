@@ -4,7 +4,7 @@ module shape_field
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, add_context, numerics_error
-   use case_groups, only: is_set
+   use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
    use bearing_shape, only: bearing_shape_type, bending_type, part_temperatures_type, new_shape, cold_shapes, &
       & apply_shapes, check_shapes, all_lengths, set_all_lengths
@@ -115,25 +115,25 @@ contains
       type(bearing_shape_type), allocatable, intent(out) :: shapes(:)
       type(part_temperatures_type) :: parts(size(static%bearings))
       type(bending_type) :: bending
-      type(case_type) :: own
       integer :: b
       shapes = cold_shapes(cold)
       call find_part_temperatures(cold, static, y, films, parts)
       do b = 1, size(shapes)
-         own = cold%of_bearing(b)
-         if (.not. own%changes_shape()) cycle
-         bending = shapes(b)%bending
-         if (any(own%pads%bending == ['elastic', 'both   '])) call bend_elastically(own, static%bearings(b), &
-            & bending%elastic)
-         if (any(own%pads%bending == ['thermal', 'both   '])) bending%thermal = bent_films(own, static%bearings(b), &
-            & films(b))
-         shapes(b) = new_shape(own, bending, parts(b))
+         associate (own => cold%bearings(b))
+            if (.not. own%changes_shape()) cycle
+            bending = shapes(b)%bending
+            if (any(own%pads%bending == ['elastic', 'both   '])) call bend_elastically(own, static%bearings(b), &
+               & bending%elastic)
+            if (any(own%pads%bending == ['thermal', 'both   '])) bending%thermal = bent_films(own, static%bearings(b), &
+               & films(b))
+            shapes(b) = new_shape(own, bending, parts(b))
+         end associate
       end do
    end subroutine find_shapes
 
    !> Changes of the clearances of a bearing by the pressure of its films, m.
    subroutine bend_elastically(cold, bearing, elastic)
-      type(case_type), intent(in) :: cold
+      type(bearing_type), intent(in) :: cold
       type(tilting_pad_bearing_type), intent(inout) :: bearing
       real(wp), intent(out) :: elastic(:)
       real(wp) :: phi(points_along, size(elastic)), z(points_across, size(elastic))
@@ -153,7 +153,7 @@ contains
 
    !> Changes of the clearances of a bearing by the temperatures across its pads, m.
    function bent_films(cold, bearing, films) result(thermal)
-      type(case_type), intent(in) :: cold
+      type(bearing_type), intent(in) :: cold
       type(tilting_pad_bearing_type), intent(in) :: bearing
       type(warm_films_type), intent(in) :: films
       real(wp) :: thermal(cold%pad_count())
@@ -176,21 +176,20 @@ contains
       type(part_temperatures_type), intent(out) :: parts(:)
       type(state_balance_type) :: balance
       type(oil_temperatures_type) :: oil(size(parts))
-      type(case_type) :: own
       integer :: b
       do b = 1, size(parts)
-         own = cold%of_bearing(b)
-         if (.not. is_set(own%bearing%clearance_temperature)) cycle
-         associate (housing => own%bearing%housing_temperature, given => own%pads%temperature, part => parts(b))
-            part%housing = merge(housing, own%oil%supply_temperature, is_set(housing))
+         if (.not. is_set(cold%bearings(b)%clearance_temperature)) cycle
+         associate (housing => cold%bearings(b)%housing_temperature, given => cold%bearings(b)%pads%temperature, &
+            & oil_given => cold%bearings(b)%oil, part => parts(b))
+            part%housing = merge(housing, oil_given%supply_temperature, is_set(housing))
             part%pads = given
             if (allocated(films)) then
                associate (solid => films(b)%fields(:solid_layers, :, :))
                   where (.not. is_set(given)) part%pads = sum(sum(solid, 1), 1)/(size(solid, 1)*size(solid, 2))
                end associate
                part%shaft = films(b)%oil%shaft
-            else if (is_set(own%oil%shaft_temperature)) then
-               part%shaft = own%oil%shaft_temperature
+            else if (is_set(oil_given%shaft_temperature)) then
+               part%shaft = oil_given%shaft_temperature
             else
                if (.not. allocated(oil(b)%mean)) call find_temperatures(static, y, balance, oil)
                part%shaft = oil(b)%shaft

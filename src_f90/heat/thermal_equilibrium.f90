@@ -39,7 +39,7 @@ contains
       type(state_balance_type) :: balance
       real(wp), dimension(model%layout%pads) :: wanted, balanced
       logical :: ok
-      associate (oil => model%inputs%oil)
+      associate (oil => model%inputs%bearings(1)%oil)
          wanted = viscosity(oil, oil%supply_temperature + (guesses - guess)*some_warming)
       end associate
       if (guess == 1) then
@@ -150,12 +150,10 @@ contains
       type(case_type), intent(in) :: inputs
       type(oil_temperatures_type), intent(in) :: oil(:)
       type(warm_films_type), allocatable, intent(out) :: films(:)
-      type(case_type) :: own
       integer :: b
       allocate (films(size(oil)))
       do b = 1, size(oil)
-         own = inputs%of_bearing(b)
-         films(b) = new_warm_films(own, oil(b)%mean)
+         films(b) = new_warm_films(inputs%bearings(b), inputs%thermal, oil(b)%mean)
       end do
    end subroutine make_films
 end module thermal_equilibrium

@@ -3,9 +3,9 @@
 module case_fields
    use kinds, only: wp
    use variable_table, only: variable_table_type
-   use case_groups, only: most_ratios
+   use case_groups, only: start_type, most_ratios
    use case_inputs, only: case_type
-   use machine_groups, only: machine_type
+   use rotor_groups, only: rotor_type, elastic_type
    use excitations, only: excitation_type, make_excitations
    use excitation_fields, only: list_excitations
    use bearing_fields, only: list_bearing, list_oil, list_pads, list_pivot, list_friction, list_asperity, list_film
@@ -48,27 +48,28 @@ contains
       type(case_type), intent(in) :: inputs
       type(variable_table_type), intent(out) :: table
       type(case_type) :: copy
-      type(machine_type) :: machine
+      type(elastic_type) :: elastic
       copy = inputs
-      call machine%begin(bearings=1, discs=1, unbalances=1, loads=1)
-      allocate (machine%bearings(1)%support)
+      call elastic%begin(discs=1, unbalances=1, loads=1)
+      allocate (copy%bearings(1)%support)
       call table%begin(filled=.false.)
-      call go_along(copy, table, machine)
+      call go_along(copy, table, elastic)
    end subroutine list_all_variables
 
-   !> All variables of a case, in the order of the input reference; a machine has those of the bearings last, with the
-   !> name of each behind that of the group. With `also`, those of this machine beside those of a rigid journal.
+   !> All variables of a case, in the order of the input reference; with an elastic rotor those of the bearings come
+   !> last, with the name of each behind that of the group. With `also`, those of this rotor and of a bearing's place
+   !> and support beside those of a rigid journal.
    subroutine go_along(inputs, v, also)
       type(case_type), intent(inout) :: inputs
       type(variable_table_type), intent(inout) :: v
-      type(machine_type), intent(inout), optional :: also
+      type(elastic_type), intent(inout), optional :: also
       type(excitation_type), allocatable :: one(:)
       logical :: rigid
-      rigid = .not. inputs%is_machine()
+      rigid = inputs%rotor%is_rigid()
       call list_case(inputs, v)
-      call list_rotor(inputs, v)
+      call list_rotor(inputs%rotor, rigid, v)
       if (present(also)) call list_rotor_file(also, v)
-      if (.not. rigid) call list_rotor_file(inputs%machine, v)
+      if (.not. rigid) call list_rotor_file(inputs%rotor%elastic, v)
       call list_operation(inputs, v)
       if (present(also)) then
          call make_excitations(1, one)
@@ -76,25 +77,25 @@ contains
       else
          call list_excitations(inputs%excitations, v, numbered=.true., stations=.not. rigid)
       end if
-      if (rigid) call list_bearing(inputs%bearing, v)
-      if (present(also)) call list_place(also%bearings(1), v)
-      if (rigid) call list_oil(inputs%oil, v)
+      if (rigid) call list_bearing(inputs%bearings(1), v)
+      if (present(also)) call list_place(inputs%bearings(1), v)
+      if (rigid) call list_oil(inputs%bearings(1)%oil, v)
       call list_thermal(inputs, v)
-      if (rigid) call list_pads(inputs%pads, v)
-      if (rigid) call list_pivot(inputs%pivot, v)
-      if (rigid) call list_friction(inputs%friction, v)
-      if (rigid) call list_asperity(inputs%asperity, v)
-      call list_start(inputs, v)
-      if (rigid) call list_film(inputs%film, v)
+      if (rigid) call list_pads(inputs%bearings(1)%pads, v)
+      if (rigid) call list_pivot(inputs%bearings(1)%pivot, v)
+      if (rigid) call list_friction(inputs%bearings(1)%friction, v)
+      if (rigid) call list_asperity(inputs%bearings(1)%asperity, v)
+      call list_start(inputs%start, rigid, v)
+      if (rigid) call list_film(inputs%bearings(1)%film, v)
       call list_integration(inputs, v)
       call list_output(inputs, v)
       call list_coefficients(inputs, v)
       call list_periodic(inputs, v)
       call list_branch(inputs, v)
-      if (present(also)) call list_parts(also, v, .false.)
+      if (present(also)) call list_parts(also, v, inputs%bearings(1)%support)
       if (rigid) return
-      call list_parts(inputs%machine, v, .true.)
-      call list_bearings(inputs%machine, v)
+      call list_parts(inputs%rotor%elastic, v)
+      call list_bearings(inputs%bearings, v)
    end subroutine go_along
 
    subroutine list_case(inputs, v)
@@ -109,22 +110,21 @@ contains
          & //'changes')
    end subroutine list_case
 
-   subroutine list_rotor(inputs, v)
-      type(case_type), intent(inout) :: inputs
+   subroutine list_rotor(rotor, rigid, v)
+      type(rotor_type), intent(inout) :: rotor
+      logical, intent(in) :: rigid
       type(variable_table_type), intent(inout) :: v
       call v%group('rotor', 'The part of the rotor that this bearing carries, and its loads')
-      if (inputs%is_machine()) then
-         call v%number(inputs%rotor%gravity, 'gravity', 0.0_wp, 1e3_wp, 'm/s^2', 'acceleration towards -y')
-         return
+      if (rigid) then
+         call v%number(rotor%mass, 'mass', 1e-6_wp, 1e9_wp, 'kg', 'mass m_J carried by the bearing')
+         call v%number(rotor%unbalance, 'unbalance', 0.0_wp, 1e6_wp, 'kg m', 'unbalance dmE')
+         call v%number(rotor%balance_grade, 'balance_grade', 1e-6_wp, 1e5_wp, 'mm/s', &
+            & 'instead of unbalance: ISO 21940-11 grade G of eq (26)')
+         call v%number(rotor%balance_speed_rpm, 'balance_speed_rpm', 1.0_wp, 1e6_wp, 'rpm', &
+            & 'speed of eq (26); if left out, the maximum speed of the run')
       end if
-      call v%number(inputs%rotor%mass, 'mass', 1e-6_wp, 1e9_wp, 'kg', 'mass m_J carried by the bearing')
-      call v%number(inputs%rotor%unbalance, 'unbalance', 0.0_wp, 1e6_wp, 'kg m', 'unbalance dmE')
-      call v%number(inputs%rotor%balance_grade, 'balance_grade', 1e-6_wp, 1e5_wp, 'mm/s', &
-         & 'instead of unbalance: ISO 21940-11 grade G of eq (26)')
-      call v%number(inputs%rotor%balance_speed_rpm, 'balance_speed_rpm', 1.0_wp, 1e6_wp, 'rpm', &
-         & 'speed of eq (26); if left out, the maximum speed of the run')
-      call v%number(inputs%rotor%gravity, 'gravity', 0.0_wp, 1e3_wp, 'm/s^2', 'acceleration towards -y')
-      call v%numbers(inputs%rotor%static_load, 'static_load', -1e12_wp, 1e12_wp, 'N', &
+      call v%number(rotor%gravity, 'gravity', 0.0_wp, 1e3_wp, 'm/s^2', 'acceleration towards -y')
+      if (rigid) call v%numbers(rotor%static_load, 'static_load', -1e12_wp, 1e12_wp, 'N', &
          & 'extra force on the journal along y and z')
    end subroutine list_rotor
 
@@ -154,27 +154,28 @@ contains
          & 'in a march; frozen: temperatures of the equilibrium; groove: the oil between the pads warms and cools')
    end subroutine list_thermal
 
-   subroutine list_start(inputs, v)
-      type(case_type), intent(inout) :: inputs
+   subroutine list_start(start, rigid, v)
+      type(start_type), intent(inout) :: start
+      logical, intent(in) :: rigid
       type(variable_table_type), intent(inout) :: v
       call v%group('start', &
          & 'Where a march starts; the values of journal and pads are added, as a disturbance; a resumed run does ' &
          & //'not start again')
-      call v%word(inputs%start%from, 'from', 'equilibrium partial centred given file', &
+      call v%word(start%from, 'from', 'equilibrium partial centred given file', &
          & 'equilibrium: of the initial speed, at rest; partial: the same, but pads without equilibrium stand on ' &
          & //'their pivots without tilt; centred: journal in the middle, pads at rest on their pivots without tilt; ' &
          & //'given: only the values of journal and pads below; file: the end of another result')
-      call v%word(inputs%start%file, 'file', '', &
+      call v%word(start%file, 'file', '', &
          & 'file: the result file, with the same pads; its last whole turn of the shaft is taken')
-      if (inputs%is_machine()) return
-      call v%numbers(inputs%start%journal, 'journal', -0.1_wp, 0.1_wp, 'm', 'displacement of the journal along y and z')
-      call v%numbers(inputs%start%journal_velocity, 'journal_velocity', -1e3_wp, 1e3_wp, 'm/s', &
+      if (.not. rigid) return
+      call v%numbers(start%journal, 'journal', -0.1_wp, 0.1_wp, 'm', 'displacement of the journal along y and z')
+      call v%numbers(start%journal_velocity, 'journal_velocity', -1e3_wp, 1e3_wp, 'm/s', &
          & 'velocity of the journal along y and z')
-      call v%each(inputs%start%pad_tilt, 'pads', 'pad_tilt', -3.0_wp, 3.0_wp, 'rad', 'tilts of the pads')
-      call v%each(inputs%start%pad_tilt_rate, 'pads', 'pad_tilt_rate', -1e5_wp, 1e5_wp, 'rad/s', 'their rates')
-      call v%each(inputs%start%pivot_deflection, 'pads', 'pivot_deflection', -0.1_wp, 0.1_wp, 'm', &
+      call v%each(start%pad_tilt, 'pads', 'pad_tilt', -3.0_wp, 3.0_wp, 'rad', 'tilts of the pads')
+      call v%each(start%pad_tilt_rate, 'pads', 'pad_tilt_rate', -1e5_wp, 1e5_wp, 'rad/s', 'their rates')
+      call v%each(start%pivot_deflection, 'pads', 'pivot_deflection', -0.1_wp, 0.1_wp, 'm', &
          & 'tilting_radial: deflections of the pivots')
-      call v%each(inputs%start%pivot_deflection_rate, 'pads', 'pivot_deflection_rate', -1e3_wp, 1e3_wp, 'm/s', &
+      call v%each(start%pivot_deflection_rate, 'pads', 'pivot_deflection_rate', -1e3_wp, 1e3_wp, 'm/s', &
          & 'tilting_radial: their rates')
    end subroutine list_start
 

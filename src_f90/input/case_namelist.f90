@@ -4,7 +4,7 @@ module case_namelist
    use text, only: to_text
    use errors, only: error_type, raise, add_context, input_error
    use case_groups, only: max_pads
-   use machine_groups, only: most_sections
+   use rotor_groups, only: most_sections
    use case_inputs, only: case_type
    use case_checks, only: check_case
    use case_completion, only: leave_out, complete_case
@@ -71,14 +71,13 @@ contains
       call make_several(parsed, inputs, error)
       if (allocated(error)) return
       call leave_out(inputs)
-      if (inputs%is_machine()) then
-         call give_to_bearings(parsed, inputs%machine, of_each)
-         call fill_variables(of_each, inputs, error)
-         if (present(given)) given = of_each
+      if (inputs%rotor%is_rigid()) then
+         of_each = parsed
       else
-         call fill_variables(parsed, inputs, error)
-         if (present(given)) given = parsed
+         call give_to_bearings(parsed, inputs%bearings, of_each)
       end if
+      call fill_variables(of_each, inputs, error)
+      if (present(given)) given = of_each
    end subroutine fill_case
 
    !> Gives the variables of a case the values of its assignments.
@@ -144,16 +143,18 @@ contains
       type(case_type), intent(in) :: inputs
       integer, intent(out) :: at(:)
       type(error_type), allocatable, intent(out) :: error
+      logical :: elastic
       integer :: i
+      elastic = .not. inputs%rotor%is_rigid()
       do i = 1, size(parsed%groups)
-         if (inputs%is_machine() .and. may_have_bearing(parsed%groups(i)%group)) cycle
+         if (elastic .and. may_have_bearing(parsed%groups(i)%group)) cycle
          call refuse_unknown_group(parsed%groups(i), '&', table, error)
       end do
       do i = 1, size(at)
          associate (a => parsed%assignments(i))
             at(i) = table%find(a%group, a%name)
             if (at(i) > 0 .or. allocated(error)) cycle
-            call refuse_other_rotor(a, inputs%is_machine(), error)
+            call refuse_other_rotor(a, elastic, error)
             call refuse_unknown_group(a, '', table, error)
             if (.not. allocated(error)) call raise(error, input_error, a%origin//': unknown variable '//a%group//'%' &
                & //a%name//meant_variable(kind_of(a%group), a%name)//'; known:'//names_in(kind_of(a%group)))
@@ -162,16 +163,16 @@ contains
    end subroutine find_variables
 
    !> Refuses a variable that a machine does not have, or that only a machine has, and says what is to be given instead.
-   subroutine refuse_other_rotor(a, of_machine, error)
+   subroutine refuse_other_rotor(a, elastic, error)
       type(assignment_type), intent(in) :: a
-      logical, intent(in) :: of_machine
+      logical, intent(in) :: elastic
       type(error_type), allocatable, intent(inout) :: error
       type(variable_table_type) :: all
       character(len=:), allocatable :: instead
       call list_all_variables(case_type(), all)
       if (allocated(error) .or. all%find(kind_of(a%group), a%name) == 0) return
       instead = 'needs a shaft (&shaft) in bearings that have names (&bearing name = ...)'
-      if (of_machine) then
+      if (elastic) then
          select case (a%name)
          case ('mass')
             instead = 'has no effect beside a shaft; the rotor''s masses are in &shaft and &disc'

@@ -3,17 +3,17 @@
 module case_remarks
    use kinds, only: wp
    use text, only: to_text, fixed_text
+   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use bearing_numbers, only: preload
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables
    use namelist_writer, only: lines_of
-   use unit_remarks, only: remarks_on_units, remarks_on_pads, remark_on_unbalance, remark_on_speed, &
-      & remark_on_clearance
-   use load_remarks, only: remarks_on_load, remarks_on_forces
+   use unit_remarks, only: remarks_on_units, remarks_on_pads, remark_on_speed, remark_on_clearance
+   use load_remarks, only: remarks_on_forces
    implicit none (type, external)
    private
-   public :: remarks_on_case, of_bearing, behind, newline
+   public :: remarks_on_case, behind, newline
 
    character(len=*), parameter :: newline = achar(10)
    !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
@@ -29,29 +29,14 @@ contains
       integer :: b
       lines = ''
       call list_variables(inputs, table)
-      do b = 1, inputs%bearing_count()
-         lines = lines//of_bearing(inputs, b, on_bearing(inputs%of_bearing(b)))
+      do b = 1, size(inputs%bearings)
+         lines = lines//behind(inputs%bearings(b)%label(': '), on_bearing(inputs, inputs%bearings(b)))
       end do
       lines = lines//remarks_on_units(inputs, table)//remarks_on_forces(inputs)
-      if (.not. inputs%is_machine()) then
-         if (inputs%moves()) lines = lines//remark_on_unbalance(inputs%unbalance(), inputs%rotor%mass, &
-            & inputs%clearance())
-         lines = lines//remarks_on_load(inputs)
-      end if
       if (allocated(inputs%about%of_paper)) lines = lines//'not given, and so as in the paper''s bearing: ' &
          & //inputs%about%of_paper//newline
       lines = lines//on_idle_groups(inputs, table)
    end function remarks_on_case
-
-   !> Lines on bearing b; in a machine its name begins each.
-   function of_bearing(inputs, b, lines) result(named)
-      type(case_type), intent(in) :: inputs
-      integer, intent(in) :: b
-      character(len=*), intent(in) :: lines
-      character(len=:), allocatable :: named
-      named = lines
-      if (inputs%is_machine()) named = behind('bearing '''//inputs%machine%bearings(b)%name//''': ', lines)
-   end function of_bearing
 
    !> Lines, each behind a prefix.
    pure function behind(prefix, lines) result(prefixed)
@@ -67,18 +52,20 @@ contains
       end do
    end function behind
 
-   !> What does not depend on the load.
-   function on_bearing(inputs) result(lines)
+   !> What does not depend on the load of a bearing.
+   function on_bearing(inputs, bearing) result(lines)
       type(case_type), intent(in) :: inputs
+      type(bearing_type), intent(in) :: bearing
       character(len=:), allocatable :: lines
-      lines = remark_on_speed(inputs)//remark_on_clearance(inputs%bearing)//remarks_on_pads(inputs)
-      if (any(preload(inputs) < 0)) lines = lines//'negative preload '//to_text(minval(preload(inputs))) &
+      lines = remark_on_speed(inputs%highest_speed(), bearing%journal_radius)//remark_on_clearance(bearing) &
+         & //remarks_on_pads(bearing)
+      if (any(preload(bearing) < 0)) lines = lines//'negative preload '//to_text(minval(preload(bearing))) &
          & //': the bore of the pads ' &
          & //'is tighter than the clearance at the pivots; such a pad touches the journal at its edges first'//newline
-      if (.not. inputs%tilting() .and. any(abs(preload(inputs)) > 0)) lines = lines//'each lobe has a centre of its ' &
-         & //'own: eccentricity ratio and attitude angle are about the centre of the bearing and over its ' &
+      if (.not. bearing%tilting() .and. any(abs(preload(bearing)) > 0)) lines = lines//'each lobe has a centre of ' &
+         & //'its own: eccentricity ratio and attitude angle are about the centre of the bearing and over its ' &
          & //'clearance, so that they differ from those of a cylindrical bore'//newline
-      associate (surface => inputs%highest_speed()*inputs%bearing%journal_radius)
+      associate (surface => inputs%highest_speed()*bearing%journal_radius)
          if (inputs%thermal%model == 'pad' .and. surface > compared_up_to) lines = lines//'surface speed ' &
             & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad ' &
             & //'shows trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)'//newline

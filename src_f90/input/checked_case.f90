@@ -3,7 +3,7 @@ module checked_case
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type
-   use case_groups, only: is_set
+   use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number, &
       & of_supply
@@ -76,30 +76,28 @@ contains
       character(len=:), allocatable :: text
       integer :: b
       text = '! derived values'//newline
-      if (inputs%is_machine()) then
-         if (inputs%machine%shaft%is_given()) text = text//said('mass', inputs%machine%mass(), 'kg, shaft and discs')
-         do b = 1, inputs%bearing_count()
-            if (first_equal(inputs, b) == b) text = text//'! '//names_of_equals(inputs, b)//newline &
-               & //derived_of_bearing(inputs%of_bearing(b))
-         end do
-      else
-         text = text//derived_of_bearing(inputs)//derived_of_load(inputs)
-      end if
+      if (inputs%rotor%station_count() > 0) text = text//said('mass', inputs%rotor%elastic%mass(), &
+         & 'kg, shaft and discs')
+      do b = 1, size(inputs%bearings)
+         if (first_equal(inputs, b) == b) text = text//names_of_equals(inputs, b) &
+            & //derived_of_bearing(inputs%bearings(b))
+      end do
+      if (inputs%rotor%is_rigid()) text = text//derived_of_load(inputs)
       if (result_bytes(inputs) > 0) text = text//said('result', 0.1_wp*anint(result_bytes(inputs)/1e5_wp), &
          & 'MB, '//to_text(sample_count(inputs))//' samples')
       text = text//behind('! remark: ', remarks_on_case(inputs))
    end function derived_text
 
    !> What follows for a bearing and its oil, whatever its load.
-   function derived_of_bearing(inputs) result(text)
-      type(case_type), intent(in) :: inputs
+   function derived_of_bearing(bearing) result(text)
+      type(bearing_type), intent(in) :: bearing
       character(len=:), allocatable :: text
       integer :: i
-      text = said_of_pads('preload', preload(inputs), '1 - c_r/c_m') &
-         & //said('clearance ratio', clearance_ratio(inputs), 'c_r/R_J') &
-         & //said('length ratio', length_over_diameter(inputs), 'L/D')
-      if (inputs%oil%law == 'constant') return
-      associate (oil => inputs%oil, points => kinematic_points(inputs%oil))
+      text = said_of_pads('preload', preload(bearing), '1 - c_r/c_m') &
+         & //said('clearance ratio', clearance_ratio(bearing), 'c_r/R_J') &
+         & //said('length ratio', length_over_diameter(bearing), 'L/D')
+      if (bearing%oil%law == 'constant') return
+      associate (oil => bearing%oil, points => kinematic_points(bearing%oil))
          text = text//said('viscosity', viscosity(oil, oil%supply_temperature), &
             & 'Pa s at oil%supply_temperature = '//to_text(oil%supply_temperature)//' C')
          do i = 1, size(warm)
@@ -121,7 +119,7 @@ contains
       text = text//said('load', load(inputs), 'N, weight and static load') &
          & //said('specific load', specific_load(inputs), 'Pa, W/(L D)')
       if (load(inputs) > 0) text = text//said('Sommerfeld number', sommerfeld_number(inputs), &
-         & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start, mu '//of_supply(inputs))
+         & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start, mu '//of_supply(inputs%bearings(1)))
    end function derived_of_load
 
    !> A value of each pad, one line where all are equal.
@@ -149,29 +147,30 @@ contains
       line = '!   '//padded//' '//to_text(value)//'  '//meaning//newline
    end function said
 
-   !> The first bearing of a machine that is as bearing b: it, or one before it.
+   !> The first bearing that is as bearing b, wherever they stand: it, or one before it.
    integer function first_equal(inputs, b) result(first)
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: b
       do first = 1, b - 1
-         if (namelist_of(inputs%of_bearing(first)) == namelist_of(inputs%of_bearing(b))) return
+         if (namelist_of(inputs%alone(first)) == namelist_of(inputs%alone(b))) return
       end do
    end function first_equal
 
-   !> "bearings 'left', 'right'": bearing b of a machine and those behind it that are as it is.
+   !> "! bearings 'left', 'right'", a line: bearing b and those behind it that are as it is; empty for one without name.
    function names_of_equals(inputs, b) result(text)
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: b
       character(len=:), allocatable :: text
       integer :: i, equals
       text = ''
+      if (inputs%bearings(b)%name == '') return
       equals = 0
-      do i = b, inputs%bearing_count()
+      do i = b, size(inputs%bearings)
          if (first_equal(inputs, i) /= b) cycle
          equals = equals + 1
          if (equals > 1) text = text//', '
-         text = text//''''//inputs%machine%bearings(i)%name//''''
+         text = text//''''//inputs%bearings(i)%name//''''
       end do
-      text = trim(merge('bearing ', 'bearings', equals == 1))//' '//text
+      text = '! '//trim(merge('bearing ', 'bearings', equals == 1))//' '//text//newline
    end function names_of_equals
 end module checked_case

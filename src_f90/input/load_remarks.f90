@@ -3,10 +3,12 @@
 module load_remarks
    use kinds, only: wp, degree
    use text, only: to_text, fixed_text
+   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use bearing_numbers, only: load, specific_load
    use operating_point, only: operating_point_type
    use other_units, only: in_other_units, usual_size, usual_type
+   use unit_remarks, only: remark_on_unbalance
    implicit none (type, external)
    private
    public :: remarks_on_load, remarks_on_forces
@@ -22,27 +24,29 @@ module load_remarks
 
 contains
 
-   !> Steady forces that a case gives, and the tables of its pivots beside them, a line each.
+   !> Steady forces that a case gives, the tables of its pivots beside them, and what depends on the load and the
+   !> unbalance of a rigid journal, a line each.
    function remarks_on_forces(inputs) result(lines)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
+      real(wp) :: weight
       integer :: i
       lines = ''
-      if (.not. inputs%is_machine()) then
-         associate (r => inputs%rotor)
+      associate (r => inputs%rotor, bearings => inputs%bearings)
+         if (r%is_rigid()) then
             lines = on_force('rotor%static_load', norm2(r%static_load), r%mass*r%gravity)//on_low_load(inputs) &
-               & //on_table(inputs, 'pivot', load(inputs))
-         end associate
-         return
-      end if
-      if (.not. inputs%machine%shaft%is_given()) return
-      associate (m => inputs%machine, weight => inputs%machine%mass()*inputs%rotor%gravity)
-         do i = 1, size(m%loads)
-            lines = lines//on_force('load('//to_text(i)//')%force', norm2(m%loads(i)%force), weight)
-         end do
-         do i = 1, size(m%bearings)
-            lines = lines//on_table(inputs%of_bearing(i), 'pivot:'//m%bearings(i)%name, weight/size(m%bearings))
-         end do
+               & //on_table(bearings(1), load(inputs))
+            if (inputs%moves()) lines = lines//remark_on_unbalance(inputs%unbalance(), r%mass, bearings(1)%clearance())
+            lines = lines//remarks_on_load(inputs)
+         else if (r%station_count() > 0) then
+            weight = r%elastic%mass()*r%gravity
+            do i = 1, size(r%elastic%loads)
+               lines = lines//on_force('load('//to_text(i)//')%force', norm2(r%elastic%loads(i)%force), weight)
+            end do
+            do i = 1, size(bearings)
+               lines = lines//on_table(bearings(i), weight/size(bearings))
+            end do
+         end if
       end associate
    end function remarks_on_forces
 
@@ -64,7 +68,7 @@ contains
       type(usual_type) :: usual
       usual = usual_size('bearing%journal_radius', 'm')
       line = ''
-      if (inputs%bearing%journal_radius > usual%high .or. .not. load(inputs) > 0) return
+      if (inputs%bearings(1)%journal_radius > usual%high .or. .not. load(inputs) > 0) return
       if (specific_load(inputs) < lowest_usual_load) line = 'specific load ' &
          & //to_text(1e-6_wp*specific_load(inputs))//' MPa: seldom so low; most bearings carry 1 to 3 MPa' &
          & //in_usual_unit(inputs)//newline
@@ -86,14 +90,14 @@ contains
    end function in_usual_unit
 
    !> The measured law of the pivots of a bearing, where it ends far below the load or far beyond the clearance.
-   function on_table(inputs, group, carried) result(line)
-      type(case_type), intent(in) :: inputs
-      character(len=*), intent(in) :: group
+   function on_table(bearing, carried) result(line)
+      type(bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: carried
-      character(len=:), allocatable :: line
+      character(len=:), allocatable :: line, group
       line = ''
-      if (.not. allocated(inputs%pivot%points)) return
-      associate (last => inputs%pivot%points(:, size(inputs%pivot%points, 2)), clearance => inputs%clearance())
+      if (.not. allocated(bearing%pivot%points)) return
+      group = 'pivot'//bearing%suffix()
+      associate (last => bearing%pivot%points(:, size(bearing%pivot%points, 2)), clearance => bearing%clearance())
          if (last(2) < beyond_table*carried) line = line//group//'%file: its largest force is '//to_text(last(2)) &
             & //' N, and the bearing carries '//to_text(carried)//' N'//in_other_units(last(2), 'force', 'N', &
             & beyond_table*carried, huge(1.0_wp))//newline
@@ -103,7 +107,7 @@ contains
       end associate
    end function on_table
 
-   !> What depends on the load of a bearing, its case having one.
+   !> What depends on the load of the one bearing of a case.
    function remarks_on_load(inputs) result(lines)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
@@ -114,9 +118,9 @@ contains
             & //to_text(1e-6_wp*highest_usual_load)//' MPa, where pads bend under their pressure (pads%bending); ' &
             & //'most bearings carry 1 to 3 MPa'//in_usual_unit(inputs)//newline
       end if
-      if (inputs%tilting()) return
+      if (inputs%bearings(1)%tilting()) return
       associate (at => direction_of_load(inputs))
-         if (carries_at(inputs, at)) return
+         if (carries_at(inputs%bearings(1), inputs%sense(), at)) return
          lines = lines//'the load points to '//fixed_text(at, 1)//' deg, to the end of a fixed pad or between two, ' &
             & //'where little oil film carries; turn the pads (pads%pivot_angle_deg) for a groove out of the load' &
             & //newline
@@ -131,13 +135,13 @@ contains
       at = atan2(point%load(1), point%load(2))/degree
    end function direction_of_load
 
-   !> Whether a fixed pad reaches past this angle, deg, on either side.
-   pure logical function carries_at(inputs, at)
-      type(case_type), intent(in) :: inputs
-      real(wp), intent(in) :: at
-      real(wp) :: from_trailing(size(inputs%pads%arc_deg))
-      associate (p => inputs%pads)
-         from_trailing = modulo(inputs%sense()*(at - p%pivot_angle_deg) + (1 - p%pivot_ratio)*p%arc_deg, 360.0_wp)
+   !> Whether a fixed pad reaches past this angle, deg, on either side, where the shaft turns in this sense.
+   pure logical function carries_at(bearing, sense, at)
+      type(bearing_type), intent(in) :: bearing
+      real(wp), intent(in) :: sense, at
+      real(wp) :: from_trailing(bearing%pad_count())
+      associate (p => bearing%pads)
+         from_trailing = modulo(sense*(at - p%pivot_angle_deg) + (1 - p%pivot_ratio)*p%arc_deg, 360.0_wp)
          carries_at = any(from_trailing >= beside_edge .and. p%arc_deg - from_trailing >= beside_edge)
       end associate
    end function carries_at

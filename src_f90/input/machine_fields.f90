@@ -2,11 +2,11 @@
 !> behind them: disc(2), pads:drive_end (see machine_names).
 module machine_fields
    use kinds, only: wp
-   use case_groups, only: unset, is_set
-   use machine_groups, only: machine_type, shaft_type, disc_type, unbalance_type, load_type, support_type, &
-      & reduction_type, machine_bearing_type, most_sections, most_stations
+   use case_groups, only: bearing_type, support_type, unset, is_set
+   use rotor_groups, only: elastic_type, shaft_type, disc_type, unbalance_type, load_type, reduction_type, &
+      & most_sections, most_stations
    use variable_table, only: variable_table_type
-   use machine_names, only: counted, of_bearing
+   use machine_names, only: counted
    use bearing_fields, only: list_bearing, list_oil, list_pads, list_pivot, list_friction, list_asperity, list_film
    implicit none (type, external)
    private
@@ -15,47 +15,49 @@ module machine_fields
 contains
 
    !> The last variable of the group rotor.
-   subroutine list_rotor_file(machine, v)
-      type(machine_type), intent(inout) :: machine
+   subroutine list_rotor_file(rotor, v)
+      type(elastic_type), intent(inout) :: rotor
       type(variable_table_type), intent(inout) :: v
-      call v%word(machine%rotor_file, 'file', '', 'instead of the group shaft: the HDF5 file with the matrices of a ' &
+      call v%word(rotor%rotor_file, 'file', '', 'instead of the group shaft: the HDF5 file with the matrices of a ' &
          & //'rotor from another program')
    end subroutine list_rotor_file
 
-   !> Shaft, what it carries, its support and its reduction; of what there are several, with their numbers where they
-   !> are `numbered`.
-   subroutine list_parts(machine, v, numbered)
-      type(machine_type), intent(inout) :: machine
+   !> Shaft, what it carries, and its reduction; of what there are several, with their numbers, but not where a support
+   !> is to be listed, too.
+   subroutine list_parts(rotor, v, support)
+      type(elastic_type), intent(inout) :: rotor
       type(variable_table_type), intent(inout) :: v
-      logical, intent(in) :: numbered
+      type(support_type), intent(inout), optional :: support
+      logical :: numbered
       integer :: i
-      call list_shaft(machine%shaft, v)
-      do i = 1, size(machine%discs)
+      numbered = .not. present(support)
+      call list_shaft(rotor%shaft, v)
+      do i = 1, size(rotor%discs)
          if (numbered) call v%behind_group(counted(i))
-         call list_disc(machine%discs(i), v)
+         call list_disc(rotor%discs(i), v)
       end do
-      do i = 1, size(machine%unbalances)
+      do i = 1, size(rotor%unbalances)
          if (numbered) call v%behind_group(counted(i))
-         call list_unbalance(machine%unbalances(i), v)
+         call list_unbalance(rotor%unbalances(i), v)
       end do
-      do i = 1, size(machine%loads)
+      do i = 1, size(rotor%loads)
          if (numbered) call v%behind_group(counted(i))
-         call list_load(machine%loads(i), v)
+         call list_load(rotor%loads(i), v)
       end do
       call v%behind_group('')
-      if (.not. numbered) call list_support(machine%bearings(1)%support, v)
-      call list_reduction(machine%reduction, v)
+      if (present(support)) call list_support(support, v)
+      call list_reduction(rotor%reduction, v)
    end subroutine list_parts
 
    !> Each bearing with its own groups.
-   subroutine list_bearings(machine, v)
-      type(machine_type), intent(inout) :: machine
+   subroutine list_bearings(bearings, v)
+      type(bearing_type), intent(inout) :: bearings(:)
       type(variable_table_type), intent(inout) :: v
       integer :: b
-      do b = 1, size(machine%bearings)
-         associate (own => machine%bearings(b))
-            call v%behind_group(of_bearing(own%name))
-            call list_bearing(own%bearing, v)
+      do b = 1, size(bearings)
+         associate (own => bearings(b))
+            call v%behind_group(own%suffix())
+            call list_bearing(own, v)
             call list_place(own, v)
             if (allocated(own%support)) call list_support(own%support, v)
             call list_oil(own%oil, v)
@@ -136,7 +138,7 @@ contains
 
    !> Where a bearing stands.
    subroutine list_place(bearing, v)
-      type(machine_bearing_type), intent(inout) :: bearing
+      type(bearing_type), intent(inout) :: bearing
       type(variable_table_type), intent(inout) :: v
       call list_station(bearing%station, v)
       call v%numbers(bearing%offset, 'offset', -0.1_wp, 0.1_wp, 'm', &

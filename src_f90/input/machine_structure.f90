@@ -5,7 +5,8 @@ module machine_structure
    use errors, only: error_type, raise, refuse, input_error
    use case_inputs, only: case_type
    use excitations, only: make_excitations
-   use machine_groups, only: machine_type, most_bearings
+   use case_groups, only: bearing_type
+   use rotor_groups, only: most_bearings
    use assignments, only: namelist_type, assignment_type, undoes
    use machine_names, only: counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable
    implicit none (type, external)
@@ -48,22 +49,24 @@ contains
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       integer :: i, b
-      associate (groups => parsed%groups)
-         allocate (inputs%machine)
-         call inputs%machine%begin(count_of(parsed, 'bearing:'), count_of(parsed, 'disc('), &
-            & count_of(parsed, 'unbalance('), count_of(parsed, 'load('))
-         if (size(inputs%machine%bearings) > most_bearings) call refuse(parsed%file//': ' &
-            & //to_text(size(inputs%machine%bearings))//' groups &bearing with names; a machine has at most ' &
+      allocate (inputs%rotor%elastic)
+      call inputs%rotor%elastic%begin(count_of(parsed, 'disc('), count_of(parsed, 'unbalance('), &
+         & count_of(parsed, 'load('))
+      deallocate (inputs%bearings)
+      allocate (inputs%bearings(count_of(parsed, 'bearing:')))
+      associate (groups => parsed%groups, bearings => inputs%bearings)
+         if (size(bearings) > most_bearings) call refuse(parsed%file//': ' &
+            & //to_text(size(bearings))//' groups &bearing with names; a machine has at most ' &
             & //to_text(most_bearings)//' bearings', error)
          b = 0
          do i = 1, size(groups)
             if (index(groups(i)%group, 'bearing:') /= 1) cycle
             b = b + 1
-            inputs%machine%bearings(b)%name = bearing_of(groups(i)%group)
-            call inputs%set_bearing(b, inputs)
+            bearings(b) = bearing_type()
+            bearings(b)%name = bearing_of(groups(i)%group)
          end do
          do i = 1, size(groups)
-            if (kind_of(groups(i)%group) == 'support') call put_support(bearing_of(groups(i)%group), inputs%machine)
+            if (kind_of(groups(i)%group) == 'support') call put_support(bearing_of(groups(i)%group), bearings)
          end do
       end associate
    end subroutine make_machine
@@ -90,13 +93,13 @@ contains
    end function is_of_machine
 
    !> Puts the bearing of this name on a support; without a name all of them.
-   subroutine put_support(name, machine)
+   subroutine put_support(name, bearings)
       character(len=*), intent(in) :: name
-      type(machine_type), intent(inout) :: machine
+      type(bearing_type), intent(inout) :: bearings(:)
       integer :: b
-      do b = 1, size(machine%bearings)
-         if (allocated(machine%bearings(b)%support)) cycle
-         if (name == '' .or. name == machine%bearings(b)%name) allocate (machine%bearings(b)%support)
+      do b = 1, size(bearings)
+         if (allocated(bearings(b)%support)) cycle
+         if (name == '' .or. name == bearings(b)%name) allocate (bearings(b)%support)
       end do
    end subroutine put_support
 
@@ -110,25 +113,25 @@ contains
       kind = kind_of(a%group)
       if (kind == 'excitation') then
          call look_at_number(a, kind, size(inputs%excitations), error)
-      else if (inputs%is_machine()) then
-         call look_at_part(a, kind, inputs%machine, error)
+      else if (.not. inputs%rotor%is_rigid()) then
+         call look_at_part(a, kind, inputs, error)
       end if
    end subroutine look_at
 
    !> The same of what only a machine has.
-   subroutine look_at_part(a, kind, machine, error)
+   subroutine look_at_part(a, kind, inputs, error)
       type(assignment_type), intent(in) :: a
       character(len=*), intent(in) :: kind
-      type(machine_type), intent(in) :: machine
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: name, names
       integer :: b
       name = bearing_of(a%group)
-      if (kind == 'disc') call look_at_number(a, kind, size(machine%discs), error)
-      if (kind == 'unbalance') call look_at_number(a, kind, size(machine%unbalances), error)
-      if (kind == 'load') call look_at_number(a, kind, size(machine%loads), error)
-      if (kind == 'support' .and. name == '' .and. .not. any([(allocated(machine%bearings(b)%support), &
-         & b=1, size(machine%bearings))])) call refuse(a%origin//': '//a%group//'%'//a%name &
+      if (kind == 'disc') call look_at_number(a, kind, size(inputs%rotor%elastic%discs), error)
+      if (kind == 'unbalance') call look_at_number(a, kind, size(inputs%rotor%elastic%unbalances), error)
+      if (kind == 'load') call look_at_number(a, kind, size(inputs%rotor%elastic%loads), error)
+      if (kind == 'support' .and. name == '' .and. .not. any([(allocated(inputs%bearings(b)%support), &
+         & b=1, size(inputs%bearings))])) call refuse(a%origin//': '//a%group//'%'//a%name &
          & //': the case has no group &support', error)
       if (a%group == 'bearing' .and. a%name == 'station') call refuse(a%origin//': bearing%station: must be in a ' &
          & //'group &bearing with a name, as each bearing has a station of its own', error)
@@ -139,16 +142,16 @@ contains
          end if
       end if
       if (name == '' .or. allocated(error)) return
-      b = machine%find_bearing(name)
+      names = ''
+      do b = size(inputs%bearings), 1, -1
+         if (inputs%bearings(b)%name == name) exit
+         names = ' '//inputs%bearings(b)%name//names
+      end do
       if (b == 0) then
-         names = ''
-         do b = 1, size(machine%bearings)
-            names = names//' '//machine%bearings(b)%name
-         end do
          if (names == '') names = ' none'
          call raise(error, input_error, a%origin//': &'//kind//' '//naming_variable(kind)//' = '''//name &
             & //''': there is no group &bearing of this name'//did_you_mean(name, names)//'; there are:'//names)
-      else if (kind == 'support' .and. .not. allocated(machine%bearings(b)%support)) then
+      else if (kind == 'support' .and. .not. allocated(inputs%bearings(b)%support)) then
          call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': the case has no group &support of ' &
             & //'this bearing')
       end if
@@ -177,9 +180,9 @@ contains
 
    !> The assignments of a machine, where those to a group of all bearings are one to each: those of the case before the
    !> bearings' own, which take their place, those of --set in the order in which they are given.
-   subroutine give_to_bearings(parsed, machine, given)
+   subroutine give_to_bearings(parsed, bearings, given)
       type(namelist_type), intent(in) :: parsed
-      type(machine_type), intent(in) :: machine
+      type(bearing_type), intent(in) :: bearings(:)
       type(namelist_type), intent(out) :: given
       type(assignment_type), allocatable :: longer(:)
       type(assignment_type) :: own
@@ -189,14 +192,14 @@ contains
       defaults = general .and. .not. parsed%assignments%overrides
       given%file = parsed%file
       given%groups = parsed%groups
-      allocate (longer(size(general) + count(general)*max(0, size(machine%bearings) - 1)))
+      allocate (longer(size(general) + count(general)*max(0, size(bearings) - 1)))
       n = 0
       do pass = 1, 2
          do k = 1, size(general)
             if (defaults(k) .neqv. pass == 1) cycle
-            do b = 1, merge(size(machine%bearings), 1, general(k))
+            do b = 1, merge(size(bearings), 1, general(k))
                own = parsed%assignments(k)
-               if (general(k)) own%group = own%group//of_bearing(machine%bearings(b)%name)
+               if (general(k)) own%group = own%group//bearings(b)%suffix()
                own%of_all = defaults(k)
                if (is_undone(own, k)) cycle
                n = n + 1

@@ -6,7 +6,6 @@ module number_columns
    use errors, only: error_type, raise, refuse, add_context, input_error
    use case_groups, only: pivot_type
    use case_inputs, only: case_type
-   use machine_names, only: of_bearing
    use other_units, only: in_other_units
    use csv_line, only: cell_type, next_cell, content
    use text_scanner, only: control_character
@@ -42,14 +41,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: b
       call read_excitations(inputs, error)
-      if (.not. inputs%is_machine()) then
-         if (.not. allocated(error)) call read_pivots('pivot%file', inputs%pivot, error)
-         return
-      end if
-      do b = 1, size(inputs%machine%bearings)
+      do b = 1, size(inputs%bearings)
          if (allocated(error)) return
-         associate (own => inputs%machine%bearings(b))
-            call read_pivots('pivot'//of_bearing(own%name)//'%file', own%pivot, error)
+         associate (own => inputs%bearings(b))
+            call read_pivots('pivot'//own%suffix()//'%file', own%pivot, error)
          end associate
       end do
    end subroutine read_tables

@@ -72,15 +72,15 @@ contains
    end function remark_on_clearance
 
    !> On masses and moments of inertia of a bearing that no pad of its size has.
-   function remarks_on_pads(inputs) result(lines)
-      type(case_type), intent(in) :: inputs
+   function remarks_on_pads(b) result(lines)
+      type(bearing_type), intent(in) :: b
       character(len=:), allocatable :: lines
       real(wp) :: heaviest, largest
       integer :: i
       lines = ''
-      if (.not. inputs%tilting()) return
-      associate (p => inputs%pads, b => inputs%bearing)
-         do i = 1, inputs%pad_count()
+      if (.not. b%tilting()) return
+      associate (p => b%pads)
+         do i = 1, b%pad_count()
             heaviest = densest*p%arc_deg(i)*degree*b%journal_radius*b%axial_length(i)*p%pivot_distance(i)
             largest = p%mass(i)*(widest*b%journal_radius)**2
             if (p%mass(i) > heaviest) then
@@ -102,11 +102,10 @@ contains
       real(wp) :: largest
       integer :: i
       lines = ''
-      if (.not. inputs%is_machine()) return
-      if (.not. inputs%machine%shaft%is_given()) return
-      do i = 1, size(inputs%machine%discs)
-         associate (disc => inputs%machine%discs(i))
-            largest = disc%mass*sum(inputs%machine%shaft%length)**2
+      if (inputs%rotor%station_count() == 0) return
+      do i = 1, size(inputs%rotor%elastic%discs)
+         associate (disc => inputs%rotor%elastic%discs(i))
+            largest = disc%mass*sum(inputs%rotor%elastic%shaft%length)**2
             if (disc%diametral_inertia > largest) lines = lines//'disc('//to_text(i)//')%diametral_inertia = ' &
                & //to_text(disc%diametral_inertia)//': more than a disc of its mass has that is not larger than the ' &
                & //'shaft is long'//in_other_units(disc%diametral_inertia, 'disc%', 'kg m^2', 0.0_wp, largest)//newline
@@ -136,14 +135,14 @@ contains
          & maxval([0.0_wp, inputs%coefficients%frequency_ratio]))
    end function on_frequencies
 
-   !> The highest speed of a run, where the surface of the journal of a bearing is seldom so slow.
-   function remark_on_speed(inputs) result(line)
-      type(case_type), intent(in) :: inputs
+   !> The highest speed of a run, rad/s, where the surface of a journal of this radius, m, is seldom so slow.
+   function remark_on_speed(speed, radius) result(line)
+      real(wp), intent(in) :: speed, radius
       character(len=:), allocatable :: line
       line = ''
-      associate (turns => inputs%highest_speed()/rpm, radius => inputs%bearing%journal_radius)
-         if (inputs%highest_speed()*radius < usual_speeds(1)) line = 'surface speed ' &
-            & //to_text(inputs%highest_speed()*radius)//' m/s at '//to_text(turns)//' rpm: seldom so low' &
+      associate (turns => speed/rpm)
+         if (speed*radius < usual_speeds(1)) line = 'surface speed ' &
+            & //to_text(speed*radius)//' m/s at '//to_text(turns)//' rpm: seldom so low' &
             & //in_other_units(turns, 'operation%speed_rpm', 'rpm', usual_speeds(1)/radius/rpm, &
             & usual_speeds(2)/radius/rpm)//newline
       end associate

@@ -6,6 +6,7 @@ module ode_model
    private
    public :: ode_model_type, integrator_counts_type
 
+   !> In procedures that may point to parts of the model it has the attribute target.
    type, abstract :: ode_model_type
       !> Number of states.
       integer :: n = 0
@@ -53,7 +54,7 @@ module ode_model
       !> Takes what `solve` needs of J = df/dy at (t, y); refuses a state as `rhs` does.
       subroutine take_derivatives(self, t, y, ok)
          import :: ode_model_type, wp
-         class(ode_model_type), intent(inout) :: self
+         class(ode_model_type), intent(inout), target :: self
          real(wp), intent(in) :: t, y(:)
          logical, intent(out) :: ok
       end subroutine take_derivatives
@@ -62,7 +63,7 @@ module ode_model
       !> from the right-hand side evaluated last, may use these. `ok = .false.`: no solution.
       subroutine solve_system(self, gamma, b, ok)
          import :: ode_model_type, wp
-         class(ode_model_type), intent(inout) :: self
+         class(ode_model_type), intent(inout), target :: self
          real(wp), intent(in) :: gamma
          real(wp), intent(inout) :: b(:)
          logical, intent(out) :: ok
@@ -71,7 +72,7 @@ module ode_model
       !> f(t, y) and the whole matrix J = df/dy there; refuses a state as `rhs` does.
       subroutine right_hand_side_and_jacobian(self, t, y, dydt, matrix, ok)
          import :: ode_model_type, wp
-         class(ode_model_type), intent(inout) :: self
+         class(ode_model_type), intent(inout), target :: self
          real(wp), intent(in) :: t, y(:)
          real(wp), intent(out) :: dydt(:), matrix(:, :)
          logical, intent(out) :: ok
@@ -132,7 +133,7 @@ contains
    end function output
 
    function warning(self)
-      class(ode_model_type), intent(in) :: self
+      class(ode_model_type), intent(in), target :: self
       character(len=:), allocatable :: warning
       warning = ''
    end function warning

@@ -6,6 +6,7 @@ module linear_bearing
    use kinds, only: wp, pi
    use linear_algebra, only: zgesv
    use errors, only: error_type, raise, numerics_error
+   use state_layout, only: tilt, of_journal
    use equations_of_motion, only: machine_model
    use mode_names, only: mode_name, mode_name_length, position_lengths
    use force_balance, only: force_derivatives, bearing_derivatives, add_sticking, masses, find_vibrations
@@ -56,8 +57,6 @@ module linear_bearing
       real(wp) :: sought_up_to = 0
    end type bearing_coefficients_type
 
-   !> Positions of the journal.
-   integer, parameter :: journal = 2
    !> Least whirl frequency over the speed of the shaft: slower whirl is taken there, as the coefficients have a limit.
    real(wp), parameter :: slowest = 1e-6_wp
 
@@ -83,7 +82,7 @@ contains
             do i = 1, pivots
                each_bearing: do b = 1, n
                   do k = 1, ratios
-                     call found%bearings(i)%condense(model%layout%bearings(b)%all_positions(), &
+                     call found%bearings(i)%condense(model%layout%elements(b)%all_positions(), &
                         & given%frequency_ratio(k), speed, found%stiffness(:, :, k, i, b), &
                         & found%damping(:, :, k, i, b), ok)
                      if (.not. ok) exit each_bearing
@@ -131,7 +130,7 @@ contains
 
    !> A model with pivots that behave in one of these ways, from the derivatives of the forces in the state where it was
    !> evaluated last.
-   pure type(linear_bearing_type) function linear_bearing_of(model, pivot, over_positions, over_rates) result(bearing)
+   type(linear_bearing_type) function linear_bearing_of(model, pivot, over_positions, over_rates) result(bearing)
       type(machine_model), intent(in) :: model
       character(len=*), intent(in) :: pivot
       real(wp), intent(in) :: over_positions(:, :), over_rates(:, :)
@@ -151,9 +150,9 @@ contains
       type(machine_model), intent(in) :: model
       character(len=pivot_name), allocatable :: pivots(:)
       integer :: b
-      if (.not. any(model%layout%bearings%tilting)) then
+      if (size(model%layout%tilts()) == 0) then
          pivots = [character(len=pivot_name) :: 'locked']
-      else if (.not. any([(model%layout%bearings(b)%tilting .and. &
+      else if (.not. any([(model%layout%elements(b)%has(tilt) .and. &
          & model%bearings(b)%pivots(1)%friction%static_coefficient > 0, b=1, size(model%bearings))])) then
          pivots = [character(len=pivot_name) :: 'free', 'locked']
       else
@@ -168,10 +167,10 @@ contains
       class(linear_bearing_type), intent(in) :: self
       integer, intent(in) :: places(:)
       real(wp), intent(in) :: ratio, speed
-      real(wp), intent(out) :: stiffness(journal, journal), damping(journal, journal)
+      real(wp), intent(out) :: stiffness(of_journal, of_journal), damping(of_journal, of_journal)
       logical, intent(out) :: ok
       complex(wp), allocatable :: z(:, :), of_pads(:, :), response(:, :)
-      complex(wp) :: left(journal, journal)
+      complex(wp) :: left(of_journal, of_journal)
       real(wp) :: frequency
       integer, allocatable :: kept(:), pivots(:)
       integer :: info, n
@@ -179,15 +178,15 @@ contains
       frequency = max(slowest, ratio)*speed
       z = cmplx(self%stiffness(kept, kept) - frequency**2*self%mass(kept, kept), &
          & frequency*self%damping(kept, kept), wp)
-      n = size(kept) - journal
-      left = z(:journal, :journal)
+      n = size(kept) - of_journal
+      left = z(:of_journal, :of_journal)
       info = 0
       if (n > 0) then
          allocate (pivots(n))
-         of_pads = z(journal + 1:, journal + 1:)
-         response = z(journal + 1:, :journal)
-         call zgesv(n, journal, of_pads, n, pivots, response, n, info)
-         left = left - matmul(z(:journal, journal + 1:), response)
+         of_pads = z(of_journal + 1:, of_journal + 1:)
+         response = z(of_journal + 1:, :of_journal)
+         call zgesv(n, of_journal, of_pads, n, pivots, response, n, info)
+         left = left - matmul(z(:of_journal, of_journal + 1:), response)
       end if
       ok = info == 0
       stiffness = left%re

@@ -2,6 +2,8 @@
 module march_settings
    use kinds, only: wp, i8, pi
    use marching, only: march_options
+   use state_layout, only: pivot_deflection
+   use abstract_element, only: element_pointer
    use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
@@ -28,10 +30,11 @@ contains
 
    !> Those of a model after this many steps.
    type(march_options) function march_settings_of(model, steps) result(options)
-      type(machine_model), intent(in) :: model
+      type(machine_model), intent(in), target :: model
       integer(i8), intent(in) :: steps
       logical :: smooth
-      integer :: b
+      type(element_pointer), allocatable :: elements(:)
+      integer :: e
       associate (integration => model%inputs%integration)
          options%relative_tolerance = integration%relative_tolerance
          options%absolute_tolerance = integration%relative_tolerance*integration%tolerance_scale*model%scale
@@ -40,11 +43,12 @@ contains
          options%short_step = 2*pi/(model%inputs%highest_speed()*many_steps)
       end associate
       associate (tolerance => options%absolute_tolerance)
-         smooth = all([(model%bearings(b)%smooth(), b=1, size(model%bearings))])
+         elements = model%elements()
+         smooth = all([(elements(e)%to%is_smooth(), e=1, size(elements))])
          if (smooth) options%derivatives_age = smooth_derivatives_age
          if (.not. model%rotor%is_identity) then
             tolerance = elastic_tolerance*tolerance
-         else if (.not. all(model%layout%bearings%radial)) then
+         else if (.not. all([(model%layout%elements(e)%has(pivot_deflection), e=1, size(model%bearings))])) then
             tolerance = rigid_tolerance*tolerance
          else if (.not. smooth) then
             tolerance = friction_tolerance*tolerance

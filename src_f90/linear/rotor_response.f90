@@ -128,7 +128,7 @@ contains
       linear%stiffness = -linear%stiffness
       linear%damping = -linear%damping
       do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b), at => model%layout%bearings(b)%journal)
+         associate (of => model%layout%elements(b), at => model%layout%elements(b)%journal)
             call bearings%condense(of%all_positions(), 1.0_wp, model%point%speed(0.0_wp), stiffness, damping, ok)
             if (.not. ok) return
             linear%stiffness(at, at) = linear%stiffness(at, at) + stiffness

@@ -1,19 +1,21 @@
-!> What is sampled of a bearing in a motion.
+!> What is sampled of bearings and other elements in a motion.
 module bearing_samples
    use kinds, only: wp
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state
+   use state_layout, only: pad_state, of_journal
+   use tilting_pad, only: pad_coordinates_type
    use tilting_pad_bearing, only: pad_sample, pad_outputs
    use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
-   public :: bearing_sample, take_sample
+   public :: bearing_sample, take_sample, element_forces
 
    !> What is sampled of a bearing at a time, s: shaft angle, rad; speed, rad/s; journal; states and loads of the pads.
    type :: bearing_sample
       real(wp) :: time = 0, shaft_angle = 0, speed = 0
-      !> Whether the pads tilt, have pivot deflections and bristle deflections, and whether their asperities may touch.
-      logical :: tilting = .true., radial = .false., bristles = .false., asperities = .false.
+      !> What the pads do; whether they have bristle deflections, and whether their asperities may touch.
+      class(pad_coordinates_type), allocatable :: coordinates
+      logical :: bristles = .false., asperities = .false.
       type(journal_motion) :: journal
       type(pad_state), allocatable :: states(:)
       type(pad_sample), allocatable :: loads(:)
@@ -28,9 +30,8 @@ contains
       real(wp), intent(in) :: t, y(:), output(:)
       integer, intent(in) :: b
       type(bearing_sample), intent(inout) :: sample
-      associate (of => model%layout%bearings(b), bearing => model%bearings(b))
-         sample%tilting = of%tilting
-         sample%radial = of%radial
+      associate (of => model%layout%elements(b), bearing => model%bearings(b))
+         if (.not. allocated(sample%coordinates)) sample%coordinates = bearing%coordinates
          sample%bristles = of%bristles
          sample%asperities = bearing%asperities%act()
          sample%time = t
@@ -43,4 +44,18 @@ contains
             & output(pad_outputs*of%other_pads + 1:pad_outputs*(of%other_pads + of%pads)), sample%loads)
       end associate
    end subroutine take_sample
+
+   !> Forces on the rotor, (2, element), N, of what acts on it beside its bearings, at (t, y).
+   pure function element_forces(model, t, y) result(forces)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: t, y(:)
+      real(wp) :: forces(of_journal, size(model%others))
+      integer :: e
+      do e = 1, size(model%others)
+         associate (of => model%layout%elements(size(model%bearings) + e))
+            forces(:, e) = model%others(e)%of%sampled_force(model%rotor%journal(y(:model%rotor%states), of%pair()), &
+               & of%pad_states(y), model%point%speed(t))
+         end associate
+      end do
+   end function element_forces
 end module bearing_samples

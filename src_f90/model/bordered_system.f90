@@ -1,36 +1,36 @@
 !> Bordered block-diagonal matrices: a border that knows all blocks, and groups of blocks that know a pair of the border
-!> and themselves but not each other. Here the border are the journals, a group is a bearing and a block a pad. Solved
-!> block by block, so that the cost grows with the number of blocks and not with its cube.
+!> and themselves but not each other. Here the border are the journals, a group is an element that acts on one, as a
+!> bearing, and a block a pad. Solved block by block, so that the cost grows with the number of blocks and not with its
+!> cube.
 module bordered_system
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: bordered_matrix, block_group, new_bordered_matrix
+   public :: bordered_matrix, new_bordered_matrix
 
-   !> Unknowns of the border that a group knows: the displacements of a journal. Most unknowns of a block: tilt and
-   !> pivot deflection.
-   integer, parameter :: pair = 2, largest_block = 2, with_pair = pair + largest_block
+   !> Unknowns of the border that a group knows: the displacements of a journal.
+   integer, parameter :: pair = 2
    !> Rows are filled up to a multiple of this, for vector instructions.
    integer, parameter :: simd_width = 4
-   !> Length of the rows of a block, and of those of a border of one pair.
+   !> Length of the rows of a block of up to five unknowns, and of those of a border of one pair.
    integer, parameter :: usual_width = 8
 
-   !> Blocks of m unknowns each, 0 to 2.
+   !> Blocks of m unknowns each, and the pair of the border that they know.
    type :: block_group
-      integer :: m = 0
+      integer :: m = 0, pair = 1
       !> The pair of the border over a block (pair, m, block), a block over the pair (m, pair, block), over itself.
       real(wp), allocatable :: across(:, :, :), down(:, :, :), block(:, :, :)
       !> Rows of the blocks' systems, (column, row, block): the block itself, its border columns, the right-hand side.
       real(wp), allocatable, private :: rows(:, :, :)
    end type block_group
 
-   !> Matrix on the unknowns (pair of group 1, pair of group 2, ..., blocks of group 1, ...).
+   !> Matrix on the unknowns (pairs of the border, blocks of group 1, blocks of group 2, ...).
    type :: bordered_matrix
       type(block_group), allocatable :: groups(:)
       !> What stands on the border where gamma is 0: the identity, if nothing else is put there.
       real(wp), allocatable :: border(:, :)
-      !> Of each group its pair over itself, (pair, pair, group).
+      !> Of each pair what the groups add over itself, (pair, pair, number of the pair).
       real(wp), allocatable :: corner(:, :, :)
    contains
       procedure :: solve
@@ -38,19 +38,21 @@ module bordered_system
 
 contains
 
-   !> A matrix of zeros with groups of these numbers of blocks, of m unknowns each.
-   pure function new_bordered_matrix(m, blocks) result(matrix)
-      integer, intent(in) :: m(:), blocks(:)
+   !> A matrix of zeros with a border of a number of pairs, and groups that know one of them, of these numbers of
+   !> blocks of m unknowns each.
+   pure function new_bordered_matrix(pairs, known, m, blocks) result(matrix)
+      integer, intent(in) :: pairs, known(:), m(:), blocks(:)
       type(bordered_matrix) :: matrix
       integer :: g
       allocate (matrix%groups(size(m)))
-      allocate (matrix%corner(pair, pair, size(m)), matrix%border(pair*size(m), pair*size(m)), source=0.0_wp)
-      do g = 1, pair*size(m)
+      allocate (matrix%corner(pair, pair, pairs), matrix%border(pair*pairs, pair*pairs), source=0.0_wp)
+      do g = 1, pair*pairs
          matrix%border(g, g) = 1
       end do
       do g = 1, size(m)
          associate (group => matrix%groups(g))
             group%m = m(g)
+            group%pair = known(g)
             allocate (group%across(pair, m(g), blocks(g)), group%down(m(g), pair, blocks(g)), source=0.0_wp)
             allocate (group%block(m(g), m(g), blocks(g)), group%rows(usual_width, m(g), blocks(g)), source=0.0_wp)
          end associate
@@ -80,13 +82,18 @@ contains
       border = 0
       do j = 1, n
          border(:n, j) = self%border(j, :)
+         associate (before => pair*((j - 1)/pair))
+            border(before + 1:before + pair, j) = border(before + 1:before + pair, j) &
+               & - gamma*self%corner(j - before, :, before/pair + 1)
+         end associate
          border(n + 1, j) = b(j)
       end do
       o = n
       do g = 1, size(self%groups)
-         associate (group => self%groups(g), at => pair*(g - 1), blocks => size(self%groups(g)%block, 3))
+         associate (group => self%groups(g), at => pair*(self%groups(g)%pair - 1), &
+            & blocks => size(self%groups(g)%block, 3))
             do j = 1, pair
-               part(:pair, j) = border(at + 1:at + pair, at + j) - gamma*self%corner(j, :, g)
+               part(:pair, j) = border(at + 1:at + pair, at + j)
                part(pair + 1, j) = border(n + 1, at + j)
             end do
             ! sizes that the compiler knows make it three times as fast
@@ -113,7 +120,8 @@ contains
       o = n
       do g = 1, size(self%groups)
          associate (group => self%groups(g))
-            call restore(group%m, size(group%block, 3), group%rows, b(pair*g - 1:pair*g), b(o + 1:))
+            call restore(group%m, size(group%block, 3), group%rows, &
+               & b(pair*(group%pair - 1) + 1:pair*group%pair), b(o + 1:))
             o = o + group%m*size(group%block, 3)
          end associate
       end do

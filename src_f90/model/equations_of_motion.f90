@@ -1,18 +1,18 @@
-!> Equations of motion (1)-(4) of a rotor and the pads of its bearings as an ODE, with their linearisation.
+!> Equations of motion (1)-(4) of a rotor and of its elements, of which the bearings are the first, as an ODE, with
+!> their linearisation.
 module equations_of_motion
    use kinds, only: wp
    use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use oil_properties, only: reference_viscosity
    use film_solver, only: film_oil
-   use kinematics, only: pad_state
    use tilting_pad_bearing, only: tilting_pad_bearing_type, new_tilting_pad_bearing, pad_outputs
    use abstract_rotor, only: rotor_type, journal_motion
    use rotor_factory, only: make_rotor
    use ode_model, only: ode_model_type
    use viscosity_history, only: viscosity_history_type
-   use state_layout, only: state_layout_type, pads_layout_type, pads_layout, new_state_layout, at_tilt, at_tilt_rate, &
-      & at_deflection, at_deflection_rate
+   use state_layout, only: state_layout_type, element_layout_type, new_state_layout, pad_state, of_journal
+   use abstract_element, only: element_type, element_slot, element_pointer
    use characteristic_scales, only: state_scales
    use newton_system, only: newton_system_type, new_newton_system
    implicit none (type, external)
@@ -25,7 +25,9 @@ module equations_of_motion
       type(state_layout_type) :: layout
       class(rotor_type), allocatable :: rotor
       type(tilting_pad_bearing_type), allocatable :: bearings(:)
-      !> The oil of the pads of all bearings, and its course where it warms or cools in a motion.
+      !> What acts on the rotor beside its bearings.
+      type(element_slot), allocatable :: others(:)
+      !> The oil of the pads of all elements, and its course where it warms or cools in a motion.
       type(film_oil), allocatable :: oil(:)
       type(viscosity_history_type) :: oil_history
       !> Characteristic scale of each state.
@@ -44,43 +46,74 @@ module equations_of_motion
       procedure :: df_dt
       procedure :: next_switch
       procedure :: evaluate
+      procedure :: lay_out
       procedure :: set_point
       procedure :: adopt
       procedure :: state
       procedure :: static_state
       procedure :: positions
-      procedure :: tilt_lengths
+      procedure :: own_lengths
+      procedure :: elements
    end type machine_model
 
 contains
 
    !> The model of a valid case, at its operating point, with films for a march or, as factories has it, for something
-   !> else. Where its shaft has no equations, `refusal` says why.
-   function new_machine_model(inputs, accuracy) result(model)
+   !> else, and with these elements beside its bearings. Where its shaft has no equations, `refusal` says why.
+   function new_machine_model(inputs, accuracy, others) result(model)
       type(case_type), intent(in) :: inputs
       integer, intent(in), optional :: accuracy
+      type(element_slot), intent(in), optional :: others(:)
       type(machine_model) :: model
-      type(pads_layout_type) :: pads(inputs%bearing_count())
-      type(case_type) :: own
       integer :: b
       model%inputs = inputs
       call make_rotor(inputs, model%rotor, model%refusal)
       if (allocated(model%refusal)) return
-      allocate (model%bearings(size(pads)), model%oil(0))
-      do b = 1, size(pads)
-         own = inputs%of_bearing(b)
-         model%bearings(b) = new_tilting_pad_bearing(own, accuracy)
-         pads(b) = pads_layout(own%pad_count(), own%tilting(), own%tilting_radial(), &
-            & model%bearings(b)%pivots(1)%friction%has_bristle)
-         model%oil = [model%oil, spread(film_oil(reference_viscosity(own)), 1, own%pad_count())]
+      allocate (model%bearings(size(inputs%bearings)), model%others(0), model%oil(0))
+      if (present(others)) model%others = others
+      do b = 1, size(model%bearings)
+         model%bearings(b) = new_tilting_pad_bearing(inputs, b, accuracy)
+         associate (bearing => inputs%bearings(b))
+            model%oil = [model%oil, spread(film_oil(reference_viscosity(bearing)), 1, bearing%pad_count())]
+         end associate
       end do
-      model%layout = new_state_layout(model%rotor%states, pads)
-      model%n = model%layout%n
-      model%outputs = pad_outputs*model%layout%pads
       call model%set_point(operating_point_type(inputs))
-      model%scale = state_scales(inputs, model%point, model%rotor, model%bearings, model%layout)
-      model%newton = new_newton_system(model%layout)
+      call model%lay_out()
    end function new_machine_model
+
+   !> Lays out the states of the rotor and of its elements as they are now, with their scales and Newton's systems.
+   subroutine lay_out(self)
+      class(machine_model), intent(inout), target :: self
+      type(element_pointer), allocatable :: elements(:)
+      type(element_layout_type), allocatable :: layouts(:)
+      integer, allocatable :: pairs(:)
+      integer :: e
+      elements = self%elements()
+      allocate (layouts(size(elements)))
+      do e = 1, size(elements)
+         layouts(e) = elements(e)%to%layout()
+      end do
+      pairs = [(e, e=1, size(self%bearings)), self%others%pair]
+      self%layout = new_state_layout(self%rotor%states, layouts, pairs)
+      self%n = self%layout%n
+      self%outputs = pad_outputs*sum(layouts(:size(self%bearings))%pads)
+      self%scale = state_scales(self%inputs%highest_speed(), self%point, self%rotor, elements, &
+         & self%bearings%clearance, self%layout)
+      self%newton = new_newton_system(self%layout, max(self%rotor%journals, maxval(pairs)))
+   end subroutine lay_out
+
+   !> All elements: bearings, then others.
+   function elements(self)
+      class(machine_model), intent(in), target :: self
+      type(element_pointer) :: elements(size(self%bearings) + size(self%others))
+      integer :: e
+      do e = 1, size(self%bearings)
+         elements(e)%to => self%bearings(e)
+      end do
+      do e = 1, size(self%others)
+         elements(size(self%bearings) + e)%to => self%others(e)%of
+      end do
+   end function elements
 
    !> Another operating point; tables and films stay.
    subroutine set_point(self, point)
@@ -102,18 +135,15 @@ contains
       type(case_type), intent(in) :: inputs
       logical, intent(in) :: anew
       type(operating_point_type) :: point
-      type(case_type) :: own, before
       class(rotor_type), allocatable :: rotor
       character(len=:), allocatable :: refusal
       integer :: b
       do b = 1, size(self%bearings)
-         own = inputs%of_bearing(b)
-         before = self%inputs%of_bearing(b)
-         associate (p => before%pivot, q => own%pivot, of => self%layout%bearings(b))
-            call self%bearings(b)%adopt(own, any(abs([p%socket_radius - q%socket_radius, &
+         associate (p => self%inputs%bearings(b)%pivot, q => inputs%bearings(b)%pivot, of => self%layout%elements(b))
+            call self%bearings(b)%adopt(inputs, b, any(abs([p%socket_radius - q%socket_radius, &
                & p%radius_difference - q%radius_difference, p%deflection_factor - q%deflection_factor, &
                & p%young_modulus - q%young_modulus, p%poisson_ratio - q%poisson_ratio]) > 0), anew)
-            self%oil(of%all_pads()) = film_oil(reference_viscosity(own))
+            self%oil(of%all_pads()) = film_oil(reference_viscosity(inputs%bearings(b)))
          end associate
       end do
       self%inputs = inputs
@@ -125,16 +155,15 @@ contains
       call self%set_point(point)
    end subroutine adopt
 
-   !> The state with rotor and pads at rest: displacements of the rotor, m, tilts, rad, and pivot deflections, m, of the
-   !> pads of all bearings (what a pad lacks does not matter), bristles undeflected.
-   pure function static_state(self, rotor, tilt, pivot_deflection) result(y)
+   !> The state with the rotor at rest: its displacements, m, and the states of the pads of all elements.
+   pure function static_state(self, rotor, pads) result(y)
       class(machine_model), intent(in) :: self
-      real(wp), intent(in) :: rotor(:), tilt(:), pivot_deflection(:)
+      real(wp), intent(in) :: rotor(:)
+      type(pad_state), intent(in) :: pads(:)
       real(wp) :: y(self%n)
-      integer :: i
       y(:size(rotor)) = rotor
       y(size(rotor) + 1:self%rotor%states) = 0
-      call self%layout%put_all_pads([(pad_state(tilt(i), 0.0_wp, pivot_deflection(i)), i=1, size(tilt))], y)
+      call self%layout%put_all_pads(pads, y)
    end function static_state
 
    !> The state of a rigid rotor and its bearing with this motion of the journal and these states of the pads.
@@ -159,37 +188,45 @@ contains
       positions = y(chosen)/self%scale(chosen)
    end function positions
 
-   !> What stands for 1 rad of each tilt of layout%tilts(): the distance from the pivot to the centre of the pad's arc,
-   !> m.
-   pure function tilt_lengths(self) result(lengths)
-      class(machine_model), intent(in) :: self
-      real(wp), allocatable :: lengths(:)
-      integer :: b
-      allocate (lengths(0))
-      do b = 1, size(self%bearings)
-         if (self%layout%bearings(b)%tilting) lengths = [lengths, self%bearings(b)%pads%position%centre_distance]
+   !> What stands for a unit of each displacement of the elements, in the order of layout%positions(), m.
+   function own_lengths(self) result(lengths)
+      class(machine_model), intent(in), target :: self
+      real(wp) :: lengths(self%layout%n_positions() - self%rotor%positions)
+      type(element_pointer), allocatable :: elements(:)
+      integer :: e, i, k, n
+      elements = self%elements()
+      n = 0
+      do e = 1, size(elements)
+         do i = 1, self%layout%elements(e)%pads
+            do k = 1, self%layout%elements(e)%coordinates
+               n = n + 1
+               lengths(n) = elements(e)%to%length(i, k)
+            end do
+         end do
       end do
-   end function tilt_lengths
+   end function own_lengths
 
-   !> Evaluates the bearings at (t, y): loads and, where they are wanted, their derivatives; those of pads, numbered
-   !> over all bearings, that are not chosen stay what they are.
+   !> Evaluates the elements at (t, y): forces and, where they are wanted, their derivatives; those of pads, numbered
+   !> over all elements, that are not chosen stay what they are.
    subroutine evaluate(self, t, y, want_derivatives, ok, chosen)
-      class(machine_model), intent(inout) :: self
+      class(machine_model), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       logical, intent(in) :: want_derivatives
       logical, intent(out) :: ok
       logical, intent(in), optional :: chosen(:)
-      integer :: b
+      type(element_pointer) :: elements(size(self%layout%elements))
+      integer :: e
       if (self%oil_history%runs()) call self%oil_history%at(t, self%oil%viscosity)
-      do b = 1, size(self%bearings)
-         associate (of => self%layout%bearings(b), &
-            & first => self%layout%bearings(b)%other_pads + 1, &
-            & last => self%layout%bearings(b)%other_pads + self%layout%bearings(b)%pads)
+      elements = self%elements()
+      do e = 1, size(elements)
+         associate (of => self%layout%elements(e), &
+            & first => self%layout%elements(e)%other_pads + 1, &
+            & last => self%layout%elements(e)%other_pads + self%layout%elements(e)%pads)
             if (present(chosen)) then
-               call self%bearings(b)%evaluate(self%rotor%journal(y(:self%rotor%states), b), of%pad_states(y), &
+               call elements(e)%to%evaluate(self%rotor%journal(y(:self%rotor%states), of%pair()), of%pad_states(y), &
                   & self%oil(first:last), self%point%speed(t), want_derivatives, self%refusal, ok, chosen(first:last))
             else
-               call self%bearings(b)%evaluate(self%rotor%journal(y(:self%rotor%states), b), of%pad_states(y), &
+               call elements(e)%to%evaluate(self%rotor%journal(y(:self%rotor%states), of%pair()), of%pad_states(y), &
                   & self%oil(first:last), self%point%speed(t), want_derivatives, self%refusal, ok)
             end if
          end associate
@@ -207,31 +244,22 @@ contains
       if (ok) call set_rates(self, t, y, dydt)
    end subroutine rhs
 
-   !> Rates of all states at (t, y), where the bearings were evaluated.
+   !> Rates of all states at (t, y), where the elements were evaluated.
    subroutine set_rates(self, t, y, dydt)
-      class(machine_model), intent(in) :: self
+      class(machine_model), intent(in), target :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
-      real(wp) :: force(self%rotor%positions), rates(2)
-      integer :: b, i, o
+      real(wp) :: force(self%rotor%positions), on_pair(of_journal)
+      type(element_pointer) :: elements(size(self%layout%elements))
+      integer :: e
+      elements = self%elements()
       force = self%rotor%force(y(:self%rotor%states), self%point, t)
-      do b = 1, size(self%bearings)
-         associate (bearing => self%bearings(b), layout => self%layout%bearings(b))
-            do i = 1, layout%pads
-               associate (loads => bearing%loads(i))
-                  force(2*b - 1:2*b) = force(2*b - 1:2*b) + loads%journal
-                  if (.not. layout%tilting) cycle
-                  o = layout%before(i)
-                  dydt(o + at_tilt) = y(o + at_tilt_rate)
-                  rates = bearing%per_mass(:, 1, i)*loads%moment + bearing%per_mass(:, 2, i)*loads%radial
-                  dydt(o + at_tilt_rate) = rates(1)
-                  if (layout%radial) then
-                     dydt(o + at_deflection) = y(o + at_deflection_rate)
-                     dydt(o + at_deflection_rate) = rates(2)
-                  end if
-                  if (layout%bristles) dydt(o + layout%per_pad) = loads%friction%rate
-               end associate
-            end do
+      do e = 1, size(elements)
+         associate (of => self%layout%elements(e))
+            on_pair = force(of%journal)
+            call elements(e)%to%add_force(on_pair)
+            force(of%journal) = on_pair
+            call elements(e)%to%add_rates(of, y, dydt)
          end associate
       end do
       dydt(:self%rotor%positions) = y(self%rotor%positions + 1:self%rotor%states)
@@ -240,21 +268,21 @@ contains
 
    !> Derivatives of film and contact at (t, y), for `solve`.
    subroutine linearize(self, t, y, ok)
-      class(machine_model), intent(inout) :: self
+      class(machine_model), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       logical, intent(out) :: ok
       call self%evaluate(t, y, .true., ok)
-      if (ok) call self%newton%linearize(self%rotor, self%bearings, self%point%speed(t))
+      if (ok) call self%newton%linearize(self%rotor, self%elements(), self%point%speed(t))
    end subroutine linearize
 
    !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last: Newton's
    !> iteration then crosses the switching points of friction, where old derivatives would mislead it.
    subroutine solve(self, gamma, b, ok)
-      class(machine_model), intent(inout) :: self
+      class(machine_model), intent(inout), target :: self
       real(wp), intent(in) :: gamma
       real(wp), intent(inout) :: b(:)
       logical, intent(out) :: ok
-      call self%newton%solve(self%rotor, self%bearings, gamma, b, ok)
+      call self%newton%solve(self%rotor, self%elements(), gamma, b, ok)
    end subroutine solve
 
    !> Of every pad film force and maximum pressure as evaluated last, the force with what a correction of that
@@ -266,34 +294,46 @@ contains
       real(wp) :: output(self%outputs)
       integer :: b
       do b = 1, size(self%bearings)
-         associate (of => self%layout%bearings(b))
+         associate (of => self%layout%elements(b))
             output(pad_outputs*of%other_pads + 1:pad_outputs*(of%other_pads + of%pads)) &
-               & = self%bearings(b)%output(of%over_columns(correction))
+               & = bearing_output(self%bearings(b), of, correction)
          end associate
       end do
    end function output
 
-   !> Names a film that is nearly closed in the state evaluated last.
+   function bearing_output(bearing, layout, correction) result(output)
+      type(tilting_pad_bearing_type), intent(inout) :: bearing
+      type(element_layout_type), intent(in) :: layout
+      real(wp), intent(in) :: correction(:)
+      real(wp) :: output(pad_outputs*layout%pads)
+      real(wp), dimension(of_journal + layout%coordinates, layout%pads) :: of_positions, of_rates
+      call layout%changes(correction, of_positions, of_rates)
+      output = bearing%output(of_positions, of_rates)
+   end function bearing_output
+
+   !> What may soon stop a motion from the state evaluated last, as a film that is nearly closed.
    function warning(self)
-      class(machine_model), intent(in) :: self
+      class(machine_model), intent(in), target :: self
       character(len=:), allocatable :: warning
-      integer :: b
+      type(element_pointer), allocatable :: elements(:)
+      integer :: e
       warning = ''
-      do b = 1, size(self%bearings)
-         if (warning == '') warning = self%bearings(b)%warning()
+      elements = self%elements()
+      do e = 1, size(elements)
+         if (warning == '') warning = elements(e)%to%warning()
       end do
    end function warning
 
    !> Rates of all states at (t, y), and the whole Jacobian there.
    subroutine rhs_and_jacobian(self, t, y, dydt, matrix, ok)
-      class(machine_model), intent(inout) :: self
+      class(machine_model), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:), matrix(:, :)
       logical, intent(out) :: ok
       call self%linearize(t, y, ok)
       if (.not. ok) return
       call set_rates(self, t, y, dydt)
-      matrix = self%newton%jacobian(self%rotor, self%bearings)
+      matrix = self%newton%jacobian(self%rotor, self%elements())
    end subroutine rhs_and_jacobian
 
    !> Displacements of rotor and pads, and their rates.
@@ -304,30 +344,44 @@ contains
       v = self%layout%rates()
    end subroutine pairs
 
-   !> The pads, where those of all bearings have as many states.
+   !> The pads, where those of all elements have as many states.
    pure subroutine blocks(self, number, states)
       class(machine_model), intent(in) :: self
       integer, intent(out) :: number, states
-      states = self%layout%bearings(1)%per_pad
-      number = merge(self%layout%pads, 0, states > 0 .and. all(self%layout%bearings%per_pad == states))
+      associate (bearings => self%layout%elements(:size(self%bearings)))
+         states = bearings(1)%per_pad
+         number = merge(sum(bearings%pads), 0, states > 0 .and. all(bearings%per_pad == states) &
+            & .and. self%n == self%rotor%states + states*sum(bearings%pads))
+      end associate
    end subroutine blocks
 
-   !> The tilt rates at which the pivot passes a switching point of its friction.
+   !> The rates of a pad's tilt, or of another element's displacement, at which derivatives of the forces jump.
    pure subroutine switching_points(self, state, value)
       class(machine_model), intent(in) :: self
       integer, allocatable, intent(out) :: state(:)
       real(wp), allocatable, intent(out) :: value(:)
-      real(wp), allocatable :: velocity(:)
-      integer :: b, i, j
+      integer :: e
       allocate (state(0), value(0))
-      do b = 1, size(self%bearings)
-         associate (of => self%layout%bearings(b), bearing => self%bearings(b))
-            if (.not. of%tilting) cycle
-            velocity = bearing%pivots(1)%friction%switching_points()
-            state = [state, ((of%before(i) + at_tilt_rate, j=1, size(velocity)), i=1, of%pads)]
-            value = [value, (velocity/bearing%pads(i)%ball_radius, i=1, of%pads)]
-         end associate
+      do e = 1, size(self%bearings)
+         call add(self%bearings(e), self%layout%elements(e), state, value)
       end do
+      do e = 1, size(self%others)
+         call add(self%others(e)%of, self%layout%elements(size(self%bearings) + e), state, value)
+      end do
+   contains
+      pure subroutine add(element, layout, state, value)
+         class(element_type), intent(in) :: element
+         type(element_layout_type), intent(in) :: layout
+         integer, allocatable, intent(inout) :: state(:)
+         real(wp), allocatable, intent(inout) :: value(:)
+         integer :: i, j
+         do i = 1, layout%pads
+            associate (rates => element%switching_rates(i))
+               state = [state, (layout%before(i) + 2, j=1, size(rates))]
+               value = [value, rates]
+            end associate
+         end do
+      end subroutine add
    end subroutine switching_points
 
    !> Where the excitations switch.

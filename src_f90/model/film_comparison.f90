@@ -4,7 +4,6 @@
 !> volumes.
 module film_comparison
    use kinds, only: wp, degree
-   use case_groups, only: film_type
    use case_inputs, only: case_type
    use factories, only: converged_films, usual_arc
    use tilting_pad_bearing, only: pad_sample
@@ -73,25 +72,15 @@ contains
       type(case_type) :: changed
       integer :: b
       changed = inputs
-      call solve_closely(changed%film, inputs%pads%arc_deg)
-      if (.not. inputs%is_machine()) return
-      associate (bearings => changed%machine%bearings)
-         do b = 1, size(bearings)
-            call solve_closely(bearings(b)%film, bearings(b)%pads%arc_deg)
-         end do
-      end associate
-
-   contains
-
-      pure subroutine solve_closely(film, arc_deg)
-         type(film_type), intent(inout) :: film
-         real(wp), intent(in) :: arc_deg(:)
-         film%solver = 'auto'
-         film%table_tolerance = tolerance
-         film%circumferential_cells = volumes(1)*max(1, nint(maxval(arc_deg)*degree/usual_arc))
-         film%axial_cells = volumes(2)
-         film%axial_modes = 0
-      end subroutine solve_closely
+      do b = 1, size(changed%bearings)
+         associate (film => changed%bearings(b)%film, longest => maxval(changed%bearings(b)%pads%arc_deg)*degree)
+            film%solver = 'auto'
+            film%table_tolerance = tolerance
+            film%circumferential_cells = volumes(1)*max(1, nint(longest/usual_arc))
+            film%axial_cells = volumes(2)
+            film%axial_modes = 0
+         end associate
+      end do
    end function closely
 
    !> Compares the films of a model, of each pad, in the state y at time t, s.

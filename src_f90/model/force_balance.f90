@@ -1,16 +1,17 @@
-!> The forces on rotor and pads, their derivatives over positions and rates, and the masses: not divided by each
+!> The forces on rotor and elements, their derivatives over positions and rates, and the masses: not divided by each
 !> other, in the order of layout%positions(); the eigenvalues of small vibrations about an equilibrium, and what they
 !> say of it.
 module force_balance
    use kinds, only: wp
    use linear_algebra, only: find_eigenvalues, dgesv
    use friction, only: friction_response
-   use tilting_pad_bearing, only: tilting_pad_bearing_type
+   use state_layout, only: tilt, of_journal
+   use abstract_element, only: element_type, element_pointer
    use equations_of_motion, only: machine_model
    use mode_names, only: mode_name, is_of_rotor, position_lengths
    implicit none (type, external)
    private
-   public :: forces, force_derivatives, bearing_derivatives, pad_derivatives, masses, add_sticking
+   public :: forces, force_derivatives, bearing_derivatives, part_derivatives, masses, add_sticking
    public :: stability_type, stability_at, stability_of, find_vibrations
 
    !> How a state in equilibrium answers a small disturbance.
@@ -29,33 +30,33 @@ module force_balance
 
 contains
 
-   !> Forces on the displacements of the rotor, N, and of each pad the moment, N m, and (pivots that yield) the radial
-   !> force, N, in the state y, which was evaluated last, at time t, s.
-   pure function forces(model, t, y)
-      type(machine_model), intent(in) :: model
+   !> Forces on the displacements of the rotor, N, and along those of the elements (moments, N m, along tilts) in the
+   !> state y, which was evaluated last, at time t, s.
+   function forces(model, t, y)
+      type(machine_model), intent(in), target :: model
       real(wp), intent(in) :: t, y(:)
       real(wp) :: forces(model%layout%n_positions())
-      integer :: b, i
+      type(element_pointer), allocatable :: elements(:)
+      integer :: e, i, k
       forces(:model%rotor%positions) = model%rotor%force(y(:model%rotor%states), model%point, t)
-      do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b), loads => model%bearings(b)%loads)
+      elements = model%elements()
+      do e = 1, size(elements)
+         associate (of => model%layout%elements(e))
+            call elements(e)%to%add_force(forces(of%journal(1):of%journal(of_journal)))
             do i = 1, of%pads
-               forces(of%journal) = forces(of%journal) + loads(i)%journal
-               associate (of_pad => [loads(i)%moment, loads(i)%radial])
-                  forces(of%own_positions(i)) = of_pad(:of%motion/2)
-               end associate
+               forces(of%own_positions(i)) = [(elements(e)%to%own_force(i, k), k=1, of%coordinates)]
             end do
          end associate
       end do
    end function forces
 
-   !> Derivatives of these forces over positions and over rates, where the derivatives of the bearings were taken last,
+   !> Derivatives of these forces over positions and over rates, where the derivatives of the elements were taken last,
    !> with those of friction in the state evaluated last.
-   pure subroutine force_derivatives(model, over_positions, over_rates)
-      type(machine_model), intent(in) :: model
+   subroutine force_derivatives(model, over_positions, over_rates)
+      type(machine_model), intent(in), target :: model
       real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
       real(wp), dimension(model%rotor%positions, model%rotor%positions) :: stiffness, damping
-      call bearing_derivatives(model, over_positions, over_rates)
+      call add_elements(model, 1, size(model%layout%elements), over_positions, over_rates)
       call model%rotor%force_derivatives(model%point%speed(0.0_wp), stiffness, damping)
       associate (n => model%rotor%positions)
          over_positions(:n, :n) = over_positions(:n, :n) + stiffness
@@ -64,36 +65,45 @@ contains
    end subroutine force_derivatives
 
    !> Those of the bearings' forces alone.
-   pure subroutine bearing_derivatives(model, over_positions, over_rates)
-      type(machine_model), intent(in) :: model
+   subroutine bearing_derivatives(model, over_positions, over_rates)
+      type(machine_model), intent(in), target :: model
       real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
-      real(wp) :: positions(4, 4), rates(4, 4)
-      integer :: b, i
+      call add_elements(model, 1, size(model%bearings), over_positions, over_rates)
+   end subroutine bearing_derivatives
+
+   !> Those of the elements from one to another.
+   subroutine add_elements(model, first, last, over_positions, over_rates)
+      type(machine_model), intent(in), target :: model
+      integer, intent(in) :: first, last
+      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      type(element_pointer), allocatable :: elements(:)
+      real(wp), allocatable, dimension(:, :) :: positions, rates
+      integer :: e, i
       over_positions = 0
       over_rates = 0
-      do b = 1, size(model%bearings)
-         do i = 1, model%layout%bearings(b)%pads
-            call pad_derivatives(model%bearings(b), i, positions, rates)
-            associate (at => model%layout%bearings(b)%positions_of(i))
-               over_positions(at, at) = over_positions(at, at) + positions(:size(at), :size(at))
-               over_rates(at, at) = over_rates(at, at) + rates(:size(at), :size(at))
+      elements = model%elements()
+      do e = first, last
+         do i = 1, model%layout%elements(e)%parts
+            call part_derivatives(elements(e)%to, i, model%layout%elements(e)%coordinates, positions, rates)
+            associate (at => model%layout%elements(e)%positions_of(i))
+               over_positions(at, at) = over_positions(at, at) + positions
+               over_rates(at, at) = over_rates(at, at) + rates
             end associate
          end do
       end do
-   end subroutine bearing_derivatives
+   end subroutine add_elements
 
-   !> What a pad adds to these: derivatives of the force on the journal along y and z, of its own moment and radial
-   !> force over the displacements of the journal, its tilt and pivot deflection, and over their rates.
-   pure subroutine pad_derivatives(bearing, pad, over_positions, over_rates)
-      type(tilting_pad_bearing_type), intent(in) :: bearing
-      integer, intent(in) :: pad
-      real(wp), intent(out) :: over_positions(4, 4), over_rates(4, 4)
-      real(wp), parameter :: moment(2) = [1.0_wp, 0.0_wp]
-      real(wp) :: over_deflection(2)
-      call bearing%derivatives(pad)%as_matrices(over_positions, over_rates)
-      call bearing%pads(pad)%add_friction(bearing%loads(pad)%friction, bearing%derivatives(pad)%contact, moment, &
-         & over_positions, over_rates, over_deflection)
-   end subroutine pad_derivatives
+   !> What a part of an element, with n displacements, adds to these, with friction: derivatives of the force on the
+   !> pair, y and z, and of the part's own forces over the displacements of both and over their rates.
+   pure subroutine part_derivatives(element, part, n, over_positions, over_rates)
+      class(element_type), intent(in) :: element
+      integer, intent(in) :: part, n
+      real(wp), allocatable, intent(out) :: over_positions(:, :), over_rates(:, :)
+      real(wp) :: over_bristle(n)
+      allocate (over_positions(of_journal + n, of_journal + n), over_rates(of_journal + n, of_journal + n))
+      call element%part_derivatives(part, of_journal + n, .false., over_positions, over_rates)
+      call element%add_late(part, of_journal + n, .false., over_positions, over_rates, over_bristle)
+   end subroutine part_derivatives
 
    !> Adds to the derivatives of the forces at rest what friction adds where the pivots stick, under the pivot loads
    !> evaluated last: bristles that are not deflected move with the pivot; a law without them has its slope at no
@@ -102,16 +112,17 @@ contains
       type(machine_model), intent(in) :: model
       real(wp), intent(inout) :: over_positions(:, :), over_rates(:, :)
       type(friction_response) :: friction
-      integer :: b, i, tilt
+      integer :: b, i, at
       do b = 1, size(model%bearings)
          associate (bearing => model%bearings(b))
             do i = 1, size(bearing%pads)
-               tilt = model%layout%bearings(b)%first_position(i)
+               if (.not. model%layout%elements(b)%has(tilt)) cycle
+               at = model%layout%elements(b)%first_position(i)
                call bearing%pivots(i)%friction%evaluate(0.0_wp, 0.0_wp, bearing%loads(i)%contact, friction)
                associate (square => bearing%pads(i)%ball_radius**2)
-                  over_positions(tilt, tilt) = over_positions(tilt, tilt) &
+                  over_positions(at, at) = over_positions(at, at) &
                      & - square*friction%force_deflection*friction%rate_velocity
-                  over_rates(tilt, tilt) = over_rates(tilt, tilt) - square*friction%force_velocity
+                  over_rates(at, at) = over_rates(at, at) - square*friction%force_velocity
                end associate
             end do
          end associate
@@ -119,22 +130,22 @@ contains
    end subroutine add_sticking
 
    !> Masses of the positions: those of the rotor, and of each pad the matrix of eqs (3)-(4).
-   pure function masses(model)
-      type(machine_model), intent(in) :: model
+   function masses(model)
+      type(machine_model), intent(in), target :: model
       real(wp) :: masses(model%layout%n_positions(), model%layout%n_positions())
-      real(wp) :: of_pad(2, 2)
-      integer :: b, i
+      type(element_pointer), allocatable :: elements(:)
+      integer :: e, i, first, last
       masses = 0
       associate (n => model%rotor%positions)
          masses(:n, :n) = model%rotor%masses()
       end associate
-      do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b))
+      elements = model%elements()
+      do e = 1, size(elements)
+         associate (of => model%layout%elements(e))
             do i = 1, of%pads
-               of_pad = model%bearings(b)%pads(i)%masses()
-               associate (own => of%own_positions(i), m => of%motion/2)
-                  masses(own, own) = of_pad(:m, :m)
-               end associate
+               first = of%first_position(i)
+               last = first + of%coordinates - 1
+               call elements(e)%to%part_masses(i, of%coordinates, masses(first:last, first:last))
             end do
          end associate
       end do

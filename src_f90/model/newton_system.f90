@@ -1,22 +1,22 @@
-!> Newton's linear systems of the motion of rotor and pads: film and contact as linearised last, friction as evaluated
+!> Newton's linear systems of the motion of a rotor and its elements: these as linearised last, friction as evaluated
 !> last.
 module newton_system
    use kinds, only: wp
    use linear_algebra, only: dgesv
-   use tilting_pad_bearing, only: tilting_pad_bearing_type
    use abstract_rotor, only: rotor_type
-   use state_layout, only: state_layout_type, pads_layout_type
-   use bordered_system, only: bordered_matrix, block_group, new_bordered_matrix
+   use state_layout, only: state_layout_type, of_journal
+   use abstract_element, only: element_type, element_pointer
+   use bordered_system, only: bordered_matrix, new_bordered_matrix
    implicit none (type, external)
    private
    public :: newton_system_type, new_newton_system
 
-   !> What film and contact of a bearing's pads add to rows of the journal's equations and to the accelerations of the
-   !> pads, (4, 4, pad), over displacements and over rates; rows and columns in the order journal y, z, tilt, pivot
-   !> deflection.
-   type :: pad_rows_type
+   !> What the parts of an element add to rows of the equations of its pair and to their own accelerations, (m, m,
+   !> part), over the displacements of both and over their rates: m = 2 + n of a part with n displacements.
+   type :: element_rows_type
+      integer :: m = of_journal
       real(wp), allocatable :: over_positions(:, :, :), over_rates(:, :, :)
-   end type pad_rows_type
+   end type element_rows_type
 
    !> The rotor's equations without the displacements that are not those of journals: A on the rates of the journals,
    !> from A_jj, A_ji, A_ij, A_ii of all displacements.
@@ -30,15 +30,15 @@ module newton_system
    type :: newton_system_type
       private
       type(state_layout_type) :: layout
-      !> Where the displacements of rotor and pads stand among the states, and their rates.
+      !> Where all displacements stand among the states, and their rates.
       integer, allocatable :: position_at(:), rate_at(:)
-      !> Of the displacements those of the rotor, and of its journals.
+      !> Of the displacements those of the rotor, and of these the first, on which elements act.
       integer :: rotor = 0, journals = 0
-      type(pad_rows_type), allocatable :: pads(:)
+      type(element_rows_type), allocatable :: elements(:)
       type(condensed_rotor_type) :: condensed
       !> Speed where it was linearised last, rad/s.
       real(wp) :: speed = 0
-      !> The system on the rates of journals and pads.
+      !> The system on the rates of the rotor's first displacements and of those of the elements.
       type(bordered_matrix) :: matrix
    contains
       procedure :: linearize
@@ -49,93 +49,72 @@ module newton_system
    !> A change of the speed, over the speed, that leaves the condensed rotor as it is: gyroscopic moments that are off
    !> by so little slow the convergence by no more.
    real(wp), parameter :: same_speed = 1e-3_wp
+   !> Displacements that a pad on a flexible pivot knows.
+   integer, parameter :: usual = 4
 
 contains
 
-   !> The systems of this layout.
-   type(newton_system_type) function new_newton_system(layout) result(system)
+   !> The systems of this layout, in which this number of pairs of the rotor's displacements has elements.
+   type(newton_system_type) function new_newton_system(layout, pairs) result(system)
       type(state_layout_type), intent(in) :: layout
-      integer :: b
+      integer, intent(in) :: pairs
+      integer :: e
       system%layout = layout
       system%position_at = layout%positions()
       system%rate_at = layout%rates()
       system%rotor = layout%rotor/2
-      system%journals = 2*size(layout%bearings)
-      allocate (system%pads(size(layout%bearings)))
-      do b = 1, size(layout%bearings)
-         associate (of => system%pads(b), n => layout%bearings(b)%pads)
-            allocate (of%over_positions(4, 4, n), of%over_rates(4, 4, n), source=0.0_wp)
+      system%journals = of_journal*pairs
+      allocate (system%elements(size(layout%elements)))
+      do e = 1, size(layout%elements)
+         associate (of => system%elements(e), from => layout%elements(e))
+            of%m = of_journal + from%coordinates
+            allocate (of%over_positions(of%m, of%m, from%parts), of%over_rates(of%m, of%m, from%parts), source=0.0_wp)
          end associate
       end do
-      system%matrix = new_bordered_matrix(layout%bearings%motion/2, layout%bearings%pads)
+      system%matrix = new_bordered_matrix(pairs, [(layout%elements(e)%pair(), e=1, size(layout%elements))], &
+         & layout%elements%coordinates, layout%elements%parts)
    end function new_newton_system
 
-   !> Takes the derivatives of film and contact from bearings, which have them, at a speed, rad/s.
-   pure subroutine linearize(self, rotor, bearings, speed)
+   !> Takes the derivatives of elements, which have them, at a speed, rad/s.
+   pure subroutine linearize(self, rotor, elements, speed)
       class(newton_system_type), intent(inout) :: self
       class(rotor_type), intent(in) :: rotor
-      type(tilting_pad_bearing_type), intent(in) :: bearings(:)
+      type(element_pointer), intent(in) :: elements(:)
       real(wp), intent(in) :: speed
-      real(wp) :: over_positions(4, 4), over_rates(4, 4)
-      integer :: b, i
+      integer :: e, i
       self%speed = speed
-      do b = 1, size(bearings)
-         do i = 1, size(bearings(b)%pads)
-            call bearings(b)%derivatives(i)%as_matrices(over_positions, over_rates)
-            self%pads(b)%over_positions(:, :, i) = rows_of(over_positions, bearings(b)%per_mass(:, :, i))
-            self%pads(b)%over_rates(:, :, i) = rows_of(over_rates, bearings(b)%per_mass(:, :, i))
-         end do
+      do e = 1, size(elements)
+         associate (of => self%elements(e))
+            do i = 1, size(of%over_rates, 3)
+               call elements(e)%to%part_derivatives(i, of%m, .true., of%over_positions(:, :, i), of%over_rates(:, :, i))
+               of%over_positions(:of_journal, :, i) = rotor%newton_rows(of%over_positions(:of_journal, :, i))
+               of%over_rates(:of_journal, :, i) = rotor%newton_rows(of%over_rates(:of_journal, :, i))
+            end do
+         end associate
       end do
-
-   contains
-
-      !> Derivatives of the journal's rows and the pad's accelerations from those of the forces on both.
-      pure function rows_of(forces, per_mass) result(rows)
-         real(wp), intent(in) :: forces(4, 4), per_mass(2, 2)
-         real(wp) :: rows(4, 4)
-         integer :: k
-         rows(1:2, :) = rotor%newton_rows(forces(1:2, :))
-         do k = 1, 4
-            rows(3:4, k) = per_mass(:, 1)*forces(3, k) + per_mass(:, 2)*forces(4, k)
-         end do
-      end function rows_of
    end subroutine linearize
-
-   !> A pad's over_positions and over_rates with friction as evaluated last; and what its accelerations gain per
-   !> deflection of the bristles.
-   pure subroutine with_friction(rows, bearing, pad, over_positions, over_rates, over_deflection)
-      type(pad_rows_type), intent(in) :: rows
-      type(tilting_pad_bearing_type), intent(in) :: bearing
-      integer, intent(in) :: pad
-      real(wp), intent(out) :: over_positions(4, 4), over_rates(4, 4), over_deflection(2)
-      over_positions = rows%over_positions(:, :, pad)
-      over_rates = rows%over_rates(:, :, pad)
-      call bearing%pads(pad)%add_friction(bearing%loads(pad)%friction, bearing%derivatives(pad)%contact, &
-         & bearing%per_mass(:, 1, pad), over_positions, over_rates, over_deflection)
-   end subroutine with_friction
 
    !> b := (1 - gamma J)^(-1) b. Displacements follow from their rates u, x = b_x + gamma u, and so do bristles; u alone
    !> is solved for.
-   subroutine solve(self, rotor, bearings, gamma, b, ok)
+   subroutine solve(self, rotor, elements, gamma, b, ok)
       class(newton_system_type), intent(inout) :: self
       class(rotor_type), intent(in) :: rotor
-      type(tilting_pad_bearing_type), intent(in) :: bearings(:)
+      type(element_pointer), intent(in) :: elements(:)
       real(wp), intent(in) :: gamma
       real(wp), intent(inout) :: b(:)
       logical, intent(out) :: ok
       real(wp) :: x(size(self%rate_at)), u(size(self%rate_at)), bristle(2, self%layout%pads)
-      integer :: k, i, n
+      integer :: e, i, n
       x = b(self%position_at)
       u = b(self%rate_at)
       call rotor%newton_right(gamma, x(:self%rotor), u(:self%rotor))
       self%matrix%corner = 0
-      do k = 1, size(bearings)
-         associate (of => self%layout%bearings(k))
-            do i = 1, of%pads
-               n = of%other_pads + i
-               if (of%bristles) bristle(:, n) = bristle_of(bearings(k), i, gamma, b(of%bristle(i)))
-               call set_pad(of, self%pads(k), bearings(k), i, gamma, x, bristle(:, n), &
-                  & self%matrix%groups(k), self%matrix%corner(:, :, k), u)
+      do e = 1, size(elements)
+         associate (of => self%layout%elements(e))
+            do i = 1, of%parts
+               n = min(of%other_pads + i, size(bristle, 2))
+               if (of%bristles) bristle(:, n) = bristle_of(elements(e)%to%bristle_slopes(i), gamma, b(of%bristle(i)))
+               call put_part(self, e, elements(e)%to, i, gamma, x, bristle(:, n), u)
             end do
          end associate
       end do
@@ -146,8 +125,8 @@ contains
       end if
       b(self%position_at) = x + gamma*u
       b(self%rate_at) = u
-      do k = 1, size(bearings)
-         associate (of => self%layout%bearings(k))
+      do e = 1, size(elements)
+         associate (of => self%layout%elements(e))
             if (.not. of%bristles) cycle
             do i = 1, of%pads
                n = of%other_pads + i
@@ -212,66 +191,77 @@ contains
       end associate
    end subroutine condense
 
-   !> A pad's deflection in Newton's system, bristle(1) + bristle(2) times its tilt rate, from its right-hand side.
-   pure function bristle_of(bearing, pad, gamma, b) result(bristle)
-      type(tilting_pad_bearing_type), intent(in) :: bearing
-      integer, intent(in) :: pad
-      real(wp), intent(in) :: gamma, b
+   !> The deflection of a part's bristles in Newton's system, bristle(1) + bristle(2) times the rate of its first
+   !> displacement, from the derivatives of their rate and their right-hand side.
+   pure function bristle_of(slopes, gamma, b) result(bristle)
+      real(wp), intent(in) :: slopes(3), gamma, b
       real(wp) :: bristle(2)
-      associate (friction => bearing%loads(pad)%friction)
-         bristle = [b, gamma*friction%rate_velocity*bearing%pads(pad)%ball_radius] &
-            & /(1 - gamma*friction%rate_deflection)
-      end associate
+      bristle = [b, gamma*slopes(1)*slopes(3)]/(1 - gamma*slopes(2))
    end function bristle_of
 
-   !> Puts the derivatives of a pad into the matrix on the rates, and what is known of displacements and bristles into
-   !> its right-hand side u.
-   subroutine set_pad(layout, rows, bearing, pad, gamma, x, bristle, group, corner, u)
-      type(pads_layout_type), intent(in) :: layout
-      type(pad_rows_type), intent(in) :: rows
-      type(tilting_pad_bearing_type), intent(in) :: bearing
-      integer, intent(in) :: pad
+   !> Puts the derivatives of a part of element e into the matrix on the rates, and what is known of displacements and
+   !> bristles into its right-hand side u.
+   subroutine put_part(self, e, element, part, gamma, x, bristle, u)
+      class(newton_system_type), intent(inout) :: self
+      integer, intent(in) :: e, part
+      class(element_type), intent(in) :: element
       real(wp), intent(in) :: gamma, x(:), bristle(2)
-      type(block_group), intent(inout) :: group
-      real(wp), intent(inout) :: corner(2, 2), u(:)
-      real(wp) :: over_positions(4, 4), over_rates(4, 4), over_deflection(2), known(4), of_pad(4)
-      integer :: k, own, m, y
-      call with_friction(rows, bearing, pad, over_positions, over_rates, over_deflection)
-      own = layout%first_position(pad)
-      y = layout%journal(1)
-      m = layout%motion/2
-      of_pad = 0
-      of_pad(1:2) = x(y:y + 1)
-      of_pad(3:2 + m) = x(own:own + m - 1)
-      known = 0
-      do k = 1, 4
-         known = known + over_positions(:, k)*of_pad(k)
-         over_rates(:, k) = over_rates(:, k) + gamma*over_positions(:, k)
-      end do
-      if (layout%bristles) then
-         known(3:4) = known(3:4) + over_deflection*bristle(1)
-         over_rates(3:4, 3) = over_rates(3:4, 3) + over_deflection*bristle(2)
-      end if
-      u(y:y + 1) = u(y:y + 1) + gamma*known(1:2)
-      u(own:own + m - 1) = u(own:own + m - 1) + gamma*known(3:2 + m)
-      do k = 1, 2
-         corner(1:2, k) = corner(1:2, k) + over_rates(1:2, k)
-         group%down(1:m, k, pad) = over_rates(3:2 + m, k)
-      end do
-      do k = 1, m
-         group%across(1:2, k, pad) = over_rates(1:2, 2 + k)
-         group%block(1:m, k, pad) = over_rates(3:2 + m, 2 + k)
-      end do
-   end subroutine set_pad
+      real(wp), intent(inout) :: u(:)
+      associate (rows => self%elements(e), group => self%matrix%groups(e), corner => self%matrix%corner, &
+         & own => self%layout%elements(e)%first_position(part), y => self%layout%elements(e)%journal(1))
+         ! a size that the compiler knows is faster
+         if (rows%m == usual) then
+            call put(usual, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, &
+               & group%across(:, :, part), group%down(:, :, part), group%block(:, :, part), corner(:, :, group%pair))
+         else
+            call put(rows%m, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, &
+               & group%across(:, :, part), group%down(:, :, part), group%block(:, :, part), corner(:, :, group%pair))
+         end if
+      end associate
+
+   contains
+
+      !> The same with m displacements, of which those of the part itself begin at `own`, and those of the pair at y.
+      subroutine put(m, linear, linear_rates, own, y, across, down, block, corner)
+         integer, value :: m, own, y
+         real(wp), intent(in) :: linear(m, m), linear_rates(m, m)
+         real(wp), intent(out) :: across(of_journal, m - of_journal), down(m - of_journal, of_journal), &
+            & block(m - of_journal, m - of_journal)
+         real(wp), intent(inout) :: corner(of_journal, of_journal)
+         real(wp) :: over_positions(m, m), over_rates(m, m), over_bristle(m - of_journal), known(m), of_part(m)
+         integer :: k
+         over_positions = linear
+         over_rates = linear_rates
+         call element%add_late(part, m, .true., over_positions, over_rates, over_bristle)
+         of_part(:of_journal) = x(y:y + of_journal - 1)
+         of_part(of_journal + 1:) = x(own:own + m - of_journal - 1)
+         known = 0
+         do k = 1, m
+            known = known + over_positions(:, k)*of_part(k)
+            over_rates(:, k) = over_rates(:, k) + gamma*over_positions(:, k)
+         end do
+         if (self%layout%elements(e)%bristles) then
+            known(of_journal + 1:) = known(of_journal + 1:) + over_bristle*bristle(1)
+            over_rates(of_journal + 1:, of_journal + 1) = over_rates(of_journal + 1:, of_journal + 1) &
+               & + over_bristle*bristle(2)
+         end if
+         u(y:y + of_journal - 1) = u(y:y + of_journal - 1) + gamma*known(:of_journal)
+         u(own:own + m - of_journal - 1) = u(own:own + m - of_journal - 1) + gamma*known(of_journal + 1:)
+         corner = corner + over_rates(:of_journal, :of_journal)
+         down = over_rates(of_journal + 1:, :of_journal)
+         across = over_rates(:of_journal, of_journal + 1:)
+         block = over_rates(of_journal + 1:, of_journal + 1:)
+      end subroutine put
+   end subroutine put_part
 
    !> The whole Jacobian J.
-   function jacobian(self, rotor, bearings) result(matrix)
+   function jacobian(self, rotor, elements) result(matrix)
       class(newton_system_type), intent(in) :: self
       class(rotor_type), intent(in) :: rotor
-      type(tilting_pad_bearing_type), intent(in) :: bearings(:)
+      type(element_pointer), intent(in) :: elements(:)
       real(wp) :: matrix(self%layout%n, self%layout%n)
       real(wp), dimension(self%rotor, self%rotor) :: over_positions, over_rates
-      integer :: i, k
+      integer :: e, i
       matrix = 0
       call rotor%force_derivatives(self%speed, over_positions, over_rates)
       associate (n => self%rotor)
@@ -281,40 +271,46 @@ contains
             matrix(n + 1:2*n, n + i) = rotor%accelerations(over_rates(:, i))
          end do
       end associate
-      do k = 1, size(bearings)
-         do i = 1, size(bearings(k)%pads)
-            call add_pad(self, rotor, k, bearings(k), i, matrix)
+      do e = 1, size(elements)
+         do i = 1, self%layout%elements(e)%parts
+            call add_part(self, rotor, e, elements(e)%to, i, matrix)
          end do
       end do
    end function jacobian
 
-   !> Adds what a pad of bearing k adds to the Jacobian.
-   subroutine add_pad(self, rotor, k, bearing, pad, matrix)
+   !> Adds what a part of element e adds to the Jacobian.
+   subroutine add_part(self, rotor, e, element, part, matrix)
       class(newton_system_type), intent(in) :: self
       class(rotor_type), intent(in) :: rotor
-      integer, intent(in) :: k, pad
-      type(tilting_pad_bearing_type), intent(in) :: bearing
+      integer, intent(in) :: e, part
+      class(element_type), intent(in) :: element
       real(wp), intent(inout) :: matrix(:, :)
-      real(wp) :: over_positions(4, 4), over_rates(4, 4), over_deflection(2)
-      integer :: i, m, at(2 + self%layout%bearings(k)%motion/2)
-      call with_friction(self%pads(k), bearing, pad, over_positions, over_rates, over_deflection)
-      at = self%layout%bearings(k)%positions_of(pad)
-      m = size(at) - 2
-      associate (u => self%rate_at(at), x => self%position_at(at), of_rotor => self%rate_at(:self%rotor))
-         do i = 3, 2 + m
-            matrix(x(i), u(i)) = 1
-         end do
-         matrix(of_rotor, x) = matrix(of_rotor, x) + rotor%row_accelerations(over_positions(:2, :2 + m), k)
-         matrix(of_rotor, u) = matrix(of_rotor, u) + rotor%row_accelerations(over_rates(:2, :2 + m), k)
-         matrix(u(3:), x) = matrix(u(3:), x) + over_positions(3:2 + m, :2 + m)
-         matrix(u(3:), u) = matrix(u(3:), u) + over_rates(3:2 + m, :2 + m)
-         if (self%layout%bearings(k)%bristles) then
-            associate (friction => bearing%loads(pad)%friction, z => self%layout%bearings(k)%bristle(pad))
-               matrix(u(3:), z) = over_deflection(:m)
-               matrix(z, u(3)) = friction%rate_velocity*bearing%pads(pad)%ball_radius
-               matrix(z, z) = friction%rate_deflection
-            end associate
-         end if
+      real(wp), dimension(self%elements(e)%m, self%elements(e)%m) :: over_positions, over_rates
+      real(wp) :: over_bristle(self%elements(e)%m - of_journal), slopes(3)
+      integer :: i, at(self%elements(e)%m)
+      over_positions = self%elements(e)%over_positions(:, :, part)
+      over_rates = self%elements(e)%over_rates(:, :, part)
+      call element%add_late(part, self%elements(e)%m, .true., over_positions, over_rates, over_bristle)
+      associate (layout => self%layout%elements(e), own => of_journal + 1)
+         at = layout%positions_of(part)
+         associate (u => self%rate_at(at), x => self%position_at(at), of_rotor => self%rate_at(:self%rotor), &
+            & pair => layout%pair())
+            do i = own, size(at)
+               matrix(x(i), u(i)) = 1
+            end do
+            matrix(of_rotor, x) = matrix(of_rotor, x) + rotor%row_accelerations(over_positions(:of_journal, :), pair)
+            matrix(of_rotor, u) = matrix(of_rotor, u) + rotor%row_accelerations(over_rates(:of_journal, :), pair)
+            matrix(u(own:), x) = matrix(u(own:), x) + over_positions(own:, :)
+            matrix(u(own:), u) = matrix(u(own:), u) + over_rates(own:, :)
+            if (layout%bristles) then
+               slopes = element%bristle_slopes(part)
+               associate (z => layout%bristle(part))
+                  matrix(u(own:), z) = over_bristle
+                  matrix(z, u(own)) = slopes(1)*slopes(3)
+                  matrix(z, z) = slopes(2)
+               end associate
+            end if
+         end associate
       end associate
-   end subroutine add_pad
+   end subroutine add_part
 end module newton_system

@@ -2,7 +2,7 @@
 !> root where a rigid journal turns in one bearing. What writes the results of a bearing knows no difference.
 module bearing_file
    use kinds, only: wp, i8, pi
-   use case_inputs, only: case_type
+   use case_groups, only: bearing_type
    use record, only: record_type
    use run_file, only: run_file_type
    use machine_results, only: bearing_group
@@ -36,14 +36,13 @@ module bearing_file
 
 contains
 
-   !> The results of bearing b of this case in those of its run, as long as that lives.
-   function new_bearing_file(run, inputs, b) result(part)
+   !> The results of a bearing in those of its run, as long as that lives.
+   function new_bearing_file(run, bearing) result(part)
       class(run_file_type), intent(in), target :: run
-      type(case_type), intent(in) :: inputs
-      integer, intent(in) :: b
+      type(bearing_type), intent(in) :: bearing
       type(bearing_file_type) :: part
       part%run => run
-      part%prefix = bearing_group(inputs, b)
+      part%prefix = bearing_group(bearing)
    end function new_bearing_file
 
    subroutine put(self, path, kind, values, extents, units, long_name, scales, texts)

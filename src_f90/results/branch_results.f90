@@ -6,6 +6,7 @@ module branch_results
    use newton_method, only: branch_point_type
    use bifurcations, only: bifurcation_type, kinds_of_points, kind_length
    use heat_balance, only: oil_temperatures_type
+   use state_layout, only: tilt
    use equations_of_motion, only: machine_model
    use orbit_figures, only: orbit_figures_type, whirl_figures_type, bearing_figures_type
    use machine_results, only: bearing_group
@@ -79,9 +80,9 @@ contains
       end if
       if (size(figures%stations) > 0) call put_stations()
       do b = 1, size(figures%bearings)
-         group = bearing_group(model%inputs, b)
-         call put_bearing(figures%bearings(b), model%layout%bearings(b)%tilting)
-         if (present(oil)) call put_oil(oil(b), viscosity(model%layout%bearings(b)%all_pads()))
+         group = bearing_group(model%inputs%bearings(b))
+         call put_bearing(figures%bearings(b), model%layout%elements(b)%has(tilt))
+         if (present(oil)) call put_oil(oil(b), viscosity(model%layout%elements(b)%all_pads()))
       end do
       call file%add(values)
       call file%error_of(error)

@@ -5,7 +5,7 @@ module coefficient_results
    use record, only: record_type
    use summary_group, only: put_figure
    use mode_names, only: mode_name_length
-   use state_layout, only: pads_layout_type
+   use state_layout, only: element_layout_type
    use linear_bearing, only: bearing_coefficients_type, vibration_modes_type
    implicit none (type, external)
    private
@@ -18,10 +18,12 @@ contains
 
    !> Writes the coefficients of bearing b at these whirl frequencies over the speed of the shaft, and the matrices of
    !> its journal and pads.
-   subroutine put_coefficients(file, found, layout, b, ratios)
+   subroutine put_coefficients(file, found, layout, positions, b, ratios)
       class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
-      type(pads_layout_type), intent(in) :: layout
+      type(element_layout_type), intent(in) :: layout
+      !> Names of the displacements of its journal and pads.
+      character(len=*), intent(in) :: positions(:)
       integer, intent(in) :: b
       real(wp), intent(in) :: ratios(:)
       integer :: i, modes
@@ -30,10 +32,8 @@ contains
          & 'frequency_ratio')
       call file%put_labels('row', ['y', 'z'], 'direction of the force on the journal')
       call file%put_labels('column', ['y', 'z'], 'direction of the displacement of the journal')
-      associate (positions => layout%position_names())
-         call file%put_labels('position_row', positions, 'position whose force or moment it is')
-         call file%put_labels('position_column', positions, 'position that is displaced')
-      end associate
+      call file%put_labels('position_row', positions, 'position whose force or moment it is')
+      call file%put_labels('position_column', positions, 'position that is displaced')
       modes = 2*size(found%bearings(1)%moves)
       call file%put_list('mode', [(real(i, wp), i=1, modes)], '1', 'mode number', 'mode')
       associate (counts => shape(found%stiffness(:, :, :, :, b)))
@@ -133,7 +133,7 @@ contains
    subroutine put_shapes(file, found, layout)
       class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
-      type(pads_layout_type), intent(in) :: layout
+      type(element_layout_type), intent(in) :: layout
       real(wp), allocatable, dimension(:, :, :) :: re, im
       integer, allocatable :: places(:)
       integer :: i, n

@@ -7,6 +7,7 @@ module equilibrium_results
    use film_network, only: warm_films_type
    use film_conduction, only: solid_layers
    use bearing_numbers, only: load, specific_load, sommerfeld_number
+   use tilting_pad, only: pad_coordinates_type
    use equilibrium_record, only: equilibrium_type
    use static_figures, only: static_figures_type
    use summary_group, only: put_figure
@@ -16,18 +17,21 @@ module equilibrium_results
 
 contains
 
-   !> Writes the equilibrium of a bearing; `tilting` where the pads have tilts, `radial` where they have pivot
-   !> deflections.
-   subroutine put_equilibrium(file, found, tilting, radial)
+   !> Writes the equilibrium of a bearing whose pads have these coordinates.
+   subroutine put_equilibrium(file, found, coordinates)
       class(record_type), intent(inout) :: file
       type(equilibrium_type), intent(in) :: found
-      logical, intent(in) :: tilting, radial
+      class(pad_coordinates_type), intent(in) :: coordinates
+      integer :: k
       call file%put_real('equilibrium/journal_y', found%rotor(1), 'm', 'journal displacement, vertical')
       call file%put_real('equilibrium/journal_z', found%rotor(2), 'm', 'journal displacement, horizontal')
-      if (tilting) call file%put_list('equilibrium/pad_tilt', found%tilt, 'rad', 'pad tilt', 'pad')
-      if (radial) call file%put_list('equilibrium/pivot_deflection', found%pivot_deflection, 'm', &
-         & 'pivot deflection', 'pad')
-      if (tilting) call file%put_list('equilibrium/pivot_load', found%pivot_load, 'N', 'pivot load', &
+      do k = 1, coordinates%n
+         associate (of => coordinates%words(k))
+            call file%put_list('equilibrium/'//trim(of%series), found%pads%x(coordinates%kind(k)), trim(of%units), &
+               & trim(of%label), 'pad')
+         end associate
+      end do
+      if (coordinates%n > 0) call file%put_list('equilibrium/pivot_load', found%pivot_load, 'N', 'pivot load', &
          & 'pad')
       call file%put_list('equilibrium/min_film_thickness', found%min_film_thickness, 'm', &
          & 'minimum film thickness', 'pad')
@@ -61,7 +65,8 @@ contains
          & '1 where the equilibrium is stable')
    end subroutine put_stability
 
-   !> Writes where the journal lies, what the pads carry, losses, flows and temperature rises.
+   !> Writes where the journal lies in the one bearing of a case, what the pads carry, losses, flows and temperature
+   !> rises.
    subroutine put_figures(file, inputs, figures)
       class(record_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
@@ -81,7 +86,7 @@ contains
          call list('couette_loss', pads%couette, 'W', 'Couette loss: power loss by the shear of sliding')
          call list('poiseuille_loss', pads%pressure, 'W', &
             & 'Poiseuille loss: power loss by the shear of the flow that pressure drives')
-         if (inputs%asperity%model /= 'none') call list('boundary_loss', pads%boundary, 'W', &
+         if (inputs%bearings(1)%asperity%model /= 'none') call list('boundary_loss', pads%boundary, 'W', &
             & 'power loss by boundary friction of asperities')
          call list('journal_drag', pads%journal_drag, 'N m', &
             & 'moment of the film''s shear against the journal''s rotation')

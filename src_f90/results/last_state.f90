@@ -6,10 +6,12 @@ module last_state
    use errors, only: error_type, raise, system_error
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
+   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state
-   use state_layout, only: state_layout_type, pads_layout_type
+   use state_layout, only: pad_state, element_layout_type, tilt, pivot_deflection
+   use tilting_pad, only: pad_coordinates_type
+   use equations_of_motion, only: machine_model
    use machine_results, only: bearing_group, turned_time, turned_state
    use restart, only: restart_type, read_result, open_result
    implicit none (type, external)
@@ -22,12 +24,12 @@ module last_state
 contains
 
    !> The states of rotor and pads in the last sample of a result at which the shaft had turned whole revolutions, as
-   !> closely as samples are: so the unbalance goes on from where it was. The result must have the states of this case,
-   !> whose layout this is; of the modes of a shaft it may have fewer or more.
-   subroutine read_last_state(path, inputs, layout, rotor, pads, error)
+   !> closely as samples are: so the unbalance goes on from where it was. The result must have the states of this case
+   !> and its model; of the modes of a shaft it may have fewer or more.
+   subroutine read_last_state(path, inputs, model, rotor, pads, error)
       character(len=*), intent(in) :: path
       type(case_type), intent(in) :: inputs
-      type(state_layout_type), intent(in) :: layout
+      type(machine_model), intent(in) :: model
       !> Displacements of the rotor, then their rates; states of the pads of all bearings.
       real(wp), intent(out) :: rotor(:)
       type(pad_state), intent(inout) :: pads(:)
@@ -42,20 +44,24 @@ contains
       if (.not. allocated(error)) call open_result(path, file, error)
       if (allocated(error)) return
       call refuse_other_rotor(path, found%inputs, inputs, error)
-      do b = 1, size(layout%bearings)
-         if (.not. allocated(error)) call refuse_other_pads(path, found%inputs%of_bearing(b), layout%bearings(b), error)
+      do b = 1, size(model%bearings)
+         if (.not. allocated(error)) call refuse_other_pads(path, found%inputs%bearings(b), model%layout%elements(b), &
+            & error)
       end do
       if (.not. allocated(error)) call refuse_no_samples(path, file, error)
       if (.not. allocated(error)) then
          at = last_whole_turn(file, found%inputs%output%samples_per_revolution)
-         if (inputs%is_machine()) call read_turned_rotor(file, 2*size(layout%bearings), at, rotor)
-         do b = 1, size(layout%bearings)
-            associate (own => layout%bearings(b))
-               call read_states(file, bearing_group(inputs, b), own, at, journal, &
-                  & pads(own%other_pads + 1:own%other_pads + own%pads))
+         do b = 1, size(model%bearings)
+            associate (own => model%layout%elements(b))
+               call read_states(file, bearing_group(inputs%bearings(b)), model%bearings(b)%coordinates, own%bristles, &
+                  & at, journal, pads(own%other_pads + 1:own%other_pads + own%pads))
             end associate
          end do
-         if (.not. inputs%is_machine()) rotor = [journal%position, journal%velocity]
+         if (inputs%rotor%is_rigid()) then
+            rotor = [journal%position, journal%velocity]
+         else
+            call read_turned_rotor(file, 2*model%rotor%journals, at, rotor)
+         end if
          if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       end if
       call file%close()
@@ -68,23 +74,19 @@ contains
       character(len=*), intent(in) :: path
       type(case_type), intent(in) :: there, here
       type(error_type), allocatable, intent(out) :: error
-      logical :: same
       integer :: b
       if (there%operation%rotation /= here%operation%rotation) then
          call raise(error, system_error, path//': its shaft turns '//there%operation%rotation &
             & //', and that of this case '//here%operation%rotation//'; no start for it')
          return
       end if
-      same = there%is_machine() .eqv. here%is_machine()
-      if (same .and. here%is_machine()) same = there%bearing_count() == here%bearing_count()
-      if (.not. same) then
+      if (size(there%bearings) /= size(here%bearings)) then
          call raise(error, system_error, path//': has '//rotor_text(there)//', and this case '//rotor_text(here) &
             & //'; no start for it')
          return
       end if
-      if (.not. here%is_machine()) return
-      do b = 1, here%bearing_count()
-         associate (one => there%machine%bearings(b), own => here%machine%bearings(b))
+      do b = 1, size(here%bearings)
+         associate (one => there%bearings(b), own => here%bearings(b))
             if (one%name /= own%name) then
                call raise(error, system_error, path//': has the bearing '//one%name//' where this case has '//own%name &
                   & //'; no start for it')
@@ -101,21 +103,22 @@ contains
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: text
       text = 'a rigid journal in one bearing'
-      if (inputs%is_machine()) text = 'a shaft in '//to_text(inputs%bearing_count())//' bearings'
+      if (size(inputs%bearings) > 1) text = 'a shaft in '//to_text(size(inputs%bearings))//' bearings'
    end function rotor_text
 
    !> Refuses the result of a bearing whose pads have other states.
    subroutine refuse_other_pads(path, there, layout, error)
       character(len=*), intent(in) :: path
-      type(case_type), intent(in) :: there
-      type(pads_layout_type), intent(in) :: layout
+      type(bearing_type), intent(in) :: there
+      type(element_layout_type), intent(in) :: layout
       type(error_type), allocatable, intent(out) :: error
       logical :: bristles
       bristles = there%friction%model == 'lugre'
       if (there%pad_count() /= layout%pads) then
          call raise(error, system_error, path//': has '//to_text(there%pad_count())//' pads, and this case ' &
             & //to_text(layout%pads)//'; no start for it')
-      else if (any([there%tilting(), there%tilting_radial()] .neqv. [layout%tilting, layout%radial])) then
+      else if (any([there%tilting(), there%tilting_radial()] &
+         & .neqv. [layout%has(tilt), layout%has(pivot_deflection)])) then
          call raise(error, system_error, path//': has pads%motion = '''//there%pads%motion &
             & //''', and this case another; no start for it')
       else if (bristles .neqv. layout%bristles) then
@@ -190,14 +193,17 @@ contains
    end function last_whole_turn
 
    !> The states in a sample of the bearing of a group; the file keeps a failure where one is not there.
-   subroutine read_states(file, group, layout, at, journal, pads)
+   subroutine read_states(file, group, coordinates, bristles, at, journal, pads)
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
-      type(pads_layout_type), intent(in) :: layout
+      !> What its pads do, and whether they have bristles.
+      class(pad_coordinates_type), intent(in) :: coordinates
+      logical, intent(in) :: bristles
       integer(i8), intent(in) :: at
       type(journal_motion), intent(inout) :: journal
       type(pad_state), intent(inout) :: pads(:)
       real(wp) :: one(1)
+      integer :: k
       call read_one('journal_y', one)
       journal%position(1) = one(1)
       call read_one('journal_z', one)
@@ -206,11 +212,13 @@ contains
       journal%velocity(1) = one(1)
       call read_one('journal_vz', one)
       journal%velocity(2) = one(1)
-      if (layout%tilting) call read_one('pad_tilt', pads%tilt)
-      if (layout%tilting) call read_one('pad_tilt_rate', pads%tilt_rate)
-      if (layout%radial) call read_one('pivot_deflection', pads%pivot_deflection)
-      if (layout%radial) call read_one('pivot_deflection_rate', pads%pivot_deflection_rate)
-      if (layout%bristles) call read_one('bristle_deflection', pads%deflection)
+      do k = 1, coordinates%n
+         associate (of => coordinates%words(k), kind => coordinates%kind(k))
+            call read_one(trim(of%series), pads%x(kind))
+            call read_one(trim(of%series)//'_rate', pads%v(kind))
+         end associate
+      end do
+      if (bristles) call read_one('bristle_deflection', pads%bristle)
    contains
       !> The values of a series in the sample.
       subroutine read_one(name, values)
@@ -231,7 +239,8 @@ contains
    pure logical function all_finite(journal, pads)
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
-      all_finite = all(ieee_is_finite([journal%position, journal%velocity, pads%tilt, pads%tilt_rate, &
-         & pads%pivot_deflection, pads%pivot_deflection_rate, pads%deflection]))
+      integer :: i
+      all_finite = all(ieee_is_finite([journal%position, journal%velocity, [(pads(i)%x, pads(i)%v, i=1, size(pads))], &
+         & pads%bristle]))
    end function all_finite
 end module last_state

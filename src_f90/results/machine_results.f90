@@ -4,7 +4,8 @@ module machine_results
    use kinds, only: wp, degree
    use record, only: record_type
    use case_inputs, only: case_type
-   use machine_groups, only: machine_type
+   use case_groups, only: bearing_type
+   use rotor_groups, only: shaft_type
    use abstract_rotor, only: rotor_type
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
@@ -18,34 +19,28 @@ module machine_results
 
 contains
 
-   !> The group of a bearing, with a slash at its end; empty where a rigid journal turns in one bearing.
-   pure function bearing_group(inputs, b) result(group)
-      type(case_type), intent(in) :: inputs
-      integer, intent(in) :: b
+   !> The group of a bearing, with a slash at its end; empty, the root of the file, for one without name.
+   pure function bearing_group(bearing) result(group)
+      type(bearing_type), intent(in) :: bearing
       character(len=:), allocatable :: group
       group = ''
-      if (inputs%is_machine()) group = 'bearings/'//inputs%machine%bearings(b)%name//'/'
+      if (bearing%name /= '') group = 'bearings/'//bearing%name//'/'
    end function bearing_group
 
-   !> Writes the pads of each bearing.
+   !> Writes numbers and pivots of the pads of each bearing.
    subroutine put_bearings(file, inputs)
       class(record_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
-      integer :: b
-      do b = 1, inputs%bearing_count()
-         call put_pads(file, inputs%of_bearing(b), bearing_group(inputs, b))
+      character(len=:), allocatable :: of
+      integer :: b, i
+      do b = 1, size(inputs%bearings)
+         of = bearing_group(inputs%bearings(b))
+         associate (angles => inputs%bearings(b)%pads%pivot_angle_deg)
+            call file%put_list(of//'pad', [(real(i, wp), i=1, size(angles))], '1', 'pad number', of//'pad')
+            call file%put_list(of//'pivot_angle', angles*degree, 'rad', 'pivot angle', of//'pad')
+         end associate
       end do
    end subroutine put_bearings
-
-   !> Numbers and pivots of the pads of a bearing, whose results have this group.
-   subroutine put_pads(file, inputs, group)
-      class(record_type), intent(inout) :: file
-      type(case_type), intent(in) :: inputs
-      character(len=*), intent(in) :: group
-      integer :: i
-      call file%put_list(group//'pad', [(real(i, wp), i=1, inputs%pad_count())], '1', 'pad number', group//'pad')
-      call file%put_list(group//'pivot_angle', inputs%pads%pivot_angle_deg*degree, 'rad', 'pivot angle', group//'pad')
-   end subroutine put_pads
 
    !> Keeps the state of the rotor of a machine at time t, s, where the shaft has turned whole revolutions: another
    !> march may start there, for which samples of stations do not suffice.
@@ -64,14 +59,13 @@ contains
       type(case_type), intent(in) :: inputs
       class(rotor_type), intent(in) :: rotor
       integer :: i
-      if (.not. inputs%is_machine()) return
-      call file%put_list('station', [(real(i, wp), i=1, rotor%stations)], '1', 'station of the shaft', 'station')
       select type (rotor)
       type is (elastic_rotor_type)
+         call file%put_list('station', [(real(i, wp), i=1, rotor%stations)], '1', 'station of the shaft', 'station')
          call put_reduction(file, rotor)
+         if (inputs%rotor%station_count() > 0) call put_shaft(file, inputs%rotor%elastic%shaft)
+         call put_attached(file, inputs)
       end select
-      if (inputs%machine%rotor_file == '') call put_shaft(file, inputs%machine)
-      call put_attached(file, inputs%machine)
    end subroutine put_machine
 
    !> Writes the mass of a rotor, its kept modes, and what those that are left out change.
@@ -95,21 +89,17 @@ contains
    end subroutine put_reduction
 
    !> Writes the sections of a shaft and where its stations are.
-   subroutine put_shaft(file, machine)
+   subroutine put_shaft(file, shaft)
       class(record_type), intent(inout) :: file
-      type(machine_type), intent(in) :: machine
+      type(shaft_type), intent(in) :: shaft
       integer :: i
-      if (.not. allocated(machine%shaft%length)) return
-      associate (shaft => machine%shaft)
-         if (size(shaft%length) == 0) return
-         call file%put_list(group//'station_position', [(sum(shaft%length(:i)), i=0, size(shaft%length))], 'm', &
-            & 'distance of the station from the first one', 'station')
-         call file%put_list(group//'section', [(real(i, wp), i=1, size(shaft%length))], '1', 'section of the shaft', &
-            & group//'section')
-         call section('length', shaft%length, 'length')
-         call section('diameter', shaft%diameter, 'outer diameter')
-         call section('bore', shaft%bore, 'inner diameter')
-      end associate
+      call file%put_list(group//'station_position', [(sum(shaft%length(:i)), i=0, size(shaft%length))], 'm', &
+         & 'distance of the station from the first one', 'station')
+      call file%put_list(group//'section', [(real(i, wp), i=1, size(shaft%length))], '1', 'section of the shaft', &
+         & group//'section')
+      call section('length', shaft%length, 'length')
+      call section('diameter', shaft%diameter, 'outer diameter')
+      call section('bore', shaft%bore, 'inner diameter')
    contains
       subroutine section(name, values, long_name)
          character(len=*), intent(in) :: name, long_name
@@ -119,25 +109,25 @@ contains
    end subroutine put_shaft
 
    !> Writes the bearings of a shaft and its discs, with their stations.
-   subroutine put_attached(file, machine)
+   subroutine put_attached(file, inputs)
       class(record_type), intent(inout) :: file
-      type(machine_type), intent(in) :: machine
+      type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: names(:)
       integer :: b, i, longest
-      longest = maxval([(len(machine%bearings(b)%name), b=1, size(machine%bearings))])
-      allocate (character(len=longest) :: names(size(machine%bearings)))
-      do b = 1, size(names)
-         names(b) = machine%bearings(b)%name
-      end do
-      call file%put_labels('bearing', names, 'name of the bearing')
-      associate (bearings => machine%bearings)
+      associate (bearings => inputs%bearings)
+         longest = maxval([(len(bearings(b)%name), b=1, size(bearings))])
+         allocate (character(len=longest) :: names(size(bearings)))
+         do b = 1, size(names)
+            names(b) = bearings(b)%name
+         end do
+         call file%put_labels('bearing', names, 'name of the bearing')
          call bearing('station', real(bearings%station, wp), '1', 'station of the bearing')
          call bearing('offset_y', bearings%offset(1), 'm', 'offset of the bearing, vertical')
          call bearing('offset_z', bearings%offset(2), 'm', 'offset of the bearing, horizontal')
       end associate
-      if (size(machine%discs) == 0) return
-      call file%put_list(group//'disc', [(real(i, wp), i=1, size(machine%discs))], '1', 'disc number', group//'disc')
-      associate (discs => machine%discs)
+      associate (discs => inputs%rotor%elastic%discs)
+         if (size(discs) == 0) return
+         call file%put_list(group//'disc', [(real(i, wp), i=1, size(discs))], '1', 'disc number', group//'disc')
          call disc('station', real(discs%station, wp), '1', 'station of the disc')
          call disc('mass', discs%mass, 'kg', 'mass of the disc')
          call disc('polar_inertia', discs%polar_inertia, 'kg m^2', 'polar inertia of the disc')

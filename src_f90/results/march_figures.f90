@@ -3,6 +3,7 @@
 module march_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi, degree
+   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use loops, only: path_integral, harmonic, slow_share
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
@@ -35,10 +36,11 @@ contains
       call put_figure(file, 'revolutions', bearing%sampled_revolutions(), '1', 'shaft revolutions sampled')
    end subroutine put_progress
 
-   !> Writes all figures of the samples of a bearing so far, with this load on its journal, N; `inputs` is its own case.
-   subroutine put_march_figures(file, inputs, extremes, load)
+   !> Writes all figures of the samples of bearing b of a case so far, with this load on its journal, N.
+   subroutine put_march_figures(file, inputs, b, extremes, load)
       type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       type(run_extremes_type), intent(in) :: extremes
       real(wp), intent(in) :: load
       real(wp), allocatable :: time(:, :), angle(:, :)
@@ -51,15 +53,17 @@ contains
       call extremes%write(file, load, (time(1, n) - time(1, 1))/max(1, n - 1))
       call put_journal(file, n)
       call put_film(file, n)
-      if (inputs%tilting()) call put_tilt(file, n)
-      call put_last_revolutions(file, inputs, int(revolutions + rounding))
-      if (revolutions < 1 - rounding) return
-      call put_harmonics(file, inputs, int(revolutions + rounding))
-      if (inputs%tilting() .and. inputs%friction%model /= 'none') call put_friction(file, inputs, time(1, :), &
-         & (angle(1, n) - angle(1, 1))/(2*pi))
-      if (inputs%tilting() .and. inputs%pivot%wear_coefficient > 0) call put_wear(file, inputs, time(1, :))
-      n = file%last_revolutions(inputs%output%spectrum_revolutions)
-      call put_revolutions(file, inputs, n, inputs%output%spectrum_revolutions)
+      associate (bearing => inputs%bearings(b), tilting => inputs%bearings(b)%tilting())
+         if (tilting) call put_tilt(file, n)
+         call put_last_revolutions(file, inputs, bearing, int(revolutions + rounding))
+         if (revolutions < 1 - rounding) return
+         call put_harmonics(file, tilting, inputs%about%task == 'periodic', int(revolutions + rounding))
+         if (tilting .and. bearing%friction%model /= 'none') call put_friction(file, bearing, time(1, :), &
+            & (angle(1, n) - angle(1, 1))/(2*pi))
+         if (tilting .and. bearing%pivot%wear_coefficient > 0) call put_wear(file, bearing%pivot, time(1, :))
+         n = file%last_revolutions(inputs%output%spectrum_revolutions)
+         call put_revolutions(file, tilting, n, inputs%output%spectrum_revolutions)
+      end associate
    end subroutine put_march_figures
 
    !> The orbit of the journal in the last n samples.
@@ -120,15 +124,15 @@ contains
          & 'mean pivot load')
    end subroutine put_tilt
 
-   !> Vibrations with the shaft, and at half its speed, over the last revolution and the last two; of a periodic orbit
+   !> Vibrations with the shaft, and at half its speed, over the last revolution and the last two; of a `periodic` orbit
    !> over all of it.
-   subroutine put_harmonics(file, inputs, revolutions)
+   subroutine put_harmonics(file, tilting, periodic, revolutions)
       type(bearing_file_type), intent(inout) :: file
-      type(case_type), intent(in) :: inputs
+      logical, intent(in) :: tilting, periodic
       integer, intent(in) :: revolutions
       complex(wp), allocatable :: y(:), z(:), tilt(:)
       integer :: n, whole
-      whole = merge(revolutions, 1, inputs%about%task == 'periodic')
+      whole = merge(revolutions, 1, periodic)
       n = file%last_revolutions(whole)
       y = parts('journal_y', 1.0_wp)
       z = parts('journal_z', 1.0_wp)
@@ -138,7 +142,7 @@ contains
          & 'horizontal journal vibration with the shaft, amplitude')
       call put_figure(file, 'journal_y_phase', lag(y(1)), 'rad', 'angle by which it comes after the unbalance')
       call put_figure(file, 'journal_z_phase', lag(z(1)), 'rad', 'angle by which it comes after the unbalance')
-      if (inputs%tilting()) then
+      if (tilting) then
          tilt = parts('pad_tilt', 1.0_wp)
          call put_figure(file, 'pad_tilt_amplitude', abs(tilt), 'rad', 'tilt with the shaft, amplitude')
       end if
@@ -150,7 +154,7 @@ contains
          & 'vertical journal vibration at half the shaft speed, amplitude')
       call put_figure(file, 'journal_z_half_amplitude', abs(z(1)), 'm', &
          & 'horizontal journal vibration at half the shaft speed, amplitude')
-      if (.not. inputs%tilting()) return
+      if (.not. tilting) return
       tilt = parts('pad_tilt', 0.5_wp)
       call put_figure(file, 'pad_tilt_half_amplitude', abs(tilt), 'rad', &
          & 'tilt at half the shaft speed, amplitude')
@@ -174,19 +178,19 @@ contains
    end subroutine put_harmonics
 
    !> What friction in the pivots does in the last samples, at these times, s, in this many revolutions.
-   subroutine put_friction(file, inputs, time, revolutions)
+   subroutine put_friction(file, bearing, time, revolutions)
       type(bearing_file_type), intent(inout) :: file
-      type(case_type), intent(in) :: inputs
+      type(bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: time(:), revolutions
       real(wp), allocatable :: tilt(:, :), rate(:, :), moment(:, :)
-      real(wp), dimension(inputs%pad_count()) :: work, stuck
+      real(wp), dimension(bearing%pad_count()) :: work, stuck
       real(wp) :: slow
       integer :: i, n
       n = size(time)
       call file%last_samples('pad_tilt', n, tilt)
       call file%last_samples('pad_tilt_rate', n, rate)
       call file%last_samples('friction_moment', n, moment)
-      associate (law => inputs%friction, pivot => inputs%pivot)
+      associate (law => bearing%friction, pivot => bearing%pivot)
          slow = law%critical_velocity
          if (law%model == 'lugre') then
             slow = sticking*law%stribeck_velocity
@@ -211,12 +215,13 @@ contains
 
    !> Lift-off, flutter and rubbing of the pads and whirl of the journal in the last revolutions. Fixed pads can only
    !> rub.
-   subroutine put_last_revolutions(file, inputs, whole)
+   subroutine put_last_revolutions(file, inputs, bearing, whole)
       type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
+      type(bearing_type), intent(in) :: bearing
       !> Whole revolutions sampled.
       integer, intent(in) :: whole
-      type(pad_behaviour_type) :: found(inputs%pad_count())
+      type(pad_behaviour_type) :: found(bearing%pad_count())
       real(wp), allocatable, dimension(:, :) :: angle, contact, tilt, asperity, y, z
       real(wp) :: revolutions, order, amplitude
       logical :: whirls, steady
@@ -231,19 +236,16 @@ contains
          call put_figure(file, 'pad_rubbing', found%rubbing, '1', 'share of the time in which the surfaces touch')
          deallocate (asperity)
       end if
-      if (inputs%tilting()) then
+      if (bearing%tilting()) then
          call file%last_samples('pivot_load', n, contact)
          call take('pad_tilt', tilt)
-         associate (b => inputs%bearing)
-            call behaviour_of(found, contact, tilt, revolutions, &
-               & b%assembled_clearance/(0.5_wp*inputs%pads%arc_deg*degree &
-               & *b%journal_radius))
-         end associate
+         call behaviour_of(found, contact, tilt, revolutions, bearing%assembled_clearance &
+            & /(0.5_wp*bearing%pads%arc_deg*degree*bearing%journal_radius))
          call put_behaviour(file, found)
       end if
       call take('journal_y', y)
       call take('journal_z', z)
-      call whirl_of(y(1, :), z(1, :), revolutions, inputs%clearance(), order, amplitude, whirls)
+      call whirl_of(y(1, :), z(1, :), revolutions, bearing%clearance(), order, amplitude, whirls)
       call put_figure(file, 'last_revolutions', revolutions, '1', &
          & 'revolutions over which lift-off, orders and shares are')
       call put_figure(file, 'whirl_order', known(order), '1', &

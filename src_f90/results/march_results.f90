@@ -8,6 +8,8 @@ module march_results
    use periodic_orbit, only: periodic_orbit_type
    use record, only: record_type
    use summary_group, only: put_figure
+   use state_layout, only: most_coordinates
+   use tilting_pad, only: coordinate_type
    use viscosity_history, only: viscosity_history_type
    use bearing_samples, only: bearing_sample
    use run_file, only: run_file_type
@@ -17,19 +19,20 @@ module march_results
    public :: add_sample, put_excitations, put_spectra, put_viscosity_history, put_periodic
 
    !> Values of a sample: of the shaft, of a journal, and of a pad at most.
-   integer, parameter :: of_shaft = 3, of_journal = 4, of_pad = 12
+   integer, parameter :: of_shaft = 3, of_journal = 4, of_pad = 8 + 2*most_coordinates
 
 contains
 
    !> Adds a sample of all bearings, in the files of these, of where the stations of a shaft are, (2, station), m, and
-   !> of the forces of the excitations, (2, excitation), N: the one list of what is sampled.
-   subroutine add_sample(file, bearings, samples, stations, excitations, error)
+   !> of the forces of the excitations, (2, excitation), and of other elements, (2, element), N: the one list of what is
+   !> sampled.
+   subroutine add_sample(file, bearings, samples, stations, excitations, elements, error)
       type(run_file_type), intent(inout) :: file
       type(bearing_file_type), intent(in) :: bearings(:)
       type(bearing_sample), intent(in) :: samples(:)
-      real(wp), intent(in) :: stations(:, :), excitations(:, :)
+      real(wp), intent(in) :: stations(:, :), excitations(:, :), elements(:, :)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: values(most_values(samples) + size(stations) + size(excitations))
+      real(wp) :: values(most_values(samples) + size(stations) + size(excitations) + size(elements))
       logical :: first
       integer :: n, b
       ! its series are declared as the first sample is added
@@ -49,6 +52,10 @@ contains
          call along('excitation', 'excitation_y', excitations(1, :), 'N', 'force of the excitation, vertical')
          call along('excitation', 'excitation_z', excitations(2, :), 'N', 'force of the excitation, horizontal')
       end if
+      if (size(elements) > 0) then
+         call along('element', 'element_force_y', elements(1, :), 'N', 'force of the element on the rotor, vertical')
+         call along('element', 'element_force_z', elements(2, :), 'N', 'force of the element on the rotor, horizontal')
+      end if
       call file%add(values(:n))
       call file%error_of(error)
    contains
@@ -60,7 +67,7 @@ contains
          values(n) = value
       end subroutine one
 
-      !> At all stations of the shaft, or of all excitations.
+      !> At all stations of the shaft, or of all excitations or elements.
       subroutine along(dimension, name, at, units, long_name)
          character(len=*), intent(in) :: dimension, name, units, long_name
          real(wp), intent(in) :: at(:)
@@ -96,7 +103,7 @@ contains
       logical, intent(in) :: first
       real(wp), intent(inout), contiguous :: values(:)
       integer, intent(inout) :: n
-      integer :: i, k
+      integer :: i, j, k
       associate (position => sample%journal%position, velocity => sample%journal%velocity)
          call one('journal_y', position(1), 'm', 'journal displacement, vertical')
          call one('journal_z', position(2), 'm', 'journal displacement, horizontal')
@@ -106,7 +113,7 @@ contains
       do i = 1, size(sample%states)
          k = 0
          associate (state => sample%states(i), pad => sample%loads(i))
-            if (sample%tilting) then
+            if (sample%coordinates%n > 0) then
                call each('pivot_load', pad%pivot_load, 'N', 'pivot load')
                call each('friction_moment', pad%friction_moment, 'N m', 'pivot friction moment')
             end if
@@ -114,15 +121,18 @@ contains
             call each('film_force_radial', pad%film_force(2), 'N', 'film force on the journal outward (z'')')
             call each('min_film_thickness', pad%min_film_thickness, 'm', 'minimum film thickness')
             call each('max_pressure', pad%max_pressure, 'Pa', 'maximum film pressure')
-            if (sample%tilting) then
-               call each('pad_tilt', state%tilt, 'rad', 'pad tilt')
-               call each('pad_tilt_rate', state%tilt_rate, 'rad/s', 'pad tilt rate')
-            end if
-            if (sample%radial) then
-               call each('pivot_deflection', state%pivot_deflection, 'm', 'pivot deflection')
-               call each('pivot_deflection_rate', state%pivot_deflection_rate, 'm/s', 'pivot deflection rate')
-            end if
-            if (sample%bristles) call each('bristle_deflection', state%deflection, 'm', 'bristle deflection')
+            do j = 1, sample%coordinates%n
+               associate (kind => sample%coordinates%kind(j))
+                  if (first .and. i == 1) then
+                     call declare(sample%coordinates%words(j), '', '', '')
+                     call declare(sample%coordinates%words(j), '_rate', '/s', ' rate')
+                  end if
+                  values(n + k*size(sample%states) + i) = state%x(kind)
+                  values(n + (k + 1)*size(sample%states) + i) = state%v(kind)
+                  k = k + 2
+               end associate
+            end do
+            if (sample%bristles) call each('bristle_deflection', state%bristle, 'm', 'bristle deflection')
             if (sample%asperities) call each('asperity_force', pad%asperity_force, 'N', &
                & 'normal force between the asperities of pad and journal')
          end associate
@@ -136,6 +146,14 @@ contains
          n = n + 1
          values(n) = value
       end subroutine one
+
+      !> A coordinate of the pads, or its rate, with what stands behind its words then.
+      subroutine declare(words, to_series, to_units, to_label)
+         type(coordinate_type), intent(in) :: words
+         character(len=*), intent(in) :: to_series, to_units, to_label
+         call file%declare(trim(words%series)//to_series, size(sample%states), 'pad', trim(words%units)//to_units, &
+            & trim(words%label)//to_label)
+      end subroutine declare
 
       !> Of pad i; the k-th series of the pads.
       subroutine each(name, value, units, long_name)
@@ -165,11 +183,12 @@ contains
          & 'oil/time pad')
    end subroutine put_viscosity_history
 
-   !> Writes amplitude spectra of a bearing, of this case, over the last whole revolutions of a run at constant speed;
-   !> none where it was not sampled over one.
-   subroutine put_spectra(file, inputs, interval)
+   !> Writes amplitude spectra of bearing b of a case over the last whole revolutions of a run at constant speed; none
+   !> where it was not sampled over one.
+   subroutine put_spectra(file, inputs, b, interval)
       type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
       !> Between samples, s.
       real(wp), intent(in) :: interval
       real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
@@ -189,10 +208,10 @@ contains
       call file%last_samples('journal_z', n, z)
       call put('journal_y', one_sided_amplitude(y(1, :)), 'm', 'amplitude of journal_y', 'frequency')
       call put('journal_z', one_sided_amplitude(z(1, :)), 'm', 'amplitude of journal_z', 'frequency')
-      if (inputs%tilting()) then
+      if (inputs%bearings(b)%tilting()) then
          call file%last_samples('pad_tilt', n, tilt)
-         allocate (amplitudes(n/2 + 1, inputs%pad_count()))
-         do i = 1, inputs%pad_count()
+         allocate (amplitudes(n/2 + 1, size(tilt, 1)))
+         do i = 1, size(tilt, 1)
             amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
          end do
          call file%put_table('spectrum/pad_tilt', amplitudes, 'rad', 'amplitude of pad_tilt', 'pad spectrum/frequency')

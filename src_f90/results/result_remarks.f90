@@ -4,8 +4,9 @@ module result_remarks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, degree, pi
    use text, only: to_text, fixed_text, micro
+   use case_groups, only: bearing_type
    use case_inputs, only: case_type
-   use case_remarks, only: remarks_on_case, of_bearing, newline
+   use case_remarks, only: remarks_on_case, behind, newline
    use load_remarks, only: remarks_on_load
    use unit_remarks, only: remark_on_unbalance
    use equilibrium_refusal, only: listed
@@ -42,23 +43,22 @@ contains
       class(run_file_type), intent(inout), target :: file
       character(len=:), allocatable :: all, own
       type(bearing_file_type) :: part
-      type(case_type) :: alone
-      real(wp) :: loads(2, inputs%bearing_count())
+      real(wp) :: loads(2, size(inputs%bearings))
       integer :: b
       all = remarks_on_case(inputs)//on_damping(inputs, file)//on_unbalances(inputs, file)
       call file%get_list('equilibrium/bearing_load_y', loads(1, :))
       call file%get_list('equilibrium/bearing_load_z', loads(2, :))
-      do b = 1, inputs%bearing_count()
-         part = new_bearing_file(file, inputs, b)
-         own = ''
-         if (inputs%is_machine()) then
-            alone = inputs%of_bearing(b, loads(:, b))
-            if (part%has('equilibrium/journal_y')) own = remarks_on_load(alone)
-         else
-            alone = inputs
-         end if
-         if (part%has('equilibrium/journal_y')) own = own//on_equilibrium(alone, part)//on_pivots(alone, part)
-         all = all//of_bearing(inputs, b, own//on_motion(alone, part))
+      do b = 1, size(inputs%bearings)
+         associate (bearing => inputs%bearings(b))
+            part = new_bearing_file(file, bearing)
+            own = ''
+            if (part%has('equilibrium/journal_y')) then
+               ! that of a rigid journal is known before the run
+               if (.not. inputs%rotor%is_rigid()) own = remarks_on_load(inputs%alone(b, loads(:, b)))
+               own = own//on_equilibrium(bearing, inputs%thermal%model, part)//on_pivots(bearing, part)
+            end if
+            all = all//behind(bearing%label(': '), own//on_motion(bearing%pad_count(), part))
+         end associate
       end do
       if (.not. file%has('periodic/closed')) return
       if (.not. file%get_real('periodic/closed') > 0) all = all//'Newton''s method does not close the orbit: it is ' &
@@ -73,7 +73,7 @@ contains
       character(len=:), allocatable :: remark
       remark = ''
       if (.not. file%has('rotor/damping_error')) return
-      associate (error => file%get_real('rotor/damping_error'), above => inputs%machine%reduction%damp_above)
+      associate (error => file%get_real('rotor/damping_error'), above => inputs%rotor%elastic%reduction%damp_above)
          if (error > much_damping) remark = 'the damping of modes above '//to_text(above) &
             & //' Hz changes amplitudes at the highest speed by '//fixed_text(100*error, 1) &
             & //' %; reduction%damp_above = '//to_text(anint(max(2*above, far_above*inputs%highest_speed()/(2*pi)))) &
@@ -86,15 +86,11 @@ contains
       type(case_type), intent(in) :: inputs
       class(run_file_type), intent(inout) :: file
       character(len=:), allocatable :: remark
-      real(wp) :: clearance
-      integer :: b
       remark = ''
       if (.not. file%has('rotor/total_mass')) return
-      if (size(inputs%machine%unbalances) == 0) return
-      clearance = minval([(minval(inputs%machine%bearings(b)%bearing%assembled_clearance), b=1, &
-         & inputs%bearing_count())])
-      remark = remark_on_unbalance(maxval(inputs%machine%unbalances%moment), file%get_real('rotor/total_mass'), &
-         & clearance)
+      if (size(inputs%rotor%elastic%unbalances) == 0) return
+      remark = remark_on_unbalance(maxval(inputs%rotor%elastic%unbalances%moment), &
+         & file%get_real('rotor/total_mass'), minval(inputs%bearings%clearance()))
    end function on_unbalances
 
    !> Writes the list; a list that was there is replaced.
@@ -124,31 +120,32 @@ contains
       end do
    end function new_lines
 
-   !> On the equilibrium of a bearing, whose case has its load.
-   function on_equilibrium(inputs, file) result(said)
-      type(case_type), intent(in) :: inputs
+   !> On the equilibrium of a bearing.
+   function on_equilibrium(bearing, thermal_model, file) result(said)
+      type(bearing_type), intent(in) :: bearing
+      character(len=*), intent(in) :: thermal_model
       type(bearing_file_type), intent(inout) :: file
       character(len=:), allocatable :: said
-      real(wp), dimension(inputs%pad_count()) :: film, reynolds, hottest, depth, load, inlet, taken
+      real(wp), dimension(bearing%pad_count()) :: film, reynolds, hottest, depth, load, inlet, taken
       real(wp) :: rise
       integer :: i
       said = ''
       rise = file%get_real('equilibrium/temperature_rise_fresh')
-      associate (roughness => inputs%asperity%roughness, p => inputs%pads)
+      associate (roughness => bearing%asperity%roughness, p => bearing%pads)
          call file%get_list('equilibrium/min_film_thickness', film)
-         if (inputs%asperity%model /= 'none' .and. any(film < roughnesses*roughness)) said = said//'at the ' &
+         if (bearing%asperity%model /= 'none' .and. any(film < roughnesses*roughness)) said = said//'at the ' &
             & //'equilibrium the film of '//listed(film < roughnesses*roughness)//' is '//micro(minval(film)) &
             & //' um thin: less than '//to_text(roughnesses)//' times asperity%roughness = ' &
             & //to_text(1e6_wp*roughness)//' um, so that surfaces touch'//newline
          depth = file%get_real('equilibrium/journal_y')*sin(p%pivot_angle_deg*degree) &
             & + file%get_real('equilibrium/journal_z')*cos(p%pivot_angle_deg*degree) &
-            & - inputs%bearing%assembled_clearance
-         if (inputs%tilting() .and. any(depth > 0)) said = said//'eccentricity ratio ' &
+            & - bearing%assembled_clearance
+         if (bearing%tilting() .and. any(depth > 0)) said = said//'eccentricity ratio ' &
             & //fixed_text(file%get_real('equilibrium/eccentricity_ratio'), 3)//': at '//listed(depth > 0)//' the ' &
             & //'journal lies '//micro(maxval(depth))//' um deeper than the clearance; ' &
             & //'are load (N), viscosity (Pa s) and clearance (m) as meant?'//newline
          if (ieee_is_nan(rise)) rise = 0
-         if (inputs%thermal%model == 'none' .and. rise > largest_rise) said = said//'the oil warms by ' &
+         if (thermal_model == 'none' .and. rise > largest_rise) said = said//'the oil warms by ' &
             & //fixed_text(rise, 1)//' K although every pad draws fresh oil: its viscosity is not that of the case ' &
             & //'in all films; thermal%model = ''pad'' with an oil (oil%grade) finds temperatures and viscosities' &
             & //newline
@@ -171,7 +168,7 @@ contains
          if (any(reynolds > laminar_up_to)) said = said//'Reynolds number of the film of ' &
             & //listed(reynolds > laminar_up_to)//': '//to_text(nint(maxval(reynolds)))//'; above ' &
             & //to_text(laminar_up_to)//' films may be turbulent, and turbulent ones lose more power'//newline
-         if (inputs%tilting()) then
+         if (bearing%tilting()) then
             call file%get_list('equilibrium/pivot_load', load)
             if (sum(load) > 0 .and. any(load < smallest_share*sum(load))) said = said//'at the equilibrium ' &
                & //listed(load < smallest_share*sum(load))//trim(merge(' carries', ' carry  ', &
@@ -184,31 +181,32 @@ contains
    end function on_equilibrium
 
    !> On pivots that give way by much of the clearance: those of another bearing may be too small.
-   function on_pivots(inputs, file) result(said)
-      type(case_type), intent(in) :: inputs
+   function on_pivots(bearing, file) result(said)
+      type(bearing_type), intent(in) :: bearing
       type(bearing_file_type), intent(inout) :: file
       character(len=:), allocatable :: said
-      real(wp) :: deflection(inputs%pad_count())
+      real(wp) :: deflection(bearing%pad_count())
       said = ''
       if (.not. file%has('equilibrium/pivot_deflection')) return
       call file%get_list('equilibrium/pivot_deflection', deflection)
-      associate (soft => deflection > soft_pivot*inputs%bearing%assembled_clearance)
+      associate (soft => deflection > soft_pivot*bearing%assembled_clearance)
          if (.not. any(soft)) return
          said = 'at the equilibrium '//trim(merge('the pivot ', 'the pivots', count(soft) == 1))//' of '//listed(soft) &
             & //trim(merge(' gives', ' give ', count(soft) == 1))//' way by '//micro(maxval(deflection, mask=soft)) &
             & //' um, more than '//to_text(soft_pivot)//' of the clearance'
-         if (inputs%pivot%law /= 'table') said = said//'; is pivot%socket_radius = ' &
-            & //to_text(maxval(inputs%pivot%socket_radius))//' m that of this bearing?'
+         if (bearing%pivot%law /= 'table') said = said//'; is pivot%socket_radius = ' &
+            & //to_text(maxval(bearing%pivot%socket_radius))//' m that of this bearing?'
          said = said//newline
       end associate
    end function on_pivots
 
-   !> On the motion: contact in the whole run, and lift-off, flutter, rubbing and whirl in the last revolutions.
-   function on_motion(inputs, file) result(said)
-      type(case_type), intent(in) :: inputs
+   !> On the motion in a bearing of this number of pads: contact in the whole run, and lift-off, flutter, rubbing and
+   !> whirl in the last revolutions.
+   function on_motion(pad_count, file) result(said)
+      integer, intent(in) :: pad_count
       type(bearing_file_type), intent(inout) :: file
       character(len=:), allocatable :: said, diagnosis
-      type(pad_behaviour_type) :: pads(inputs%pad_count())
+      type(pad_behaviour_type) :: pads(pad_count)
       integer :: i
       said = ''
       associate (held => pad_figures(file, 'pad_without_equilibrium'))

@@ -4,7 +4,6 @@
 module revolution_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
-   use case_inputs, only: case_type
    use bearing_file, only: bearing_file_type
    implicit none (type, external)
    private
@@ -16,10 +15,10 @@ module revolution_figures
 
 contains
 
-   !> Writes those of the last n samples, which are of whole revolutions, this many at most.
-   subroutine put_revolutions(file, inputs, n, most)
+   !> Writes those of the last n samples, which are of whole revolutions, this many at most; of tilts where pads tilt.
+   subroutine put_revolutions(file, tilting, n, most)
       type(bearing_file_type), intent(inout) :: file
-      type(case_type), intent(in) :: inputs
+      logical, intent(in) :: tilting
       integer, intent(in) :: n, most
       real(wp), allocatable :: angle(:, :)
       integer :: first, last, k
@@ -32,7 +31,7 @@ contains
          & 'revolutions before the last Poincare point', over)
       call put('journal_y', 'y', 'm', 'journal y')
       call put('journal_z', 'z', 'm', 'journal z')
-      if (inputs%tilting()) call put('pad_tilt', 'tilt', 'rad', 'tilt')
+      if (tilting) call put('pad_tilt', 'tilt', 'rad', 'tilt')
    contains
       subroutine put(name, short, units, meaning)
          character(len=*), intent(in) :: name, short, units, meaning

@@ -76,7 +76,7 @@ contains
             return
          end if
       end if
-      call self%provenance%begin(self%record_type, inputs%is_machine())
+      call self%provenance%begin(self%record_type, .not. inputs%rotor%is_rigid())
       call self%put_flag('complete', 0)
       call self%put_text('title', inputs%about%title)
       call self%put_text('task', inputs%about%task)

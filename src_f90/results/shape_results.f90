@@ -4,7 +4,7 @@ module shape_results
    use text, only: to_text, fixed_text, micro
    use errors, only: error_type, raise, system_error
    use record, only: record_type
-   use case_inputs, only: case_type
+   use case_groups, only: bearing_type
    use bearing_shape, only: bearing_shape_type
    use summary_group, only: put_figure
    implicit none (type, external)
@@ -55,16 +55,16 @@ contains
       end associate
    end subroutine read_shape
 
-   !> The clearances of a case and those in operation.
-   subroutine print_shape(inputs, shape)
-      type(case_type), intent(in) :: inputs
+   !> The clearances of a bearing and those in operation.
+   subroutine print_shape(b, shape)
+      type(bearing_type), intent(in) :: b
       type(bearing_shape_type), intent(in) :: shape
       character(len=:), allocatable :: bends
       integer :: i
-      associate (b => inputs%bearing, t => shape%temperatures)
+      associate (t => shape%temperatures)
          do i = 1, size(shape%machined_clearance)
             bends = ''
-            if (inputs%pads%bending /= 'none') bends = '; bends by '//micro(shape%bending%elastic(i), 2) &
+            if (b%pads%bending /= 'none') bends = '; bends by '//micro(shape%bending%elastic(i), 2) &
                & //' um by pressure and '//micro(shape%bending%thermal(i), 2)//' um by heat'
             if (allocated(t%pads)) bends = bends//'; at '//fixed_text(t%pads(i), 1)//' C'
             print '(a)', '  pad '//to_text(i)//': pad clearance '//micro(b%machined_clearance(i), 2) &

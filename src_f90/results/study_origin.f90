@@ -36,7 +36,7 @@ contains
          call study%inputs(k, inputs, error)
          if (.not. allocated(error)) exit
       end do
-      call file%put_flag('format_version', merge(machine_version, format_version, inputs%is_machine()))
+      call file%put_flag('format_version', merge(format_version, machine_version, inputs%rotor%is_rigid()))
       if (allocated(error)) then
          call file%put_text('title', '')
          call file%put_text('input', '')

@@ -3,7 +3,7 @@
 module wear_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
-   use case_inputs, only: case_type
+   use case_groups, only: pivot_type
    use contact_law, only: contact_law_type, contact_point
    use factories, only: make_law
    use loops, only: integral_over_way
@@ -17,12 +17,12 @@ contains
 
    !> The rates at which the pivots wear in the last samples, at these times, s: volume, and depth over the area of the
    !> contact under the mean pivot load. What LuGre's bristles give back is not slid.
-   subroutine put_wear(file, inputs, time)
+   subroutine put_wear(file, pivot, time)
       type(bearing_file_type), intent(inout) :: file
-      type(case_type), intent(in) :: inputs
+      type(pivot_type), intent(in) :: pivot
       real(wp), intent(in) :: time(:)
       real(wp), allocatable :: tilt(:, :), load(:, :), bristle(:, :)
-      real(wp), dimension(inputs%pad_count()) :: volume, depth
+      real(wp), dimension(size(pivot%socket_radius)) :: volume, depth
       class(contact_law_type), allocatable :: law
       type(contact_point) :: contact
       integer :: i
@@ -30,13 +30,13 @@ contains
       call file%last_samples('pivot_load', size(time), load)
       allocate (bristle, source=0*tilt)
       if (file%has('bristle_deflection')) call file%last_samples('bristle_deflection', size(time), bristle)
-      associate (pivot => inputs%pivot, lasted => time(size(time)) - time(1))
+      associate (lasted => time(size(time)) - time(1))
          do i = 1, size(volume)
             volume(i) = pivot%wear_coefficient*integral_over_way((pivot%socket_radius(i) &
                & - pivot%radius_difference(i))*tilt(i, :) - bristle(i, :), load(i, :))/lasted
             depth(i) = 0
             if (.not. volume(i) > 0) cycle
-            call make_law(inputs, i, law)
+            call make_law(pivot, i, law)
             contact = law%at(law%pivot_deflection(sum(load(i, :))/size(time)))
             ! a measured law does not tell the radius
             depth(i) = ieee_value(0.0_wp, ieee_quiet_nan)

@@ -6,7 +6,7 @@ module component_checks
    use text, only: to_text
    use errors, only: error_type, require
    use linear_algebra, only: dpotrf, dpotrs
-   use machine_groups, only: machine_type
+   use case_inputs, only: case_type
    use rotor_component, only: rotor_component_type
    implicit none (type, external)
    private
@@ -19,14 +19,14 @@ module component_checks
 
 contains
 
-   !> Raises an error for the first requirement that the matrices of a machine's rotor do not meet. The name of the file
+   !> Raises an error for the first requirement that the matrices of a case's rotor do not meet. The name of the file
    !> stands before it.
-   subroutine check_component(machine, component, error)
-      type(machine_type), intent(in) :: machine
+   subroutine check_component(inputs, component, error)
+      type(case_type), intent(in) :: inputs
       type(rotor_component_type), intent(in) :: component
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: file
-      file = 'rotor%file = '''//machine%rotor_file//''': '
+      file = 'rotor%file = '''//inputs%rotor%elastic%rotor_file//''': '
       associate (c => component)
          call require(all(ieee_is_finite(c%mass)) .and. all(ieee_is_finite(c%damping)) .and. &
             & all(ieee_is_finite(c%gyroscopic)) .and. all(ieee_is_finite(c%stiffness)) .and. &
@@ -39,7 +39,7 @@ contains
          call require(symmetric(c%stiffness, 1.0_wp), file//'stiffness: must be symmetric', error)
          call require(symmetric(c%gyroscopic, -1.0_wp), file//'gyroscopic: must change its sign when it ' &
             & //'is transposed', error)
-         call check_stations(machine, c%station, file, error)
+         call check_stations(inputs, c%station, file, error)
       end associate
    end subroutine check_component
 
@@ -67,23 +67,26 @@ contains
       end associate
    end subroutine check_translation
 
-   !> Stations of the machine exist; those of bearings are displacements of their own.
-   subroutine check_stations(machine, station, file, error)
-      type(machine_type), intent(in) :: machine
+   !> Stations of the case exist; those of bearings are displacements of their own.
+   subroutine check_stations(inputs, station, file, error)
+      type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: station(:, :)
       character(len=*), intent(in) :: file
       type(error_type), allocatable, intent(inout) :: error
       integer :: stations, highest, b, row
       stations = size(station, 1)/2
-      highest = max(maxval(machine%bearings%station), 0)
-      if (size(machine%unbalances) > 0) highest = max(highest, maxval(machine%unbalances%station))
-      if (size(machine%loads) > 0) highest = max(highest, maxval(machine%loads%station))
+      highest = max(maxval(inputs%bearings%station), 0)
+      associate (rotor => inputs%rotor%elastic)
+         if (size(rotor%unbalances) > 0) highest = max(highest, maxval(rotor%unbalances%station))
+         if (size(rotor%loads) > 0) highest = max(highest, maxval(rotor%loads%station))
+      end associate
       call require(highest <= stations, file//'has '//to_text(stations)//' stations, but station = '//to_text(highest) &
          & //' is asked for', error)
-      call require(size(machine%discs) == 0, file//'a group disc has no effect: its matrices contain the discs', error)
+      call require(size(inputs%rotor%elastic%discs) == 0, file//'a group disc has no effect: its matrices contain ' &
+         & //'the discs', error)
       if (allocated(error)) return
-      do b = 1, size(machine%bearings)
-         do row = 2*machine%bearings(b)%station - 1, 2*machine%bearings(b)%station
+      do b = 1, size(inputs%bearings)
+         do row = 2*inputs%bearings(b)%station - 1, 2*inputs%bearings(b)%station
             call require(abs(maxval(station(row, :)) - 1) <= 0 .and. count(abs(station(row, :)) > 0) == 1, file &
                & //'station: row '//to_text(row)//', of a bearing, must have one element 1 and otherwise 0', error)
          end do

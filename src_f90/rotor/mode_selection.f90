@@ -3,10 +3,11 @@ module mode_selection
    ! heap: matrices of all displacements of a shaft
    use kinds, only: wp, pi
    use case_groups, only: is_set
-   use machine_groups, only: machine_type
+   use rotor_groups, only: reduction_type
+   use case_inputs, only: case_type
    use rotor_component, only: rotor_component_type
    use fixed_interface, only: fixed_interface_type
-   use station_forces, only: unbalances
+   use station_forces, only: unbalance_moments
    use reduction_error, only: response_problem_type, amplitudes, amplitude_error
    implicit none (type, external)
    private
@@ -31,8 +32,8 @@ contains
 
    !> Chooses the modes for a highest speed, rad/s: by `reduction%frequency`, or else by the error of amplitudes.
    !> More than `most_modes` are counted alone, to be refused.
-   subroutine select_modes(machine, component, fixed, border, highest_speed, selection)
-      type(machine_type), intent(in) :: machine
+   subroutine select_modes(inputs, component, fixed, border, highest_speed, selection)
+      type(case_type), intent(in) :: inputs
       type(rotor_component_type), intent(in) :: component
       type(fixed_interface_type), intent(in) :: fixed
       !> Displacements of the journals.
@@ -44,11 +45,11 @@ contains
       complex(wp) :: rate
       integer :: n
       rate = highest_speed*cmplx(growth, 1.0_wp, wp)
-      whole = response_problem(machine, component, fixed, border, highest_speed, rate)
+      whole = response_problem(inputs, component, fixed, border, highest_speed, rate)
       exact = amplitudes(whole, size(whole%stiffness, 1))
       reduced = whole%reduced(fixed%basis(size(fixed%frequency)))
-      if (is_set(machine%reduction%frequency)) then
-         selection%modes = count(fixed%frequency <= 2*pi*machine%reduction%frequency)
+      if (is_set(inputs%rotor%elastic%reduction%frequency)) then
+         selection%modes = count(fixed%frequency <= 2*pi*inputs%rotor%elastic%reduction%frequency)
       else
          selection%modes = min(most_modes/fixed%planes, &
             & count(fixed%frequency <= max(lowest_multiple*highest_speed, 2*pi*lowest_frequency)))
@@ -58,11 +59,11 @@ contains
          n = size(border) + fixed%planes*selection%modes
          found = amplitudes(reduced, n)
          selection%truncation_error = amplitude_error(found, exact)
-         if (is_set(machine%reduction%frequency) .or. selection%modes == size(fixed%frequency) &
+         if (is_set(inputs%rotor%elastic%reduction%frequency) .or. selection%modes == size(fixed%frequency) &
             & .or. fixed%planes*(selection%modes + 1) > most_modes .or. selection%truncation_error <= target_error) exit
          selection%modes = selection%modes + 1
       end do
-      call add_damping(machine, fixed, selection%modes, rate, reduced)
+      call add_damping(inputs%rotor%elastic%reduction, fixed, selection%modes, rate, reduced)
       selection%damping_error = amplitude_error(amplitudes(reduced, n), found)
    end subroutine select_modes
 
@@ -70,8 +71,8 @@ contains
    !> and its unbalances. Amplitudes are those of journals and discs: a force in between also deflects the shaft
    !> just where it acts, which takes many modes. The bearings are springs and dampers that resist the journals as
    !> much as the rotor itself does, where both matter most.
-   function response_problem(machine, component, fixed, border, speed, rate) result(problem)
-      type(machine_type), intent(in) :: machine
+   function response_problem(inputs, component, fixed, border, speed, rate) result(problem)
+      type(case_type), intent(in) :: inputs
       type(rotor_component_type), intent(in) :: component
       type(fixed_interface_type), intent(in) :: fixed
       integer, intent(in) :: border(:)
@@ -85,9 +86,9 @@ contains
          problem%stiffness = rate**2*c%mass + rate*(c%damping + speed*c%gyroscopic) + c%stiffness
          allocate (problem%loads(size(c%mass, 1), 2))
          problem%loads(:, 1) = c%weighed
-         moments = unbalances(machine, size(c%station, 1), c%sense)
+         moments = unbalance_moments(inputs%rotor%elastic%unbalances, size(c%station, 1), c%sense)
          problem%loads(:, 2) = matmul(moments(1, :), c%station)
-         rows = station_rows([machine%bearings%station, machine%discs%station])
+         rows = station_rows([inputs%bearings%station, inputs%rotor%elastic%discs%station])
          problem%observed = c%station(rows, :)
          static = fixed%basis(0)
          problem%journals = border
@@ -109,15 +110,15 @@ contains
    end function quadratic
 
    !> Adds the damping of the high modes to a reduced problem.
-   pure subroutine add_damping(machine, fixed, modes, rate, reduced)
-      type(machine_type), intent(in) :: machine
+   pure subroutine add_damping(r, fixed, modes, rate, reduced)
+      type(reduction_type), intent(in) :: r
       type(fixed_interface_type), intent(in) :: fixed
       integer, intent(in) :: modes
       complex(wp), intent(in) :: rate
       type(response_problem_type), intent(inout) :: reduced
       real(wp) :: damping(modes)
       integer :: i, at, p
-      damping = mode_damping(machine, fixed, modes)
+      damping = mode_damping(r, fixed, modes)
       at = size(reduced%journals)
       do i = 1, modes
          do p = 1, fixed%planes
@@ -129,12 +130,12 @@ contains
 
    !> Damping of the first modes, of modal mass 1, 1/s: those above `reduction%damp_above` have a damping ratio. Without
    !> damping they hold up an integrator of high order.
-   pure function mode_damping(machine, fixed, modes) result(damping)
-      type(machine_type), intent(in) :: machine
+   pure function mode_damping(r, fixed, modes) result(damping)
+      type(reduction_type), intent(in) :: r
       type(fixed_interface_type), intent(in) :: fixed
       integer, intent(in) :: modes
       real(wp) :: damping(modes)
-      associate (frequency => fixed%frequency(:modes), r => machine%reduction)
+      associate (frequency => fixed%frequency(:modes))
          damping = merge(2*r%damping_ratio*frequency, 0.0_wp, frequency > 2*pi*r%damp_above)
       end associate
    end function mode_damping

@@ -2,7 +2,7 @@
 module rotor_component
    ! heap: matrices of all displacements of a shaft
    use kinds, only: wp
-   use machine_groups, only: machine_type
+   use rotor_groups, only: elastic_type
    use given_rotor, only: given_rotor_type
    use shaft_matrices, only: shaft_matrices_type, new_shaft_matrices
    implicit none (type, external)
@@ -37,14 +37,14 @@ contains
       self%sense = sense
    end subroutine turn_in
 
-   !> The shaft of a machine with its discs, turning clockwise.
-   pure function shaft_component(machine) result(component)
-      type(machine_type), intent(in) :: machine
+   !> A shaft with its discs, turning clockwise.
+   pure function shaft_component(rotor) result(component)
+      type(elastic_type), intent(in) :: rotor
       type(rotor_component_type) :: component
       type(shaft_matrices_type) :: shaft
       real(wp), allocatable :: pick(:, :)
       integer :: stations, n, i
-      shaft = new_shaft_matrices(machine)
+      shaft = new_shaft_matrices(rotor)
       stations = size(shaft%mass, 1)/2
       n = 4*stations
       component%planes = 2

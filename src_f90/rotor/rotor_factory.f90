@@ -15,7 +15,7 @@ module rotor_factory
 
 contains
 
-   !> The rotor of a case: of a machine its shaft, else a rigid journal. A shaft that has no equations is refused.
+   !> The rotor of a case. A shaft that has no equations is refused.
    subroutine make_rotor(inputs, rotor, refusal, before)
       type(case_type), intent(in) :: inputs
       class(rotor_type), allocatable, intent(out) :: rotor
@@ -28,7 +28,7 @@ contains
       type(error_type), allocatable :: error
       integer, allocatable :: modes
       logical :: ok
-      if (.not. inputs%is_machine()) then
+      if (inputs%rotor%is_rigid()) then
          allocate (rotor, source=new_rigid_journal(inputs%rotor%mass))
          return
       end if
@@ -38,8 +38,7 @@ contains
             modes = size(before%matrices%mode_frequency)
          end select
       end if
-      call find_rotor(inputs%machine, inputs%rotor%gravity, highest_speed(inputs), inputs%sense(), matrices, error, &
-         & modes)
+      call find_rotor(inputs, highest_speed(inputs), matrices, error, modes)
       if (allocated(error)) then
          refusal = error%message
          return

@@ -2,11 +2,11 @@
 module rotor_matrices
    ! heap: matrices of all displacements of a shaft
    use kinds, only: wp, pi
-   use machine_groups, only: machine_type
+   use case_inputs, only: case_type
    use rotor_component, only: rotor_component_type
    use fixed_interface, only: fixed_interface_type
    use mode_selection, only: mode_damping
-   use station_forces, only: static_forces, unbalances
+   use station_forces, only: static_forces, unbalance_moments
    use bearing_supports, only: relative_displacements, add_supports
    implicit none (type, external)
    private
@@ -41,28 +41,28 @@ module rotor_matrices
 
 contains
 
-   !> The rotor with this many modes in the bearings of a machine, under gravity, m/s^2.
-   function reduced_rotor(machine, component, fixed, modes, gravity) result(r)
-      type(machine_type), intent(in) :: machine
+   !> The rotor of a case with this many modes in its bearings.
+   function reduced_rotor(inputs, component, fixed, modes) result(r)
+      type(case_type), intent(in) :: inputs
       type(rotor_component_type), intent(in) :: component
       type(fixed_interface_type), intent(in) :: fixed
       integer, intent(in) :: modes
-      real(wp), intent(in) :: gravity
       type(rotor_matrices_type) :: r
       real(wp), allocatable :: basis(:, :), into(:, :), offset(:), force(:), deflection(:)
       integer :: b
-      r%journals = size(machine%bearings)
+      r%journals = size(inputs%bearings)
       basis = fixed%basis(modes)
-      into = relative_displacements(machine, size(basis, 2))
-      offset = [(machine%bearings(b)%offset, b=1, r%journals)]
+      into = relative_displacements(inputs%bearings, size(basis, 2))
+      offset = [(inputs%bearings(b)%offset, b=1, r%journals)]
       call reduce_matrices(component, basis, into, 2*r%journals, r)
-      force = matmul(static_forces(machine, size(component%station, 1)), component%station) - gravity*component%weighed
+      force = matmul(static_forces(inputs%rotor%elastic%loads, size(component%station, 1)), component%station) &
+         & - inputs%rotor%gravity*component%weighed
       deflection = matmul(basis(:, :2*r%journals), offset)
       r%load = matmul(matmul(force - matmul(component%stiffness, deflection), basis), into)
       deflection = deflection + fixed%residual_deflection(force, modes)
       basis = matmul(basis, into)
-      r%unbalance = transpose(matmul(unbalances(machine, size(component%station, 1), component%sense), &
-         & matmul(component%station, basis)))
+      r%unbalance = transpose(matmul(unbalance_moments(inputs%rotor%elastic%unbalances, size(component%station, 1), &
+         & component%sense), matmul(component%station, basis)))
       r%station = matmul(component%station, basis)
       r%station_offset = matmul(component%station, deflection)
       r%slope = matmul(component%slope, basis)
@@ -70,8 +70,8 @@ contains
       r%total_mass = component%total_mass
       r%mode_frequency = fixed%frequency(:modes)/(2*pi)
       if (modes < size(fixed%frequency)) r%left_out_frequency = fixed%frequency(modes + 1)/(2*pi)
-      call add_modal_damping(mode_damping(machine, fixed, modes), fixed%planes, r)
-      call add_supports(machine, gravity, r%mass, r%damping, r%stiffness, r%load)
+      call add_modal_damping(mode_damping(inputs%rotor%elastic%reduction, fixed, modes), fixed%planes, r)
+      call add_supports(inputs%bearings, inputs%rotor%gravity, r%mass, r%damping, r%stiffness, r%load)
    end function reduced_rotor
 
    !> The matrices in the displacements x. The mass of the modes is 1 and no stiffness joins them, but for rounding.

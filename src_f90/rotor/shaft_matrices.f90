@@ -3,7 +3,7 @@
 module shaft_matrices
    ! heap: matrices of all displacements of a shaft
    use kinds, only: wp
-   use machine_groups, only: machine_type
+   use rotor_groups, only: elastic_type
    use beam_section, only: beam_section_type
    implicit none (type, external)
    private
@@ -16,13 +16,13 @@ module shaft_matrices
 
 contains
 
-   !> Those of a machine's shaft and discs.
-   pure function new_shaft_matrices(machine) result(matrices)
-      type(machine_type), intent(in) :: machine
+   !> Those of a shaft and its discs.
+   pure function new_shaft_matrices(rotor) result(matrices)
+      type(elastic_type), intent(in) :: rotor
       type(shaft_matrices_type) :: matrices
       type(beam_section_type) :: section
       integer :: n, i, at
-      associate (s => machine%shaft)
+      associate (s => rotor%shaft)
          n = 2*(size(s%length) + 1)
          allocate (matrices%mass(n, n), matrices%gyroscopic(n, n), matrices%stiffness(n, n), source=0.0_wp)
          do i = 1, size(s%length)
@@ -37,8 +37,8 @@ contains
             end associate
          end do
       end associate
-      do i = 1, size(machine%discs)
-         associate (disc => machine%discs(i))
+      do i = 1, size(rotor%discs)
+         associate (disc => rotor%discs(i))
             at = 2*disc%station
             matrices%mass(at - 1, at - 1) = matrices%mass(at - 1, at - 1) + disc%mass
             matrices%mass(at, at) = matrices%mass(at, at) + disc%diametral_inertia

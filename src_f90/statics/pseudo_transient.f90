@@ -7,7 +7,7 @@ module pseudo_transient
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
    use linear_algebra, only: dgesv
-   use state_layout, only: at_deflection
+   use abstract_element, only: element_pointer
    use equations_of_motion, only: machine_model
    use force_balance, only: forces, force_derivatives, masses
    implicit none (type, external)
@@ -17,9 +17,6 @@ module pseudo_transient
 
    !> Unbalanced force over the reference force in equilibrium.
    real(wp), parameter :: residual_limit = 1e-8_wp
-   !> Least load over the largest force of a film: preloaded films leave 1e-11 of their forces unbalanced, as a film is
-   !> the small difference of large radii.
-   real(wp), parameter :: least_load = 1e-2_wp
    !> First time step, in radians of the shaft, that makes this Newton's own method.
    real(wp), parameter :: newtons = 1e6_wp
    !> Of 709 searches with this limit that succeed in the bearings of docs/stability.md, *Searches of an equilibrium*,
@@ -142,8 +139,8 @@ contains
       integer :: b, i
       free = .true.
       if (.not. present(held)) return
-      do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b))
+      do b = 1, size(model%layout%elements)
+         associate (of => model%layout%elements(b))
             do i = 1, of%pads
                free(of%own_positions(i)) = .not. held(of%other_pads + i)
             end do
@@ -199,22 +196,27 @@ contains
    end subroutine take_step
 
    !> Bearing clearance in the unit of each position (tilt: at the pad's edge).
-   pure function clearances(model)
-      type(machine_model), intent(in) :: model
+   function clearances(model)
+      type(machine_model), intent(in), target :: model
       real(wp), allocatable :: clearances(:)
-      real(wp) :: scale(model%n)
-      integer :: b, i
-      scale = model%scale
-      do b = 1, size(model%bearings)
-         associate (of => model%layout%bearings(b))
-            if (of%radial) scale(of%before([(i, i=1, of%pads)]) + at_deflection) = model%bearings(b)%clearance
+      type(element_pointer), allocatable :: elements(:)
+      integer :: e, i, k, at
+      clearances = model%scale(model%layout%positions())
+      elements = model%elements()
+      do e = 1, size(elements)
+         associate (of => model%layout%elements(e))
+            do i = 1, of%pads
+               do k = 1, of%coordinates
+                  at = of%first_position(i) + k - 1
+                  clearances(at) = elements(e)%to%clearance_of(k, clearances(at))
+               end do
+            end do
          end associate
       end do
-      clearances = scale(model%layout%positions())
    end function clearances
 
    !> Derivatives of the forces over positions and, with the trace of damping, rates, in the state evaluated last.
-   pure subroutine static_derivatives(model, stiffness, damping)
+   subroutine static_derivatives(model, stiffness, damping)
       type(machine_model), intent(in) :: model
       real(wp), intent(out) :: stiffness(:, :), damping(:, :)
       call force_derivatives(model, stiffness, damping)
@@ -243,15 +245,13 @@ contains
 
    !> Largest unbalanced force in the state y, which was evaluated last, N, at positions that are free; those of a rotor
    !> that are no displacements by what these do at a displacement of a clearance.
-   pure real(wp) function unbalanced(model, y, free)
+   real(wp) function unbalanced(model, y, free)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       logical, intent(in), optional :: free(:)
       real(wp) :: force(model%layout%n_positions())
-      integer, allocatable :: tilts(:)
       force = forces(model, 0.0_wp, y)
-      tilts = model%layout%tilts()
-      force(tilts) = force(tilts)/model%tilt_lengths()
+      force(model%rotor%positions + 1:) = force(model%rotor%positions + 1:)/model%own_lengths()
       if (present(free)) force = merge(force, 0.0_wp, free)
       associate (rotor => model%rotor%positions)
          force(:rotor) = force(:rotor)*(model%scale(:rotor)/minval(model%bearings%clearance))
@@ -259,20 +259,18 @@ contains
       end associate
    end function unbalanced
 
-   !> What unbalanced forces are measured by: the load, or, without load, the heaviest pad, or the drag of a film as
-   !> thick as the pad clearance; at least a share of the largest force of a film in the state evaluated last.
-   pure real(wp) function reference_force(model)
-      type(machine_model), intent(in) :: model
-      integer :: b
+   !> What unbalanced forces are measured by: the load, or, without load, what its elements say in the state evaluated
+   !> last.
+   real(wp) function reference_force(model)
+      type(machine_model), intent(in), target :: model
+      type(element_pointer), allocatable :: elements(:)
+      integer :: e
       reference_force = largest_load(model)
-      do b = 1, size(model%bearings)
-         associate (gap => model%bearings(b)%pads%gap, loads => model%bearings(b)%loads, &
-            & first => model%layout%bearings(b)%other_pads + 1, &
-            & last => model%layout%bearings(b)%other_pads + model%layout%bearings(b)%pads)
-            reference_force = max(reference_force, maxval(model%bearings(b)%pads%weight), &
-               & maxval(model%oil(first:last)%viscosity*model%point%speed(0.0_wp)*gap%journal_radius**2*gap%arc() &
-               & *gap%axial_length/gap%machined_clearance), &
-               & least_load*maxval(hypot(loads%journal(1), loads%journal(2))))
+      elements = model%elements()
+      do e = 1, size(elements)
+         associate (of => model%layout%elements(e))
+            reference_force = max(reference_force, elements(e)%to%reference_force(model%oil(of%all_pads()), &
+               & model%point%speed(0.0_wp)))
          end associate
       end do
    end function reference_force

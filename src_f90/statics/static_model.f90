@@ -2,11 +2,11 @@
 !> nearby, and where the searches start.
 module static_model
    use kinds, only: wp
-   use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use factories, only: converged_films, quick_films
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_frame, pad_state, frame_of, in_mirror
+   use state_layout, only: pad_state, tilt, pivot_deflection
+   use kinematics, only: pad_frame, frame_of, in_mirror
    use equations_of_motion, only: machine_model, new_machine_model
    use errors, only: error_type, add_context, stopped, asked_to_stop
    use pseudo_transient, only: follow_motion, newtons
@@ -32,7 +32,7 @@ contains
       static = model
       call stand_still(static, cavitation)
       do b = 1, size(static%bearings)
-         call static%bearings(b)%use_in_statics(static%inputs%of_bearing(b))
+         call static%bearings(b)%use_in_statics(static%inputs, b)
       end do
    end subroutine make_static
 
@@ -45,23 +45,20 @@ contains
       call model%set_point(point)
    end subroutine stand_still
 
-   !> A static model of a case with quick films, which are nearly the case's.
-   subroutine make_quick(inputs, viscosity, cavitation, quick)
-      type(case_type), intent(in) :: inputs
-      !> Of the oil on every pad, Pa s.
-      real(wp), intent(in) :: viscosity(:)
-      logical, intent(in) :: cavitation
+   !> The same as a static model with quick films, which are nearly the case's.
+   subroutine make_quick(static, quick)
+      type(machine_model), intent(in) :: static
       type(machine_model), intent(out) :: quick
-      quick = new_machine_model(inputs, quick_films)
-      call stand_still(quick, cavitation)
-      quick%oil%viscosity = viscosity
+      quick = new_machine_model(static%inputs, quick_films, static%others)
+      call stand_still(quick, static%point%cavitation)
+      quick%oil%viscosity = static%oil%viscosity
    end subroutine make_quick
 
    !> The same with films that are converged, where the case leaves their solver to the program.
    subroutine make_fine(model, fine)
       type(machine_model), intent(in) :: model
       type(machine_model), intent(out) :: fine
-      fine = new_machine_model(model%inputs, converged_films)
+      fine = new_machine_model(model%inputs, converged_films, model%others)
       call stand_still(fine, model%point%cavitation)
    end subroutine make_fine
 
@@ -99,19 +96,20 @@ contains
       integer :: i
       associate (load => model%point%load)
          if (norm2(load) > 0) then
-            journal%position = fractions(k)*model%inputs%clearance()*load/norm2(load)
-            if (model%layout%bearings(1)%radial) then
+            journal%position = fractions(k)*model%bearings(1)%clearance*load/norm2(load)
+            if (model%layout%elements(1)%has(pivot_deflection)) then
                do i = 1, size(pads)
-                  pads(i)%pivot_deflection = model%bearings(1)%pivots(i)%contact%law%pivot_deflection(norm2(load) &
+                  pads(i)%x(pivot_deflection) = model%bearings(1)%pivots(i)%contact%law%pivot_deflection(norm2(load) &
                      & /size(pads))
                end do
             end if
          end if
-         if (.not. model%layout%bearings(1)%tilting) journal%position = journal%position + middle_of_bores(model)
+         if (.not. model%layout%elements(1)%has(tilt)) journal%position = journal%position + middle_of_bores(model)
          do i = 1, size(pads)
             associate (position => model%bearings(1)%pads(i)%position)
                frame = frame_of(position, journal, pads(i))
-               pads(i)%tilt = (frame%along + model%inputs%bearing%machined_clearance(i)/3)/position%centre_distance
+               pads(i)%x(tilt) = (frame%along + model%inputs%bearings(1)%machined_clearance(i)/3) &
+                  & /position%centre_distance
             end associate
          end do
       end associate
@@ -123,7 +121,7 @@ contains
       type(machine_model), intent(in) :: model
       real(wp) :: middle(2)
       associate (pads => model%bearings(1)%pads, &
-         & out => model%inputs%bearing%machined_clearance - model%inputs%bearing%assembled_clearance)
+         & out => model%inputs%bearings(1)%machined_clearance - model%inputs%bearings(1)%assembled_clearance)
          ! equal pads add nothing to the first term
          middle = -out(1)/size(pads)*[sum(pads%position%sin_angle), sum(pads%position%cos_angle)] &
             & - [dot_product(out - out(1), pads%position%sin_angle), &
@@ -132,12 +130,11 @@ contains
       end associate
    end function middle_of_bores
 
-   !> Puts the name of the bearing in front of the message of a set error, where there are several bearings.
+   !> Puts the name of the bearing in front of the message of a set error, where it has one.
    subroutine name_bearing(model, b, error)
       type(machine_model), intent(in) :: model
       integer, intent(in) :: b
       type(error_type), allocatable, intent(inout) :: error
-      if (model%inputs%is_machine()) call add_context(error, &
-         & 'bearing '''//model%inputs%machine%bearings(b)%name//'''')
+      call add_context(error, model%inputs%bearings(b)%label())
    end subroutine name_bearing
 end module static_model

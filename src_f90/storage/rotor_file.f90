@@ -4,7 +4,7 @@ module rotor_file
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, input_error, raise, add_context
-   use machine_groups, only: machine_type
+   use rotor_groups, only: rotor_type
    use given_rotor, only: given_rotor_type
    use guarded_open, only: try_reading
    use files, only: is_regular
@@ -18,32 +18,36 @@ module rotor_file
 
 contains
 
-   !> Reads `rotor%file` of a machine, where it names one.
-   subroutine read_rotor(machine, error)
-      type(machine_type), intent(inout) :: machine
+   !> Reads the file of an elastic rotor that is given as one.
+   subroutine read_rotor(rotor, error)
+      type(rotor_type), intent(inout) :: rotor
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: refusal
       type(hdf5_type) :: file
       logical :: exists
-      if (machine%rotor_file == '') return
-      refusal = 'there is no such file'
-      inquire (file=machine%rotor_file, exist=exists)
-      if (exists) refusal = 'a directory, device or pipe, not a file of matrices'
-      if (is_regular(machine%rotor_file)) call try_reading(machine%rotor_file, refusal)
-      if (refusal /= '') then
-         call raise(error, input_error, 'rotor%file = '''//machine%rotor_file//''': '//refusal)
-         return
-      end if
-      allocate (machine%given)
-      call file%open(machine%rotor_file, writing=.false.)
-      if (file%id < 0) then
-         call raise(error, input_error, 'rotor%file = '''//machine%rotor_file//''': not an HDF5 file')
-         return
-      end if
-      call read_matrices(file, machine%given, error)
-      if (allocated(file%failure)) call raise(error, input_error, file%failure//'; all numbers must be 64-bit floats')
-      call file%close()
-      call add_context(error, 'rotor%file = '''//machine%rotor_file//'''')
+      if (rotor%is_rigid()) return
+      associate (path => rotor%elastic%rotor_file)
+         if (path == '') return
+         refusal = 'there is no such file'
+         inquire (file=path, exist=exists)
+         if (exists) refusal = 'a directory, device or pipe, not a file of matrices'
+         if (is_regular(path)) call try_reading(path, refusal)
+         if (refusal /= '') then
+            call raise(error, input_error, 'rotor%file = '''//path//''': '//refusal)
+            return
+         end if
+         allocate (rotor%elastic%given)
+         call file%open(path, writing=.false.)
+         if (file%id < 0) then
+            call raise(error, input_error, 'rotor%file = '''//path//''': not an HDF5 file')
+            return
+         end if
+         call read_matrices(file, rotor%elastic%given, error)
+         if (allocated(file%failure)) call raise(error, input_error, file%failure &
+            & //'; all numbers must be 64-bit floats')
+         call file%close()
+         call add_context(error, 'rotor%file = '''//path//'''')
+      end associate
    end subroutine read_rotor
 
    subroutine read_matrices(file, rotor, error)

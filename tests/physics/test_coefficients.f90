@@ -31,7 +31,7 @@ contains
       real(wp), intent(in) :: speed_rpm
       inputs = case_type()
       inputs%about%task = 'coefficients'
-      inputs%film%cavitation = 'none'
+      inputs%bearings(1)%film%cavitation = 'none'
       inputs%operation%speed_rpm = speed_rpm
       inputs%operation%final_speed_rpm = speed_rpm
    end function whole
@@ -42,7 +42,7 @@ contains
       type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
       inputs = whole(6500.0_wp)
-      inputs%friction%model = 'lugre'
+      inputs%bearings(1)%friction%model = 'lugre'
       inputs%coefficients%frequency_ratio = [1.0_wp, 0.5_wp]
       call analyse(inputs, 'tilting and radial', found)
       call expect(all(found%bearings%pivot == ['free  ', 'stuck ', 'locked']), 'three ways of the pivots')
@@ -54,12 +54,12 @@ contains
       call compare(found%damping(:, :, 1, 2, 1), [0.964977_wp, -0.227835_wp, 0.227328_wp, 0.967452_wp], 'stuck, C')
       call compare(found%stiffness(1:1, 1:1, 1, 3, 1), [873.050_wp], 'locked, K')
       call compare(found%damping(1:1, 1:1, 1, 3, 1), [1.03309_wp], 'locked, C')
-      inputs%pads%motion = 'tilting_only'
+      inputs%bearings(1)%pads%motion = 'tilting_only'
       call analyse(inputs, 'tilting only', found)
       call compare(diagonal(found%stiffness(:, :, 1, 1, 1)), [511.106_wp, 512.137_wp], 'tilting only, K')
       call compare(diagonal(found%damping(:, :, 1, 1, 1)), [0.977657_wp, 0.979630_wp], 'tilting only, C')
       inputs = whole(3000.0_wp)
-      inputs%pads%motion = 'tilting_only'
+      inputs%bearings(1)%pads%motion = 'tilting_only'
       call analyse(inputs, 'tilting only at 3000 rpm', found)
       call expect(all(found%bearings%pivot == ['free  ', 'locked']), 'nothing sticks without friction')
       call compare(diagonal(found%stiffness(:, :, 1, 1, 1)), [709.094_wp, 711.112_wp], '3000 rpm, K')
@@ -189,8 +189,8 @@ contains
       type(bearing_coefficients_type) :: found, expected
       call analyse(inputs, what, found)
       refined = inputs
-      refined%film%table_tolerance = 2.5e-6_wp
-      if (tolerance < 1e-5_wp) refined%film%table_tolerance = 1e-8_wp
+      refined%bearings(1)%film%table_tolerance = 2.5e-6_wp
+      if (tolerance < 1e-5_wp) refined%bearings(1)%film%table_tolerance = 1e-8_wp
       call analyse(refined, what//', refined', expected)
       call expect_close(maxval(abs(found%stiffness - expected%stiffness)), 0.0_wp, &
          & tolerance*maxval(abs(expected%stiffness)), 'K, '//what)
@@ -208,9 +208,9 @@ contains
       real(wp) :: force(2)
       integer :: axis, side
       inputs = whole(6500.0_wp)
-      inputs%pads%mass = 50
-      inputs%pads%inertia = 0.1_wp
-      inputs%pads%centre_tangential = 5e-3_wp
+      inputs%bearings(1)%pads%mass = 50
+      inputs%bearings(1)%pads%inertia = 0.1_wp
+      inputs%bearings(1)%pads%centre_tangential = 5e-3_wp
       inputs%coefficients%frequency_ratio = [0.0_wp]
       call analyse(inputs, 'stiffness at rest', found)
       do axis = 1, 2
@@ -236,12 +236,12 @@ contains
       integer :: i
       inputs = whole(6500.0_wp)
       do i = 1, 2
-         if (i == 2) inputs%pads%motion = 'tilting_only'
-         inputs%friction%model = 'lugre'
-         inputs%friction%bristle_damping = 7
-         inputs%friction%viscous_coefficient = 3
+         if (i == 2) inputs%bearings(1)%pads%motion = 'tilting_only'
+         inputs%bearings(1)%friction%model = 'lugre'
+         inputs%bearings(1)%friction%bristle_damping = 7
+         inputs%bearings(1)%friction%viscous_coefficient = 3
          call adds(inputs, 1e6_wp, 10.0_wp)
-         inputs%friction%model = 'bengisu_akay'
+         inputs%bearings(1)%friction%model = 'bengisu_akay'
          call adds(inputs, 0.0_wp, 2*0.1_wp/1e-5_wp)
       end do
    end subroutine sticking
@@ -256,7 +256,7 @@ contains
       real(wp), parameter :: radius = 13e-3_wp - 15e-6_wp
       integer :: i
       character(len=:), allocatable :: what
-      what = inputs%friction%model//', '//inputs%pads%motion
+      what = inputs%bearings(1)%friction%model//', '//inputs%bearings(1)%pads%motion
       call analyse(inputs, what, found, static, model)
       associate (free => found%bearings(1), stuck => found%bearings(2), &
          & at => model%layout%tilts())

@@ -5,7 +5,8 @@ module energy_ledger
    use ode_model, only: ode_model_type
    use film_solver, only: film_motion
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, frame_of, motion_of
+   use state_layout, only: pad_state, tilt, pivot_deflection
+   use kinematics, only: frame_of, motion_of
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: machine_model
    implicit none (type, external)
@@ -35,14 +36,14 @@ contains
       type(pad_state), allocatable :: pads(:)
       real(wp) :: power(6), film(2), frame(2, 2), a, speed, phase, weight
       integer :: pad
-      associate (b => self%bearing, p => self%bearing%inputs%pads, n => self%bearing%n)
+      associate (b => self%bearing, p => self%bearing%inputs%bearings(1)%pads, n => self%bearing%n)
          call b%rhs(t, y(:n), dydt(:n), ok)
          if (.not. ok) then
             self%refusal = b%refusal
             return
          end if
          films = b%bearings(1)%sampled()
-         pads = b%layout%bearings(1)%pad_states(y)
+         pads = b%layout%elements(1)%pad_states(y)
          speed = b%point%speed(t)
          phase = b%point%shaft_angle(t)
          ! unbalance; films on journal and pads; friction; what eqs (3)-(4) hold beside a potential
@@ -50,17 +51,17 @@ contains
          power(1) = b%point%unbalance*speed**2*(cos(phase)*y(3) + sin(phase)*y(4))
          do pad = 1, b%layout%pads
             associate (force => films(pad)%film_force)
-               a = b%bearings(1)%pads(pad)%position%angle - pads(pad)%tilt
+               a = b%bearings(1)%pads(pad)%position%angle - pads(pad)%x(tilt)
                frame = reshape([cos(a), -sin(a), sin(a), cos(a)], [2, 2])
                film = matmul(frame, force)
                power(2) = power(2) + dot_product(film, y(3:4)) &
-                  & - force(1)*b%bearings(1)%pads(pad)%position%centre_distance*pads(pad)%tilt_rate
-               power(3) = power(3) - films(pad)%friction_moment*pads(pad)%tilt_rate
-               if (b%layout%bearings(1)%radial) then
+                  & - force(1)*b%bearings(1)%pads(pad)%position%centre_distance*pads(pad)%v(tilt)
+               power(3) = power(3) - films(pad)%friction_moment*pads(pad)%v(tilt)
+               if (b%layout%elements(1)%has(pivot_deflection)) then
                   weight = p%mass(pad)*b%inputs%rotor%gravity
-                  power(2) = power(2) - force(2)*pads(pad)%pivot_deflection_rate
-                  power(4) = power(4) + (p%mass(pad)*p%centre_radial(pad)*pads(pad)%tilt_rate**2 - weight*sin(a)) &
-                     & *pads(pad)%pivot_deflection_rate
+                  power(2) = power(2) - force(2)*pads(pad)%v(pivot_deflection)
+                  power(4) = power(4) + (p%mass(pad)*p%centre_radial(pad)*pads(pad)%v(tilt)**2 - weight*sin(a)) &
+                     & *pads(pad)%v(pivot_deflection)
                end if
             end associate
          end do
@@ -86,7 +87,7 @@ contains
       real(wp) :: pushed(2), friction, coefficient
       integer :: i
       journal = bearing%rotor%journal(y(:4), 1)
-      coefficient = bearing%inputs%asperity%friction_coefficient
+      coefficient = bearing%inputs%bearings(1)%asperity%friction_coefficient
       do i = 1, size(pads)
          associate (load => bearing%bearings(1)%asperity(i), pad => bearing%bearings(1)%pads(i))
             if (.not. load%touches) cycle
@@ -94,7 +95,7 @@ contains
             ! the force is -pushed + coefficient (pushed(2), -pushed(1))
             pushed = -[load%force(1) + coefficient*load%force(2), load%force(2) - coefficient*load%force(1)] &
                & /(1 + coefficient**2)
-            friction = taken(i, coefficient*[pushed(2), -pushed(1)]) + load%moment*pads(i)%tilt_rate
+            friction = taken(i, coefficient*[pushed(2), -pushed(1)]) + load%moment*pads(i)%v(tilt)
             power(1) = power(1) + friction
             power(2) = power(2) + taken(i, -pushed) + dot_product(pushed, motion%velocity)
          end associate
@@ -107,10 +108,10 @@ contains
          integer, intent(in) :: i
          real(wp), intent(in) :: force(2)
          real(wp) :: a
-         a = bearing%bearings(1)%pads(i)%position%angle - pads(i)%tilt
+         a = bearing%bearings(1)%pads(i)%position%angle - pads(i)%x(tilt)
          taken = dot_product(force, [cos(a)*y(3) - sin(a)*y(4), sin(a)*y(3) + cos(a)*y(4)]) &
-            & - force(1)*bearing%bearings(1)%pads(i)%position%centre_distance*pads(i)%tilt_rate
-         if (bearing%layout%bearings(1)%radial) taken = taken - force(2)*pads(i)%pivot_deflection_rate
+            & - force(1)*bearing%bearings(1)%pads(i)%position%centre_distance*pads(i)%v(tilt)
+         if (bearing%layout%elements(1)%has(pivot_deflection)) taken = taken - force(2)*pads(i)%v(pivot_deflection)
       end function taken
    end subroutine add_asperities
 
@@ -126,10 +127,10 @@ contains
       real(wp) :: phi, depth
       integer :: i
       journal = bearing%rotor%journal(y(:4), 1)
-      pads = bearing%layout%bearings(1)%pad_states(y)
+      pads = bearing%layout%elements(1)%pad_states(y)
       pressed = 0
       associate (p => bearing%bearings(1)%pads(pad), gap => bearing%bearings(1)%pads(pad)%gap, &
-         & a => bearing%inputs%asperity)
+         & a => bearing%inputs%bearings(1)%asperity)
          motion = motion_of(p%position, frame_of(p%position, journal, pads(pad)), journal, pads(pad))
          do i = 1, n
             phi = -gap%trailing_angle + (i - 0.5_wp)*gap%arc()/n
@@ -142,7 +143,7 @@ contains
    end function pressed
 
    subroutine ledger_linearize(self, t, y, ok)
-      class(ledger), intent(inout) :: self
+      class(ledger), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       logical, intent(out) :: ok
       call self%bearing%linearize(t, y(:self%bearing%n), ok)
@@ -150,7 +151,7 @@ contains
 
    !> The work acts back on nothing; its own rows are left out, which costs an iteration, not accuracy.
    subroutine ledger_rhs_and_jacobian(self, t, y, dydt, matrix, ok)
-      class(ledger), intent(inout) :: self
+      class(ledger), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:), matrix(:, :)
       logical, intent(out) :: ok
@@ -163,7 +164,7 @@ contains
 
    !> Without these rows.
    subroutine ledger_solve(self, gamma, b, ok)
-      class(ledger), intent(inout) :: self
+      class(ledger), intent(inout), target :: self
       real(wp), intent(in) :: gamma
       real(wp), intent(inout) :: b(:)
       logical, intent(out) :: ok
@@ -178,20 +179,20 @@ contains
       type(pad_state), allocatable :: pads(:)
       integer :: pad
       energy = 0
-      pads = bearing%layout%bearings(1)%pad_states(y)
-      associate (b => bearing, p => bearing%inputs%pads, r => bearing%inputs%rotor)
+      pads = bearing%layout%elements(1)%pad_states(y)
+      associate (b => bearing, p => bearing%inputs%bearings(1)%pads, r => bearing%inputs%rotor)
          energy(1) = 0.5_wp*r%mass*dot_product(y(3:4), y(3:4))
          energy(3) = r%mass*r%gravity*y(1) - dot_product(r%static_load, y(1:2))
          do pad = 1, b%layout%pads
             associate (state => pads(pad))
-               a = b%bearings(1)%pads(pad)%position%angle - state%tilt
-               energy(2) = energy(2) + 0.5_wp*p%inertia(pad)*state%tilt_rate**2
+               a = b%bearings(1)%pads(pad)%position%angle - state%x(tilt)
+               energy(2) = energy(2) + 0.5_wp*p%inertia(pad)*state%v(tilt)**2
                energy(3) = energy(3) + p%mass(pad)*r%gravity &
                   & *(p%centre_tangential(pad)*cos(a) + p%centre_radial(pad)*sin(a))
-               if (b%layout%bearings(1)%radial) then
-                  energy(2) = energy(2) + p%mass(pad)*(0.5_wp*state%pivot_deflection_rate**2 &
-                     & + p%centre_tangential(pad)*state%tilt_rate*state%pivot_deflection_rate)
-                  energy(4) = energy(4) + stored(b, state%pivot_deflection)
+               if (b%layout%elements(1)%has(pivot_deflection)) then
+                  energy(2) = energy(2) + p%mass(pad)*(0.5_wp*state%v(pivot_deflection)**2 &
+                     & + p%centre_tangential(pad)*state%v(tilt)*state%v(pivot_deflection))
+                  energy(4) = energy(4) + stored(b, state%x(pivot_deflection))
                end if
                energy(4) = energy(4) + pressed(b, y, pad)
             end associate
@@ -223,7 +224,7 @@ program test_energy_balance
    use text, only: to_text, exact_text
    use errors, only: error_type
    use case_inputs, only: case_type
-   use state_layout, only: at_tilt_rate
+   use state_layout, only: pad_state, tilt, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium_record, only: equilibrium_type
    use equilibrium, only: find_equilibrium
@@ -270,6 +271,7 @@ contains
       type(machine_model) :: bearing
       type(equilibrium_type) :: static
       type(error_type), allocatable :: error
+      type(pad_state) :: pads(2)
       real(wp) :: rubbed
       logical :: touched
       character(len=:), allocatable :: what
@@ -278,8 +280,10 @@ contains
       bearing = new_machine_model(inputs)
       call find_equilibrium(bearing, static, error)
       call expect_no_error(error, 'the equilibrium is found')
-      call closes(inputs, bearing%static_state(static%rotor + [10e-6_wp, 5e-6_wp], static%tilt + [1e-4_wp, &
-         & -5e-5_wp], static%pivot_deflection*[1.02_wp, 0.97_wp]), what, rubbed, touched)
+      pads = static%pads
+      pads%x(tilt) = pads%x(tilt) + [1e-4_wp, -5e-5_wp]
+      pads%x(pivot_deflection) = pads%x(pivot_deflection)*[1.02_wp, 0.97_wp]
+      call closes(inputs, bearing%static_state(static%rotor + [10e-6_wp, 5e-6_wp], pads), what, rubbed, touched)
       call expect(.not. touched, 'nothing touches, '//what)
       if (friction == 'none') then
          call expect(abs(rubbed) <= 0, 'nothing rubs, '//what)
@@ -304,9 +308,8 @@ contains
          & //motion//''' / &film cavitation = ''gumbel'' / &rotor unbalance = 0 / &asperity friction_coefficient = ' &
          & //exact_text(coefficient)//' /')
       bearing = new_machine_model(inputs)
-      start = bearing%static_state([-55e-6_wp, 0.0_wp], [-0.2e-3_wp, 1.03e-3_wp, -3.4e-3_wp], [7e-6_wp, 7e-6_wp, &
-         & 1e-6_wp])
-      start(bearing%layout%bearings(1)%before(3) + at_tilt_rate) = -1
+      start = bearing%static_state([-55e-6_wp, 0.0_wp], [pad_state(-0.2e-3_wp, deflection=7e-6_wp), &
+         & pad_state(1.03e-3_wp, deflection=7e-6_wp), pad_state(-3.4e-3_wp, -1.0_wp, 1e-6_wp)])
       call closes(inputs, start, what, rubbed, touched)
       call expect(touched, 'the edge strikes, '//what)
       call expect(merge(rubbed < 0, abs(rubbed) <= 0, coefficient > 0), 'friction takes work alone: ' &
@@ -325,10 +328,10 @@ contains
       what = 'striking, friction '//to_text(coefficient)
       inputs = shaken_case('fixed', 'none', 0.0_wp)
       ! rough surfaces, which the film does not keep apart
-      inputs%asperity%roughness = 3e-6_wp
-      inputs%asperity%friction_coefficient = coefficient
+      inputs%bearings(1)%asperity%roughness = 3e-6_wp
+      inputs%bearings(1)%asperity%friction_coefficient = coefficient
       bearing = new_machine_model(inputs)
-      start = bearing%static_state([-60e-6_wp, 0.0_wp], [0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp])
+      start = bearing%static_state([-60e-6_wp, 0.0_wp], [pad_state(), pad_state()])
       start(3:4) = [-0.5_wp, 0.2_wp]
       call closes(inputs, start, what, rubbed, touched)
       call expect(touched, 'it strikes, '//what)

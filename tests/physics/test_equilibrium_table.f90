@@ -8,6 +8,7 @@ program test_equilibrium_table
    use film_solver, only: film_oil, film_motion, film_response, cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use sor_film, only: sor_film_type, sor_options, new_sor_film
+   use state_layout, only: tilt, pivot_deflection
    use equations_of_motion, only: new_machine_model
    use equilibrium_record, only: equilibrium_type
    use equilibrium, only: find_equilibrium
@@ -46,7 +47,7 @@ contains
       character(len=*), intent(in) :: motion
       real(wp), intent(in) :: speed_rpm
       inputs = case_type()
-      inputs%pads%motion = motion
+      inputs%bearings(1)%pads%motion = motion
       inputs%operation%speed_rpm = speed_rpm
       inputs%operation%final_speed_rpm = speed_rpm
    end function paper_case
@@ -55,19 +56,19 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable :: error
       call find_equilibrium(new_machine_model(inputs), found, error)
-      call expect_no_error(error, 'found: '//inputs%pads%motion//', '//to_text(inputs%operation%speed_rpm) &
+      call expect_no_error(error, 'found: '//inputs%bearings(1)%pads%motion//', '//to_text(inputs%operation%speed_rpm) &
          & //' rpm')
    end function found_in
 
    !> Places of the journal, um, tilts, mrad, and films, um, in the units of the table; a tilt of 0.1 % of the
    !> clearance at the pad's edge is 2.6e-3 mrad.
-   subroutine expect_place(found, journal, tilt, film, what)
+   subroutine expect_place(found, journal, angles, film, what)
       type(equilibrium_type), intent(in) :: found
-      real(wp), intent(in) :: journal(2), tilt(2), film
+      real(wp), intent(in) :: journal(2), angles(2), film
       character(len=*), intent(in) :: what
       call expect_close(found%rotor(1), journal(1)*1e-6_wp, small, 'journal y, '//what)
       call expect_close(found%rotor(2), journal(2)*1e-6_wp, small, 'journal z, '//what)
-      call expect_close(maxval(abs(found%tilt - tilt*1e-3_wp)), 0.0_wp, 2.6e-6_wp, 'tilts, '//what)
+      call expect_close(maxval(abs(found%pads%x(tilt) - angles*1e-3_wp)), 0.0_wp, 2.6e-6_wp, 'tilts, '//what)
       call expect_close(minval(found%min_film_thickness), film*1e-6_wp, small, 'minimum film thickness, '//what)
       call expect(found%residual <= 1e-8_wp, 'residual, '//what)
    end subroutine expect_place
@@ -79,12 +80,12 @@ contains
       character(len=4), parameter :: solvers(2) = ['auto', 'sor ']
       inputs = paper_case('tilting_radial', 6500.0_wp)
       do k = 1, 2
-         inputs%film%solver = trim(solvers(k))
+         inputs%bearings(1)%film%solver = trim(solvers(k))
          found = found_in(inputs)
          call expect_place(found, [-55.595_wp, 0.0266_wp], [-0.2029_wp, 1.0269_wp], 41.512_wp, 'TR 6500 '//solvers(k))
          ! the pivots are 2 MN/mm stiff: their pivot deflection follows the load, to its 1e-4, and not the film
-         call expect_close(found%pivot_deflection(1), 7.0915e-6_wp, 1e-9_wp, 'pivot deflection 1, '//solvers(k))
-         call expect_close(found%pivot_deflection(2), 7.0870e-6_wp, 1e-9_wp, 'pivot deflection 2, '//solvers(k))
+         call expect_close(found%pads(1)%x(pivot_deflection), 7.0915e-6_wp, 1e-9_wp, 'pivot deflection 1, '//solvers(k))
+         call expect_close(found%pads(2)%x(pivot_deflection), 7.0870e-6_wp, 1e-9_wp, 'pivot deflection 2, '//solvers(k))
       end do
    end subroutine tilting_radial_table
 
@@ -93,7 +94,7 @@ contains
       type(case_type) :: inputs
       inputs = paper_case('tilting_only', speed_rpm)
       call expect_place(found_in(inputs), journal, tilt, film, 'TO '//to_text(speed_rpm))
-      inputs%film%solver = 'sor'
+      inputs%bearings(1)%film%solver = 'sor'
       call expect_place(found_in(inputs), journal, tilt, film, 'TO sor '//to_text(speed_rpm))
    end subroutine tilting_only_table
 
@@ -106,10 +107,10 @@ contains
       real(wp) :: off(0:2)
       integer :: k
       inputs = paper_case('tilting_only', 6500.0_wp)
-      inputs%film%solver = 'sor'
+      inputs%bearings(1)%film%solver = 'sor'
       do k = 0, 2
-         inputs%film%circumferential_cells = 30*2**k
-         inputs%film%axial_cells = 8*2**k
+         inputs%bearings(1)%film%circumferential_cells = 30*2**k
+         inputs%bearings(1)%film%axial_cells = 8*2**k
          found = found_in(inputs)
          off(k) = found%rotor(1) + 45.561e-6_wp
       end do
@@ -134,13 +135,13 @@ contains
       real(wp) :: total(2), a, theta, pivot(2), centre(2), e(2), load, along(2), outward(2), weight
       integer :: pad
       inputs = paper_case(motion, 4000.0_wp)
-      inputs%film%solver = 'sor'
-      inputs%film%cavitation = 'reynolds'
+      inputs%bearings(1)%film%solver = 'sor'
+      inputs%bearings(1)%film%cavitation = 'reynolds'
       inputs%rotor%static_load = [1e3_wp, 5e3_wp]
-      inputs%pads%pivot_ratio = 0.55_wp
-      inputs%pads%centre_tangential = 3e-3_wp
+      inputs%bearings(1)%pads%pivot_ratio = 0.55_wp
+      inputs%bearings(1)%pads%centre_tangential = 3e-3_wp
       found = found_in(inputs)
-      associate (b => inputs%bearing, p => inputs%pads)
+      associate (b => inputs%bearings(1), p => inputs%bearings(1)%pads)
          film = pad_gap_type(b%journal_radius, b%machined_clearance(1), b%axial_length(1), 0.55_wp*69.3_wp*degree, &
             & 0.45_wp*69.3_wp*degree, 0.0_wp, 0.0_wp, 0.0_wp)
          solver = new_sor_film([film, film], sor_options(tolerance=1e-10_wp, max_sweeps=100000, &
@@ -149,11 +150,11 @@ contains
          load = norm2(total)
          do pad = 1, 2
             theta = p%pivot_angle_deg(pad)*degree
-            a = theta - found%tilt(pad)
+            a = theta - found%pads(pad)%x(tilt)
             along = [cos(a), -sin(a)]
             outward = [sin(a), cos(a)]
             pivot = (b%journal_radius + b%assembled_clearance(pad) + p%pivot_distance(pad) &
-               & + found%pivot_deflection(pad))*[sin(theta), cos(theta)]
+               & + found%pads(pad)%x(pivot_deflection))*[sin(theta), cos(theta)]
             centre = pivot - (b%journal_radius + b%machined_clearance(pad) + p%pivot_distance(pad))*outward
             e = found%rotor - centre
             call solver%evaluate_pad(pad, film_motion([dot_product(e, along), dot_product(e, outward)]), &
@@ -205,10 +206,10 @@ contains
          & //'&pads pivot_angle_deg = 126, 198, 270, 342, 54, arc_deg = 44, 56, 52, 66, 26, pivot_ratio = 0.52, ' &
          & //'mass = 0.88, 0.73, 0.53, 0.91, 0.69, inertia = 0.38e-3, 0.43e-3, 0.28e-3, 0.68e-3, 0.17e-3, ' &
          & //'centre_tangential = 0, centre_radial = -0.012 /'))
-      if (.not. allocated(found%tilt)) return
+      if (.not. allocated(found%pads)) return
       call expect(found%residual <= 1e-8_wp, 'at rest')
       call expect(found%stability%name /= 'static instability', 'where a motion can start')
-      call expect(any(found%pivot_deflection < 0), 'with a pad that floats')
+      call expect(any(found%pads%x(pivot_deflection) < 0), 'with a pad that floats')
    end subroutine floating_pads
 
    !> A load away from the two lower pads is carried by nothing: that is told, in words.

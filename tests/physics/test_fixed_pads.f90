@@ -13,7 +13,8 @@ program test_fixed_pads
    use paper_bearing, only: paper_oil
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, frame_of, motion_of
+   use state_layout, only: pad_state
+   use kinematics, only: frame_of, motion_of
    use equilibrium_record, only: equilibrium_type
    use equilibrium, only: find_equilibrium
    use pad_behaviour, only: whirl_of
@@ -62,11 +63,11 @@ contains
       type(machine_model) :: model
       logical :: ok
       inputs = fixed_case([-90.0_wp], [360.0_wp], length_ratio)
-      inputs%film%cavitation = cavitation
-      inputs%film%solver = solver
+      inputs%bearings(1)%film%cavitation = cavitation
+      inputs%bearings(1)%film%solver = solver
       model = new_machine_model(inputs)
-      call model%evaluate(0.0_wp, model%static_state([-eccentricity*inputs%clearance(), 0.0_wp], &
-         & [0.0_wp], [0.0_wp]), .false., ok)
+      call model%evaluate(0.0_wp, model%static_state([-eccentricity*inputs%bearings(1)%clearance(), 0.0_wp], &
+         & [pad_state()]), .false., ok)
       call expect(ok, 'a film at '//to_text(eccentricity))
       force = model%bearings(1)%loads(1)%journal*[1, -1]
    end function forces_of
@@ -83,8 +84,8 @@ contains
          do k = 0, 2
             inputs = fixed_case([-90.0_wp], [360.0_wp], 0.1_wp/2**k)
             associate (b => inputs)
-               exact = b%bearing%viscosity*b%operation%speed_rpm*rpm*b%bearing%journal_radius &
-                  & *b%bearing%axial_length(1)**3/b%clearance()**2 &
+               exact = b%bearings(1)%viscosity*b%operation%speed_rpm*rpm*b%bearings(1)%journal_radius &
+                  & *b%bearings(1)%axial_length(1)**3/b%bearings(1)%clearance()**2 &
                   & *e(i)/(1 - e(i)**2)**2*[e(i), pi/4*sqrt(1 - e(i)**2)]
             end associate
             off(k) = norm2(forces_of(0.1_wp/2**k, e(i), 'gumbel', 'fourier') - exact)/norm2(exact)
@@ -112,9 +113,9 @@ contains
             do k = 0, 2
                inputs = fixed_case([-90.0_wp], [360.0_wp], 6.0_wp*2**k)
                associate (b => inputs)
-                  unit = 12*b%bearing%viscosity*b%operation%speed_rpm*rpm*b%bearing%journal_radius &
-                     & *((b%bearing%journal_radius + b%clearance())/b%clearance())**2 &
-                     & *b%bearing%axial_length(1)
+                  unit = 12*b%bearings(1)%viscosity*b%operation%speed_rpm*rpm*b%bearings(1)%journal_radius &
+                     & *((b%bearings(1)%journal_radius + b%bearings(1)%clearance())/b%bearings(1)%clearance())**2 &
+                     & *b%bearings(1)%axial_length(1)
                end associate
                if (whole == 1) forces(:, k) = forces_of(6.0_wp*2**k, e(i), 'none', 'fourier')/unit
                if (whole == 0) forces(:, k) = forces_of(6.0_wp*2**k, e(i), 'gumbel', 'fourier')/unit
@@ -148,8 +149,8 @@ contains
       real(wp) :: load, k(2, 2), c(2, 2)
       logical :: ok
       load = inputs%rotor%mass*inputs%rotor%gravity
-      associate (b => inputs%bearing)
-         b%viscosity = sommerfeld*load*(inputs%clearance()/b%journal_radius)**2 &
+      associate (b => inputs%bearings(1))
+         b%viscosity = sommerfeld*load*(inputs%bearings(1)%clearance()/b%journal_radius)**2 &
             & /(inputs%operation%speed_rpm/60*b%axial_length(1)*2*b%journal_radius)
       end associate
       model = new_machine_model(inputs)
@@ -157,13 +158,13 @@ contains
       call expect_no_error(error, 'an equilibrium at S = '//to_text(sommerfeld))
       if (allocated(error)) return
       rest%sommerfeld = sommerfeld
-      rest%eccentricity = norm2(found%rotor)/inputs%clearance()
+      rest%eccentricity = norm2(found%rotor)/inputs%bearings(1)%clearance()
       rest%attitude = atan2(-found%rotor(2), -found%rotor(1))/degree
-      call model%evaluate(0.0_wp, model%static_state(found%rotor, found%tilt, found%pivot_deflection), .true., ok)
+      call model%evaluate(0.0_wp, model%static_state(found%rotor, found%pads), .true., ok)
       call expect(ok, 'derivatives at S = '//to_text(sommerfeld))
       call force_derivatives(model, k, c)
       ! along the load is -y, across it, in the sense of the rotation, -z: both turn the signs of no coefficient
-      associate (scale => inputs%clearance()/load)
+      associate (scale => inputs%bearings(1)%clearance()/load)
          rest%stiffness = -scale*[k(1, 1), k(1, 2), k(2, 1), k(2, 2)]
          rest%damping = -scale*inputs%operation%speed_rpm*rpm*[c(1, 1), c(1, 2), c(2, 1), c(2, 2)]
       end associate
@@ -215,13 +216,13 @@ contains
       real(wp) :: journal(2), middle(2), phi, direction(2), found, expected
       integer :: i, k
       inputs = fixed_case([-100.0_wp, 80.0_wp], [160.0_wp, 150.0_wp], 0.5_wp)
-      inputs%pads%pivot_ratio = [0.9_wp, 0.3_wp]
-      inputs%bearing%machined_clearance(:) = 2*inputs%clearance()
+      inputs%bearings(1)%pads%pivot_ratio = [0.9_wp, 0.3_wp]
+      inputs%bearings(1)%machined_clearance(:) = 2*inputs%bearings(1)%clearance()
       model = new_machine_model(inputs)
       journal = [1.1e-5_wp, -2.3e-5_wp]
       do i = 1, 2
-         associate (pad => model%bearings(1)%pads(i), b => inputs%bearing, &
-            & angle => inputs%pads%pivot_angle_deg(i)*degree)
+         associate (pad => model%bearings(1)%pads(i), b => inputs%bearings(1), &
+            & angle => inputs%bearings(1)%pads%pivot_angle_deg(i)*degree)
             motion = motion_of(pad%position, frame_of(pad%position, journal_motion(journal), still), &
                & journal_motion(journal), still)
             middle = -(b%machined_clearance(i) - b%assembled_clearance(i))*[sin(angle), cos(angle)]
@@ -236,8 +237,8 @@ contains
       end do
       inputs = two_grooves(0.5_wp)
       call rest_at(inputs, 0.5_wp, rest, model)
-      inputs%pads%pivot_ratio = [0.25_wp, 0.75_wp]
-      inputs%pads%pivot_angle_deg = [-50.0_wp, 50.0_wp]
+      inputs%bearings(1)%pads%pivot_ratio = [0.25_wp, 0.75_wp]
+      inputs%bearings(1)%pads%pivot_angle_deg = [-50.0_wp, 50.0_wp]
       call rest_at(inputs, 0.5_wp, elsewhere, model)
       call expect_close(elsewhere%eccentricity, rest%eccentricity, 1e-8_wp, 'anchored elsewhere')
       call expect_close(norm2(elsewhere%stiffness - rest%stiffness), 0.0_wp, 1e-6_wp*norm2(rest%stiffness), &
@@ -287,13 +288,13 @@ contains
       type(volumes_type) :: expected, whole
       real(wp) :: surface
       inputs = bearing
-      inputs%film%solver = trim(solver)
+      inputs%bearings(1)%film%solver = trim(solver)
       if (finer > 1) then
-         inputs%film%circumferential_cells = finer*80*max(1, nint(inputs%pads%arc_deg(1)/120))
-         inputs%film%axial_cells = finer*8
+         inputs%bearings(1)%film%circumferential_cells = finer*80*max(1, nint(inputs%bearings(1)%pads%arc_deg(1)/120))
+         inputs%bearings(1)%film%axial_cells = finer*8
       end if
-      call make_film(inputs, march_films, film)
-      associate (b => inputs%bearing, arc => inputs%pads%arc_deg(1)*degree)
+      call make_film(inputs%bearings(1), inputs%integration%relative_tolerance, march_films, film)
+      associate (b => inputs%bearings(1), arc => inputs%bearings(1)%pads%arc_deg(1)*degree)
          surface = b%machined_clearance(1)*shaft_speed
          state%gap = pad_gap_type(b%journal_radius, b%machined_clearance(1), b%axial_length(1), 0.5_wp*arc, &
             & 0.5_wp*arc, 0.0_wp, 0.0_wp, 0.0_wp)
@@ -316,7 +317,7 @@ contains
       type(case_type) :: inputs
       type(error_type), allocatable :: error
       inputs = two_grooves(1.0_wp)
-      inputs%operation%speed_rpm = speed*sqrt(inputs%rotor%gravity/inputs%clearance())/rpm
+      inputs%operation%speed_rpm = speed*sqrt(inputs%rotor%gravity/inputs%bearings(1)%clearance())/rpm
       inputs%operation%final_speed_rpm = inputs%operation%speed_rpm
       call rest_at(inputs, 0.235_wp, rest, model)
       call find_equilibrium(model, found, error)
@@ -381,7 +382,7 @@ contains
          call expect(maxval(cycle) < 0.8_wp .and. minval(cycle) > 0.2_wp, 'within the clearance, and large')
       end associate
       associate (end => places(:, (revolutions - last)*samples + 1:))
-         call whirl_of(end(1, :), end(2, :), real(last, wp), model%inputs%clearance(), &
+         call whirl_of(end(1, :), end(2, :), real(last, wp), model%inputs%bearings(1)%clearance(), &
             & order, amplitude, whirls)
       end associate
       call expect(whirls .and. order > 0.4_wp .and. order < 0.52_wp, 'of half the frequency: '//to_text(order))
@@ -397,7 +398,7 @@ contains
       do i = 1, size(sizes)
          associate (turn => places(:, (i - 1)*samples + 1:i*samples))
             sizes(i) = sqrt(maxval((turn(1, :) - found%rotor(1))**2 + (turn(2, :) - found%rotor(2))**2)) &
-               & /model%inputs%clearance()
+               & /model%inputs%bearings(1)%clearance()
          end associate
       end do
    end function sizes
@@ -411,8 +412,7 @@ contains
       integer, intent(in) :: revolutions
       real(wp), allocatable, intent(out) :: places(:, :)
       real(wp), allocatable :: y(:)
-      y = model%static_state(found%rotor + [beside*model%inputs%clearance(), 0.0_wp], found%tilt, &
-         & found%pivot_deflection)
+      y = model%static_state(found%rotor + [beside*model%inputs%bearings(1)%clearance(), 0.0_wp], found%pads)
       allocate (places(2, samples*revolutions))
       call march_samples(model, model%scale, [1e-7_wp, 1e-7_wp], y, 0.0_wp, &
          & 2*pi/model%point%speed(0.0_wp)/samples, places)

@@ -54,8 +54,8 @@ contains
       real(wp), intent(in) :: speed_rpm
       inputs = case_type()
       inputs%about%task = 'coefficients'
-      inputs%film%solver = 'fourier'
-      inputs%film%cavitation = 'none'
+      inputs%bearings(1)%film%solver = 'fourier'
+      inputs%bearings(1)%film%cavitation = 'none'
       inputs%operation%speed_rpm = speed_rpm
       inputs%operation%final_speed_rpm = speed_rpm
    end function smooth_case
@@ -137,7 +137,7 @@ contains
       integer :: side, i
       inputs = smooth_case(6500.0_wp)
       inputs%rotor%mass = 200
-      if (pivot == 'stuck') inputs%friction%model = 'lugre'
+      if (pivot == 'stuck') inputs%bearings(1)%friction%model = 'lugre'
       inputs%coefficients%threshold_up_to_rpm = 20000
       call analyse(inputs, 'analysis', found, fine=model, y=y)
       i = merge(1, 2, pivot == 'free')
@@ -195,9 +195,9 @@ contains
       associate (layout => moving%layout, shape => 1e-9_wp*modes%shape(:, 1))
          y(layout%positions()) = y(layout%positions()) + shape%re
          y(layout%rates()) = y(layout%rates()) + real(modes%eigenvalue(1)*shape)
-         if (layout%bearings(1)%bristles) then
+         if (layout%elements(1)%bristles) then
             do k = 1, layout%pads
-               associate (of => layout%bearings(1))
+               associate (of => layout%elements(1))
                   y(of%bristle(k)) = moving%bearings(1)%pads(k)%ball_radius*real(shape(of%first_position(k)))
                end associate
             end do

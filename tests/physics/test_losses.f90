@@ -146,7 +146,7 @@ contains
       type(error_type), allocatable :: error
       type(machine_model) :: model
       inputs = case_type()
-      inputs%pads%motion = 'tilting_only'
+      inputs%bearings(1)%pads%motion = 'tilting_only'
       call complete_case(inputs, error)
       model = new_machine_model(inputs)
       call find_equilibrium(model, static, error)

@@ -52,7 +52,7 @@ contains
       loads = bearing_loads(model, static%rotor)
       call expect(minval(loads(1, :)) < 2*maxval(loads(1, :)), 'loads differ')
       do b = 1, 3
-         call analyse(model%inputs%of_bearing(b, loads(:, b)), 'alone', linear, rigid, one)
+         call analyse(model%inputs%alone(b, loads(:, b)), 'alone', linear, rigid, one)
          call expect_same(part_of(model, static, b), rigid, 'bearing '//to_text(b))
          call expect_close_all(found, b, linear, 1, 'bearing '//to_text(b))
       end do

@@ -6,7 +6,7 @@ program test_machine_invariants
    use errors, only: error_type
    use case_inputs, only: case_type
    use tilting_pad_bearing, only: pad_sample
-   use kinematics, only: pad_state
+   use state_layout, only: pad_state, tilt, pivot_deflection
    use equations_of_motion, only: machine_model
    use equilibrium_record, only: equilibrium_type
    use bearings_alone, only: bearing_loads
@@ -42,12 +42,12 @@ contains
    !> support.
    type(case_type) function uneven_rotor() result(inputs)
       inputs = symmetric_rotor('lugre', 4100.0_wp, 0.02_wp)
-      inputs%machine%discs(1)%station = 6
-      inputs%machine%unbalances(1)%station = 6
-      associate (b => inputs%machine%bearings(2))
+      inputs%rotor%elastic%discs(1)%station = 6
+      inputs%rotor%elastic%unbalances(1)%station = 6
+      associate (b => inputs%bearings(2))
          b%friction%model = 'none'
-         b%bearing%assembled_clearance(:) = 100e-6_wp
-         b%bearing%machined_clearance(:) = 125e-6_wp
+         b%assembled_clearance(:) = 100e-6_wp
+         b%machined_clearance(:) = 125e-6_wp
          allocate (b%support)
          b%support%mass = 400
          b%support%stiffness = [1.5e9_wp, 8e8_wp]
@@ -83,19 +83,19 @@ contains
       inputs = uneven_rotor()
       path = path_of(inputs, 6)
       other = inputs
-      other%machine%bearings(1) = inputs%machine%bearings(2)
-      other%machine%bearings(2) = inputs%machine%bearings(1)
-      other%machine%bearings(1)%name = 'one'
-      other%machine%bearings(2)%name = 'two'
+      other%bearings(1) = inputs%bearings(2)
+      other%bearings(2) = inputs%bearings(1)
+      other%bearings(1)%name = 'one'
+      other%bearings(2)%name = 'two'
       call expect_alike(path, path_of(other, 6), 'bearings in another order')
       other = inputs
-      sections = size(inputs%machine%shaft%length)
-      associate (m => other%machine)
+      sections = size(inputs%rotor%elastic%shaft%length)
+      associate (m => other%rotor%elastic)
          m%shaft%length = m%shaft%length(sections:1:-1)
          m%shaft%diameter = m%shaft%diameter(sections:1:-1)
          m%discs%station = sections + 2 - m%discs%station
          m%unbalances%station = sections + 2 - m%unbalances%station
-         m%bearings%station = sections + 2 - m%bearings%station
+         other%bearings%station = sections + 2 - other%bearings%station
       end associate
       call expect_alike(path, path_of(other, sections + 2 - 6), 'stations from the other end')
    end subroutine order
@@ -107,10 +107,10 @@ contains
       real(wp) :: path(2, 0:n - 1), turned(2, 0:n - 1)
       inputs = uneven_rotor()
       path = path_of(inputs, 6)
-      inputs%machine%unbalances = spread(inputs%machine%unbalances(1), 1, 2)
-      inputs%machine%unbalances%angle_deg = [60.0_wp, -60.0_wp]
+      inputs%rotor%elastic%unbalances = spread(inputs%rotor%elastic%unbalances(1), 1, 2)
+      inputs%rotor%elastic%unbalances%angle_deg = [60.0_wp, -60.0_wp]
       call expect_alike(path, path_of(inputs, 6), 'two unbalances')
-      inputs%machine%unbalances%angle_deg = [150.0_wp, 30.0_wp]
+      inputs%rotor%elastic%unbalances%angle_deg = [150.0_wp, 30.0_wp]
       turned = path_of(inputs, 6)
       call expect_alike(path, cshift(turned, -n/4, dim=2), 'turned by a quarter')
    end subroutine phases
@@ -124,7 +124,7 @@ contains
       inputs = uneven_rotor()
       path = path_of(inputs, 6)
       do b = 1, 2
-         inputs%machine%bearings(b)%offset = offset
+         inputs%bearings(b)%offset = offset
       end do
       moved = path_of(inputs, 6)
       call expect_alike(path, moved - spread(1e6_wp*offset, 2, n), 'offset alike')
@@ -139,9 +139,9 @@ contains
       real(wp) :: change(2)
       integer :: i, k
       inputs = symmetric_rotor('none', 4100.0_wp, 0.02_wp)
-      inputs%machine%discs(1)%station = 6
+      inputs%rotor%elastic%discs(1)%station = 6
       ! the same modes for all meshes
-      inputs%machine%reduction%frequency = 4000
+      inputs%rotor%elastic%reduction%frequency = 4000
       do k = 1, 3
          call analyse(inputs, 'the machine is analysed', found(k), static(k))
          call divide(inputs)
@@ -165,7 +165,7 @@ contains
    subroutine divide(inputs)
       type(case_type), intent(inout) :: inputs
       integer :: i
-      associate (m => inputs%machine)
+      associate (m => inputs%rotor%elastic)
          associate (twice => [(i, i, i=1, size(m%shaft%length))])
             m%shaft%diameter = m%shaft%diameter(twice)
             m%shaft%bore = m%shaft%bore(twice)
@@ -173,7 +173,7 @@ contains
          end associate
          m%discs%station = 2*m%discs%station - 1
          m%unbalances%station = 2*m%unbalances%station - 1
-         m%bearings%station = 2*m%bearings%station - 1
+         inputs%bearings%station = 2*inputs%bearings%station - 1
       end associate
    end subroutine divide
 
@@ -188,8 +188,8 @@ contains
       inputs = case_type()
       inputs%operation%speed_rpm = 4100
       inputs%operation%final_speed_rpm = 4100
-      inputs%film%cavitation = 'none'
-      inputs%friction%model = 'lugre'
+      inputs%bearings(1)%film%cavitation = 'none'
+      inputs%bearings(1)%friction%model = 'lugre'
       inputs%rotor%mass = 2000
       inputs%rotor%unbalance = 0.01_wp
       call close_orbit(inputs, tolerance, model, found)
@@ -199,8 +199,8 @@ contains
       end do
       do k = 1, 2
          inputs = symmetric_rotor('lugre', 4100.0_wp, 0.02_wp)
-         inputs%machine%shaft%young_modulus = 2.1e11_wp*1e2_wp*1e1_wp**k
-         inputs%machine%reduction%frequency = 1e6_wp
+         inputs%rotor%elastic%shaft%young_modulus = 2.1e11_wp*1e2_wp*1e1_wp**k
+         inputs%rotor%elastic%reduction%frequency = 1e6_wp
          path = path_of(inputs, 2)
          left(k) = maxval(abs(path - rigid))/maxval(maxval(rigid, 2) - minval(rigid, 2))
       end do
@@ -215,11 +215,11 @@ contains
       real(wp) :: left(2)
       integer :: k, i
       inputs = uneven_rotor()
-      deallocate (inputs%machine%bearings(2)%support)
+      deallocate (inputs%bearings(2)%support)
       call analyse(inputs, 'on the ground', ground)
       do k = 1, 2
          inputs = uneven_rotor()
-         inputs%machine%bearings(2)%support%stiffness = 1e12_wp*1e1_wp**k
+         inputs%bearings(2)%support%stiffness = 1e12_wp*1e1_wp**k
          call analyse(inputs, 'on a stiff support', found)
          left(k) = maxval([(minval(abs(found%modes(1)%eigenvalue - ground%modes(1)%eigenvalue(i))) &
             & /abs(ground%modes(1)%eigenvalue(i)), i=1, 4)])
@@ -241,33 +241,35 @@ contains
       alone = case_type()
       alone%operation%speed_rpm = 4100
       alone%operation%final_speed_rpm = 4100
-      alone%film%cavitation = 'none'
+      alone%bearings(1)%film%cavitation = 'none'
       alone%rotor%mass = 2000
       alone%rotor%static_load = load/2
       call stand(alone, model, light)
-      alone%pads%mass = mass
-      alone%pads%inertia = mass*1e-2_wp
-      alone%pads%centre_tangential = aside
+      alone%bearings(1)%pads%mass = mass
+      alone%bearings(1)%pads%inertia = mass*1e-2_wp
+      alone%bearings(1)%pads%centre_tangential = aside
       call stand(alone, model, rigid)
-      call expect(maxval(abs(rigid%tilt - light%tilt)) > 1e-3_wp*maxval(abs(light%tilt)), 'the weight of pads matters')
+      call expect(maxval(abs(rigid%pads%x(tilt) - light%pads%x(tilt))) > 1e-3_wp*maxval(abs(light%pads%x(tilt))), &
+         & 'the weight of pads matters')
       inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
       do b = 1, 2
-         inputs%machine%bearings(b)%pads%mass = mass
-         inputs%machine%bearings(b)%pads%inertia = mass*1e-2_wp
-         inputs%machine%bearings(b)%pads%centre_tangential = aside
+         inputs%bearings(b)%pads%mass = mass
+         inputs%bearings(b)%pads%inertia = mass*1e-2_wp
+         inputs%bearings(b)%pads%centre_tangential = aside
       end do
-      deallocate (inputs%machine%loads)
-      allocate (inputs%machine%loads(2))
-      inputs%machine%loads%station = [5, 9]
+      deallocate (inputs%rotor%elastic%loads)
+      allocate (inputs%rotor%elastic%loads(2))
+      inputs%rotor%elastic%loads%station = [5, 9]
       do b = 1, 2
-         inputs%machine%loads(b)%force = load/2
+         inputs%rotor%elastic%loads(b)%force = load/2
       end do
       call stand(inputs, model, found)
       loads = bearing_loads(model, found%rotor)
       do b = 1, 2
          call expect_close(norm2(loads(:, b) - [load(1)/2 - 2000*9.81_wp, load(2)/2]), 0.0_wp, 1e-5_wp*2e4_wp, 'load')
          call expect(maxval(abs(found%rotor(2*b - 1:2*b) - rigid%rotor)) < 1e-6_wp*maxval(abs(rigid%rotor)), 'journal')
-         call expect(maxval(abs(found%tilt(2*b - 1:2*b) - rigid%tilt)) < 1e-6_wp*maxval(abs(rigid%tilt)), 'tilts')
+         call expect(maxval(abs(found%pads(2*b - 1:2*b)%x(tilt) - rigid%pads%x(tilt))) &
+            & < 1e-6_wp*maxval(abs(rigid%pads%x(tilt))), 'tilts')
       end do
    end subroutine weights
 
@@ -332,11 +334,11 @@ contains
             power(5) = dot_product(rates, matmul(over_rates, rates))
             do b = 1, size(model%bearings)
                films = model%bearings(b)%sampled()
-               pads = model%layout%bearings(b)%pad_states(y)
+               pads = model%layout%elements(b)%pad_states(y)
                do i = 1, size(pads)
                   associate (pad => model%bearings(b)%pads(i), force => films(i)%film_force, &
-                     & rate => pads(i)%tilt_rate, depth_rate => pads(i)%pivot_deflection_rate)
-                     a = pad%position%angle - pads(i)%tilt
+                     & rate => pads(i)%v(tilt), depth_rate => pads(i)%v(pivot_deflection))
+                     a = pad%position%angle - pads(i)%x(tilt)
                      film = [cos(a)*force(1) + sin(a)*force(2), -sin(a)*force(1) + cos(a)*force(2)]
                      power(2) = power(2) + dot_product(film, rates(2*b - 1:2*b)) &
                         & - force(1)*pad%position%centre_distance*rate - force(2)*depth_rate
@@ -358,8 +360,8 @@ contains
       at_rest = 0
       velocity = model%rotor%station_displacements([rates, 0*rates]) - model%rotor%station_displacements(at_rest)
       power = 0
-      do k = 1, size(model%inputs%machine%unbalances)
-         associate (u => model%inputs%machine%unbalances(k))
+      do k = 1, size(model%inputs%rotor%elastic%unbalances)
+         associate (u => model%inputs%rotor%elastic%unbalances(k))
             phase = model%point%shaft_angle(t) + u%angle_deg*pi/180
             power = power + u%moment*model%point%speed(t)**2 &
                & *dot_product(velocity(:, u%station), [cos(phase), sin(phase)])

@@ -62,7 +62,7 @@ contains
       integer :: i
       inputs = symmetric_rotor('lugre', 4100.0_wp, 0.0_wp)
       ! six modes a plane
-      inputs%machine%reduction%frequency = 6000
+      inputs%rotor%elastic%reduction%frequency = 6000
       call analyse(inputs, 'the machine is analysed', found)
       do b = 1, 2
          call expect_close(found%stiffness(1, 1, 1, 1, b), 582.5918e6_wp, 582.6e6_wp*linear_error, 'K')
@@ -107,15 +107,15 @@ contains
       integer :: i
       logical :: ok
       inputs = symmetric_rotor('bengisu_akay', 4100.0_wp, 0.02_wp)
-      inputs%machine%bearings(2)%friction%model = 'lugre'
-      inputs%machine%bearings(2)%bearing%assembled_clearance(:) = 85e-6_wp
+      inputs%bearings(2)%friction%model = 'lugre'
+      inputs%bearings(2)%assembled_clearance(:) = 85e-6_wp
       call add_bearing(inputs, 'middle', 5)
-      inputs%machine%bearings(3)%friction%model = 'none'
-      inputs%machine%bearings(3)%pads%motion = 'tilting_only'
-      inputs%machine%bearings(3)%bearing%assembled_clearance(:) = 200e-6_wp
-      inputs%machine%bearings(3)%bearing%machined_clearance(:) = 250e-6_wp
+      inputs%bearings(3)%friction%model = 'none'
+      inputs%bearings(3)%pads%motion = 'tilting_only'
+      inputs%bearings(3)%assembled_clearance(:) = 200e-6_wp
+      inputs%bearings(3)%machined_clearance(:) = 250e-6_wp
       call stand(inputs, model, found)
-      y = model%static_state(found%rotor, found%tilt, found%pivot_deflection)
+      y = model%static_state(found%rotor, found%pads)
       allocate (rates(model%n), matrix(model%n, model%n), up(model%n), down(model%n))
       ! journals and pads move, each in another way
       y = y + model%scale*1e-4_wp*[(sin(real(i, wp)), i=1, model%n)]
@@ -193,11 +193,11 @@ contains
       call add_bearing(inputs, 'middle', 6)
       call stand(inputs, model, found)
       level = bearing_loads(model, found%rotor)
-      inputs%machine%bearings(3)%offset = [20e-6_wp, 0.0_wp]
+      inputs%bearings(3)%offset = [20e-6_wp, 0.0_wp]
       call stand(inputs, model, found)
       raised = bearing_loads(model, found%rotor)
       call make_static(model, model%point%cavitation, static)
-      associate (y => static%static_state(found%rotor, found%tilt, found%pivot_deflection))
+      associate (y => static%static_state(found%rotor, found%pads))
          call static%evaluate(0.0_wp, y, .false., ok)
          call expect(ok, 'the films are solved')
          associate (force => forces(static, 0.0_wp, y))
@@ -217,10 +217,10 @@ contains
       type(bearing_coefficients_type) :: found, other
       type(equilibrium_type) :: static
       inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
-      inputs%machine%discs(1)%station = 6
+      inputs%rotor%elastic%discs(1)%station = 6
       call add_bearing(inputs, 'third', 4)
-      inputs%machine%bearings(3)%bearing%assembled_clearance(:) = 200e-6_wp
-      inputs%machine%bearings(3)%bearing%machined_clearance(:) = 250e-6_wp
+      inputs%bearings(3)%assembled_clearance(:) = 200e-6_wp
+      inputs%bearings(3)%machined_clearance(:) = 250e-6_wp
       call analyse(inputs, 'as it is', found, static)
       call analyse(reordered(inputs), 'bearings in another order, with other names', other)
       call expect_same(found, other, 'order')
@@ -245,8 +245,8 @@ contains
       integer :: b
       other = inputs
       do b = 1, 3
-         other%machine%bearings(b) = inputs%machine%bearings(4 - b)
-         other%machine%bearings(b)%name = 'number '//to_text(b)
+         other%bearings(b) = inputs%bearings(4 - b)
+         other%bearings(b)%name = 'number '//to_text(b)
       end do
    end function reordered
 
@@ -255,14 +255,14 @@ contains
       type(case_type) :: other
       integer :: b, n
       other = inputs
-      n = size(inputs%machine%shaft%length)
-      associate (m => other%machine)
+      n = size(inputs%rotor%elastic%shaft%length)
+      associate (m => other%rotor%elastic)
          m%shaft%length = m%shaft%length(n:1:-1)
          m%shaft%diameter = m%shaft%diameter(n:1:-1)
          m%discs(1)%station = n + 2 - m%discs(1)%station
          m%unbalances(1)%station = n + 2 - m%unbalances(1)%station
-         do b = 1, size(m%bearings)
-            m%bearings(b)%station = n + 2 - m%bearings(b)%station
+         do b = 1, size(other%bearings)
+            other%bearings(b)%station = n + 2 - other%bearings(b)%station
          end do
       end associate
    end function turned
@@ -277,12 +277,12 @@ contains
       inputs = case_type()
       inputs%operation%speed_rpm = 4100
       inputs%operation%final_speed_rpm = 4100
-      inputs%film%cavitation = 'none'
+      inputs%bearings(1)%film%cavitation = 'none'
       call analyse(inputs, 'a rigid journal', rigid)
       do k = 1, 2
          inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
-         inputs%machine%shaft%young_modulus = 2.1e11_wp*1e2_wp*1e1_wp**k
-         inputs%machine%reduction%frequency = 1e6_wp
+         inputs%rotor%elastic%shaft%young_modulus = 2.1e11_wp*1e2_wp*1e1_wp**k
+         inputs%rotor%elastic%reduction%frequency = 1e6_wp
          call analyse(inputs, 'a stiff shaft', found)
          associate (limit => rigid%modes(1)%eigenvalue(1))
             left(k) = minval(abs(found%modes(1)%eigenvalue - limit))/abs(limit)
@@ -303,16 +303,16 @@ contains
       alone = case_type()
       alone%operation%speed_rpm = 4100
       alone%operation%final_speed_rpm = 4100
-      alone%film%cavitation = 'none'
-      alone%oil%law = 'walther'
-      alone%oil%grade = 46
+      alone%bearings(1)%film%cavitation = 'none'
+      alone%bearings(1)%oil%law = 'walther'
+      alone%bearings(1)%oil%grade = 46
       alone%thermal%model = temperatures
-      alone%pads%thickness = alone%pads%pivot_distance
+      alone%bearings(1)%pads%thickness = alone%bearings(1)%pads%pivot_distance
       inputs = symmetric_rotor('none', 4100.0_wp, 0.0_wp)
       inputs%thermal%model = temperatures
       do i = 1, 2
-         inputs%machine%bearings(i)%oil = alone%oil
-         inputs%machine%bearings(i)%pads%thickness = alone%pads%thickness
+         inputs%bearings(i)%oil = alone%bearings(1)%oil
+         inputs%bearings(i)%pads%thickness = alone%bearings(1)%pads%thickness
       end do
       call analyse(alone, 'a rigid journal', rigid, journal)
       call analyse(inputs, 'a machine', found, static)

@@ -5,7 +5,7 @@ program test_newton_euler
    use text, only: to_text
    use case_inputs, only: case_type
    use tilting_pad_bearing, only: pad_sample
-   use state_layout, only: at_tilt, at_tilt_rate, at_deflection_rate
+   use state_layout, only: pad_state
    use equations_of_motion, only: machine_model, new_machine_model
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, between, report
@@ -34,18 +34,12 @@ contains
    function random_state(model) result(y)
       type(machine_model), intent(in) :: model
       real(wp), allocatable :: y(:)
-      integer :: pad
       y = model%static_state([between(-50e-6_wp, 0.0_wp), between(-10e-6_wp, 10e-6_wp)], &
-         & [between(-3e-4_wp, 7e-4_wp), between(-3e-4_wp, 7e-4_wp)], [between(-2e-6_wp, 9e-6_wp), between(1e-6_wp, &
-         & 9e-6_wp)])
+         & [pad_state(between(-3e-4_wp, 7e-4_wp), between(-5.0_wp, 5.0_wp), between(-2e-6_wp, 9e-6_wp), &
+         & between(-5e-3_wp, 5e-3_wp), between(-1e-7_wp, 1e-7_wp)), &
+         & pad_state(between(-3e-4_wp, 7e-4_wp), between(-5.0_wp, 5.0_wp), between(1e-6_wp, 9e-6_wp), &
+         & between(-5e-3_wp, 5e-3_wp), between(-1e-7_wp, 1e-7_wp))])
       y(3:4) = [between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
-      do pad = 1, 2
-         associate (of => model%layout%bearings(1))
-            y(of%before(pad) + at_tilt_rate) = between(-5.0_wp, 5.0_wp)
-            if (of%radial) y(of%before(pad) + at_deflection_rate) = between(-5e-3_wp, 5e-3_wp)
-            y(of%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
-         end associate
-      end do
    end function random_state
 
    !> The film on the pad, -F, acts at the centre of its arc, R + kappa inward of the pivot; the pivot pushes
@@ -67,12 +61,12 @@ contains
       films = model%bearings(1)%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
-         associate (p => model%inputs%pads, loads => model%bearings(1)%loads(pad), &
+         associate (p => model%inputs%bearings(1)%pads, loads => model%bearings(1)%loads(pad), &
             & arm => model%bearings(1)%pads(pad)%position%centre_distance)
-            a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
-            rate = y(model%layout%bearings(1)%before(pad) + at_tilt_rate)
-            tilt_acceleration = f(model%layout%bearings(1)%before(pad) + at_tilt_rate)
-            radial_acceleration = f(model%layout%bearings(1)%before(pad) + at_deflection_rate)
+            a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%elements(1)%before(pad) + 1)
+            rate = y(model%layout%elements(1)%before(pad) + 2)
+            tilt_acceleration = f(model%layout%elements(1)%before(pad) + 2)
+            radial_acceleration = f(model%layout%elements(1)%before(pad) + 4)
             ! C = (C_xi, C_eta) turns with the pad: C' = rate (-C_eta, C_xi) and so on
             associate (c_t => p%centre_tangential(pad), c_r => p%centre_radial(pad), m => p%mass(pad))
                acceleration = [-tilt_acceleration*c_r - rate**2*c_t, &
@@ -109,14 +103,14 @@ contains
       films = model%bearings(1)%sampled()
       call expect(ok, 'a state with films')
       do pad = 1, 2
-         associate (p => model%inputs%pads, arm => model%bearings(1)%pads(pad)%position%centre_distance)
-            a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
+         associate (p => model%inputs%bearings(1)%pads, arm => model%bearings(1)%pads(pad)%position%centre_distance)
+            a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%elements(1)%before(pad) + 1)
             friction = model%bearings(1)%pads(pad)%ball_radius*model%bearings(1)%loads(pad)%friction%force
             ! C x weight, with weight along (-cos a, -sin a)
             moment = -films(pad)%film_force(1)*arm - friction + p%mass(pad)*500 &
                & *(-p%centre_tangential(pad)*sin(a) + p%centre_radial(pad)*cos(a))
             sizes = abs(films(pad)%film_force(1))*arm + abs(friction) + p%mass(pad)*500*0.03_wp
-            call expect_close(p%inertia(pad)*f(model%layout%bearings(1)%before(pad) + at_tilt_rate), moment, &
+            call expect_close(p%inertia(pad)*f(model%layout%elements(1)%before(pad) + 2), moment, &
                & rounding*sizes, 'moments about the pivot')
          end associate
       end do
@@ -144,7 +138,7 @@ contains
       end associate
       sizes = norm2(total)
       do pad = 1, 2
-         a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
+         a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%elements(1)%before(pad) + 1)
          associate (force => films(pad)%film_force)
             total = total + force(1)*[cos(a), -sin(a)] + force(2)*[sin(a), cos(a)]
             sizes = sizes + norm2(force)

@@ -41,9 +41,9 @@ contains
       character(len=*), intent(in) :: motion, friction
       inputs = case_type()
       inputs%about%task = 'periodic'
-      inputs%pads%motion = motion
-      inputs%friction%model = friction
-      inputs%film%cavitation = 'none'
+      inputs%bearings(1)%pads%motion = motion
+      inputs%bearings(1)%friction%model = friction
+      inputs%bearings(1)%film%cavitation = 'none'
    end function paper
 
    !> Values of an independent program: to the digits given.

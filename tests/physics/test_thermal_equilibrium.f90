@@ -5,6 +5,7 @@ program test_thermal_equilibrium
    use case_inputs, only: case_type
    use input_cases, only: case_of
    use linear_analysis, only: analyse
+   use state_layout, only: tilt, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium_record, only: equilibrium_type
    use equilibrium, only: find_equilibrium
@@ -97,8 +98,9 @@ contains
       call solve(inputs, warm, figures)
       inputs%thermal%model = 'none'
       call solve(inputs, cold, of_cold)
-      call expect(.not. any(abs([warm%rotor - cold%rotor, warm%tilt - cold%tilt, &
-         & warm%pivot_deflection - cold%pivot_deflection, warm%oil%viscosity - cold%oil%viscosity]) > 0), 'state')
+      call expect(.not. any(abs([warm%rotor - cold%rotor, warm%pads%x(tilt) - cold%pads%x(tilt), &
+         & warm%pads%x(pivot_deflection) - cold%pads%x(pivot_deflection), &
+         & warm%oil%viscosity - cold%oil%viscosity]) > 0), 'state')
       call expect(.not. any(abs(figures%pads%power() - of_cold%pads%power()) > 0), 'losses')
       call expect(allocated(figures%oil) .and. .not. allocated(of_cold%oil), 'temperatures of warm oil alone')
    end subroutine isothermal
@@ -110,13 +112,13 @@ contains
       type(static_figures_type) :: figures
       inputs = case_of('&film cavitation = ''none''/'//vg46)
       call solve(inputs, static, figures)
-      inputs%oil%density = inputs%oil%density/4
-      inputs%oil%specific_heat = inputs%oil%specific_heat*4
+      inputs%bearings(1)%oil%density = inputs%bearings(1)%oil%density/4
+      inputs%bearings(1)%oil%specific_heat = inputs%bearings(1)%oil%specific_heat*4
       call solve(inputs, other, figures)
       call expect(all(abs(other%rotor - static%rotor) < 1e-12_wp), 'journal')
-      inputs%oil%specific_heat = 1e12_wp
+      inputs%bearings(1)%oil%specific_heat = 1e12_wp
       call solve(inputs, other, figures)
-      call expect(all(abs(figures%oil%maximum - inputs%oil%supply_temperature) < 1e-4_wp), 'cold')
+      call expect(all(abs(figures%oil%maximum - inputs%bearings(1)%oil%supply_temperature) < 1e-4_wp), 'cold')
    end subroutine capacity
 
    !> The speed at which a light rotor loses its stability is one at which its own equilibrium has no growth.
@@ -154,11 +156,11 @@ contains
       type(viscosity_history_type) :: history
       type(error_type), allocatable :: error
       inputs = case_of('&operation speed_rpm = 3000, final_speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
-      inputs%oil%shaft_temperature = 55
-      inputs%oil%groove_volume = volume
+      inputs%bearings(1)%oil%shaft_temperature = 55
+      inputs%bearings(1)%oil%groove_volume = volume
       inputs%operation%duration = duration
       call solve(inputs, static, model=model)
-      call find_groove_transient(model, model%static_state(static%rotor, static%tilt, static%pivot_deflection), &
+      call find_groove_transient(model, model%static_state(static%rotor, static%pads), &
          & duration, history, error)
       call expect_no_error(error, 'course')
       if (.not. allocated(error)) call history%at(duration, viscosities)
@@ -171,7 +173,7 @@ contains
       type(equilibrium_type) :: static
       real(wp) :: slow(2), lag(2), longer(2), never(2)
       inputs = case_of('&operation speed_rpm = 4000/ &film cavitation = ''none''/'//vg46)
-      inputs%oil%shaft_temperature = 55
+      inputs%bearings(1)%oil%shaft_temperature = 55
       call solve(inputs, static)
       slow = after_run_up(1e-5_wp, 1e4_wp)
       call expect(all(abs(slow/static%oil%viscosity - 1) < 1e-4_wp), 'slow')

@@ -88,7 +88,10 @@ def test_the_worked_example_of_tolerances(root, program, tmp_path, monkeypatch, 
     assert ", 256, " in draws
     exec(draws, {})
     whole = (tmp_path / "tolerances.csv").read_text()
-    assert whole == (root / "input/examples/tolerances.csv").read_text()
+    kept = (root / "input/examples/tolerances.csv").read_text()
+    assert whole.splitlines()[0] == kept.splitlines()[0]
+    drawn, stored = (np.loadtxt(text.splitlines(), delimiter=",", skiprows=1) for text in (whole, kept))
+    np.testing.assert_allclose(drawn, stored, rtol=1e-12)  # the logarithms of NumPy depend on the processor
     (tmp_path / "tolerances.csv").write_text("".join(whole.splitlines(keepends=True)[:33]))
     with tiltpad.run("input/examples/tolerances.nml", "runs", sweep={"file": "tolerances.csv"}) as study:
         assert study.done.all()

@@ -22,7 +22,7 @@ program global_search
    use factories, only: make_film, march_films
    use tilting_pad, only: tilting_pad_type
    use operating_point, only: operating_point_type
-   use state_layout, only: at_tilt, at_deflection
+   use state_layout, only: pad_state, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces, force_derivatives, stability_at, stability_type
    use pseudo_transient, only: unbalanced, reference_force, residual_limit
@@ -87,7 +87,9 @@ contains
          error stop 1
       end if
       ! the same films without tables and without iteration
-      if (inputs%film%solver == 'auto' .or. inputs%film%solver == 'sor') inputs%film%solver = 'direct'
+      associate (solver => inputs%bearings(1)%film%solver)
+         if (solver == 'auto' .or. solver == 'sor') solver = 'direct'
+      end associate
       model = new_machine_model(inputs)
       point = model%point%static()
       call model%set_point(point)
@@ -101,7 +103,7 @@ contains
       type(machine_model), intent(in) :: model
       type(curve_type), allocatable, intent(out) :: curves(:)
       type(table_type), allocatable :: tables(:)
-      integer :: like(inputs%pad_count()), i
+      integer :: like(inputs%bearings(1)%pad_count()), i
       call make_tables(inputs, model, like, tables)
       allocate (curves(size(like)))
       do i = 1, size(like)
@@ -125,7 +127,7 @@ contains
       do i = 1, size(like)
          like(i) = 0
          do s = 1, size(first)
-            associate (b => inputs%bearing, p => inputs%pads, n => first(s))
+            associate (b => inputs%bearings(1), p => inputs%bearings(1)%pads, n => first(s))
                if (abs(p%arc_deg(i) - p%arc_deg(n)) + abs(p%pivot_ratio(i) - p%pivot_ratio(n)) &
                   & + abs(p%pivot_distance(i) - p%pivot_distance(n)) &
                   & + abs(b%machined_clearance(i) - b%machined_clearance(n)) &
@@ -137,13 +139,13 @@ contains
          like(i) = size(first)
       end do
       shapes = inputs
-      shapes%bearing%machined_clearance = inputs%bearing%machined_clearance(first)
-      shapes%bearing%axial_length = inputs%bearing%axial_length(first)
-      shapes%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg(first)
-      shapes%pads%arc_deg = inputs%pads%arc_deg(first)
-      shapes%pads%pivot_ratio = inputs%pads%pivot_ratio(first)
-      shapes%pads%pivot_distance = inputs%pads%pivot_distance(first)
-      call make_film(shapes, march_films, film)
+      shapes%bearings(1)%machined_clearance = inputs%bearings(1)%machined_clearance(first)
+      shapes%bearings(1)%axial_length = inputs%bearings(1)%axial_length(first)
+      shapes%bearings(1)%pads%pivot_angle_deg = inputs%bearings(1)%pads%pivot_angle_deg(first)
+      shapes%bearings(1)%pads%arc_deg = inputs%bearings(1)%pads%arc_deg(first)
+      shapes%bearings(1)%pads%pivot_ratio = inputs%bearings(1)%pads%pivot_ratio(first)
+      shapes%bearings(1)%pads%pivot_distance = inputs%bearings(1)%pads%pivot_distance(first)
+      call make_film(shapes%bearings(1), shapes%integration%relative_tolerance, march_films, film)
       allocate (tables(size(first)), motion(size(first)), response(size(first)))
       do s = 1, size(first)
          call set_places(model, first(s), tables(s))
@@ -266,7 +268,7 @@ contains
       associate (pad => model%bearings(1)%pads(i))
          contact = -force - pad%weight*pad%position%sin_angle
          piece = piece_type(pad%position%pivot_radius - rho, force, b, 0.0_wp, stable)
-         if (model%layout%bearings(1)%radial) then
+         if (model%layout%elements(1)%has(pivot_deflection)) then
             if (all(contact < 0)) return
             r = rho
             if (any(contact < 0)) then
@@ -305,7 +307,7 @@ contains
       logical :: ok
       allocate (tried(model%n, 0), found(model%n, 0), y_best(model%n))
       call random_seed(put=spread(20260101, 1, 64))
-      reach = 2*maxval([model%inputs%clearance(), model%inputs%bearing%machined_clearance])
+      reach = 2*maxval([model%inputs%bearings(1)%clearance(), model%inputs%bearings(1)%machined_clearance])
       count = 0
       rank = 0
       best%name = 'none'
@@ -336,8 +338,8 @@ contains
          print '(a, 1x, a, i0, a, i0)', path, 'none 0 of ', size(tried, 2)
       else
          print '(a, 1x, a, 1x, i0, a, i0, *(1x, es12.5))', path, best%name, size(found, 2), ' of ', size(tried, 2), &
-            & best%eigenvalue, y_best(:2)/model%inputs%clearance(), &
-            & y_best(model%layout%bearings(1)%before([(row, row=1, model%layout%pads)]) + at_tilt)
+            & best%eigenvalue, y_best(:2)/model%inputs%bearings(1)%clearance(), &
+            & y_best(model%layout%elements(1)%before([(row, row=1, model%layout%pads)]) + 1)
       end if
    end subroutine search_plane
 
@@ -353,8 +355,8 @@ contains
       real(wp) :: unit(size(y))
       integer :: k, i
       unit = model%scale
-      associate (of => model%layout%bearings(1))
-         if (of%radial) unit(of%before([(i, i=1, of%pads)]) + at_deflection) = model%inputs%clearance()
+      associate (of => model%layout%elements(1))
+         if (of%has(pivot_deflection)) unit(of%before([(i, i=1, of%pads)]) + 3) = model%inputs%bearings(1)%clearance()
       end associate
       known = .false.
       do k = 1, size(list, 2)
@@ -399,7 +401,7 @@ contains
          end do
          if (norm2(force) < 1e-4_wp*reference) exit
          step = solve_2x2(slope, -force)
-         length = norm2(step)/(0.15_wp*model%inputs%clearance())
+         length = norm2(step)/(0.15_wp*model%inputs%bearings(1)%clearance())
          if (.not. length > 0) exit
          place = place + step/max(1.0_wp, length)
       end do
@@ -452,19 +454,20 @@ contains
       type(curve_type), intent(in) :: curves(:)
       real(wp), intent(in) :: place(2), t(:)
       integer, intent(in) :: at(:)
-      real(wp) :: y(model%n), pivot_deflection(size(at)), tilt(size(at)), r(2), out(2)
+      real(wp) :: y(model%n), deflection, angle, r(2), out(2)
+      type(pad_state) :: pads(size(at))
       integer :: i
       do i = 1, size(at)
          associate (piece => curves(i)%pieces(at(i)), position => model%bearings(1)%pads(i)%position)
-            pivot_deflection(i) = piece%pivot_deflection(1) + t(i)*(piece%pivot_deflection(2) &
-               & - piece%pivot_deflection(1))
+            deflection = piece%pivot_deflection(1) + t(i)*(piece%pivot_deflection(2) - piece%pivot_deflection(1))
             out = [position%sin_angle, position%cos_angle]
-            r = place - (position%pivot_radius + pivot_deflection(i))*out
-            tilt(i) = atan2(dot_product(r, [out(2), -out(1)]), -dot_product(r, out)) &
+            r = place - (position%pivot_radius + deflection)*out
+            angle = atan2(dot_product(r, [out(2), -out(1)]), -dot_product(r, out)) &
                & - (piece%b(1) + t(i)*(piece%b(2) - piece%b(1)))
+            pads(i) = pad_state(angle, deflection=deflection)
          end associate
       end do
-      y = model%static_state(place, tilt, pivot_deflection)
+      y = model%static_state(place, pads)
    end function state_on_curves
 
    !> Newton's method on journal and pads, with steps cut where the films close or nothing improves.
@@ -479,8 +482,8 @@ contains
       integer :: iteration, cut, pivots(size(step)), info
       x = model%layout%positions()
       unit = model%scale(x)
-      unit(3:) = merge(unit(3:), model%inputs%clearance(), &
-         & .not. model%layout%bearings(1)%radial .or. mod([(info, info=1, size(unit) - 2)], 2) == 1)
+      unit(3:) = merge(unit(3:), model%inputs%bearings(1)%clearance(), &
+         & .not. model%layout%elements(1)%has(pivot_deflection) .or. mod([(info, info=1, size(unit) - 2)], 2) == 1)
       do iteration = 1, 60
          call model%evaluate(0.0_wp, y, .true., ok)
          if (.not. ok) return

@@ -9,7 +9,8 @@ program test_bearing_losses
    use film_solver, only: film_motion, cavitation_reynolds
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, pad_frame, frame_of, motion_of
+   use state_layout, only: pad_state, tilt
+   use kinematics, only: pad_frame, frame_of, motion_of
    use equations_of_motion, only: machine_model, new_machine_model
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use check, only: runs, expect, expect_close, expect_no_error, report
@@ -35,7 +36,7 @@ contains
       call case_from_text(text, 'case', inputs, error)
       call expect_no_error(error, 'case')
       model = new_machine_model(inputs)
-      losses = new_bearing_losses(inputs)
+      losses = new_bearing_losses(inputs%bearings(1))
    end subroutine make
 
    !> Two pads that differ, in motion.
@@ -85,8 +86,9 @@ contains
       type(machine_model) :: model
       type(bearing_losses_type) :: losses
       type(pad_loss) :: found(2, 2)
-      type(pad_state), parameter :: pads(2) = pad_state(5e-4_wp, 0.0_wp, 7e-6_wp)
+      type(pad_state) :: pads(2)
       integer :: k
+      pads = pad_state(5e-4_wp, 0.0_wp, 7e-6_wp)
       do k = 1, 2
          call make('&film solver='''//merge('auto', 'sor ', k == 1)//''' /', model, losses)
          call losses%find(model%bearings(1), journal_motion([-50e-6_wp, 0.0_wp]), pads, model%oil, speed, found(:, k))
@@ -111,7 +113,7 @@ contains
       journal = journal_motion([-79.5e-6_wp*sqrt(2.0_wp), 0.0_wp])
       do i = 1, 2
          frame = frame_of(model%bearings(1)%pads(i)%position, journal, pads(i))
-         pads(i)%tilt = frame%along/model%bearings(1)%pads(i)%position%centre_distance
+         pads(i)%x(tilt) = frame%along/model%bearings(1)%pads(i)%position%centre_distance
       end do
       call losses%find(model%bearings(1), journal, pads, model%oil, speed, found)
       refusal = ''
@@ -132,7 +134,7 @@ contains
       type(machine_model) :: model
       type(bearing_losses_type) :: losses
       type(pad_loss) :: found(2)
-      type(pad_state), parameter :: pads(2) = pad_state()
+      type(pad_state) :: pads(2)
       call make('&film cavitation=''none'' /', model, losses)
       call losses%find(model%bearings(1), journal_motion([-30e-6_wp, 0.0_wp], [-1e-2_wp, 0.0_wp]), pads, model%oil, &
          & 0.0_wp, found)
@@ -144,7 +146,7 @@ contains
       type(machine_model) :: model
       type(bearing_losses_type) :: losses
       type(pad_loss) :: found(2)
-      type(pad_state), parameter :: pads(2) = pad_state()
+      type(pad_state) :: pads(2)
       call make('&asperity model=''none'' /', model, losses)
       call losses%find(model%bearings(1), journal_motion([0.0_wp, 130e-6_wp]), pads, model%oil, speed, found)
       call expect(ieee_is_nan(found(1)%power()) .and. ieee_is_nan(found(1)%inlet), 'no numbers')

@@ -87,13 +87,13 @@ contains
       type(case_type) :: s
       s = case_of('&pads pivot_angle_deg = -90, 0, 90, motion = ''tilting_only'' /' &
          & //' &bearing assembled_clearance = 70e-6, machined_clearance = 90e-6, supply_pressure = 1e5 /')
-      call expect_close(maxval(abs(s%pads%mass - 0.8108_wp)), 0.0_wp, 0.0_wp, 'mass')
-      call expect_close(maxval(abs(s%pads%inertia - 4.055e-4_wp)), 0.0_wp, 0.0_wp, 'inertia')
-      call expect_close(maxval(abs(s%pads%centre_tangential)), 0.0_wp, 0.0_wp, 'C_xi')
-      call expect_close(maxval(abs(s%pads%centre_radial + 10.1e-3_wp)), 0.0_wp, 0.0_wp, 'C_eta')
+      call expect_close(maxval(abs(s%bearings(1)%pads%mass - 0.8108_wp)), 0.0_wp, 0.0_wp, 'mass')
+      call expect_close(maxval(abs(s%bearings(1)%pads%inertia - 4.055e-4_wp)), 0.0_wp, 0.0_wp, 'inertia')
+      call expect_close(maxval(abs(s%bearings(1)%pads%centre_tangential)), 0.0_wp, 0.0_wp, 'C_xi')
+      call expect_close(maxval(abs(s%bearings(1)%pads%centre_radial + 10.1e-3_wp)), 0.0_wp, 0.0_wp, 'C_eta')
       s = case_of('&pads mass = 0.9 /')
-      call expect_close(s%pads%mass(2), 0.9_wp, 0.0_wp, 'a mass that is given')
-      call expect_close(s%pads%inertia(2), 4.055e-4_wp, 0.0_wp, 'the paper''s inertia beside it')
+      call expect_close(s%bearings(1)%pads%mass(2), 0.9_wp, 0.0_wp, 'a mass that is given')
+      call expect_close(s%bearings(1)%pads%inertia(2), 4.055e-4_wp, 0.0_wp, 'the paper''s inertia beside it')
    end subroutine paper_pads
 
    !> Pads of another size, and those whose density or thickness is given, are annular sectors.
@@ -103,20 +103,24 @@ contains
       real(wp), parameter :: half = 34.65_wp*degree
       s = case_of('&bearing axial_length = 0.2 /')
       sector = new_annular_sector(0.05_wp, 14e-3_wp, half, half, 0.2_wp, 14e-3_wp)
-      call expect_close(s%pads%mass(1), 7850*sector%volume, 1e-12_wp, 'steel, as thick as the pivot is away')
-      call expect_close(s%pads%inertia(1), 7850*sector%volume*sector%squared_radius, 1e-14_wp, 'its inertia')
-      call expect_close(s%pads%centre_radial(1), sector%centre_radial, 1e-15_wp, 'its centre')
-      call expect_close(s%pads%centre_tangential(1), 0.0_wp, 1e-17_wp, 'symmetric')
+      call expect_close(s%bearings(1)%pads%mass(1), 7850*sector%volume, 1e-12_wp, &
+         & 'steel, as thick as the pivot is away')
+      call expect_close(s%bearings(1)%pads%inertia(1), 7850*sector%volume*sector%squared_radius, 1e-14_wp, &
+         & 'its inertia')
+      call expect_close(s%bearings(1)%pads%centre_radial(1), sector%centre_radial, 1e-15_wp, 'its centre')
+      call expect_close(s%bearings(1)%pads%centre_tangential(1), 0.0_wp, 1e-17_wp, 'symmetric')
       s = case_of('&pads density = 8800, thickness = 0.02 /')
       sector = new_annular_sector(0.05_wp, 0.02_wp, half, half, 0.1_wp, 14e-3_wp)
-      call expect_close(s%pads%mass(2), 8800*sector%volume, 1e-12_wp, 'bronze, thicker')
-      call expect(.not. any(is_set(s%pads%density)) .and. .not. any(is_set(s%pads%thickness)), 'no more to find')
+      call expect_close(s%bearings(1)%pads%mass(2), 8800*sector%volume, 1e-12_wp, 'bronze, thicker')
+      call expect(.not. any(is_set(s%bearings(1)%pads%density)) &
+         & .and. .not. any(is_set(s%bearings(1)%pads%thickness)), 'no more to find')
       s = case_of('&pads pivot_ratio = 0.6 /')
-      call expect(s%pads%centre_tangential(1) > 0, 'behind the middle: the centre lies towards the leading edge')
+      call expect(s%bearings(1)%pads%centre_tangential(1) > 0, &
+         & 'behind the middle: the centre lies towards the leading edge')
       ! steel of the paper's size lies close to the paper's pads
       s = case_of('&pads density = 7850 /')
-      call expect_close(s%pads%mass(1)/0.8108_wp, 1.0_wp, 0.08_wp, 'mass near the paper''s')
-      call expect_close(s%pads%centre_radial(1)/(-10.1e-3_wp), 1.0_wp, 0.08_wp, 'centre near the paper''s')
+      call expect_close(s%bearings(1)%pads%mass(1)/0.8108_wp, 1.0_wp, 0.08_wp, 'mass near the paper''s')
+      call expect_close(s%bearings(1)%pads%centre_radial(1)/(-10.1e-3_wp), 1.0_wp, 0.08_wp, 'centre near the paper''s')
    end subroutine other_pads
 
    !> A mass that is given replaces the density.
@@ -124,39 +128,41 @@ contains
       type(case_type) :: s, whole
       whole = case_of('&bearing axial_length = 0.2 / &pads density = 7850 /')
       s = case_of('&bearing axial_length = 0.2 / &pads mass = 3 /')
-      call expect_close(s%pads%inertia(1)/s%pads%mass(1), whole%pads%inertia(1)/whole%pads%mass(1), 1e-15_wp, &
+      call expect_close(s%bearings(1)%pads%inertia(1)/s%bearings(1)%pads%mass(1), whole%bearings(1)%pads%inertia(1) &
+         & /whole%bearings(1)%pads%mass(1), 1e-15_wp, &
          & 'inertia over mass is that of the size')
       s = case_of('&bearing axial_length = 0.2 / &pads inertia = 1e-2 /')
-      call expect_close(s%pads%mass(1), whole%pads%mass(1), 0.0_wp, 'an inertia leaves the mass')
-      call expect_close(s%pads%inertia(1), 1e-2_wp, 0.0_wp, 'and stands')
+      call expect_close(s%bearings(1)%pads%mass(1), whole%bearings(1)%pads%mass(1), 0.0_wp, &
+         & 'an inertia leaves the mass')
+      call expect_close(s%bearings(1)%pads%inertia(1), 1e-2_wp, 0.0_wp, 'and stands')
    end subroutine given_in_part
 
    !> Each pad by itself.
    subroutine each_pad()
       type(case_type) :: s
       s = case_of('&pads arc_deg = 60, 69.3 /')
-      call expect_close(s%pads%mass(2), 0.8108_wp, 0.0_wp, 'the second is the paper''s')
-      call expect(s%pads%mass(1) < 0.7_wp, 'the first is not')
+      call expect_close(s%bearings(1)%pads%mass(2), 0.8108_wp, 0.0_wp, 'the second is the paper''s')
+      call expect(s%bearings(1)%pads%mass(1) < 0.7_wp, 'the first is not')
       s = case_of('&pads arc_deg = 60, mass(2) = 0.7, thickness(1) = 0.01 /')
-      call expect_close(s%pads%mass(2), 0.7_wp, 0.0_wp, 'one mass is given')
-      call expect(s%pads%mass(1) < 0.5_wp, 'one is thinner')
+      call expect_close(s%bearings(1)%pads%mass(2), 0.7_wp, 0.0_wp, 'one mass is given')
+      call expect(s%bearings(1)%pads%mass(1) < 0.5_wp, 'one is thinner')
    end subroutine each_pad
 
    subroutine preloads()
       type(case_type) :: s
       s = case_of('&bearing preload = 0.3 /')
-      call expect_close(s%bearing%machined_clearance(1), 80e-6_wp/0.7_wp, 0.0_wp, 'c_m from preload')
-      call expect(.not. any(is_set(s%bearing%preload)), 'it is used up')
-      call expect_close(maxval(preload(s)), 0.3_wp, 1e-15_wp, 'and comes back')
+      call expect_close(s%bearings(1)%machined_clearance(1), 80e-6_wp/0.7_wp, 0.0_wp, 'c_m from preload')
+      call expect(.not. any(is_set(s%bearings(1)%preload)), 'it is used up')
+      call expect_close(maxval(preload(s%bearings(1))), 0.3_wp, 1e-15_wp, 'and comes back')
       s = case_of('&bearing preload = 0 /')
-      call expect_close(s%bearing%machined_clearance(1), 80e-6_wp, 0.0_wp, 'none')
+      call expect_close(s%bearings(1)%machined_clearance(1), 80e-6_wp, 0.0_wp, 'none')
       call expect(remarks_on_case(s) == '', 'without a remark')
       s = case_of('&bearing preload = -1 /')
-      call expect_close(s%bearing%machined_clearance(1), 40e-6_wp, 0.0_wp, 'the most negative')
+      call expect_close(s%bearings(1)%machined_clearance(1), 40e-6_wp, 0.0_wp, 'the most negative')
       call expect(index(remarks_on_case(s), 'negative preload -1') == 1, 'has a remark')
       call expect(index(derived_text(s), '! remark: negative preload') > 0, 'that --check shows')
       s = case_of('&case /')
-      call expect_close(maxval(preload(s)), 0.2_wp, 1e-15_wp, 'the paper''s')
+      call expect_close(maxval(preload(s%bearings(1))), 0.2_wp, 1e-15_wp, 'the paper''s')
    end subroutine preloads
 
    subroutine refused()
@@ -177,8 +183,8 @@ contains
       type(case_type) :: s
       s = case_of('&bearing journal_radius = 63.5e-3, axial_length = 63.5e-3, preload = 0.3, viscosity = 0.022,' &
          & //' assembled_clearance = 0.2e-3 / &rotor mass = 1500, balance_grade = 2.5 / &operation speed_rpm = 3000 /')
-      call expect_close(clearance_ratio(s), 0.2_wp/63.5_wp, 1e-17_wp, 'c_r/R_J')
-      call expect_close(length_over_diameter(s), 0.5_wp, 0.0_wp, 'L/D')
+      call expect_close(clearance_ratio(s%bearings(1)), 0.2_wp/63.5_wp, 1e-17_wp, 'c_r/R_J')
+      call expect_close(length_over_diameter(s%bearings(1)), 0.5_wp, 0.0_wp, 'L/D')
       call expect_close(load(s), 14715.0_wp, 1e-9_wp, 'load')
       call expect_close(specific_load(s), 14715/(0.127_wp*0.0635_wp), 1e-6_wp, 'specific load')
       call expect_close(sommerfeld_number(s), 0.022_wp*50*0.127_wp*0.0635_wp/14715*(63.5_wp/0.2_wp)**2, 1e-14_wp, &

@@ -3,7 +3,7 @@ program test_case_namelist
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_overflow
    use kinds, only: wp, i8
    use errors, only: error_type, input_error
-   use case_groups, only: is_set
+   use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables, put_variables
@@ -93,57 +93,59 @@ contains
    !> An empty group gives Tables 1 and 2 of the paper.
    subroutine paper_tables()
       type(case_type) :: s
+      type(bearing_type) :: b
       s = case_of('&case /')
-      call expect_list([s%bearing%journal_radius, s%bearing%viscosity], [49.9e-3_wp, 19e-3_wp], 'Table 1: bearing')
-      call expect_list(s%bearing%machined_clearance, [100e-6_wp, 100e-6_wp], 'Table 1: pad clearance')
-      call expect_list(s%bearing%assembled_clearance, [80e-6_wp, 80e-6_wp], 'Table 1: bearing clearance')
-      call expect_list(s%bearing%axial_length, [100e-3_wp, 100e-3_wp], 'Table 1: pad length')
-      call expect_list([s%bearing%supply_pressure, s%bearing%ambient_pressure, s%bearing%cavitation_pressure], &
+      b = s%bearings(1)
+      call expect_list([b%journal_radius, b%viscosity], [49.9e-3_wp, 19e-3_wp], 'Table 1: bearing')
+      call expect_list(b%machined_clearance, [100e-6_wp, 100e-6_wp], 'Table 1: pad clearance')
+      call expect_list(b%assembled_clearance, [80e-6_wp, 80e-6_wp], 'Table 1: bearing clearance')
+      call expect_list(b%axial_length, [100e-3_wp, 100e-3_wp], 'Table 1: pad length')
+      call expect_list([b%supply_pressure, b%ambient_pressure, b%cavitation_pressure], &
          & [0.0_wp, 0.0_wp, 0.0_wp], 'pressures')
-      call expect_list(s%pads%pivot_angle_deg, [-45.0_wp, 225.0_wp], 'load between the two lower pads')
-      call expect_list(s%pads%arc_deg, [69.3_wp, 69.3_wp], 'Table 1: angular pad length')
-      call expect_list(s%pads%pivot_ratio, [0.5_wp, 0.5_wp], 'Table 1: pivot offset')
-      call expect_list(s%pads%pivot_distance, [14e-3_wp, 14e-3_wp], 'Table 1: kappa')
-      call expect_list(s%pads%mass, [0.8108_wp, 0.8108_wp], 'Table 1: pad mass')
-      call expect_list(s%pads%inertia, [4.055e-4_wp, 4.055e-4_wp], 'Table 1: pad inertia')
-      call expect_list(s%pads%centre_tangential, [0.0_wp, 0.0_wp], 'Table 1: C_xi')
-      call expect_list(s%pads%centre_radial, [-10.1e-3_wp, -10.1e-3_wp], 'Table 1: C_eta')
+      call expect_list(b%pads%pivot_angle_deg, [-45.0_wp, 225.0_wp], 'load between the two lower pads')
+      call expect_list(b%pads%arc_deg, [69.3_wp, 69.3_wp], 'Table 1: angular pad length')
+      call expect_list(b%pads%pivot_ratio, [0.5_wp, 0.5_wp], 'Table 1: pivot offset')
+      call expect_list(b%pads%pivot_distance, [14e-3_wp, 14e-3_wp], 'Table 1: kappa')
+      call expect_list(b%pads%mass, [0.8108_wp, 0.8108_wp], 'Table 1: pad mass')
+      call expect_list(b%pads%inertia, [4.055e-4_wp, 4.055e-4_wp], 'Table 1: pad inertia')
+      call expect_list(b%pads%centre_tangential, [0.0_wp, 0.0_wp], 'Table 1: C_xi')
+      call expect_list(b%pads%centre_radial, [-10.1e-3_wp, -10.1e-3_wp], 'Table 1: C_eta')
       call expect_list([s%rotor%mass, s%rotor%unbalance, s%rotor%gravity, s%unbalance()], &
          & [2000.0_wp, 0.01_wp, 9.81_wp, 0.01_wp], 'Table 1: rotor')
-      call expect_list([s%pivot%socket_radius(1), s%pivot%radius_difference(1), s%pivot%deflection_factor], &
+      call expect_list([b%pivot%socket_radius(1), b%pivot%radius_difference(1), b%pivot%deflection_factor], &
          & [13e-3_wp, 15e-6_wp, 4.0_wp], 'Table 2: pivot')
-      call expect_list([s%pivot%young_modulus, s%pivot%poisson_ratio], [2.1e11_wp, 2.1e11_wp, 0.3_wp, 0.3_wp], &
+      call expect_list([b%pivot%young_modulus, b%pivot%poisson_ratio], [2.1e11_wp, 2.1e11_wp, 0.3_wp, 0.3_wp], &
          & 'Table 2: steel')
-      call expect_list([s%friction%decay, s%friction%critical_velocity, s%friction%stribeck_velocity, &
-         & s%friction%stribeck_exponent, s%friction%bristle_stiffness, s%friction%viscous_coefficient, &
-         & s%friction%characteristic_load], [1000.0_wp, 1e-5_wp, 1e-3_wp, 1.0_wp, 1e6_wp, 0.0_wp, 1e4_wp], &
+      call expect_list([b%friction%decay, b%friction%critical_velocity, b%friction%stribeck_velocity, &
+         & b%friction%stribeck_exponent, b%friction%bristle_stiffness, b%friction%viscous_coefficient, &
+         & b%friction%characteristic_load], [1000.0_wp, 1e-5_wp, 1e-3_wp, 1.0_wp, 1e6_wp, 0.0_wp, 1e4_wp], &
          & 'Table 2: friction')
       call expect_list([s%operation%speed_rpm, s%operation%final_speed_rpm, s%operation%duration], &
          & [6500.0_wp, 6500.0_wp, 2.0_wp], 'steady running for 2 s')
-      call expect(s%pads%motion == 'tilting_radial' .and. s%pivot%law == 'fang' .and. s%about%task == 'march', 'words')
+      call expect(b%pads%motion == 'tilting_radial' .and. b%pivot%law == 'fang' .and. s%about%task == 'march', 'words')
    end subroutine paper_tables
 
    subroutine one_value_for_all_pads()
       type(case_type) :: s
       s = case_of('&pads pivot_angle_deg = -45, 45, 135, 225, mass = 0.9, arc_deg = 4*60. pivot_ratio = 1*0.6 /')
-      call expect(s%pad_count() == 4, 'as many pads as angles')
-      call expect_list(s%pads%mass, spread(0.9_wp, 1, 4), 'one value for all pads')
-      call expect_list(s%pads%arc_deg, spread(60.0_wp, 1, 4), 'a repeat for all pads')
-      call expect_list(s%pads%pivot_ratio, spread(0.6_wp, 1, 4), 'a repeat of one')
-      call expect_list(s%pads%pivot_distance, spread(14e-3_wp, 1, 4), 'defaults for all pads')
+      call expect(s%bearings(1)%pad_count() == 4, 'as many pads as angles')
+      call expect_list(s%bearings(1)%pads%mass, spread(0.9_wp, 1, 4), 'one value for all pads')
+      call expect_list(s%bearings(1)%pads%arc_deg, spread(60.0_wp, 1, 4), 'a repeat for all pads')
+      call expect_list(s%bearings(1)%pads%pivot_ratio, spread(0.6_wp, 1, 4), 'a repeat of one')
+      call expect_list(s%bearings(1)%pads%pivot_distance, spread(14e-3_wp, 1, 4), 'defaults for all pads')
       s = case_of('&pads pivot_angle_deg = -90 /')
-      call expect(s%pad_count() == 1 .and. size(s%pads%centre_radial) == 1, 'a single pad')
+      call expect(s%bearings(1)%pad_count() == 1 .and. size(s%bearings(1)%pads%centre_radial) == 1, 'a single pad')
    end subroutine one_value_for_all_pads
 
    subroutine each_pad_its_own()
       type(case_type) :: s
       s = case_of('&pads mass(2) = 0.7, pivot_distance(2) = 15e-3 arc_deg(1) = 50, 55, pivot_ratio = 0.5, 0.6, ' &
          & //'centre_tangential = 1e-3 centre_tangential(2) = -1e-3 /')
-      call expect_list(s%pads%pivot_distance, [14e-3_wp, 15e-3_wp], 'one pad by its subscript')
-      call expect_list(s%pads%mass(2:), [0.7_wp], 'one that is given only there')
-      call expect_list(s%pads%arc_deg, [50.0_wp, 55.0_wp], 'values from a subscript on')
-      call expect_list(s%pads%pivot_ratio, [0.5_wp, 0.6_wp], 'one value a pad')
-      call expect_list(s%pads%centre_tangential, [1e-3_wp, -1e-3_wp], 'all pads, then one of them')
+      call expect_list(s%bearings(1)%pads%pivot_distance, [14e-3_wp, 15e-3_wp], 'one pad by its subscript')
+      call expect_list(s%bearings(1)%pads%mass(2:), [0.7_wp], 'one that is given only there')
+      call expect_list(s%bearings(1)%pads%arc_deg, [50.0_wp, 55.0_wp], 'values from a subscript on')
+      call expect_list(s%bearings(1)%pads%pivot_ratio, [0.5_wp, 0.6_wp], 'one value a pad')
+      call expect_list(s%bearings(1)%pads%centre_tangential, [1e-3_wp, -1e-3_wp], 'all pads, then one of them')
    end subroutine each_pad_its_own
 
    subroutine words_and_numbers()
@@ -151,10 +153,12 @@ contains
       s = case_of('&Friction MODEL = "LuGre" decay=1.D3/'//achar(13) &
          & //newline//'&rotor static_load(2) = +1.5e+3, mass=1e3,/' &
          & //newline//'&film circumferential_cells = 40 solver='' sor ''/')
-      call expect(s%friction%model == 'lugre' .and. s%film%solver == 'sor', 'words in capitals and with blanks')
-      call expect_list([s%friction%decay, s%rotor%static_load, s%rotor%mass], [1000.0_wp, 0.0_wp, 1500.0_wp, &
+      call expect(s%bearings(1)%friction%model == 'lugre' .and. s%bearings(1)%film%solver == 'sor', &
+         & 'words in capitals and with blanks')
+      call expect_list([s%bearings(1)%friction%decay, s%rotor%static_load, s%rotor%mass], [1000.0_wp, 0.0_wp, &
+         & 1500.0_wp, &
          & 1000.0_wp], 'numbers in several forms')
-      call expect(s%film%circumferential_cells == 40, 'a whole number')
+      call expect(s%bearings(1)%film%circumferential_cells == 40, 'a whole number')
       s = case_of('&operation speed_rpm = 1500, final_speed_rpm = 6500, duration = 10/ &rotor balance_grade = 6.3/')
       call expect_list([s%operation%final_speed_rpm], [6500.0_wp], 'a run-up')
       ! eq (26): 9549*6.3*2000/6500 g mm
@@ -175,9 +179,10 @@ contains
          & [character(len=30) :: 'rotor%balance_grade=-1', 'oil%grade=0', 'pads%mass(2)=-1', &
          & 'friction%bristle_damping=-1', 'operation%final_speed_rpm=-1'], s, error)
       call expect_no_error(error, 'what the file gives is taken back')
-      call expect(.not. (is_set(s%rotor%balance_grade) .or. is_set(s%friction%bristle_damping)), 'not set')
-      call expect(s%oil%law == 'constant', 'no oil')
-      call expect_list([s%pads%mass, s%operation%final_speed_rpm], [1.0_wp, 0.8108_wp, 6500.0_wp], 'found again')
+      call expect(.not. (is_set(s%rotor%balance_grade) .or. is_set(s%bearings(1)%friction%bristle_damping)), 'not set')
+      call expect(s%bearings(1)%oil%law == 'constant', 'no oil')
+      call expect_list([s%bearings(1)%pads%mass, s%operation%final_speed_rpm], [1.0_wp, 0.8108_wp, 6500.0_wp], &
+         & 'found again')
       call override('&rotor /', ['rotor%balance_grade=-0.5'], s, error)
       call expect_error(error, input_error, 'rotor%balance_grade = -0.5: must be 1e-6 to 100000', 'but for -1')
       call override('&rotor static_load(1) = 1, 2 mass = 1/', [character(len=30) :: &

@@ -7,11 +7,10 @@ program test_cavitation_table
    use pad_gap, only: pad_gap_type
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad, unit_oil
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver
-   use cavitated_film, only: cavitated_film_type, new_cavitated_film, axes
-   use uneven_drive, only: uneven_drive_type, new_uneven_drive
-   use cell_polynomials, only: simd_width
+   use cavitated_film, only: cavitated_film_type, cavitation_table_type, node_type, new_cavitated_film, &
+      & new_cavitation_table, axes
+   use rotation_drive, only: rotation_drive_type, new_rotation_drive
    use cell_index, only: interval, lower_end
-   use cavitation_table, only: cavitation_table_type, new_cavitation_table
    use check, only: runs, expect, expect_close, between, report
    use film_solver, only: film_counters
    implicit none (type, external)
@@ -23,14 +22,14 @@ program test_cavitation_table
    !> Most cells and nodes of a table.
    integer, parameter :: most = 20000
    type(dimensionless_pad_type) :: pad
-   type(uneven_drive_type) :: even
+   type(rotation_drive_type) :: even
    type(film_counters) :: counters
    integer :: i
 
    associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
       pad = new_dimensionless_pad(gap)
    end associate
-   even = new_uneven_drive(pad, unit_oil)
+   even = new_rotation_drive(pad, unit_oil)
    do i = 1, size(films, 2)
       if (runs('slopes')) call slopes(.false., films(:2, i), films(3, i))
       if (runs('slopes')) call slopes(.true., films(:2, i), films(3, i))
@@ -124,17 +123,16 @@ contains
       call expect(.not. ratio%ok, 'a closed film')
    end subroutine closed
 
-   !> What a table finds in a place that is asked for until the table pays there; `good` is false if it never does.
-   subroutine ask(table, place, value, slope, good)
+   !> What a table finds in a place that is asked for until the table pays there; it is not ok if it never does.
+   subroutine ask(table, place, film)
       type(cavitation_table_type), intent(inout) :: table
       real(wp), intent(in) :: place(3)
-      real(wp), intent(out) :: value(simd_width), slope(simd_width, axes)
-      logical, intent(out) :: good
+      type(node_type), intent(out) :: film
       integer :: time, last
       last = 0
       do time = 1, 5000
-         call table%look_up([place, 0.0_wp], .true., last, counters, value, slope, good)
-         if (good) exit
+         call table%look_up([place, 0.0_wp], .true., last, counters, film)
+         if (film%ok) exit
       end do
    end subroutine ask
 
@@ -148,11 +146,9 @@ contains
    subroutine between_cells(gumbel)
       logical, intent(in) :: gumbel
       type(cavitation_table_type) :: table
+      type(node_type) :: film, film_below
       real(wp) :: place(3), below(3), worst
-      real(wp), dimension(simd_width) :: value, value_below
-      real(wp) :: slope(simd_width, axes)
       integer :: trial, axis
-      logical :: good
       table = new_cavitation_table(pad, even, gumbel, tolerance, most)
       worst = 0
       do trial = 1, 60
@@ -163,9 +159,9 @@ contains
          if (.not. place(3) > 0) cycle
          below = place
          below(axis) = nearest(place(axis), -1.0_wp)
-         call ask(table, place, value, slope, good)
-         call ask(table, below, value_below, slope, good)
-         worst = max(worst, maxval(abs(value(:3) - value_below(:3))))
+         call ask(table, place, film)
+         call ask(table, below, film_below)
+         worst = max(worst, maxval(abs(film%data(:3, 1) - film_below%data(:3, 1))))
       end do
       call expect_close(worst, 0.0_wp, 1e-11_wp, 'cells meet')
    end subroutine between_cells
@@ -174,23 +170,23 @@ contains
    subroutine both_ends(gumbel)
       logical, intent(in) :: gumbel
       type(cavitation_table_type) :: table
-      real(wp) :: value(simd_width), slope(simd_width, axes), pressure
+      type(node_type) :: film
+      real(wp) :: pressure
       complex(wp) :: force, slopes(axes)
       real(wp), parameter :: next_to_0(2) = [epsilon(1.0_wp), tiny(1.0_wp)], next_to_1 = nearest(1.0_wp, -1.0_wp)
       integer :: k
-      logical :: good
       table = new_cavitation_table(pad, even, gumbel, tolerance, most)
       do k = 1, 2
-         call ask(table, [0.8_wp, 0.4_wp, next_to_0(k)], value, slope, good)
-         call expect(good, 'there is a cell')
-         call table%set_ratio(next_to_0(k), value, slope, force, slopes, pressure)
+         call ask(table, [0.8_wp, 0.4_wp, next_to_0(k)], film)
+         call expect(film%ok, 'there is a cell')
+         call table%set_ratio(next_to_0(k), film, force, slopes, pressure)
          call expect_close(abs(force - 1), 0.0_wp, 1e-12_wp, 'the force at T = 0')
          call expect_close(maxval(abs(slopes(:2))), 0.0_wp, tolerance, 'and its slopes over the thicknesses')
          call expect_close(pressure, 1.0_wp, 1e-12_wp, 'the pressure is that of the full film')
       end do
-      call ask(table, [0.8_wp, 0.4_wp, next_to_1], value, slope, good)
-      call expect(good, 'there is a cell')
-      call table%set_ratio(next_to_1, value, slope, force, slopes, pressure)
+      call ask(table, [0.8_wp, 0.4_wp, next_to_1], film)
+      call expect(film%ok, 'there is a cell')
+      call table%set_ratio(next_to_1, film, force, slopes, pressure)
       call expect_close(abs(force), 0.0_wp, 1e-12_wp, 'nothing at T = 1')
       call expect_close(maxval(abs(slopes)), 0.0_wp, 1e-12_wp, 'and its slopes vanish')
       call expect_close(pressure, 0.0_wp, 1e-12_wp, 'and no pressure')
@@ -204,24 +200,24 @@ contains
       type(cavitated_film_type) :: reference
       type(dimensionless_pad_type) :: other
       type(pad_gap_type) :: gap
-      real(wp) :: place(3), error(n), found, value(simd_width), exact(simd_width), slope(simd_width, axes)
+      type(node_type) :: film, exact
+      real(wp) :: place(3), error(n), found
       integer :: k, last
-      logical :: good, solved
       k = 0
       do while (k < n)
          associate (half => between(15.0_wp, 50.0_wp)*degree)
             gap = pad_gap_type(0.0_wp, 1.0_wp, between(0.4_wp, 1.6_wp), half, half, 0.0_wp, 0.0_wp, 0.0_wp)
          end associate
          other = new_dimensionless_pad(gap)
-         table = new_cavitation_table(other, new_uneven_drive(other, unit_oil), .false., 4e-5_wp, most)
-         reference = new_cavitated_film(other, new_uneven_drive(other, unit_oil), .false., 1e-6_wp)
+         table = new_cavitation_table(other, new_rotation_drive(other, unit_oil), .false., 4e-5_wp, most)
+         reference = new_cavitated_film(other, new_rotation_drive(other, unit_oil), .false., 1e-6_wp)
          place = [0.05_wp*60**between(0.0_wp, 1.0_wp), 0.05_wp*60**between(0.0_wp, 1.0_wp), between(0.0_wp, 0.98_wp)]
          last = 0
-         call ask(table, place, value, slope, good)
-         call reference%look_up([place, 0.0_wp], .false., last, counters, exact, slope, solved)
-         if (.not. (good .and. solved)) cycle
+         call ask(table, place, film)
+         call reference%look_up([place, 0.0_wp], .false., last, counters, exact)
+         if (.not. (film%ok .and. exact%ok)) cycle
          k = k + 1
-         error(k) = norm2(value(:2) - exact(:2))
+         error(k) = norm2(film%data(:2, 1) - exact%data(:2, 1))
       end do
       found = count(error < 4e-5_wp)/real(n, wp)
       call expect(found > 0.5_wp, 'half of the films keep to the tolerance: '//to_text(found))
@@ -234,9 +230,9 @@ contains
    subroutine beside_closed()
       type(cavitation_table_type) :: table, closer
       type(cavitated_film_type) :: reference
-      real(wp) :: place(3), least, worst, value(simd_width), exact(simd_width), slope(simd_width, axes)
+      type(node_type) :: film, exact
+      real(wp) :: place(3), least, worst
       integer :: trial, last, answered
-      logical :: good, solved
       table = new_cavitation_table(pad, even, .false., 4e-5_wp, most)
       reference = new_cavitated_film(pad, even, .false., 1e-6_wp)
       closer = new_cavitation_table(pad, even, .false., 1e-5_wp, most)
@@ -249,14 +245,14 @@ contains
          if (pad%least_film(place(:2)) < 1e-3_wp) cycle
          last = 0
          last = 0
-         call closer%look_up([place, 0.0_wp], .false., last, counters, value, slope, good)
-         call expect(good, 'a closer table answers')
-         call ask(table, place, value, slope, good)
-         if (.not. good) cycle
+         call closer%look_up([place, 0.0_wp], .false., last, counters, film)
+         call expect(film%ok, 'a closer table answers')
+         call ask(table, place, film)
+         if (.not. film%ok) cycle
          answered = answered + 1
-         call reference%look_up([place, 0.0_wp], .false., last, counters, exact, slope, solved)
-         call expect(solved, 'a film')
-         worst = max(worst, norm2(value(:2) - exact(:2)))
+         call reference%look_up([place, 0.0_wp], .false., last, counters, exact)
+         call expect(exact%ok, 'a film')
+         worst = max(worst, norm2(film%data(:2, 1) - exact%data(:2, 1)))
       end do
       call expect_close(worst, 0.0_wp, 1e-2_wp, 'beside a film that closes')
       call expect(answered > 20 .and. answered < 60, to_text(answered)//' of 60 are answered')
@@ -270,18 +266,18 @@ contains
       integer, parameter :: asked = 20000
       type(cavitation_table_type) :: table
       type(film_counters) :: used
-      real(wp) :: place(3), value(simd_width), slope(simd_width, axes), cost
-      integer :: film, last
-      logical :: good
+      type(node_type) :: film
+      real(wp) :: place(3), cost
+      integer :: time, last
       table = new_cavitation_table(pad, even, .true., tolerance, most)
       cost = 0
       last = 0
-      do film = 1, asked
+      do time = 1, asked
          place = random_place()
          place(3) = 0.25_wp + 0.75_wp*place(3)
          if (.not. spread) place(:2) = 0.6_wp + 0.1_wp*place(:2)
-         call table%look_up([place, 0.0_wp], .false., last, used, value, slope, good)
-         if (.not. good) cost = cost + 5
+         call table%look_up([place, 0.0_wp], .false., last, used, film)
+         if (.not. film%ok) cost = cost + 5
       end do
       cost = cost + 60*real(used%nodes - 100 - 8, wp)
       call expect(cost <= 1.2_wp*5*asked, 'full films that cost as much: '//to_text(cost))
@@ -293,25 +289,24 @@ contains
       logical, intent(in) :: gumbel
       integer, parameter :: n = 12
       type(cavitation_table_type) :: table, other
-      real(wp) :: places(3, n), value(simd_width, n), slope(simd_width, axes, n), value_there(simd_width), &
-         & slope_there(simd_width, axes)
+      type(node_type) :: film(n), there
+      real(wp) :: places(3, n)
       integer :: k, different, pass
       integer(i8) :: at_first
-      logical :: good
       places = reshape([(random_place(), k=1, n)], [3, n])
       table = new_cavitation_table(pad, even, gumbel, tolerance, most)
       counters = film_counters()
       do k = 1, n
-         call ask(table, places(:, k), value(:, k), slope(:, :, k), good)
+         call ask(table, places(:, k), film(k))
       end do
       at_first = counters%nodes
       other = new_cavitation_table(pad, even, gumbel, tolerance, 20)
       different = 0
       do pass = 1, 2
          do k = n, 1, -1
-            call ask(other, places(:, k), value_there, slope_there, good)
-            if (any(abs(value_there - value(:, k)) > 0)) different = different + 1
-            if (any(abs(slope_there - slope(:, :, k)) > 0)) different = different + 1
+            call ask(other, places(:, k), there)
+            if (any(abs(there%data(:, 1) - film(k)%data(:, 1)) > 0)) different = different + 1
+            if (any(abs(there%data(:, 2:) - film(k)%data(:, 2:)) > 0)) different = different + 1
          end do
       end do
       call expect(different == 0, to_text(different)//' of '//to_text(n)//' are others')

@@ -5,10 +5,9 @@ program test_equations_of_motion
    use case_groups, only: unset
    use case_inputs, only: case_type
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state
    use operating_point, only: operating_point_type
    use tilting_pad_bearing, only: pad_sample
-   use state_layout, only: at_tilt, at_tilt_rate, at_deflection, at_deflection_rate
+   use state_layout, only: pad_state, tilt, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
    use input_cases, only: case_of, listed
    use check, only: runs, expect, expect_close, between, report
@@ -43,8 +42,8 @@ contains
    type(case_type) function paper_case(motion, friction) result(inputs)
       character(len=*), intent(in) :: motion, friction
       inputs = case_type()
-      inputs%pads%motion = trim(motion)
-      inputs%friction%model = trim(friction)
+      inputs%bearings(1)%pads%motion = trim(motion)
+      inputs%bearings(1)%friction%model = trim(friction)
    end function paper_case
 
    !> A case in which every term counts: pads as heavy as the load, their centres off the pivots' radius,
@@ -131,7 +130,7 @@ contains
       integer :: pad
       step_scale = model%scale(column)
       do pad = 1, 2
-         if (column == model%layout%bearings(1)%before(pad) + at_tilt_rate) step_scale = 0.2_wp
+         if (column == model%layout%elements(1)%before(pad) + 2) step_scale = 0.2_wp
       end do
    end function step_scale
 
@@ -141,14 +140,14 @@ contains
       real(wp), allocatable :: y(:)
       integer :: pad
       y = model%static_state([between(-40e-6_wp, -20e-6_wp), between(-5e-6_wp, 5e-6_wp)], &
-         & [between(-1e-4_wp, 1e-4_wp), between(6e-4_wp, 8e-4_wp)], [between(4e-6_wp, 8e-6_wp), between(4e-6_wp, &
-         & 8e-6_wp)])
+         & [pad_state(between(-1e-4_wp, 1e-4_wp), deflection=between(4e-6_wp, 8e-6_wp)), &
+         & pad_state(between(6e-4_wp, 8e-4_wp), deflection=between(4e-6_wp, 8e-6_wp))])
       y(3:4) = [between(-5e-3_wp, 5e-3_wp), between(-5e-3_wp, 5e-3_wp)]
-      if (.not. model%layout%bearings(1)%tilting) return
+      if (.not. model%layout%elements(1)%has(tilt)) return
       do pad = 1, 2
-         associate (of => model%layout%bearings(1))
-            y(of%before(pad) + at_tilt_rate) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
-            if (of%radial) y(of%before(pad) + at_deflection_rate) = between(-2e-3_wp, 2e-3_wp)
+         associate (of => model%layout%elements(1))
+            y(of%before(pad) + 2) = sign(between(0.3_wp, 0.6_wp), between(-1.0_wp, 1.0_wp))
+            if (of%has(pivot_deflection)) y(of%before(pad) + 4) = between(-2e-3_wp, 2e-3_wp)
             if (of%bristles) y(of%bristle(pad)) = between(-1e-7_wp, 1e-7_wp)
          end associate
       end do
@@ -168,11 +167,11 @@ contains
       call expect(ok .and. all(f < huge(f)), 'every rate is set, '//motion)
       call expect_close(norm2(f(1:2) - y(3:4)), 0.0_wp, 0.0_wp, 'rates of the journal, '//motion)
       do pad = 1, 2
-         associate (of => model%layout%bearings(1))
-            call expect_close(f(of%before(pad) + at_tilt), y(of%before(pad) + at_tilt_rate), 0.0_wp, &
+         associate (of => model%layout%elements(1))
+            call expect_close(f(of%before(pad) + 1), y(of%before(pad) + 2), 0.0_wp, &
                & 'rate of the tilt, '//motion)
-            if (.not. of%radial) cycle
-            call expect_close(f(of%before(pad) + at_deflection), y(of%before(pad) + at_deflection_rate), 0.0_wp, &
+            if (.not. of%has(pivot_deflection)) cycle
+            call expect_close(f(of%before(pad) + 3), y(of%before(pad) + 4), 0.0_wp, &
                & 'rate of the pivot deflection')
          end associate
       end do
@@ -186,9 +185,9 @@ contains
       logical :: ok, tilting_ok
       inputs = paper_case('tilting_only', 'none')
       tilting = new_machine_model(inputs)
-      inputs%pads%motion = 'fixed'
-      inputs%pads%mass = unset
-      inputs%pads%inertia = unset
+      inputs%bearings(1)%pads%motion = 'fixed'
+      inputs%bearings(1)%pads%mass = unset
+      inputs%bearings(1)%pads%inertia = unset
       fixed = new_machine_model(inputs)
       call expect(fixed%n == 4 .and. size(fixed%scale) == 4, 'the states of the journal')
       associate (w => fixed%point%speed(0.0_wp))
@@ -223,7 +222,8 @@ contains
          with = new_machine_model(inputs)
          inputs%rotor%unbalance = 0
          without = new_machine_model(inputs)
-         y = with%static_state([-4e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
+         y = with%static_state([-4e-5_wp, 0.0_wp], [pad_state(-2e-4_wp, deflection=7e-6_wp), &
+            & pad_state(1e-3_wp, deflection=7e-6_wp)])
          allocate (f(with%n), f0(with%n))
          t = 0.013_wp*k
          call with%rhs(t, y, f, ok)
@@ -253,14 +253,13 @@ contains
    subroutine forces_by_definition()
       type(machine_model) :: model
       real(wp), allocatable :: y(:), f(:)
-      type(pad_sample), allocatable :: films(:)
-      real(wp) :: reaction, a
       logical :: ok
       integer :: pad
       model = new_machine_model(paper_case('tilting_radial', 'lugre'))
-      y = model%static_state([-2e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [-1e-6_wp, 5e-6_wp])
-      y(model%layout%bearings(1)%bristle(1)) = 1e-7_wp
-      y(model%layout%bearings(1)%bristle(2)) = 1e-7_wp
+      y = model%static_state([-2e-5_wp, 0.0_wp], [pad_state(-2e-4_wp, deflection=-1e-6_wp), &
+         & pad_state(1e-3_wp, deflection=5e-6_wp)])
+      y(model%layout%elements(1)%bristle(1)) = 1e-7_wp
+      y(model%layout%elements(1)%bristle(2)) = 1e-7_wp
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
       call expect_close(model%bearings(1)%loads(1)%contact, 0.0_wp, 0.0_wp, 'no contact without pivot deflection')
@@ -273,18 +272,27 @@ contains
       y = moving_state(model)
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
-      films = model%bearings(1)%sampled()
       do pad = 1, 2
-         a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%bearings(1)%before(pad) + at_tilt)
-         associate (p => model%inputs%pads)
-            reaction = -films(pad)%film_force(2) - p%mass(pad)*300*sin(a) &
-               & + p%mass(pad)*p%centre_radial(pad)*y(model%layout%bearings(1)%before(pad) + at_tilt_rate)**2
+         associate (reaction => radial_reaction(model, y, pad))
             call expect_close(model%bearings(1)%loads(pad)%contact, max(0.0_wp, reaction), 1e-12_wp*abs(reaction), &
                & 'radial reaction of pad '//to_text(pad))
          end associate
       end do
       call hanging_pads()
    end subroutine forces_by_definition
+
+   !> What film, weight and its own turning press a heavy pad against its pivot with, N, in the state evaluated last.
+   real(wp) function radial_reaction(model, y, pad)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      integer, intent(in) :: pad
+      type(pad_sample), allocatable :: films(:)
+      films = model%bearings(1)%sampled()
+      associate (p => model%inputs%bearings(1)%pads, before => model%layout%elements(1)%before(pad))
+         radial_reaction = -films(pad)%film_force(2) - p%mass(pad)*300*sin(model%bearings(1)%pads(pad)%position%angle &
+            & - y(before + 1)) + p%mass(pad)*p%centre_radial(pad)*y(before + 2)**2
+      end associate
+   end function radial_reaction
 
    !> Heavy pads above the journal hang from pivots that cannot pull.
    subroutine hanging_pads()
@@ -294,14 +302,13 @@ contains
       logical :: ok
       integer :: pad
       inputs = heavy_case('tilting_only', 'bengisu_akay', 0.0_wp)
-      inputs%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
+      inputs%bearings(1)%pads%pivot_angle_deg = [45.0_wp, 135.0_wp]
       model = new_machine_model(inputs)
-      y = model%static_state([0.0_wp, 0.0_wp], [3e-4_wp, 3e-4_wp], [0.0_wp, 0.0_wp])
-      y(model%layout%bearings(1)%before([1, 2]) + at_tilt_rate) = 0.3_wp
+      y = model%static_state([0.0_wp, 0.0_wp], spread(pad_state(3e-4_wp, 0.3_wp), 1, 2))
       allocate (f(model%n))
       call model%rhs(0.0_wp, y, f, ok)
       do pad = 1, 2
-         call expect(model%bearings(1)%loads(pad)%radial < -1e3_wp, 'weight pulls a pad off its pivot')
+         call expect(radial_reaction(model, y, pad) < -1e3_wp, 'weight pulls a pad off its pivot')
          call expect_close(model%bearings(1)%loads(pad)%contact, 0.0_wp, 0.0_wp, 'a pivot does not pull')
          call expect_close(model%bearings(1)%loads(pad)%friction%force, 0.0_wp, 0.0_wp, 'nor rub then')
       end do
@@ -314,12 +321,13 @@ contains
       logical :: ok
       model = new_machine_model(paper_case('tilting_radial', 'none'))
       allocate (f(model%n))
-      y = model%static_state([-4e-5_wp, 200e-6_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
+      y = model%static_state([-4e-5_wp, 200e-6_wp], [pad_state(-2e-4_wp, deflection=7e-6_wp), &
+            & pad_state(1e-3_wp, deflection=7e-6_wp)])
       call model%rhs(0.0_wp, y, f, ok)
       call expect(.not. ok, 'a closed film is refused')
       if (.not. ok) call expect(index(model%refusal, 'pad 1') > 0 .and. index(model%refusal, 'closed') > 0, &
          & 'and says which: '//model%refusal)
-      y = model%static_state([0.0_wp, 0.0_wp], [0.0_wp, 0.7_wp], [0.0_wp, 0.0_wp])
+      y = model%static_state([0.0_wp, 0.0_wp], [pad_state(), pad_state(0.7_wp)])
       call model%rhs(0.0_wp, y, f, ok)
       call expect(.not. ok, 'a pad turned over is refused')
       if (.not. ok) call expect(index(model%refusal, 'pad 2 turned over') > 0, 'and says so: '//model%refusal)

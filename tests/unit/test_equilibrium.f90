@@ -4,6 +4,7 @@ program test_equilibrium
    use kinds, only: wp
    use errors, only: error_type, numerics_error
    use case_inputs, only: case_type
+   use state_layout, only: tilt, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces
    use equilibrium_record, only: equilibrium_type
@@ -43,7 +44,7 @@ contains
       call expect(.not. any(held), 'no pad is held')
       call find_equilibrium(new_machine_model(case_type()), whole, error)
       call expect_close(norm2(part%rotor - whole%rotor), 0.0_wp, 1e-11_wp, 'the same place')
-      call expect_close(maxval(abs(part%tilt - whole%tilt)), 0.0_wp, 1e-9_wp, 'the same tilts')
+      call expect_close(maxval(abs(part%pads%x(tilt) - whole%pads%x(tilt))), 0.0_wp, 1e-9_wp, 'the same tilts')
    end subroutine nothing_held
 
    !> A third pad on top, so far from the journal that its film does not carry its weight, and heavy on one side: it
@@ -58,17 +59,17 @@ contains
       logical :: ok
       ! its films are those of the search
       inputs = case_of('&pads pivot_angle_deg = -45, 225, 90 / &film solver = ''direct'' /')
-      inputs%pads%centre_tangential(3) = 60e-3_wp
+      inputs%bearings(1)%pads%centre_tangential(3) = 60e-3_wp
       model = new_machine_model(inputs)
       call find_partial_equilibrium(model, found, held, error)
       call expect_no_error(error, 'with a pad on top')
       if (.not. allocated(held)) return
       call expect(all(held .eqv. [.false., .false., .true.]), 'the top pad is held')
-      call expect_close(found%tilt(3), 0.0_wp, 0.0_wp, 'at zero tilt')
-      call expect_close(found%pivot_deflection(3), 0.0_wp, 0.0_wp, 'on its pivot')
+      call expect_close(found%pads(3)%x(tilt), 0.0_wp, 0.0_wp, 'at zero tilt')
+      call expect_close(found%pads(3)%x(pivot_deflection), 0.0_wp, 0.0_wp, 'on its pivot')
       call model%set_point(model%point%static())
-      call model%evaluate(0.0_wp, model%static_state(found%rotor, found%tilt, found%pivot_deflection), .false., ok)
-      force = forces(model, 0.0_wp, model%static_state(found%rotor, found%tilt, found%pivot_deflection))
+      call model%evaluate(0.0_wp, model%static_state(found%rotor, found%pads), .false., ok)
+      force = forces(model, 0.0_wp, model%static_state(found%rotor, found%pads))
       call expect_close(maxval(abs(force(:2))), 0.0_wp, 1e-3_wp, 'the journal is in balance')
       call expect_close(maxval(abs(force([4, 6]))), 0.0_wp, 1e-3_wp, 'so are the loaded pads along their radius')
       call expect(abs(force(7)) > 1e-3_wp, 'and the held pad is not')

@@ -62,6 +62,7 @@ program test_excitations
    use case_inputs, only: case_type
    use cvode_integrator, only: integrator_type, integrator_options
    use ode_model, only: integrator_counts_type
+   use state_layout, only: pad_state
    use equations_of_motion, only: machine_model, new_machine_model
    use switched_problem, only: switched
    use input_cases, only: case_of, expect_refused
@@ -244,7 +245,8 @@ contains
       inputs = case_of('&rotor mass = 20 / &excitation amplitude = 300, frequency_hz = 70, direction_deg = 30 /')
       with = new_machine_model(inputs)
       without = new_machine_model(case_of('&rotor mass = 20 /'))
-      y = with%static_state([-2e-5_wp, 0.0_wp], [-2e-4_wp, 1e-3_wp], [7e-6_wp, 7e-6_wp])
+      y = with%static_state([-2e-5_wp, 0.0_wp], [pad_state(-2e-4_wp, deflection=7e-6_wp), &
+         & pad_state(1e-3_wp, deflection=7e-6_wp)])
       allocate (f(with%n), f0(with%n))
       call with%rhs(t, y, f, ok)
       call without%rhs(t, y, f0, ok)
@@ -272,7 +274,7 @@ contains
       loaded = new_machine_model(case_of(shaft//' &load station = 5, force = 0, 700 /'))
       bare = new_machine_model(case_of(shaft))
       allocate (y(excited%n), f(excited%n), g(excited%n), h(excited%n))
-      y = bare%static_state(spread(0.0_wp, 1, bare%rotor%positions), spread(0.0_wp, 1, 4), spread(5e-6_wp, 1, 4))
+      y = bare%static_state(spread(0.0_wp, 1, bare%rotor%positions), spread(pad_state(deflection=5e-6_wp), 1, 4))
       call excited%rhs(0.01_wp, y, f, ok)
       call loaded%rhs(0.01_wp, y, g, ok)
       call bare%rhs(0.01_wp, y, h, ok)

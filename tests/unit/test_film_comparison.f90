@@ -4,6 +4,7 @@ program test_film_comparison
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, i8
    use text, only: to_text
+   use state_layout, only: pad_state
    use equations_of_motion, only: machine_model, new_machine_model
    use film_comparison, only: film_comparison_type, film_difference, new_film_comparison
    use verification, only: sample_of
@@ -37,10 +38,12 @@ contains
       type(film_difference), allocatable, intent(out) :: found(:)
       type(machine_model) :: model
       type(film_comparison_type) :: comparison
+      integer :: i
       model = new_machine_model(case_of(text))
       comparison = new_film_comparison(model%inputs)
       allocate (found(model%layout%pads))
-      call comparison%compare(model, 0.0_wp, model%static_state(journal, tilt, 0*tilt), found)
+      call comparison%compare(model, 0.0_wp, model%static_state(journal, &
+         & [(pad_state(tilt(i)), i=1, size(tilt))]), found)
    end subroutine compare
 
    !> Over-relaxation, which the closely solved films share nothing with, approaches them with the square of its cells:

@@ -1,7 +1,7 @@
 !> Modes of shafts with held journals against Timoshenko's theory, static deflections against beam theory.
 program test_fixed_interface
    use kinds, only: wp, pi
-   use machine_groups, only: machine_type
+   use case_inputs, only: case_type
    use beam_section, only: beam_section_type
    use rotor_component, only: rotor_component_type, shaft_component
    use fixed_interface, only: fixed_interface_type, find_fixed_interface
@@ -25,11 +25,13 @@ contains
       type(fixed_interface_type), intent(out) :: fixed
       logical, intent(out) :: held
       real(wp), intent(in), optional :: thickness
+      type(case_type) :: shaft
       real(wp) :: thick
       integer :: i
       thick = diameter
       if (present(thickness)) thick = thickness
-      component = shaft_component(plain_shaft([(span/sections, i=1, sections)], thick))
+      shaft = plain_shaft([(span/sections, i=1, sections)], thick)
+      component = shaft_component(shaft%rotor%elastic)
       call find_fixed_interface(component, [(4*stations(i) - 3, 4*stations(i) - 2, i=1, size(stations))], fixed, held)
    end subroutine hold
 
@@ -145,7 +147,7 @@ contains
    subroutine try_not_held()
       type(rotor_component_type) :: component
       type(fixed_interface_type) :: fixed
-      type(machine_type) :: machine
+      type(case_type) :: machine
       logical :: held
       call hold(6, [4], component, fixed, held)
       call expect(.not. held, 'a shaft turns about one bearing')
@@ -154,8 +156,8 @@ contains
       call hold(100, [50, 51], component, fixed, held)
       call expect(held, 'two close bearings hold a shaft of many sections')
       machine = plain_shaft([0.2_wp, 0.2_wp, 0.2_wp], diameter)
-      machine%shaft%bore = machine%shaft%diameter
-      component = shaft_component(machine)
+      machine%rotor%elastic%shaft%bore = machine%rotor%elastic%shaft%diameter
+      component = shaft_component(machine%rotor%elastic)
       call find_fixed_interface(component, [1, 2, 13, 14], fixed, held)
       call expect(.not. held, 'a shaft without stiffness is not held')
    end subroutine try_not_held

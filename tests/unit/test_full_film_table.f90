@@ -7,25 +7,23 @@ program test_full_film_table
    use film_solver, only: film_counters
    use pad_gap, only: pad_gap_type
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad, unit_oil
-   use cell_polynomials, only: simd_width
    use cell_index, only: interval, lower_end
-   use uneven_drive, only: uneven_drive_type, new_uneven_drive
-   use full_film_table, only: full_film_table_type, new_full_film_table
+   use rotation_drive, only: rotation_drive_type, new_rotation_drive
    use check, only: runs, expect, expect_close, between, report
-   use full_film, only: loads
+   use full_film, only: full_film_forces, full_film_table_type, new_full_film_table
    implicit none (type, external)
 
    real(wp), parameter :: half_arc = 35*degree, tolerance = 1e-5_wp
    !> Most cells of a table.
    integer, parameter :: most = 4000
    type(dimensionless_pad_type) :: pad
-   type(uneven_drive_type) :: even
+   type(rotation_drive_type) :: even
    type(film_counters) :: counters
 
    associate (gap => pad_gap_type(0.0_wp, 1.0_wp, 2.0_wp, half_arc, half_arc, 0.0_wp, 0.0_wp, 0.0_wp))
       pad = new_dimensionless_pad(gap)
    end associate
-   even = new_uneven_drive(pad, unit_oil)
+   even = new_rotation_drive(pad, unit_oil)
    if (runs('between_cells')) call between_cells()
    if (runs('full_table')) call full_table()
    if (runs('built_when_due')) call built_when_due()
@@ -48,8 +46,7 @@ contains
    subroutine between_cells()
       type(full_film_table_type) :: table
       real(wp) :: edges(2), below(2), worst, worst_slope
-      real(wp), dimension(simd_width, loads) :: value, value_below
-      real(wp), dimension(simd_width, 2, loads) :: slope, slope_below
+      type(full_film_forces) :: film, film_below
       integer :: trial, last, axis
       logical :: good
       table = new_full_film_table(pad, even, .false., tolerance, most)
@@ -63,13 +60,14 @@ contains
          if (norm2(pad%position(edges)) > 0.95_wp) cycle
          below = edges
          below(axis) = nearest(edges(axis), -1.0_wp)
-         call table%look_up(edges, .true., last, counters, value, slope, good)
-         call table%look_up(below, .true., last, counters, value_below, slope_below, good)
-         worst = max(worst, norm2(value(:3, 1) - value_below(:3, 1))/norm2(value(:3, 1)))
-         do axis = 1, 2
-            worst_slope = max(worst_slope, edges(axis)*norm2(slope(:3, axis, 1) - slope_below(:3, axis, 1)) &
-               & /norm2(value(:3, 1)))
-         end do
+         call table%look_up(edges, .true., last, counters, film, good)
+         call table%look_up(below, .true., last, counters, film_below, good)
+         associate (m => film%of_velocity(:3), slope => film%velocity_slopes(:3, :) - film_below%velocity_slopes(:3, :))
+            worst = max(worst, norm2(m - film_below%of_velocity(:3))/norm2(m))
+            do axis = 1, 2
+               worst_slope = max(worst_slope, edges(axis)*norm2(slope(:, axis))/norm2(m))
+            end do
+         end associate
       end do
       call expect(worst_slope > 0, 'there are ends of cells')
       call expect(worst < 1e-11_wp, 'values jump by '//to_text(worst))
@@ -82,8 +80,8 @@ contains
       integer, parameter :: n = 40
       type(full_film_table_type) :: table, other
       type(film_counters) :: again
-      real(wp) :: edges(2, n), value(simd_width, loads, n), slope(simd_width, 2, loads, n)
-      real(wp) :: value_there(simd_width, loads), slope_there(simd_width, 2, loads), pressure(n), pressure_there, w(2)
+      type(full_film_forces) :: film(n), there
+      real(wp) :: edges(2, n), pressure(n), pressure_there, w(2)
       real(wp) :: worst, worst_slope, worst_pressure
       integer :: k, last
       logical :: good(n), good_there
@@ -94,7 +92,7 @@ contains
       counters = film_counters()
       last = 0
       do k = 1, n
-         call table%look_up(edges(:, k), .true., last, counters, value(:, :, k), slope(:, :, :, k), good(k))
+         call table%look_up(edges(:, k), .true., last, counters, film(k), good(k))
          call table%highest_pressure(edges(:, k), w, 0.1_wp, last, counters, pressure(k))
       end do
       other = new_full_film_table(pad, even, .true., tolerance, 3)
@@ -103,10 +101,11 @@ contains
       worst_slope = 0
       worst_pressure = 0
       do k = n, 1, -1
-         call other%look_up(edges(:, k), .true., last, again, value_there, slope_there, good_there)
-         associate (norm => norm2(value(:3, 1, k)))
-            worst = max(worst, norm2(value_there(:3, 1) - value(:3, 1, k))/norm)
-            worst_slope = max(worst_slope, minval(edges(:, k))*norm2(slope_there(:3, :, 1) - slope(:3, :, 1, k))/norm)
+         call other%look_up(edges(:, k), .true., last, again, there, good_there)
+         associate (norm => norm2(film(k)%of_velocity(:3)))
+            worst = max(worst, norm2(there%of_velocity(:3) - film(k)%of_velocity(:3))/norm)
+            worst_slope = max(worst_slope, minval(edges(:, k)) &
+               & *norm2(there%velocity_slopes(:3, :) - film(k)%velocity_slopes(:3, :))/norm)
          end associate
          call other%highest_pressure(edges(:, k), w, 0.1_wp, last, again, pressure_there)
          worst_pressure = max(worst_pressure, abs(pressure_there/pressure(k) - 1))
@@ -122,26 +121,28 @@ contains
    subroutine built_when_due()
       type(full_film_table_type) :: table
       type(film_counters) :: count
-      real(wp) :: value(simd_width, loads), slope(simd_width, 2, loads), solved(simd_width), pressure, pressure_then
+      type(full_film_forces) :: film, solved
+      real(wp) :: pressure, pressure_then
       integer :: k, last
       logical :: good
       table = new_full_film_table(pad, even, .false., tolerance, most)
       do k = 0, 31
          last = 0
-         call table%look_up(1.01_wp*lower_end([-4 + k/8, -4 + modulo(k, 8)], 1), .false., last, count, value, slope, &
-            & good)
+         call table%look_up(1.01_wp*lower_end([-4 + k/8, -4 + modulo(k, 8)], 1), .false., last, count, film, good)
       end do
       call expect(count%cells >= 32 .and. count%fourier < 32, 'the first cells are built at once')
       count = film_counters()
       last = 0
       do k = 1, 100
-         call table%look_up([5.0_wp, 6.0_wp], .true., last, count, value, slope, good)
-         if (k == 1) solved = value(:, 1)
+         call table%look_up([5.0_wp, 6.0_wp], .true., last, count, film, good)
+         if (k == 1) solved = film
          call expect(good, 'a film')
       end do
       call expect(count%cells == 1, 'a cell of many visits is built')
       call expect(count%fourier > 10 .and. count%fourier < 36, to_text(int(count%fourier))//' films are solved before')
-      call expect_close(norm2(value(:3, 1) - solved(:3)), 0.0_wp, tolerance*norm2(solved(:3)), 'the same film')
+      associate (m => solved%of_velocity(:3))
+         call expect_close(norm2(film%of_velocity(:3) - m), 0.0_wp, tolerance*norm2(m), 'the same film')
+      end associate
       do k = 1, 200
          call table%highest_pressure([5.0_wp, 6.0_wp], [1.0_wp, 2.0_wp], 0.0_wp, last, count, pressure)
          if (k == 1) pressure_then = pressure

@@ -56,7 +56,7 @@ contains
       logical :: ok
       viscosities = films(:size(losses))
       if (present(of)) viscosities = of
-      balance = new_heat_balance(inputs)
+      balance = new_heat_balance(inputs%bearings(1), inputs%sense())
       call balance%temperatures(losses, viscosities, speed, oil, ok)
       call expect(ok, 'there is a balance')
    end function balanced
@@ -66,8 +66,8 @@ contains
       type(case_type), intent(in) :: inputs
       type(pad_loss), intent(in) :: loss
       real(wp), intent(in) :: film
-      conductance = inputs%oil%shaft_nusselt*inputs%oil%conductivity*loss%couette &
-         & /(film*(speed*inputs%bearing%journal_radius)**2)
+      conductance = inputs%bearings(1)%oil%shaft_nusselt*inputs%bearings(1)%oil%conductivity*loss%couette &
+         & /(film*(speed*inputs%bearings(1)%journal_radius)**2)
    end function conductance
 
    !> One pad of fresh oil beside a shaft of known temperature: dT/ds = Phi/m - N (T - T_J), by Runge and Kutta.
@@ -80,19 +80,19 @@ contains
       integer, parameter :: steps = 1000
       real(wp), parameter :: shares(6) = [1e-3_wp, 9.99e-3_wp, 1.001e-2_wp, 0.3_wp, 3.0_wp, 30.0_wp]
       inputs = four_pads()
-      inputs%pads%pivot_angle_deg = [-90.0_wp]
-      inputs%bearing%machined_clearance = inputs%bearing%machined_clearance(:1)
-      inputs%bearing%axial_length = inputs%bearing%axial_length(:1)
-      inputs%oil%shaft_temperature = 75
+      inputs%bearings(1)%pads%pivot_angle_deg = [-90.0_wp]
+      inputs%bearings(1)%machined_clearance = inputs%bearings(1)%machined_clearance(:1)
+      inputs%bearings(1)%axial_length = inputs%bearings(1)%axial_length(:1)
+      inputs%bearings(1)%oil%shaft_temperature = 75
       do i = 1, size(shares)
          loss = pad_loss(couette=1500.0_wp, pressure=120.0_wp, inlet=6e-5_wp, outlet=4e-5_wp)
-         capacity = inputs%oil%density*inputs%oil%specific_heat*5e-5_wp
+         capacity = inputs%bearings(1)%oil%density*inputs%bearings(1)%oil%specific_heat*5e-5_wp
          ! N from 0.001 to 30, on both sides of where series give way to closed forms
          n = shares(i)
-         inputs%oil%shaft_nusselt = 1
-         inputs%oil%shaft_nusselt = n*capacity/conductance(inputs, loss, films(1))
+         inputs%bearings(1)%oil%shaft_nusselt = 1
+         inputs%bearings(1)%oil%shaft_nusselt = n*capacity/conductance(inputs, loss, films(1))
          oil = balanced(inputs, [loss])
-         t = inputs%oil%supply_temperature
+         t = inputs%bearings(1)%oil%supply_temperature
          mean = 0
          do step = 1, steps
             k(1) = rate(t, n, 1620/capacity)
@@ -121,10 +121,11 @@ contains
       type(oil_temperatures_type) :: oil
       real(wp) :: rise(4)
       inputs = four_pads()
-      inputs%oil%shaft_nusselt = 0
+      inputs%bearings(1)%oil%shaft_nusselt = 0
       losses = some_losses()
       oil = balanced(inputs, losses)
-      rise = losses%power()/(inputs%oil%density*inputs%oil%specific_heat*(losses%inlet + losses%outlet)/2)
+      rise = losses%power()/(inputs%bearings(1)%oil%density*inputs%bearings(1)%oil%specific_heat*(losses%inlet &
+         & + losses%outlet)/2)
       call expect(all(abs(oil%outlet - oil%inlet - rise) < 1e-10_wp), 'warming')
       call expect(all(abs(oil%mean - (oil%inlet + oil%outlet)/2) < 1e-10_wp), 'mean')
       call expect(oil%shaft > minval(oil%mean) .and. oil%shaft < maxval(oil%mean), 'shaft')
@@ -140,21 +141,21 @@ contains
       integer, parameter :: upstream(4) = [3, 1, 4, 2]
       do k = 1, 20
          inputs = four_pads()
-         inputs%oil%carry_over = between(0.0_wp, 1.0_wp)
-         inputs%oil%widest_gap_deg = merge(60, 10, k < 15)
-         if (k > 10) inputs%oil%shaft_temperature = between(20.0_wp, 100.0_wp)
+         inputs%bearings(1)%oil%carry_over = between(0.0_wp, 1.0_wp)
+         inputs%bearings(1)%oil%widest_gap_deg = merge(60, 10, k < 15)
+         if (k > 10) inputs%bearings(1)%oil%shaft_temperature = between(20.0_wp, 100.0_wp)
          losses = some_losses()
          oil = balanced(inputs, losses)
          heat = sum(losses%power())
          if (k > 10) heat = heat - sum(conductance(inputs, losses, films)*(oil%mean - oil%shaft))
          fresh = sum(losses%inlet)
          do i = 1, 4
-            hot = min(inputs%oil%carry_over*losses(upstream(i))%outlet, losses(i)%inlet)
-            if (inputs%oil%widest_gap_deg < 20) hot = 0
+            hot = min(inputs%bearings(1)%oil%carry_over*losses(upstream(i))%outlet, losses(i)%inlet)
+            if (inputs%bearings(1)%oil%widest_gap_deg < 20) hot = 0
             fresh = fresh - hot
          end do
-         call expect_close(inputs%oil%density*inputs%oil%specific_heat*fresh*(oil%drain &
-            & - inputs%oil%supply_temperature), heat, 1e-10_wp*sum(losses%power()), 'drain')
+         call expect_close(inputs%bearings(1)%oil%density*inputs%bearings(1)%oil%specific_heat*fresh*(oil%drain &
+            & - inputs%bearings(1)%oil%supply_temperature), heat, 1e-10_wp*sum(losses%power()), 'drain')
       end do
    end subroutine energy
 
@@ -168,10 +169,11 @@ contains
       losses = some_losses()
       oil = balanced(inputs, losses)
       hot = min(0.8_wp*losses(3)%outlet/losses(1)%inlet, 1.0_wp)
-      call expect_close(oil%inlet(1), hot*oil%outlet(3) + (1 - hot)*inputs%oil%supply_temperature, 1e-10_wp, 'mixed')
-      inputs%oil%widest_gap_deg = 19.9_wp
+      call expect_close(oil%inlet(1), hot*oil%outlet(3) + (1 - hot)*inputs%bearings(1)%oil%supply_temperature, &
+         & 1e-10_wp, 'mixed')
+      inputs%bearings(1)%oil%widest_gap_deg = 19.9_wp
       oil = balanced(inputs, losses)
-      call expect(all(abs(oil%inlet - inputs%oil%supply_temperature) < 1e-10_wp), 'fresh across wide gaps')
+      call expect(all(abs(oil%inlet - inputs%bearings(1)%oil%supply_temperature) < 1e-10_wp), 'fresh across wide gaps')
    end subroutine carry_over
 
    !> Pads may be listed in any order, and turned together.
@@ -183,7 +185,7 @@ contains
       inputs = four_pads()
       losses = some_losses()
       oil = balanced(inputs, losses)
-      inputs%pads%pivot_angle_deg = inputs%pads%pivot_angle_deg(order) + 200
+      inputs%bearings(1)%pads%pivot_angle_deg = inputs%bearings(1)%pads%pivot_angle_deg(order) + 200
       other = balanced(inputs, losses(order), films(order))
       call expect(all(abs(oil%outlet(order) - other%outlet) < 1e-10_wp), 'temperatures')
    end subroutine order_of_pads
@@ -199,8 +201,8 @@ contains
       logical :: ok
       inputs = four_pads()
       do k = 1, 10
-         inputs%oil%supply_temperature = between(-10.0_wp, 80.0_wp)
-         balance = new_heat_balance(inputs)
+         inputs%bearings(1)%oil%supply_temperature = between(-10.0_wp, 80.0_wp)
+         balance = new_heat_balance(inputs%bearings(1), inputs%sense())
          losses = some_losses()
          ! cold oil may make a hundred times the heat
          losses%couette = losses%couette*100**between(-1.0_wp, 1.0_wp)
@@ -210,7 +212,8 @@ contains
          losses%couette = losses%couette*wanted/films
          losses%pressure = losses%pressure*wanted/films
          call balance%temperatures(losses, wanted, speed, oil, ok)
-         call expect(all(abs(viscosity(inputs%oil, oil%mean)/wanted - 1) < 1e-11_wp), 'of the mean temperatures')
+         call expect(all(abs(viscosity(inputs%bearings(1)%oil, oil%mean)/wanted - 1) < 1e-11_wp), &
+            & 'of the mean temperatures')
       end do
    end subroutine viscosities
 
@@ -223,12 +226,12 @@ contains
       real(wp) :: wanted(4)
       logical :: ok
       inputs = four_pads()
-      inputs%oil%carry_over = 1
-      inputs%oil%shaft_nusselt = 0
+      inputs%bearings(1)%oil%carry_over = 1
+      inputs%bearings(1)%oil%shaft_nusselt = 0
       losses = some_losses()
       losses%outlet = losses(1)%inlet
       losses%inlet = losses(1)%inlet
-      balance = new_heat_balance(inputs)
+      balance = new_heat_balance(inputs%bearings(1), inputs%sense())
       call balance%temperatures(losses, films, speed, oil, ok)
       call expect(.not. ok, 'temperatures')
       call balance%viscosities(losses, films, speed, wanted, ok)
@@ -241,7 +244,7 @@ contains
       type(pad_loss) :: losses(4)
       type(oil_temperatures_type) :: oil
       inputs = four_pads()
-      inputs%oil%shaft_temperature = 50
+      inputs%bearings(1)%oil%shaft_temperature = 50
       losses = some_losses()
       losses(2)%inlet = 0
       losses(2)%outlet = 0
@@ -259,7 +262,7 @@ contains
       real(wp) :: wanted(4), others(4)
       logical :: ok
       inputs = four_pads()
-      balance = new_heat_balance(inputs)
+      balance = new_heat_balance(inputs%bearings(1), inputs%sense())
       losses = some_losses()
       call balance%viscosities(losses, films, speed, wanted, ok)
       losses%couette = losses%couette*wanted/films
@@ -284,14 +287,14 @@ contains
       real(wp) :: entering(4), time_constant(4)
       logical :: ok
       inputs = four_pads()
-      inputs%oil%groove_volume = 3e-5_wp
-      balance = new_heat_balance(inputs)
+      inputs%bearings(1)%oil%groove_volume = 3e-5_wp
+      balance = new_heat_balance(inputs%bearings(1), inputs%sense())
       losses = some_losses()
       call balance%temperatures(losses, films, speed, oil, ok)
       call balance%renewal(losses, oil, speed, entering, time_constant)
       call expect(all(abs(entering - oil%inlet) < 1e-9_wp), 'what enters')
       ! a film 2 q/(U L) thick
-      call expect(all(abs(time_constant - (3e-5_wp + 0.5_wp*2*losses%inlet/(speed*inputs%bearing%journal_radius) &
-         & *inputs%pads%arc_deg*degree*inputs%bearing%journal_radius)/losses%inlet) < 1e-10_wp), 'time')
+      call expect(all(abs(time_constant - (3e-5_wp + 0.5_wp*2*losses%inlet/(speed*inputs%bearings(1)%journal_radius) &
+         & *inputs%bearings(1)%pads%arc_deg*degree*inputs%bearings(1)%journal_radius)/losses%inlet) < 1e-10_wp), 'time')
    end subroutine renewal
 end program test_heat_balance

@@ -5,7 +5,8 @@ program test_kinematics
    use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, pad_position, frame_of, motion_of
+   use state_layout, only: pad_state
+   use kinematics, only: pad_position, frame_of, motion_of
    use paper_bearing, only: offset_pad
    use case_inputs, only: case_type
    use operating_point, only: operating_point_type
@@ -44,7 +45,7 @@ contains
       real(wp), intent(in) :: journal(2), tilt, pivot_deflection, phi
       type(pad_gap_type) :: gap
       gap = film()
-      associate (still => journal_motion(journal), pad => pad_state(tilt=tilt, pivot_deflection=pivot_deflection))
+      associate (still => journal_motion(journal), pad => pad_state(tilt, deflection=pivot_deflection))
          thickness = gap%thickness(motion_of(place, frame_of(place, still, pad), still, pad), sin(phi), cos(phi))
       end associate
    end function thickness

@@ -13,10 +13,13 @@ program test_linear_algebra
    integer :: i, k, m
 
    do i = 1, size(blocks)
-      do m = 0, 2
-         if (runs('against_lapack')) call against_lapack([m], [blocks(i)])
-         if (runs('against_lapack')) call against_lapack([m, 2], [blocks(i), 4])
-         if (runs('against_lapack')) call against_lapack([1, m, 0, 2], [5, blocks(i), 2, 3])
+      do m = 0, 4
+         if (runs('against_lapack')) call against_lapack([1], [m], [blocks(i)])
+         if (runs('against_lapack')) call against_lapack([1, 2], [m, 2], [blocks(i), 4])
+         if (runs('against_lapack')) call against_lapack([1, 2, 3, 4], [1, m, 0, 2], [5, blocks(i), 2, 3])
+         ! groups that know the same pair, and a pair that none knows
+         if (runs('shared_pairs')) call against_lapack([1, 1], [m, 1], [blocks(i), 2])
+         if (runs('shared_pairs')) call against_lapack([3, 1, 3, 1], [2, m, 0, m], [5, blocks(i), 1, 3])
       end do
    end do
    do k = 1, 4
@@ -30,9 +33,9 @@ program test_linear_algebra
 contains
 
    !> Entries of order 1 and gamma = 0.2/sqrt(n): no pivoting is needed, and rounding is amplified little.
-   subroutine against_lapack(m, blocks)
-      !> Of each group.
-      integer, intent(in) :: m(:), blocks(:)
+   subroutine against_lapack(known, m, blocks)
+      !> Of each group: the pair that it knows, unknowns of a block, blocks.
+      integer, intent(in) :: known(:), m(:), blocks(:)
       type(bordered_matrix) :: matrix
       real(wp), allocatable :: full(:, :), b(:, :), x(:)
       integer, allocatable :: pivots(:)
@@ -41,16 +44,16 @@ contains
       integer :: n, border, k, g, info
       logical :: ok
       what = to_text(size(m))//' groups, the first of '//to_text(blocks(1))//' blocks of '//to_text(m(1))
-      border = 2*size(m)
+      border = 2*maxval(known)
       n = border + sum(m*blocks)
-      matrix = new_bordered_matrix(m, blocks)
+      matrix = new_bordered_matrix(maxval(known), known, m, blocks)
       call random_number(matrix%corner)
       do g = 1, size(m)
          call random_number(matrix%groups(g)%across)
          call random_number(matrix%groups(g)%down)
          call random_number(matrix%groups(g)%block)
       end do
-      if (size(m) > 1) then
+      if (border > 2) then
          call random_number(matrix%border)
          do k = 1, border
             matrix%border(k, k) = matrix%border(k, k) + border
@@ -76,8 +79,9 @@ contains
       integer, intent(in) :: groups
       type(bordered_matrix) :: matrix
       real(wp) :: b(4*groups)
+      integer :: g
       logical :: ok
-      matrix = new_bordered_matrix(spread(2, 1, groups), spread(1, 1, groups))
+      matrix = new_bordered_matrix(groups, [(g, g=1, groups)], spread(2, 1, groups), spread(1, 1, groups))
       matrix%groups(groups)%block(1, 1, 1) = 2
       b = 1
       call matrix%solve(0.5_wp, b, ok)
@@ -98,9 +102,12 @@ contains
       associate (n => o + sum([(self%groups(g)%m*size(self%groups(g)%block, 3), g=1, size(self%groups))]))
          allocate (matrix(n, n), source=0.0_wp)
       end associate
-      do g = 1, size(self%groups)
+      do g = 1, size(self%corner, 3)
          at = [2*g - 1, 2*g]
          matrix(at, at) = self%corner(:, :, g)
+      end do
+      do g = 1, size(self%groups)
+         at = [2*self%groups(g)%pair - 1, 2*self%groups(g)%pair]
          associate (group => self%groups(g))
             m = group%m
             do i = 1, size(group%block, 3)

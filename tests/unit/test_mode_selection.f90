@@ -2,7 +2,7 @@
 program test_mode_selection
    use kinds, only: wp, pi
    use text, only: to_text
-   use machine_groups, only: machine_type
+   use case_inputs, only: case_type
    use rotor_matrices, only: rotor_matrices_type
    use example_machine, only: plain_shaft, put_bearings, put_disc, put_unbalance, rotor_of, response_error, &
       & damping_error
@@ -31,7 +31,7 @@ contains
    !> vibrations at a resonance have a smaller damping ratio, by which their errors are larger.
    subroutine try_random_rotors(count)
       integer, intent(in) :: count
-      type(machine_type) :: machine
+      type(case_type) :: machine
       type(rotor_matrices_type) :: rotor
       real(wp) :: highest, springs(6), dampers(6)
       real(wp), dimension(count) :: estimate, grows, steady, damping_estimate, damping_grows, damping_steady
@@ -90,30 +90,32 @@ contains
    !> some stand on supports; and its highest speed, rad/s, which lies between a third and the double of its first
    !> frequency with the journals held.
    subroutine draw(machine, highest)
-      type(machine_type), intent(out) :: machine
+      type(case_type), intent(out) :: machine
       real(wp), intent(out) :: highest
       type(rotor_matrices_type) :: rotor
       real(wp) :: mass, radius
       integer :: sections, bearings, i
       sections = int(between(8.0_wp, 21.0_wp))
       machine = plain_shaft([(between(0.05_wp, 0.3_wp), i=1, sections)], 0.2_wp)
-      machine%shaft%diameter = [(between(0.08_wp, 0.35_wp), i=1, sections)]
-      machine%shaft%bore = [(max(0.0_wp, between(-0.5_wp, 0.5_wp))*machine%shaft%diameter(i), i=1, sections)]
+      associate (shaft => machine%rotor%elastic%shaft)
+         shaft%diameter = [(between(0.08_wp, 0.35_wp), i=1, sections)]
+         shaft%bore = [(max(0.0_wp, between(-0.5_wp, 0.5_wp))*shaft%diameter(i), i=1, sections)]
+      end associate
       bearings = int(between(2.0_wp, 4.0_wp))
       call put_bearings(machine, [(1 + nint((i - between(0.6_wp, 1.0_wp))*sections/(bearings - 0.6_wp)), &
          & i=1, bearings)])
       do i = 1, int(between(1.0_wp, 5.0_wp))
-         mass = between(0.05_wp, 0.6_wp)*machine%shaft%mass()
+         mass = between(0.05_wp, 0.6_wp)*machine%rotor%elastic%shaft%mass()
          radius = between(0.2_wp, 0.6_wp)
          call put_disc(machine, int(between(1.0_wp, sections + 2.0_wp)), mass, mass*radius**2/2, &
             & mass*(radius**2/4 + between(0.05_wp, 0.2_wp)**2/12))
-         call put_unbalance(machine, machine%discs(i)%station, 1e-5_wp*mass, between(0.0_wp, 360.0_wp))
+         call put_unbalance(machine, machine%rotor%elastic%discs(i)%station, 1e-5_wp*mass, between(0.0_wp, 360.0_wp))
       end do
       do i = 1, bearings
          if (between(0.0_wp, 1.0_wp) < 0.5_wp) cycle
          allocate (machine%bearings(i)%support)
          associate (support => machine%bearings(i)%support)
-            support%mass = between(0.02_wp, 0.3_wp)*machine%mass()
+            support%mass = between(0.02_wp, 0.3_wp)*machine%rotor%elastic%mass()
             support%stiffness = 1e8_wp*10**[between(0.0_wp, 2.0_wp), between(0.0_wp, 2.0_wp)]
             support%damping = support%stiffness*between(1e-5_wp, 1e-3_wp)
          end associate

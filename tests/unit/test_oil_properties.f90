@@ -36,20 +36,20 @@ contains
    subroutine walther()
       type(case_type) :: s
       s = case_of(measured)
-      call expect_close(viscosity(s%oil, 40.0_wp), 46e-6_wp*854, 1e-12_wp, 'the first point')
-      call expect_close(viscosity(s%oil, 100.0_wp), 6.8e-6_wp*815.6_wp, 1e-12_wp, 'the second point')
-      call expect_close(viscosity(s%oil, 60.0_wp), 17.348e-3_wp, 0.5e-6_wp, 'at 60 C')
-      call expect_close(viscosity(s%oil, 80.0_wp), 9.197e-3_wp, 0.5e-6_wp, 'at 80 C')
-      call expect_close(density(s%oil, 15.0_wp), 870.0_wp, 0.0_wp, 'its own density')
+      call expect_close(viscosity(s%bearings(1)%oil, 40.0_wp), 46e-6_wp*854, 1e-12_wp, 'the first point')
+      call expect_close(viscosity(s%bearings(1)%oil, 100.0_wp), 6.8e-6_wp*815.6_wp, 1e-12_wp, 'the second point')
+      call expect_close(viscosity(s%bearings(1)%oil, 60.0_wp), 17.348e-3_wp, 0.5e-6_wp, 'at 60 C')
+      call expect_close(viscosity(s%bearings(1)%oil, 80.0_wp), 9.197e-3_wp, 0.5e-6_wp, 'at 80 C')
+      call expect_close(density(s%bearings(1)%oil, 15.0_wp), 870.0_wp, 0.0_wp, 'its own density')
       s = case_of('&oil kinematic_viscosity = 46e-6, 6.8e-6, density = 900 /')
-      call expect_close(density(s%oil, 80.0_wp), 900.0_wp, 0.0_wp, 'or that of the heat balance')
+      call expect_close(density(s%bearings(1)%oil, 80.0_wp), 900.0_wp, 0.0_wp, 'or that of the heat balance')
    end subroutine walther
 
    subroutine exponential()
       type(case_type) :: s
       s = case_of(fillon)
-      call expect_close(viscosity(s%oil, 40.0_wp), 0.0277_wp, 0.0_wp, 'at the reference')
-      call expect_close(viscosity(s%oil, 60.0_wp), 0.0277_wp*exp(-0.682_wp), 1e-16_wp, '20 K above')
+      call expect_close(viscosity(s%bearings(1)%oil, 40.0_wp), 0.0277_wp, 0.0_wp, 'at the reference')
+      call expect_close(viscosity(s%bearings(1)%oil, 60.0_wp), 0.0277_wp*exp(-0.682_wp), 1e-16_wp, '20 K above')
    end subroutine exponential
 
    !> Against central differences, whose error is of the third derivative: 1/6 (beta step)**2 of the slope.
@@ -61,8 +61,9 @@ contains
          if (k == 1) s = case_of(measured)
          if (k == 2) s = case_of(fillon)
          do i = 0, 12
-            associate (t => 10.0_wp*i, slope => viscosity_slope(s%oil, 10.0_wp*i))
-               call expect_close((viscosity(s%oil, t + step) - viscosity(s%oil, t - step))/(2*step)/slope, 1.0_wp, &
+            associate (t => 10.0_wp*i, slope => viscosity_slope(s%bearings(1)%oil, 10.0_wp*i))
+               call expect_close((viscosity(s%bearings(1)%oil, t + step) - viscosity(s%bearings(1)%oil, t &
+                  & - step))/(2*step)/slope, 1.0_wp, &
                   & 1e-6_wp, 'slope')
             end associate
          end do
@@ -78,11 +79,13 @@ contains
          if (k == 2) s = case_of(fillon)
          if (k == 3) s = case_of('&oil kinematic_viscosity = 1e-2, 5e-7, at_temperature = 40, 41,' &
             & //' supply_temperature = 41 /')
-         call expect(all(viscosity(s%oil, [-1e9_wp, -273.15_wp, -100.0_wp, 500.0_wp, 1e9_wp]) > 0), 'positive')
-         call expect(viscosity(s%oil, -1e9_wp) < huge(1.0_wp), 'finite')
-         call expect_close(viscosity(s%oil, 1e9_wp), viscosity(s%oil, temperature_range(2)), 0.0_wp, 'held above')
-         call expect_close(viscosity_slope(s%oil, -300.0_wp), 0.0_wp, 0.0_wp, 'without slope')
-         call expect(viscosity_slope(s%oil, -99.0_wp) <= 0, 'and thickens no oil that is warmed')
+         call expect(all(viscosity(s%bearings(1)%oil, [-1e9_wp, -273.15_wp, -100.0_wp, 500.0_wp, 1e9_wp]) > 0), &
+            & 'positive')
+         call expect(viscosity(s%bearings(1)%oil, -1e9_wp) < huge(1.0_wp), 'finite')
+         call expect_close(viscosity(s%bearings(1)%oil, 1e9_wp), viscosity(s%bearings(1)%oil, &
+            & temperature_range(2)), 0.0_wp, 'held above')
+         call expect_close(viscosity_slope(s%bearings(1)%oil, -300.0_wp), 0.0_wp, 0.0_wp, 'without slope')
+         call expect(viscosity_slope(s%bearings(1)%oil, -99.0_wp) <= 0, 'and thickens no oil that is warmed')
       end do
    end subroutine far_away
 
@@ -115,16 +118,16 @@ contains
    subroutine which_viscosity()
       type(case_type) :: s
       s = case_of('&case /')
-      call expect(s%oil%law == 'constant' .and. s%thermal%model == 'none', 'no law')
+      call expect(s%bearings(1)%oil%law == 'constant' .and. s%thermal%model == 'none', 'no law')
       call expect_films(s, 19e-3_wp)
       s = case_of('&bearing viscosity = 0.03 / &oil supply_temperature = 70 /')
       call expect_films(s, 0.03_wp)
       s = case_of('&oil grade = 46, supply_temperature = 50 /')
-      call expect(s%oil%law == 'walther' .and. .not. is_set(s%bearing%viscosity), 'a grade')
-      call expect_films(s, viscosity(s%oil, 50.0_wp))
+      call expect(s%bearings(1)%oil%law == 'walther' .and. .not. is_set(s%bearings(1)%viscosity), 'a grade')
+      call expect_films(s, viscosity(s%bearings(1)%oil, 50.0_wp))
       call expect(index(derived_text(s), 'Pa s at oil%supply_temperature = 50 C') > 0, 'that --check prints')
       s = case_of('&oil reference_viscosity = 0.03, temperature_exponent = 0.03, supply_temperature = 60 /')
-      call expect(s%oil%law == 'exponential', 'a reference')
+      call expect(s%bearings(1)%oil%law == 'exponential', 'a reference')
       call expect_films(s, 0.03_wp*exp(-0.6_wp))
    end subroutine which_viscosity
 
@@ -133,7 +136,7 @@ contains
       real(wp), intent(in) :: mu
       type(machine_model) :: model
       model = new_machine_model(s)
-      call expect_close(reference_viscosity(s), mu, 1e-15_wp, 'viscosity')
+      call expect_close(reference_viscosity(s%bearings(1)), mu, 1e-15_wp, 'viscosity')
       call expect_close(model%oil(2)%viscosity, mu, 1e-15_wp, 'of the films')
       call expect_close(sommerfeld_number(s)/sommerfeld_number(case_type()), mu/19e-3_wp, 1e-13_wp, &
          & 'Sommerfeld number')

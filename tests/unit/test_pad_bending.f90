@@ -117,20 +117,21 @@ contains
       bending%thermal = [0.0_wp, 0.0_wp]
       parts = part_temperatures_type(70.0_wp, 70.0_wp, [70.0_wp, 70.0_wp])
       inputs = prepared()
-      shape = new_shape(inputs, bending, parts)
+      shape = new_shape(inputs%bearings(1), bending, parts)
       part = 1 + 50*11e-6_wp
-      associate (b => inputs%bearing)
+      associate (b => inputs%bearings(1))
          call expect_close(shape%journal_radius, part*b%journal_radius, 1e-16_wp, 'journal')
          call expect(maxval(abs(shape%machined_clearance - part*b%machined_clearance)) < 1e-16_wp, 'bores')
          call expect(maxval(abs(shape%assembled_clearance - part*b%assembled_clearance)) < 1e-16_wp, 'clearances')
       end associate
       ! the shaft alone takes its growth from both clearances
       parts = part_temperatures_type(56.0_wp, 20.0_wp, [20.0_wp, 20.0_wp])
-      shape = new_shape(inputs, bending, parts)
-      associate (grown => 36*11e-6_wp*inputs%bearing%journal_radius)
-         call expect(maxval(abs(inputs%bearing%machined_clearance - shape%machined_clearance - grown)) < 1e-16_wp, &
+      shape = new_shape(inputs%bearings(1), bending, parts)
+      associate (grown => 36*11e-6_wp*inputs%bearings(1)%journal_radius)
+         call expect(maxval(abs(inputs%bearings(1)%machined_clearance - shape%machined_clearance - grown)) < 1e-16_wp, &
             & 'bore less shaft')
-         call expect(maxval(abs(inputs%bearing%assembled_clearance - shape%assembled_clearance - grown)) < 1e-16_wp, &
+         call expect(maxval(abs(inputs%bearings(1)%assembled_clearance - shape%assembled_clearance &
+            & - grown)) < 1e-16_wp, &
             & 'clearance less shaft')
       end associate
    end subroutine everything_grows
@@ -138,8 +139,8 @@ contains
    !> The paper's case with clearances of 20 C.
    type(case_type) function prepared() result(inputs)
       inputs = case_type()
-      inputs%bearing%clearance_temperature = 20
-      inputs%pads%thickness = [14e-3_wp, 14e-3_wp]
+      inputs%bearings(1)%clearance_temperature = 20
+      inputs%bearings(1)%pads%thickness = [14e-3_wp, 14e-3_wp]
    end function prepared
 
    subroutine refusals()
@@ -150,14 +151,14 @@ contains
       inputs = prepared()
       bending%elastic = [0.0_wp, 90e-6_wp]
       bending%thermal = [0.0_wp, 11e-6_wp]
-      shape = new_shape(inputs, bending, part_temperatures_type(20.0_wp, 20.0_wp, [20.0_wp, 20.0_wp]))
-      call shape%check(inputs, error)
+      shape = new_shape(inputs%bearings(1), bending, part_temperatures_type(20.0_wp, 20.0_wp, [20.0_wp, 20.0_wp]))
+      call shape%check(inputs%bearings(1), error)
       call expect(allocated(error), 'a pad that bends by more than its clearance')
       if (allocated(error)) call expect(index(error%message, 'pad 2 bends by 101.0 um, more than its clearance of ' &
          & //'100.0 um') > 0, error%message)
       bending%elastic = [0.0_wp, 0.0_wp]
-      shape = new_shape(inputs, bending, part_temperatures_type(220.0_wp, 20.0_wp, [120.0_wp, 120.0_wp]))
-      call shape%check(inputs, error)
+      shape = new_shape(inputs%bearings(1), bending, part_temperatures_type(220.0_wp, 20.0_wp, [120.0_wp, 120.0_wp]))
+      call shape%check(inputs%bearings(1), error)
       call expect(allocated(error), 'a shaft that fills its clearance')
       if (allocated(error)) call expect(index(error%message, 'the clearance of pad 1 is gone') > 0, error%message)
    end subroutine refusals

@@ -267,8 +267,8 @@ contains
       inputs = run(study, 12)
       call expect_close(inputs%operation%speed_rpm, 2000.0_wp, 0.0_wp, 'speed of the last')
       call expect_close(inputs%operation%final_speed_rpm, 2000.0_wp, 0.0_wp, 'its final speed is the same')
-      call expect(inputs%friction%model == 'bengisu_akay', 'its friction')
-      call expect_close(maxval(abs(inputs%pads%arc_deg - [69.3_wp, 65.0_wp])), 0.0_wp, 0.0_wp, 'its arcs')
+      call expect(inputs%bearings(1)%friction%model == 'bengisu_akay', 'its friction')
+      call expect_close(maxval(abs(inputs%bearings(1)%pads%arc_deg - [69.3_wp, 65.0_wp])), 0.0_wp, 0.0_wp, 'its arcs')
    end subroutine product_order
 
    subroutine zip_order()
@@ -336,10 +336,11 @@ contains
       call expect_close(inputs%rotor%gravity, 5.0_wp, 0.0_wp, 'what is not varied stays')
       study = study_of('&pads arc_deg(1) = 50, 51 / &sweep pads%arc_deg(1) = 60 /')
       inputs = run(study, 1)
-      call expect_close(maxval(abs(inputs%pads%arc_deg - [60.0_wp, 51.0_wp])), 0.0_wp, 0.0_wp, 'one element of a list')
+      call expect_close(maxval(abs(inputs%bearings(1)%pads%arc_deg - [60.0_wp, 51.0_wp])), 0.0_wp, 0.0_wp, &
+         & 'one element of a list')
       study = study_of('&pads arc_deg = 50, 51 / &sweep pads%arc_deg = 60 /')
       inputs = run(study, 1)
-      call expect_close(maxval(abs(inputs%pads%arc_deg - 60)), 0.0_wp, 0.0_wp, 'one value for all pads')
+      call expect_close(maxval(abs(inputs%bearings(1)%pads%arc_deg - 60)), 0.0_wp, 0.0_wp, 'one value for all pads')
    end subroutine in_place_of_the_case
 
    !> --set sweep%... keeps the order of the variables, and makes a study where there is none.

@@ -48,7 +48,7 @@ contains
       real(wp) :: values(2 + pads)
       integer :: i, width
       inputs = case_of(text)
-      width = merge(2 + pads, 2, inputs%tilting())
+      width = merge(2 + pads, 2, inputs%bearings(1)%tilting())
       file%filed = .false.
       call file%start(inputs, error)
       call expect_no_error(error, 'a run')
@@ -56,13 +56,13 @@ contains
       call file%declare('shaft_angle', 1, '', 'rad', 'angle')
       call file%declare('journal_y', 1, '', 'm', 'y')
       call file%declare('journal_z', 1, '', 'm', 'z')
-      if (inputs%tilting()) call file%declare('pad_tilt', pads, 'pad', 'rad', 'tilt')
+      if (inputs%bearings(1)%tilting()) call file%declare('pad_tilt', pads, 'pad', 'rad', 'tilt')
       do i = 1, size(angle)
          values = motion(angle(i))
          call file%add([angle(i), values(:width)])
       end do
-      bearing = new_bearing_file(file, inputs, 1)
-      call put_revolutions(bearing, inputs, size(angle), most)
+      bearing = new_bearing_file(file, inputs%bearings(1))
+      call put_revolutions(bearing, inputs%bearings(1)%tilting(), size(angle), most)
    end subroutine make
 
    !> A list, as many values for each revolution as it has.

@@ -2,7 +2,8 @@
 program test_rotor_file
    use kinds, only: wp, rpm
    use errors, only: error_type, input_error
-   use machine_groups, only: machine_type
+   use case_groups, only: unset
+   use case_inputs, only: case_type
    use given_rotor, only: given_rotor_type
    use rotor_component, only: rotor_component_type, shaft_component
    use rotor_matrices, only: rotor_matrices_type
@@ -30,8 +31,10 @@ contains
    function turned_round() result(rotor)
       type(given_rotor_type) :: rotor
       type(rotor_component_type) :: shaft
+      type(case_type) :: machine
       integer :: n
-      shaft = shaft_component(turbine())
+      machine = turbine()
+      shaft = shaft_component(machine%rotor%elastic)
       n = size(shaft%mass, 1)
       rotor%mass = shaft%mass(n:1:-1, n:1:-1)
       rotor%damping = shaft%damping(n:1:-1, n:1:-1)
@@ -61,22 +64,25 @@ contains
 
    !> A turbine whose rotor is in the file.
    function from_file() result(machine)
-      type(machine_type) :: machine
+      type(case_type) :: machine
       machine = turbine()
-      deallocate (machine%shaft%length, machine%shaft%diameter, machine%shaft%bore, machine%discs)
-      allocate (machine%discs(0))
-      machine%rotor_file = path
+      associate (elastic => machine%rotor%elastic)
+         elastic%shaft%length = [unset]
+         deallocate (elastic%discs)
+         allocate (elastic%discs(0))
+         elastic%rotor_file = path
+      end associate
    end function from_file
 
    !> The same vibrations and static deflections as the shaft itself.
    subroutine try_same_rotor()
-      type(machine_type) :: machine
+      type(case_type) :: machine
       type(rotor_matrices_type) :: rotor, expected
       type(error_type), allocatable :: error
       complex(wp), allocatable :: response(:)
       call write_rotor(turned_round())
       machine = from_file()
-      call read_rotor(machine, error)
+      call read_rotor(machine%rotor, error)
       call expect_no_error(error, 'the file is read')
       if (allocated(error)) return
       ! each plane has modes of its own here
@@ -93,65 +99,65 @@ contains
    end subroutine try_same_rotor
 
    subroutine try_files()
-      type(machine_type) :: machine
+      type(case_type) :: machine
       type(given_rotor_type) :: rotor
       type(error_type), allocatable :: error
       call write_bytes(path, 'no matrices')
       machine = from_file()
-      call read_rotor(machine, error)
+      call read_rotor(machine%rotor, error)
       call expect_error(error, input_error, 'not an HDF5 file', 'another file')
       rotor = turned_round()
       rotor%mass = rotor%mass(:40, :40)
       call write_rotor(rotor)
       machine = from_file()
-      call read_rotor(machine, error)
+      call read_rotor(machine%rotor, error)
       call expect_error(error, input_error, 'mass: has 1600 numbers: must have 52 x 52', 'a matrix of another size')
       rotor = turned_round()
       rotor%station = rotor%station(:25, :)
       call write_rotor(rotor)
       machine = from_file()
-      call read_rotor(machine, error)
+      call read_rotor(machine%rotor, error)
       call expect_error(error, input_error, 'station: has 1300 numbers', 'half a station')
-      machine%rotor_file = path//'x'
-      deallocate (machine%given)
-      call read_rotor(machine, error)
+      machine%rotor%elastic%rotor_file = path//'x'
+      deallocate (machine%rotor%elastic%given)
+      call read_rotor(machine%rotor, error)
       call expect_error(error, input_error, 'rotor.h5x'': there is no such file', 'a file that does not exist')
    end subroutine try_files
 
    subroutine try_matrices()
-      type(machine_type) :: machine
+      type(case_type) :: machine
       machine = from_file()
-      machine%given = turned_round()
-      machine%given%mass(3, 4) = machine%given%mass(3, 4) + 1
+      machine%rotor%elastic%given = turned_round()
+      machine%rotor%elastic%given%mass(3, 4) = machine%rotor%elastic%given%mass(3, 4) + 1
       call refused(machine, 'mass: must be symmetric')
-      machine%given = turned_round()
-      machine%given%mass(3, 3) = -1
+      machine%rotor%elastic%given = turned_round()
+      machine%rotor%elastic%given%mass(3, 3) = -1
       call refused(machine, 'mass: must be positive definite')
-      machine%given = turned_round()
-      machine%given%stiffness(3, 6) = 1e9_wp
+      machine%rotor%elastic%given = turned_round()
+      machine%rotor%elastic%given%stiffness(3, 6) = 1e9_wp
       call refused(machine, 'stiffness: must be symmetric')
-      machine%given = turned_round()
-      machine%given%gyroscopic = abs(machine%given%gyroscopic)
+      machine%rotor%elastic%given = turned_round()
+      machine%rotor%elastic%given%gyroscopic = abs(machine%rotor%elastic%given%gyroscopic)
       call refused(machine, 'gyroscopic: must change its sign')
-      machine%given = turned_round()
-      machine%given%station(3, 3) = 0.5_wp
+      machine%rotor%elastic%given = turned_round()
+      machine%rotor%elastic%given%station(3, 3) = 0.5_wp
       call refused(machine, 'station: row 3, of a bearing')
-      machine%given = turned_round()
+      machine%rotor%elastic%given = turned_round()
       call put_bearings(machine, [2, 14])
       call refused(machine, 'has 13 stations, but station = 14')
       call put_bearings(machine, [2, 12])
       call put_disc(machine, 3, 1.0_wp, 1.0_wp, 1.0_wp)
       call refused(machine, 'disc')
-      deallocate (machine%given)
+      deallocate (machine%rotor%elastic%given)
       call refused(machine, 'is not read here')
    end subroutine try_matrices
 
    subroutine refused(machine, words)
-      type(machine_type), intent(in) :: machine
+      type(case_type), intent(in) :: machine
       character(len=*), intent(in) :: words
       type(rotor_matrices_type) :: rotor
       type(error_type), allocatable :: error
-      call find_rotor(machine, 9.81_wp, 600.0_wp, 1.0_wp, rotor, error)
+      call find_rotor(machine, 600.0_wp, rotor, error)
       call expect_error(error, input_error, words, words)
    end subroutine refused
 end program test_rotor_file

@@ -2,7 +2,7 @@
 program test_rotor_matrices
    use kinds, only: wp, pi, rpm
    use errors, only: error_type, input_error
-   use machine_groups, only: machine_type
+   use case_inputs, only: case_type
    use rotor_matrices, only: rotor_matrices_type
    use shaft_in_bearings, only: find_rotor
    use example_machine, only: turbine, plain_shaft, put_bearings, put_disc, put_unbalance, rotor_of, all_modes, &
@@ -57,15 +57,15 @@ contains
 
    !> Bearings have a stiffness along y and z, N/m.
    subroutine expect_rotor(machine, bearing, frequencies, what)
-      type(machine_type), intent(in) :: machine
+      type(case_type), intent(in) :: machine
       real(wp), intent(in) :: bearing(2), frequencies(6)
       character(len=*), intent(in) :: what
       type(rotor_matrices_type) :: rotor
-      type(machine_type) :: undamped
+      type(case_type) :: undamped
       real(wp), allocatable :: found(:), stiffness(:, :)
       integer :: i
       undamped = machine
-      undamped%reduction%damping_ratio = 0
+      undamped%rotor%elastic%reduction%damping_ratio = 0
       rotor = rotor_of(undamped, 4000*rpm, all_modes)
       stiffness = rotor%stiffness
       do i = 1, 4
@@ -80,16 +80,16 @@ contains
 
    !> The book's steel, shaft of 1.5 m in six sections.
    function textbook_shaft() result(machine)
-      type(machine_type) :: machine
+      type(case_type) :: machine
       integer :: i
       machine = plain_shaft([(0.25_wp, i=1, 6)], 0.05_wp)
-      machine%shaft%young_modulus = 211e9_wp
-      machine%shaft%poisson_ratio = 211e9_wp/(2*81.2e9_wp) - 1
-      machine%shaft%density = 7810
+      machine%rotor%elastic%shaft%young_modulus = 211e9_wp
+      machine%rotor%elastic%shaft%poisson_ratio = 211e9_wp/(2*81.2e9_wp) - 1
+      machine%rotor%elastic%shaft%density = 7810
    end function textbook_shaft
 
    function two_discs() result(machine)
-      type(machine_type) :: machine
+      type(case_type) :: machine
       machine = textbook_shaft()
       call put_ring(machine, 3, 0.28_wp)
       call put_ring(machine, 5, 0.35_wp)
@@ -97,7 +97,7 @@ contains
    end function two_discs
 
    function overhung_disc() result(machine)
-      type(machine_type) :: machine
+      type(case_type) :: machine
       machine = textbook_shaft()
       call put_ring(machine, 7, 0.35_wp)
       call put_bearings(machine, [1, 5])
@@ -105,28 +105,28 @@ contains
 
    !> A disc of 70 mm on the shaft.
    subroutine put_ring(machine, station, diameter)
-      type(machine_type), intent(inout) :: machine
+      type(case_type), intent(inout) :: machine
       integer, intent(in) :: station
       real(wp), intent(in) :: diameter
       real(wp) :: mass, squares
       real(wp), parameter :: width = 0.07_wp, bore = 0.05_wp
       squares = diameter**2 + bore**2
-      mass = machine%shaft%density*pi/4*(diameter**2 - bore**2)*width
+      mass = machine%rotor%elastic%shaft%density*pi/4*(diameter**2 - bore**2)*width
       call put_disc(machine, station, mass, mass*squares/8, mass*(squares/16 + width**2/12))
    end subroutine put_ring
 
    !> A turbine with its disc off the middle and an overhung one.
    function unsymmetric() result(machine)
-      type(machine_type) :: machine
+      type(case_type) :: machine
       machine = turbine()
-      machine%discs(1)%station = 5
+      machine%rotor%elastic%discs(1)%station = 5
       call put_disc(machine, 13, 300.0_wp, 20.0_wp, 12.0_wp)
       call put_unbalance(machine, 13, 0.003_wp, 70.0_wp)
    end function unsymmetric
 
    !> Modes are chosen for errors of amplitudes of 1e-4.
    subroutine try_reduction()
-      type(machine_type) :: machine
+      type(case_type) :: machine
       type(rotor_matrices_type) :: rotor
       real(wp), parameter :: springs(4) = [6e8_wp, 3e8_wp, 5e8_wp, 2e8_wp], dampers(4) = 1e6_wp
       real(wp) :: error
@@ -142,7 +142,7 @@ contains
          call expect(response_error(machine, 6500*rpm, springs, dampers, 1) > 1e-3_wp, 'one mode is not enough')
          call expect(rotor%left_out_frequency > rotor%mode_frequency(size(rotor%mode_frequency)), 'frequency left out')
       end do
-      machine%reduction%frequency = 1000
+      machine%rotor%elastic%reduction%frequency = 1000
       rotor = rotor_of(machine, 6500*rpm)
       call expect(rotor%mode_frequency(size(rotor%mode_frequency)) <= 1000 .and. rotor%left_out_frequency > 1000, &
          & 'modes up to a frequency')
@@ -152,7 +152,7 @@ contains
 
    !> Modes above a frequency have a damping ratio, the others and the journals no damping.
    subroutine try_damping()
-      type(machine_type) :: machine
+      type(case_type) :: machine
       type(rotor_matrices_type) :: rotor
       integer :: i
       machine = turbine()
@@ -165,14 +165,14 @@ contains
          end if
       end do
       call expect(rotor%damping_error > 0 .and. rotor%damping_error < 1e-3_wp, 'its error')
-      machine%reduction%damp_above = 50
+      machine%rotor%elastic%reduction%damp_above = 50
       rotor = rotor_of(machine, 6500*rpm)
       call expect(rotor%damping_error > 1e-2_wp, 'damping of the first modes is no small error')
    end subroutine try_damping
 
    !> The same rotor told in other ways has the same response.
    subroutine try_invariants()
-      type(machine_type) :: machine, other
+      type(case_type) :: machine, other
       type(rotor_matrices_type) :: rotor
       complex(wp), allocatable :: expected(:), found(:)
       real(wp), parameter :: springs(4) = [6e8_wp, 3e8_wp, 5e8_wp, 2e8_wp]
@@ -189,10 +189,10 @@ contains
       call expect(maxval(abs(found - expected)) < 1e-9_wp*maxval(abs(expected)), 'bearings in another order')
       ! stations counted from the other end
       other = machine
-      other%shaft%length = machine%shaft%length(12:1:-1)
-      other%shaft%diameter = machine%shaft%diameter(12:1:-1)
-      other%discs%station = 14 - machine%discs%station
-      other%unbalances%station = 14 - machine%unbalances%station
+      other%rotor%elastic%shaft%length = machine%rotor%elastic%shaft%length(12:1:-1)
+      other%rotor%elastic%shaft%diameter = machine%rotor%elastic%shaft%diameter(12:1:-1)
+      other%rotor%elastic%discs%station = 14 - machine%rotor%elastic%discs%station
+      other%rotor%elastic%unbalances%station = 14 - machine%rotor%elastic%unbalances%station
       other%bearings%station = 14 - machine%bearings%station
       rotor = rotor_of(other, 6500*rpm)
       found = unbalance_response(rotor, speed, springs([3, 4, 1, 2]), dampers([3, 4, 1, 2]))
@@ -208,32 +208,34 @@ contains
    end subroutine try_invariants
 
    subroutine divide_last_thick_section(machine)
-      type(machine_type), intent(inout) :: machine
-      associate (s => machine%shaft)
+      type(case_type), intent(inout) :: machine
+      associate (s => machine%rotor%elastic%shaft)
          s%length = [s%length(:9), s%length(10)/2, s%length(10)/2, s%length(11:)]
          s%diameter = [s%diameter(:10), s%diameter(10:)]
          s%bore = [s%bore(:10), s%bore(10:)]
       end associate
-      where (machine%discs%station > 10) machine%discs%station = machine%discs%station + 1
-      where (machine%unbalances%station > 10) machine%unbalances%station = machine%unbalances%station + 1
+      associate (discs => machine%rotor%elastic%discs, unbalances => machine%rotor%elastic%unbalances)
+         where (discs%station > 10) discs%station = discs%station + 1
+         where (unbalances%station > 10) unbalances%station = unbalances%station + 1
+      end associate
       where (machine%bearings%station > 10) machine%bearings%station = machine%bearings%station + 1
    end subroutine divide_last_thick_section
 
    !> Weight and static loads on two bearings by the balance of forces and moments; the shaft sags by beam theory.
    subroutine try_bearing_loads()
-      type(machine_type) :: machine
+      type(case_type) :: machine
       type(rotor_matrices_type) :: rotor
       real(wp), allocatable :: stations(:), x(:)
       real(wp), parameter :: spring = 1e8_wp
       integer :: i
       machine = plain_shaft([(0.25_wp, i=1, 6)], 0.1_wp)
       call put_bearings(machine, [1, 5])
-      deallocate (machine%loads)
-      allocate (machine%loads(2))
-      machine%loads(1)%station = 7
-      machine%loads(1)%force = [300.0_wp, -500.0_wp]
-      machine%loads(2)%station = 3
-      machine%loads(2)%force = [0.0_wp, 700.0_wp]
+      deallocate (machine%rotor%elastic%loads)
+      allocate (machine%rotor%elastic%loads(2))
+      machine%rotor%elastic%loads(1)%station = 7
+      machine%rotor%elastic%loads(1)%force = [300.0_wp, -500.0_wp]
+      machine%rotor%elastic%loads(2)%station = 3
+      machine%rotor%elastic%loads(2)%force = [0.0_wp, 700.0_wp]
       rotor = rotor_of(machine, 100.0_wp)
       stations = static_stations(rotor, [spring, spring, spring, spring], x)
       associate (weight => rotor%total_mass*gravity)
@@ -249,7 +251,7 @@ contains
    !> A shaft on three stiff bearings under its weight, the middle one raised: its load is 5/8 of the weight and
    !> 48 E I/L^3 of what it is raised by, where shear does not matter.
    subroutine try_offsets()
-      type(machine_type) :: machine
+      type(case_type) :: machine
       type(rotor_matrices_type) :: rotor
       real(wp), allocatable :: stations(:), x(:)
       real(wp), parameter :: raised = 1e-4_wp, aside = -3e-5_wp, spring = 1e13_wp, span = 4.0_wp, diameter = 0.04_wp
@@ -260,7 +262,7 @@ contains
       machine%bearings(2)%offset = [raised, aside]
       rotor = rotor_of(machine, 100.0_wp)
       stations = static_stations(rotor, [(spring, i=1, 6)], x)
-      bending = 48*machine%shaft%young_modulus*pi/64*diameter**4/span**3
+      bending = 48*machine%rotor%elastic%shaft%young_modulus*pi/64*diameter**4/span**3
       weight = rotor%total_mass*gravity
       call expect_close(-x(3)*spring, 0.625_wp*weight + raised*bending, 1e-3_wp*weight, 'load of the raised bearing')
       call expect_close(-x(1)*spring, 0.1875_wp*weight - raised*bending/2, 1e-3_wp*weight, 'load of the first bearing')
@@ -279,7 +281,7 @@ contains
 
    !> A bearing on a support: springs in series, the weight of the housing on the support alone.
    subroutine try_supports()
-      type(machine_type) :: machine
+      type(case_type) :: machine
       type(rotor_matrices_type) :: rotor
       real(wp), allocatable :: stations(:), x(:)
       real(wp), parameter :: spring = 1e8_wp, base(2) = [2e8_wp, 5e7_wp]
@@ -290,10 +292,10 @@ contains
       machine%bearings(2)%support%mass = 80
       machine%bearings(2)%support%stiffness = base
       machine%bearings(2)%support%damping = [3e4_wp, 4e4_wp]
-      deallocate (machine%loads)
-      allocate (machine%loads(1))
-      machine%loads(1)%station = 5
-      machine%loads(1)%force = [0.0_wp, 900.0_wp]
+      deallocate (machine%rotor%elastic%loads)
+      allocate (machine%rotor%elastic%loads(1))
+      machine%rotor%elastic%loads(1)%station = 5
+      machine%rotor%elastic%loads(1)%force = [0.0_wp, 900.0_wp]
       rotor = rotor_of(machine, 100.0_wp)
       stations = static_stations(rotor, [(spring, i=1, 4)], x)
       associate (half => rotor%total_mass*gravity/2)
@@ -311,7 +313,7 @@ contains
 
    !> Unbalances at angles: a station is at the angle of its unbalance, where the shaft is stiff.
    subroutine try_unbalances()
-      type(machine_type) :: machine
+      type(case_type) :: machine
       type(rotor_matrices_type) :: rotor
       complex(wp), allocatable :: response(:), turned(:)
       real(wp), parameter :: springs(4) = [6e8_wp, 3e8_wp, 5e8_wp, 2e8_wp], dampers(4) = 1e6_wp, angle = 40*pi/180
@@ -319,14 +321,14 @@ contains
       machine = unsymmetric()
       rotor = rotor_of(machine, 6500*rpm)
       response = unbalance_response(rotor, 300.0_wp, springs, dampers)
-      machine%unbalances%angle_deg = machine%unbalances%angle_deg + 40
+      machine%rotor%elastic%unbalances%angle_deg = machine%rotor%elastic%unbalances%angle_deg + 40
       rotor = rotor_of(machine, 6500*rpm)
       turned = unbalance_response(rotor, 300.0_wp, springs, dampers)
       call expect(maxval(abs(turned - response*exp(cmplx(0.0_wp, angle, wp)))) < 1e-12_wp*maxval(abs(response)), &
          & 'unbalances that are turned turn the response')
       ! far below the critical speeds, in bearings alike in both planes: y = r cos(phi + angle), z = r sin(phi + angle)
       machine = turbine()
-      machine%unbalances%angle_deg = 40
+      machine%rotor%elastic%unbalances%angle_deg = 40
       rotor = rotor_of(machine, 6500*rpm)
       response = unbalance_response(rotor, 1.0_wp, [(1e9_wp, i=1, 4)], [(0.0_wp, i=1, 4)])
       call expect_close(atan2(response(13)%im, response(13)%re), angle, 1e-6_wp, 'phase of y')
@@ -334,16 +336,16 @@ contains
    end subroutine try_unbalances
 
    subroutine try_refusals()
-      type(machine_type) :: machine
+      type(case_type) :: machine
       type(rotor_matrices_type) :: rotor
       type(error_type), allocatable :: error
       machine = turbine()
       call put_bearings(machine, [2])
-      call find_rotor(machine, gravity, 600.0_wp, 1.0_wp, rotor, error)
+      call find_rotor(machine, 600.0_wp, rotor, error)
       call expect_error(error, input_error, 'do not hold the shaft', 'one bearing')
       machine = turbine()
-      machine%shaft%bore(4) = machine%shaft%diameter(4)
-      call find_rotor(machine, gravity, 600.0_wp, 1.0_wp, rotor, error)
+      machine%rotor%elastic%shaft%bore(4) = machine%rotor%elastic%shaft%diameter(4)
+      call find_rotor(machine, 600.0_wp, rotor, error)
       call expect_error(error, input_error, 'do not hold the shaft', 'a section without stiffness')
    end subroutine try_refusals
 end program test_rotor_matrices

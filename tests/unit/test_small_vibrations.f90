@@ -4,7 +4,6 @@ program test_small_vibrations
    use errors, only: error_type
    use input_cases, only: case_of
    use sampled_march, only: march_samples
-   use state_layout, only: at_tilt
    use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium, only: find_equilibrium
    use equilibrium_record, only: equilibrium_type
@@ -81,10 +80,10 @@ contains
       if (allocated(error)) return
       call expect(found%stability%name == expected, expected//', not '//found%stability%name)
       call make_static(model, .true., static)
-      rest = static%static_state(found%rotor, found%tilt, found%pivot_deflection)
+      rest = static%static_state(found%rotor, found%pads)
       y = rest
       y(1:2) = y(1:2) + 1e-5_wp*static%scale(1:2)
-      tilts = static%layout%bearings(1)%before([(k, k=1, static%layout%pads)]) + at_tilt
+      tilts = static%layout%elements(1)%before([(k, k=1, static%layout%pads)]) + 1
       y(tilts) = y(tilts) + 1e-8_wp
       period = 2*pi/found%stability%eigenvalue%im
       allocate (states(static%n, periods*samples))

@@ -3,31 +3,33 @@ program test_state_layout
    use kinds, only: wp
    use text, only: to_text
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, columns, tilt_column
-   use state_layout, only: state_layout_type, pads_layout_type, pads_layout, new_state_layout, at_tilt, at_tilt_rate, &
-      & at_deflection, at_deflection_rate
+   use state_layout, only: state_layout_type, element_layout_type, new_element_layout, new_state_layout, pad_state, &
+      & tilt, pivot_deflection, most_coordinates, of_journal
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces, force_derivatives, masses
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
-   integer, parameter :: pads = 3
+   integer, parameter :: pads = 3, none(0) = [integer ::]
    logical, parameter :: choices(2) = [.false., .true.]
    integer :: i, k, l
    character(len=*), parameter :: motions(3) = [character(len=14) :: 'tilting_radial', 'tilting_only', 'fixed']
    character(len=*), parameter :: frictions(3) = [character(len=12) :: 'none', 'bengisu_akay', 'lugre']
-   type(pads_layout_type) :: of
+   type(element_layout_type) :: of, other
 
    do k = 1, size(choices)
       do l = 1, size(choices)
-         of = pads_layout(pads, .true., choices(k), choices(l))
+         of = new_element_layout(pads, kinds(choices(k)), choices(l))
+         other = new_element_layout(5, kinds(.not. choices(k)), choices(l))
          ! a rigid journal, and other rotors; bearings of two kinds and numbers of pads
-         call check_layout(new_state_layout(4, [of]))
-         call check_layout(new_state_layout(10, [of]))
-         call check_layout(new_state_layout(8, [of, pads_layout(5, .true., .not. choices(k), choices(l))]))
-         call check_layout(new_state_layout(12, [pads_layout(2, .false., choices(k), choices(l)), of, of]))
-         if (runs('fixed_pads')) call fixed_pads(new_state_layout(4, &
-            & [pads_layout(pads, .false., choices(k), choices(l))]))
+         call check_layout(new_state_layout(4, [of], [1]))
+         call check_layout(new_state_layout(10, [of], [1]))
+         call check_layout(new_state_layout(8, [of, other], [1, 2]))
+         call check_layout(new_state_layout(12, [new_element_layout(2, none, choices(l)), of, of], [1, 2, 3]))
+         ! pads with a third and a fourth displacement; elements on one pair, of which one has no displacements
+         call check_layout(new_state_layout(8, [of, new_element_layout(2, [tilt, 3, 4], choices(l))], [1, 2]))
+         call check_layout(new_state_layout(8, [of, other, new_element_layout(1, none, .false.), of], [2, 1, 2, 1]))
+         if (runs('fixed_pads')) call fixed_pads(new_state_layout(4, [new_element_layout(pads, none, choices(l))], [1]))
       end do
    end do
    do i = 1, size(motions)
@@ -44,18 +46,26 @@ contains
       type(state_layout_type), intent(in) :: layout
       if (runs('indices')) call indices(layout)
       if (runs('states_of_pads')) call states_of_pads(layout)
-      if (runs('columns_of_pads')) call columns_of_pads(layout)
+      if (runs('changes_of_pads')) call changes_of_pads(layout)
    end subroutine check_layout
+
+   !> Of pads that tilt, on rigid or on flexible pivots.
+   pure function kinds(flexible)
+      logical, intent(in) :: flexible
+      integer, allocatable :: kinds(:)
+      kinds = [tilt]
+      if (flexible) kinds = [tilt, pivot_deflection]
+   end function kinds
 
    pure function what(layout)
       type(state_layout_type), intent(in) :: layout
       character(len=:), allocatable :: what
       integer :: b
       what = ', rotor of '//to_text(layout%rotor)
-      do b = 1, size(layout%bearings)
-         what = what//', bearing of '//to_text(layout%bearings(b)%pads)
-         if (layout%bearings(b)%radial) what = what//' with pivot deflections'
-         if (layout%bearings(b)%bristles) what = what//' with bristles'
+      do b = 1, size(layout%elements)
+         what = what//', bearing of '//to_text(layout%elements(b)%pads)
+         if (layout%elements(b)%has(pivot_deflection)) what = what//' with pivot deflections'
+         if (layout%elements(b)%bristles) what = what//' with bristles'
       end do
    end function what
 
@@ -63,25 +73,22 @@ contains
    subroutine indices(layout)
       type(state_layout_type), intent(in) :: layout
       integer, allocatable :: found(:), bristles(:), all_pads(:), own(:)
-      integer :: b, i, last
+      integer :: b, i, k, last
       found = [(i, i=1, layout%rotor)]
       allocate (bristles(0), own(0))
       last = layout%rotor
-      do b = 1, size(layout%bearings)
-         associate (of => layout%bearings(b))
+      do b = 1, size(layout%elements)
+         associate (of => layout%elements(b))
             call expect(of%states_before == last, 'bearing behind bearing'//what(layout))
             last = last + of%pads*of%per_pad
-            call expect(all(of%all_pads() == sum(layout%bearings(:b - 1)%pads) + [(i, i=1, of%pads)]), &
+            call expect(all(of%all_pads() == sum(layout%elements(:b - 1)%pads) + [(i, i=1, of%pads)]), &
                & 'pads of all bearings are counted'//what(layout))
-            if (.not. of%tilting) cycle
+            if (of%coordinates == 0) cycle
             all_pads = [(i, i=1, of%pads)]
-            call expect(of%per_pad == merge(4, 2, of%radial) + merge(1, 0, of%bristles), &
-               & 'states of a pad'//what(layout))
+            call expect(of%per_pad == 2*of%coordinates + merge(1, 0, of%bristles), 'states of a pad'//what(layout))
             call expect(all(of%before(all_pads) == of%states_before + of%per_pad*(all_pads - 1)), &
                & 'states before'//what(layout))
-            found = [found, of%before(all_pads) + at_tilt, of%before(all_pads) + at_tilt_rate]
-            if (of%radial) found = [found, of%before(all_pads) + at_deflection, &
-               & of%before(all_pads) + at_deflection_rate]
+            found = [found, ((of%before(i) + k, k=1, 2*of%coordinates), i=1, of%pads)]
             if (of%bristles) bristles = [bristles, of%bristle(all_pads)]
             own = [own, (of%own_positions(i), i=1, of%pads)]
          end associate
@@ -101,41 +108,53 @@ contains
       end associate
    end subroutine indices
 
-   !> A change of a state over the columns of a pad: its journal's y and z, their rates, then its own motion.
-   subroutine columns_of_pads(layout)
+   !> A change of a state over the displacements of a pad, those of its journal and its own, and over their rates.
+   subroutine changes_of_pads(layout)
       type(state_layout_type), intent(in) :: layout
+      real(wp), allocatable, dimension(:, :) :: of_positions, of_rates
       real(wp) :: y(layout%n)
-      integer :: b, i
+      integer :: b, i, k
       y = [(real(i, wp), i=1, layout%n)]
-      do b = 1, size(layout%bearings)
-         associate (of => layout%bearings(b), change => layout%bearings(b)%over_columns(y))
+      do b = 1, size(layout%elements)
+         associate (of => layout%elements(b))
+            allocate (of_positions(of_journal + of%coordinates, of%pads))
+            allocate (of_rates, mold=of_positions)
+            call of%changes(y, of_positions, of_rates)
             do i = 1, of%pads
-               call expect(all(nint(change(:2, i)) == [2*b - 1, 2*b]) &
-                  & .and. all(nint(change(3:4, i)) == layout%rotor/2 + [2*b - 1, 2*b]), 'journal'//what(layout))
-               if (of%tilting) call expect(nint(change(tilt_column, i)) == of%before(i) + at_tilt, 'tilt'//what(layout))
-               if (.not. of%tilting) call expect(all(abs(change(tilt_column:, i)) <= 0), 'fixed pads'//what(layout))
+               associate (journal => [2*of%pair() - 1, 2*of%pair()])
+                  call expect(all(nint(of_positions(:2, i)) == journal) &
+                     & .and. all(nint(of_rates(:2, i)) == layout%rotor/2 + journal), 'journal'//what(layout))
+               end associate
+               call expect(all(nint(of_positions(3:, i)) == of%before(i) + [(2*k - 1, k=1, of%coordinates)]), &
+                  & 'displacements'//what(layout))
+               call expect(all(nint(of_rates(3:, i)) == of%before(i) + [(2*k, k=1, of%coordinates)]), &
+                  & 'rates'//what(layout))
             end do
+            deallocate (of_positions, of_rates)
          end associate
       end do
-   end subroutine columns_of_pads
+   end subroutine changes_of_pads
 
    !> Fixed pads have no states: those of the rotor are all, what is put is lost, and only the journal changes.
    subroutine fixed_pads(layout)
       type(state_layout_type), intent(in) :: layout
       type(pad_state) :: states(pads)
-      real(wp) :: y(layout%n), change(columns, pads)
+      real(wp) :: y(layout%n)
+      real(wp), dimension(of_journal, pads) :: of_positions, of_rates
       integer :: i
       call expect(layout%n == layout%rotor .and. layout%n_positions() == layout%rotor/2, 'the rotor''s alone')
       call expect(all([layout%positions(), layout%rates()] == [(i, i=1, layout%n)]), 'positions and rates of the rotor')
       states = pad_state(1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp)
       y = -1
-      call layout%bearings(1)%put_pads(states, y)
+      call layout%elements(1)%put_pads(states, y)
       call expect(all(y < 0), 'nothing is put')
-      states = layout%bearings(1)%pad_states(y)
-      call expect(all(abs([states%tilt, states%tilt_rate, states%pivot_deflection, states%pivot_deflection_rate, &
-         & states%deflection]) <= 0), 'all is 0')
-      change = layout%bearings(1)%over_columns([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp])
-      call expect(all(abs(sum(change, dim=1) - 10) <= 0) .and. all(abs(change(tilt_column:, :)) <= 0), 'the journal''s')
+      states = layout%elements(1)%pad_states(y)
+      do i = 1, pads
+         call expect(all(abs([states(i)%x, states(i)%v, states(i)%bristle]) <= 0), 'all is 0')
+      end do
+      call layout%elements(1)%changes([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], of_positions, of_rates)
+      call expect(all(nint(of_positions) == spread([1, 2], 2, pads)) &
+         & .and. all(nint(of_rates) == spread([3, 4], 2, pads)), 'the journal''s')
    end subroutine fixed_pads
 
    subroutine expect_each_once(layout, found, name)
@@ -155,42 +174,45 @@ contains
       type(state_layout_type), intent(in) :: layout
       type(pad_state) :: states(layout%pads)
       real(wp) :: y(layout%n)
-      integer :: b, i
-      states = [(pad_state(10.0_wp + i, 20.0_wp + i, 30.0_wp + i, 40.0_wp + i, 50.0_wp + i), i=1, layout%pads)]
+      integer :: b, i, k
+      do i = 1, layout%pads
+         states(i)%x = [(10.0_wp*k + i, k=1, most_coordinates)]
+         states(i)%v = [(100.0_wp*k + i, k=1, most_coordinates)]
+         states(i)%bristle = 1000.0_wp + i
+      end do
       y = -1
       call layout%put_all_pads(states, y)
       call expect(all(y(:layout%rotor) < 0) .and. all(y(layout%rotor + 1:) > 0), 'pads alone are put'//what(layout))
-      do b = 1, size(layout%bearings)
-         associate (of => layout%bearings(b))
-            if (of%tilting) call come_back(of, states(of%all_pads()), of%pad_states(y), y, what(layout))
+      do b = 1, size(layout%elements)
+         associate (of => layout%elements(b))
+            call come_back(of, states(of%all_pads()), of%pad_states(y), y, what(layout))
          end associate
       end do
    end subroutine states_of_pads
 
    subroutine come_back(of, put, back, y, what)
-      type(pads_layout_type), intent(in) :: of
+      type(element_layout_type), intent(in) :: of
       type(pad_state), intent(in) :: put(:), back(:)
       real(wp), intent(in) :: y(:)
       character(len=*), intent(in) :: what
-      type(pad_state) :: states(size(put))
-      integer :: i
-      states = put
-      call expect_close(maxval(abs(back%tilt - states%tilt) + abs(back%tilt_rate - states%tilt_rate)), 0.0_wp, 0.0_wp, &
-         & 'tilts come back'//what)
-      if (.not. of%radial) then
-         states%pivot_deflection = 0
-         states%pivot_deflection_rate = 0
-      end if
-      if (.not. of%bristles) states%deflection = 0
-      call expect_close(maxval(abs(back%pivot_deflection - states%pivot_deflection) &
-         & + abs(back%pivot_deflection_rate - states%pivot_deflection_rate) + abs(back%deflection &
-            & - states%deflection)), 0.0_wp, 0.0_wp, 'what a pad has comes back, the rest is 0'//what)
+      type(pad_state) :: expected
+      integer :: i, k
       do i = 1, of%pads
-         call expect_close(y(of%before(i) + at_tilt_rate), put(i)%tilt_rate, 0.0_wp, 'tilt rate by its index'//what)
-         if (of%radial) call expect_close(y(of%before(i) + at_deflection), put(i)%pivot_deflection, 0.0_wp, &
-            & 'pivot deflection by its index'//what)
-         if (of%bristles) call expect_close(y(of%bristle(i)), put(i)%deflection, 0.0_wp, &
-            & 'bristles by their index'//what)
+         expected = pad_state()
+         do k = 1, of%coordinates
+            expected%x(of%kind(k)) = put(i)%x(of%kind(k))
+            expected%v(of%kind(k)) = put(i)%v(of%kind(k))
+         end do
+         if (of%bristles) expected%bristle = put(i)%bristle
+         call expect_close(maxval(abs([back(i)%x - expected%x, back(i)%v - expected%v, back(i)%bristle &
+            & - expected%bristle])), 0.0_wp, 0.0_wp, 'what a pad has comes back, the rest is 0'//what)
+         do k = 1, of%coordinates
+            call expect_close(y(of%before(i) + 2*k - 1), put(i)%x(of%kind(k)), 0.0_wp, &
+               & 'displacement '//to_text(k)//' by its index'//what)
+            call expect_close(y(of%before(i) + 2*k), put(i)%v(of%kind(k)), 0.0_wp, &
+               & 'rate '//to_text(k)//' by its index'//what)
+         end do
+         if (of%bristles) call expect_close(y(of%bristle(i)), put(i)%bristle, 0.0_wp, 'bristles by their index'//what)
       end do
    end subroutine come_back
 
@@ -208,10 +230,10 @@ contains
       integer :: n, i
       what = trim(motion)//', '//trim(friction)
       inputs = case_type()
-      inputs%pads%motion = trim(motion)
-      inputs%friction%model = trim(friction)
-      inputs%pads%centre_tangential = [3e-3_wp, -6e-3_wp]
-      inputs%pads%mass = [0.8_wp, 0.6_wp]
+      inputs%bearings(1)%pads%motion = trim(motion)
+      inputs%bearings(1)%friction%model = trim(friction)
+      inputs%bearings(1)%pads%centre_tangential = [3e-3_wp, -6e-3_wp]
+      inputs%bearings(1)%pads%mass = [0.8_wp, 0.6_wp]
       model = new_machine_model(inputs)
       y = model%state(journal_motion([-4e-5_wp, 2e-6_wp], [1e-3_wp, -2e-3_wp]), &
          & [(pad_state(4e-4_wp*(i - 1), between(0.3_wp, 0.6_wp), 7e-6_wp, 1e-3_wp, 1e-7_wp), i=1, 2)])

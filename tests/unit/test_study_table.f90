@@ -199,7 +199,7 @@ contains
       call study%inputs(11, inputs, error)
       call expect_no_error(error, 'run 11 is good')
       call expect_close(inputs%rotor%mass, 30.0_wp, 0.0_wp, 'its mass')
-      call expect_close(inputs%pads%mass(2), 3.0_wp, 0.0_wp, 'the mass of its second pad')
+      call expect_close(inputs%bearings(1)%pads%mass(2), 3.0_wp, 0.0_wp, 'the mass of its second pad')
    end subroutine factor
 
    subroutine zipped()

@@ -6,9 +6,7 @@ program test_tilting_pad_bearing
    use case_inputs, only: case_type
    use film_solver, only: film_oil
    use abstract_rotor, only: journal_motion
-   use kinematics, only: pad_state, columns, journal_columns, tilt_column, tilt_rate_column, deflection_column, &
-      & position_columns, rate_columns
-   use tilting_pad, only: pad_derivatives
+   use state_layout, only: pad_state, element_layout_type, tilt, of_journal
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, between, report
@@ -52,13 +50,13 @@ contains
       character(len=:), allocatable :: refusal
       logical :: ok
       inputs = heavy_case('tilting_radial', 'none')
-      inputs%film%solver = solver
-      bearing = new_tilting_pad_bearing(inputs)
+      inputs%bearings(1)%film%solver = solver
+      bearing = new_tilting_pad_bearing(inputs, 1)
       call draw(journal, pads)
       call bearing%evaluate(journal, pads, oil, speed, .true., refusal, ok)
       all_pads = bearing
       moved = pads
-      moved%tilt = pads%tilt + 1e-5_wp
+      moved%x(tilt) = pads%x(tilt) + 1e-5_wp
       call bearing%evaluate(journal, moved, oil, speed, .true., refusal, ok, [.false., .true.])
       call expect_close(difference(bearing, all_pads, 1), 0.0_wp, 0.0_wp, solver//': a pad that is not chosen')
       call all_pads%evaluate(journal, moved, oil, speed, .true., refusal, ok)
@@ -70,14 +68,25 @@ contains
    real(wp) function difference(a, b, pad)
       type(tilting_pad_bearing_type), intent(in) :: a, b
       integer, intent(in) :: pad
-      difference = maxval(abs([a%loads(pad)%moment - b%loads(pad)%moment, a%derivatives(pad)%moment &
-         & - b%derivatives(pad)%moment])/max(abs([b%loads(pad)%moment, b%derivatives(pad)%moment]), tiny(difference)))
+      associate (of_a => moments(a, pad), of_b => moments(b, pad))
+         difference = maxval(abs(of_a - of_b)/max(abs(of_b), tiny(difference)))
+      end associate
    end function difference
+
+   pure function moments(bearing, pad)
+      type(tilting_pad_bearing_type), intent(in) :: bearing
+      integer, intent(in) :: pad
+      real(wp), allocatable :: moments(:)
+      associate (row => of_journal + tilt)
+         moments = [bearing%loads(pad)%own(tilt), bearing%derivatives(pad)%over_positions(row, :), &
+            & bearing%derivatives(pad)%over_rates(row, :)]
+      end associate
+   end function moments
 
    !> Heavy pads off their balance on films without cavitation, hence smooth, solved closely.
    type(tilting_pad_bearing_type) function heavy_bearing(motion, friction) result(bearing)
       character(len=*), intent(in) :: motion, friction
-      bearing = new_tilting_pad_bearing(heavy_case(motion, friction))
+      bearing = new_tilting_pad_bearing(heavy_case(motion, friction), 1)
    end function heavy_bearing
 
    type(case_type) function heavy_case(motion, friction) result(inputs)
@@ -93,9 +102,9 @@ contains
       character(len=*), intent(in) :: motion, friction
       type(case_type) :: inputs
       inputs = heavy_case(motion, friction)
-      inputs%asperity%roughness = 25e-6_wp
-      inputs%asperity%elastic_modulus = 1e9_wp
-      bearing = new_tilting_pad_bearing(inputs)
+      inputs%bearings(1)%asperity%roughness = 25e-6_wp
+      inputs%bearings(1)%asperity%elastic_modulus = 1e9_wp
+      bearing = new_tilting_pad_bearing(inputs, 1)
    end function rough_bearing
 
    !> Pads that carry, tilted, in motion, sliding at some mm/s: away from the switching points of friction.
@@ -112,26 +121,24 @@ contains
       end do
    end subroutine draw
 
-   !> Moves the column of a pad's derivatives, and of all where it is the journal's.
-   subroutine move(column, pad, step, journal, pads)
-      integer, intent(in) :: column, pad
+   !> Moves a displacement, or its rate, of the journal for all pads (1 and 2) or of one pad (from 3 on).
+   subroutine move(k, rate, pad, step, journal, pads)
+      integer, intent(in) :: k, pad
+      logical, intent(in) :: rate
       real(wp), intent(in) :: step
       type(journal_motion), intent(inout) :: journal
       type(pad_state), intent(inout) :: pads(2)
-      select case (column)
-      case (1:2)
-         journal%position(column) = journal%position(column) + step
-      case (3:journal_columns)
-         journal%velocity(column - 2) = journal%velocity(column - 2) + step
-      case (tilt_column)
-         pads(pad)%tilt = pads(pad)%tilt + step
-      case (tilt_rate_column)
-         pads(pad)%tilt_rate = pads(pad)%tilt_rate + step
-      case (deflection_column)
-         pads(pad)%pivot_deflection = pads(pad)%pivot_deflection + step
-      case default
-         pads(pad)%pivot_deflection_rate = pads(pad)%pivot_deflection_rate + step
-      end select
+      if (k <= of_journal) then
+         if (rate) then
+            journal%velocity(k) = journal%velocity(k) + step
+         else
+            journal%position(k) = journal%position(k) + step
+         end if
+      else if (rate) then
+         pads(pad)%v(k - of_journal) = pads(pad)%v(k - of_journal) + step
+      else
+         pads(pad)%x(k - of_journal) = pads(pad)%x(k - of_journal) + step
+      end if
    end subroutine move
 
    !> Five-point differences with steps of 1e-3 of what changes the film: error 1e-12 times the fifth derivative, some
@@ -141,60 +148,100 @@ contains
       character(len=*), intent(in) :: motion, friction
       !> Whether asperities touch.
       logical, intent(in) :: rough
-      real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h]
-      real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h)
-      real(wp), parameter :: steps(columns) = [80e-6_wp, 80e-6_wp, 0.05_wp, 0.05_wp, 1e-3_wp, 0.2_wp, 7e-6_wp, 5e-3_wp]
       type(tilting_pad_bearing_type) :: bearing
-      type(journal_motion) :: journal, moved_journal
-      type(pad_state) :: pads(2), moved(2)
-      type(pad_derivatives) :: taken(2)
-      real(wp) :: found(5, columns), expected(5, columns), over_positions(4, 4), over_rates(4, 4)
-      real(wp) :: over_deflection(2)
+      type(journal_motion) :: journal
+      type(pad_state) :: pads(2)
+      type(element_layout_type) :: layout
+      real(wp), allocatable :: found(:, :), expected(:, :)
       character(len=:), allocatable :: refusal, what
-      logical :: ok, all_ok
-      integer :: pad, column, k, row
+      logical :: ok, moved_ok
+      integer :: pad, row
       what = trim(motion)//', '//trim(friction)
       bearing = heavy_bearing(motion, friction)
       if (rough) bearing = rough_bearing(motion, friction)
+      layout = bearing%layout()
+      call expect(layout%coordinates == count([motion /= 'fixed', motion == 'tilting_radial']), 'coordinates, '//what)
       call draw(journal, pads)
       if (motion == 'fixed') pads = pad_state()
-      call bearing%evaluate(journal, pads, oil, speed, .true., refusal, all_ok)
+      call bearing%evaluate(journal, pads, oil, speed, .true., refusal, ok)
       call expect(all(bearing%asperity%touches .eqv. rough), 'asperities touch, or not, '//what)
-      taken = bearing%derivatives
       do pad = 1, 2
-         call taken(pad)%as_matrices(over_positions, over_rates)
-         call bearing%pads(pad)%add_friction(bearing%loads(pad)%friction, taken(pad)%contact, [1.0_wp, 0.0_wp], &
-            & over_positions, over_rates, over_deflection)
-         found(:4, position_columns) = over_positions
-         found(:4, rate_columns) = over_rates
-         found(5, :) = taken(pad)%contact
-         expected = 0
-         do column = 1, columns
-            do k = 1, size(offsets)
-               moved_journal = journal
-               moved = pads
-               call move(column, pad, offsets(k)*steps(column), moved_journal, moved)
-               call bearing%evaluate(moved_journal, moved, oil, speed, .false., refusal, ok)
-               all_ok = all_ok .and. ok
-               associate (loads => bearing%loads(pad))
-                  expected(:, column) = expected(:, column) + weights(k)*[loads%journal, loads%moment, loads%radial, &
-                     & loads%contact]
-               end associate
-            end do
-            found(:, column) = found(:, column)*steps(column)
-         end do
-         ! the pads of a bearing that only tilt have no pivot deflection, fixed ones no tilt
-         if (motion == 'fixed') found(:, tilt_column:) = expected(:, tilt_column:)
-         if (motion == 'tilting_only') found(:, deflection_column:) = expected(:, deflection_column:)
+         call taken(bearing, pad, layout%coordinates, found)
+         call differences(bearing, journal, pads, pad, layout%coordinates, expected, moved_ok)
          do row = 1, size(found, 1)
             call expect_close(maxval(abs(found(row, :) - expected(row, :))), 0.0_wp, &
                & 1e-7_wp*maxval(abs(expected(row, :))), 'load '//to_text(row)//' of pad ' &
                & //to_text(pad)//', '//what)
          end do
+         call expect(ok .and. moved_ok, 'all states are admitted, '//what)
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
       end do
-      call expect(all_ok, 'all states are admitted, '//what)
    end subroutine derivatives
+
+   !> Steps of displacements and of their rates.
+   pure function steps(n)
+      integer, intent(in) :: n
+      real(wp) :: steps(of_journal + n, 2)
+      real(wp), parameter :: all(4, 2) = reshape([80e-6_wp, 80e-6_wp, 1e-3_wp, 7e-6_wp, 0.05_wp, 0.05_wp, 0.2_wp, &
+         & 5e-3_wp], [4, 2])
+      steps = all(:of_journal + n, :)
+   end function steps
+
+   !> The derivatives of a pad with n displacements, of the force on the journal, its own forces and the pivot load,
+   !> over displacements and then over rates, times their steps.
+   subroutine taken(bearing, pad, n, found)
+      type(tilting_pad_bearing_type), intent(in) :: bearing
+      integer, intent(in) :: pad, n
+      real(wp), allocatable, intent(out) :: found(:, :)
+      real(wp), dimension(of_journal + n, of_journal + n) :: over_positions, over_rates
+      real(wp) :: over_bristle(n), by(of_journal + n, 2)
+      integer :: k
+      call bearing%part_derivatives(pad, of_journal + n, .false., over_positions, over_rates)
+      call bearing%add_late(pad, of_journal + n, .false., over_positions, over_rates, over_bristle)
+      allocate (found(of_journal + n + 1, 2*(of_journal + n)))
+      by = steps(n)
+      associate (m => of_journal + n, pad_derivatives => bearing%derivatives(pad))
+         do k = 1, m
+            found(:, k) = [over_positions(:, k), pad_derivatives%contact_over_positions(k)]*by(k, 1)
+            found(:, m + k) = [over_rates(:, k), pad_derivatives%contact_over_rates(k)]*by(k, 2)
+         end do
+      end associate
+   end subroutine taken
+
+   !> The same by differences.
+   subroutine differences(bearing, journal, pads, pad, n, expected, all_ok)
+      type(tilting_pad_bearing_type), intent(inout) :: bearing
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pads(2)
+      integer, intent(in) :: pad, n
+      real(wp), allocatable, intent(out) :: expected(:, :)
+      logical, intent(out) :: all_ok
+      real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h]
+      real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h)
+      type(journal_motion) :: moved_journal
+      type(pad_state) :: moved(2)
+      real(wp) :: by(of_journal + n, 2)
+      character(len=:), allocatable :: refusal
+      integer :: i, k, rate
+      logical :: ok
+      by = steps(n)
+      allocate (expected(of_journal + n + 1, 2*(of_journal + n)), source=0.0_wp)
+      all_ok = .true.
+      do rate = 0, 1
+         do k = 1, of_journal + n
+            associate (column => expected(:, rate*(of_journal + n) + k), loads => bearing%loads(pad))
+               do i = 1, size(offsets)
+                  moved_journal = journal
+                  moved = pads
+                  call move(k, rate == 1, pad, offsets(i)*by(k, rate + 1), moved_journal, moved)
+                  call bearing%evaluate(moved_journal, moved, oil, speed, .false., refusal, ok)
+                  all_ok = all_ok .and. ok
+                  column = column + weights(i)*[loads%journal, loads%own(:n), loads%contact]
+               end do
+            end associate
+         end do
+      end do
+   end subroutine differences
 
    !> In the state of an evaluation its outputs give its samples; pressures are those at the edges at least.
    subroutine samples(motion, rough)
@@ -204,7 +251,8 @@ contains
       type(journal_motion) :: journal
       type(pad_state) :: pads(2)
       type(pad_sample) :: evaluated(2), completed(2)
-      real(wp) :: output(6), nothing(columns, 2), change(columns, 2)
+      real(wp) :: output(6)
+      real(wp), allocatable, dimension(:, :) :: nothing, change
       character(len=:), allocatable :: refusal
       logical :: ok
       character(len=:), allocatable :: friction
@@ -218,8 +266,8 @@ contains
       call bearing%evaluate(journal, pads, oil, speed, .true., refusal, ok)
       call expect(ok, 'a state with films')
       evaluated = bearing%sampled()
-      nothing = 0
-      output = bearing%output(nothing)
+      allocate (nothing(of_journal + bearing%coordinates%n, 2), source=0.0_wp)
+      output = bearing%output(nothing, nothing)
       call bearing%take_samples(journal, pads, speed, output, completed)
       do i = 1, 2
          associate (a => completed(i), b => evaluated(i))
@@ -234,14 +282,23 @@ contains
       end do
       change = nothing
       change(1, 2) = 1e-6_wp
-      output = bearing%output(change) - output
-      call expect_close(norm2(output([1, 2, 3, 6])), 0.0_wp, 0.0_wp, 'a change of the other pad does not count')
-      call expect_close(norm2(output(4:5) - bearing%derivatives(2)%film(:, 1)*1e-6_wp), 0.0_wp, &
-         & 1e-9_wp*norm2(output(4:5)), 'what a change adds to the force')
+      call expect_change(output, bearing%output(change, nothing), &
+         & bearing%derivatives(2)%film_over_positions(:, 1)*1e-6_wp)
+      call expect_change(output, bearing%output(nothing, change), &
+         & bearing%derivatives(2)%film_over_rates(:, 1)*1e-6_wp)
       output = -1e9_wp
       call bearing%take_samples(journal, pads, speed, output, completed)
       call expect_close(maxval(abs(completed%max_pressure)), 0.0_wp, 0.0_wp, 'no pressure below that of the edges')
    end subroutine samples
+
+   !> Outputs change by this in the force of the second pad, and else do not.
+   subroutine expect_change(before, after, force)
+      real(wp), intent(in) :: before(6), after(6), force(2)
+      call expect_close(norm2(after([1, 2, 3, 6]) - before([1, 2, 3, 6])), 0.0_wp, 0.0_wp, &
+         & 'a change of the other pad does not count')
+      call expect_close(norm2(after(4:5) - before(4:5) - force), 0.0_wp, 1e-9_wp*norm2(force), &
+         & 'what a change adds to the force')
+   end subroutine expect_change
 
    !> Friction off and films kept whole, and both back.
    subroutine operating_point()
@@ -256,11 +313,11 @@ contains
       integer :: k
       do k = 1, size(solvers)
          inputs = case_type()
-         inputs%friction%model = 'bengisu_akay'
-         inputs%film%solver = trim(solvers(k))
-         if (solvers(k) == 'fourier') inputs%film%cavitation = 'gumbel'
-         bearing = new_tilting_pad_bearing(inputs)
-         call expect(.not. bearing%smooth() .and. bearing%film%cavitates(), 'friction and cavitation, '//solvers(k))
+         inputs%bearings(1)%friction%model = 'bengisu_akay'
+         inputs%bearings(1)%film%solver = trim(solvers(k))
+         if (solvers(k) == 'fourier') inputs%bearings(1)%film%cavitation = 'gumbel'
+         bearing = new_tilting_pad_bearing(inputs, 1)
+         call expect(.not. bearing%is_smooth() .and. bearing%film%cavitates(), 'friction and cavitation, '//solvers(k))
          ! the wedge of the second pad opens: its film cavitates
          journal%position = [-3e-5_wp, 0.0_wp]
          pads = [pad_state(2e-4_wp, 0.3_wp, 5e-6_wp), pad_state(-6e-4_wp, 0.3_wp, 5e-6_wp)]
@@ -269,19 +326,19 @@ contains
          cavitated = bearing%loads(2)%journal
          bearing%rubs = .false.
          call bearing%film%set_cavitation(.false.)
-         call expect(bearing%smooth() .and. .not. bearing%film%cavitates(), 'neither, '//solvers(k))
+         call expect(bearing%is_smooth() .and. .not. bearing%film%cavitates(), 'neither, '//solvers(k))
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(bearing%loads(1)%friction%force, 0.0_wp, 0.0_wp, 'no friction, '//solvers(k))
          whole = bearing%loads(2)%journal
          call expect(norm2(whole - cavitated) > 1e-2_wp*norm2(cavitated), &
             & 'the full film has another force, '//solvers(k))
-         inputs%film%cavitation = 'none'
+         inputs%bearings(1)%film%cavitation = 'none'
          bearing%rubs = .true.
          call bearing%film%set_cavitation(.true.)
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - cavitated), 0.0_wp, 1e-5_wp*norm2(cavitated), &
             & 'and back, within the tolerance of sor, '//solvers(k))
-         bearing = new_tilting_pad_bearing(inputs)
+         bearing = new_tilting_pad_bearing(inputs, 1)
          call expect(.not. bearing%film%cavitates(), 'no cavitation by the input, '//solvers(k))
          call bearing%evaluate(journal, pads, oil, speed, .false., refusal, ok)
          call expect_close(norm2(bearing%loads(2)%journal - whole), 0.0_wp, 1e-5_wp*norm2(whole), &

@@ -10,11 +10,10 @@ program test_uneven_table
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: table_film_type, new_table_film
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
-   use uneven_drive, only: uneven_drive_type, new_uneven_drive
+   use rotation_drive, only: rotation_drive_type, new_rotation_drive
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver
-   use cavitated_film, only: cavitated_film_type, new_cavitated_film, axes
-   use cavitation_table, only: cavitation_table_type, new_cavitation_table
-   use cell_polynomials, only: simd_width
+   use cavitated_film, only: cavitated_film_type, cavitation_table_type, node_type, new_cavitated_film, &
+      & new_cavitation_table, axes
    use paper_bearing, only: offset_pad, paper_oil, uneven, speed, clearance
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -25,11 +24,11 @@ program test_uneven_table
    real(wp), parameter :: films(axes, 4) = reshape([0.8_wp, 0.4_wp, 0.15_wp, 1.5_wp, 0.5_wp, 0.9_wp, 0.4_wp, 3.0_wp, &
       & 0.3_wp, 0.3_wp, 0.7_wp, 2.0_wp, 0.7_wp, 0.5_wp, 0.3_wp, -2.0_wp], [axes, 4])
    type(dimensionless_pad_type) :: pad
-   type(uneven_drive_type) :: drive
+   type(rotation_drive_type) :: drive
    integer :: i
 
    pad = new_dimensionless_pad(offset_pad())
-   drive = new_uneven_drive(pad, uneven)
+   drive = new_rotation_drive(pad, uneven)
    do i = 1, size(films, 2)
       if (runs('slopes')) call slopes(films(:, i))
    end do
@@ -63,7 +62,7 @@ contains
       integer :: k
       place = film
       solver = new_force_ratio_solver(pad, drive, .false., 0.01_wp*tolerance)
-      if (place(4) < 0) solver = new_force_ratio_solver(pad, new_uneven_drive(pad, uneven%mirrored()), .false., &
+      if (place(4) < 0) solver = new_force_ratio_solver(pad, new_rotation_drive(pad, uneven%mirrored()), .false., &
          & 0.01_wp*tolerance)
       ratio = at(solver, place)
       call expect(ratio%ok, 'a film')
@@ -88,9 +87,9 @@ contains
 
    !> In a mirror the edges change places and the rotation turns round: velocities at the edges do the same.
    subroutine mirror()
-      type(uneven_drive_type) :: mirrored
+      type(rotation_drive_type) :: mirrored
       real(wp) :: position(2)
-      mirrored = new_uneven_drive(pad, uneven%mirrored())
+      mirrored = new_rotation_drive(pad, uneven%mirrored())
       position = [0.3_wp, 0.2_wp]
       associate (here => drive%velocity(position), there => mirrored%velocity([-1, 1]*position))
          call expect_close(there(1), here(1), 1e-13_wp, 'along')
@@ -107,9 +106,9 @@ contains
       type(cavitation_table_type) :: table(2)
       type(cavitated_film_type) :: films_there(2)
       type(film_counters) :: counters
-      real(wp) :: place(axes), error(2), value(simd_width), exact(simd_width), slope(simd_width, axes)
+      type(node_type) :: film, exact
+      real(wp) :: place(axes), error(2)
       integer :: k, m, last
-      logical :: good
       do m = 1, 2
          table(m) = new_cavitation_table(pad, drive, .false., 3.2e-5_wp/16.0_wp**(m - 1), most)
          films_there(m) = new_cavitated_film(pad, drive, .false., 3.2e-5_wp/16.0_wp**(m - 1))
@@ -119,10 +118,10 @@ contains
          place = [between(0.3_wp, 0.9_wp), between(0.2_wp, 0.9_wp), between(0.1_wp, 0.8_wp), between(1.0_wp, 4.0_wp)]
          do m = 1, 2
             last = 0
-            call table(m)%look_up(place, .false., last, counters, value, slope, good)
-            call expect(good, 'a closer table has all cells')
-            call films_there(m)%look_up(place, .false., last, counters, exact, slope, good)
-            error(m) = error(m) + norm2(value(:2) - exact(:2))/n
+            call table(m)%look_up(place, .false., last, counters, film)
+            call expect(film%ok, 'a closer table has all cells')
+            call films_there(m)%look_up(place, .false., last, counters, exact)
+            error(m) = error(m) + norm2(film%data(:2, 1) - exact%data(:2, 1))/n
          end do
       end do
       call expect(error(1) < 5*3.2e-5_wp, 'error of cells '//to_text(error(1)))
@@ -134,20 +133,18 @@ contains
    subroutine cells_meet()
       type(cavitation_table_type) :: table
       type(film_counters) :: counters
+      type(node_type) :: film, below
       real(wp) :: place(axes)
-      real(wp), dimension(simd_width) :: value, value_below
-      real(wp), dimension(simd_width, axes) :: slope, slope_below
       integer :: side, last
-      logical :: good
       table = new_cavitation_table(pad, drive, .false., 3.2e-5_wp, most)
       do side = -1, 1, 2
          place = [0.61_wp, 0.47_wp, 0.33_wp, 2.0_wp*side]
          last = 0
-         call table%look_up(place, .true., last, counters, value, slope, good)
+         call table%look_up(place, .true., last, counters, film)
          place(4) = nearest(place(4), -real(side, wp))
-         call table%look_up(place, .true., last, counters, value_below, slope_below, good)
-         call expect_close(maxval(abs(value - value_below)), 0.0_wp, 1e-11_wp, 'cells meet')
-         call expect_close(maxval(abs(slope(:2, :3) - slope_below(:2, :3))), 0.0_wp, 1e-11_wp, 'smoothly')
+         call table%look_up(place, .true., last, counters, below)
+         call expect_close(maxval(abs(film%data(:, 1) - below%data(:, 1))), 0.0_wp, 1e-11_wp, 'cells meet')
+         call expect_close(maxval(abs(film%data(:2, 2:4) - below%data(:2, 2:4))), 0.0_wp, 1e-11_wp, 'smoothly')
       end do
    end subroutine cells_meet
 

@@ -7,8 +7,9 @@
 !> Between this frame and the pad's own the mid-arc frame takes the motion there, forces and their derivatives back.
 module dimensionless_pad
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil
-   use pad_gap, only: pad_gap_type, pad_directions
+   use film_law, only: film_law_type
+   use film_oils, only: film_oil
+   use pad_gap, only: pad_gap_type, pad_directions, film_motion
    use sommerfeld_nodes, only: span, place_nodes
    implicit none (type, external)
    private
@@ -149,7 +150,7 @@ contains
    pure type(middle_motion) function motion(self, seen, oil, speed)
       class(mid_arc_frame_type), intent(in) :: self
       type(film_motion), intent(in) :: seen
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       real(wp) :: at(2)
       associate (s => self%sine, c => self%cosine, e => seen%position, v => seen%velocity)

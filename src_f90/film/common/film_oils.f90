@@ -1,48 +1,38 @@
-!> The oil in a pad's film: its viscosity, and what the Reynolds equation keeps of a viscosity that changes along the
-!> arc and across the film (docs/theory/film.md, *Uneven viscosity*).
+!> The laminar film (film_law): oil of uniform viscosity, or what the Reynolds equation keeps of a viscosity that
+!> changes along the arc and across the film (docs/theory/film.md, *Variable viscosity*).
 !>
 !> With mu(x, zeta), zeta = y/h from the pad to the journal, and J_n the integral of zeta^n/mu over the film,
 !>    f1 = 1 - J_1/J_0,   f2 = J_2 - J_1^2/J_0,   f0 = 1/J_0,
 !>    (h^3 f2 p_x)_x + h^3 f2 p_zz = U (h f1)_x + h_t,
-!> x with the journal; sliding resists by f0 U/h + f1 h p_x. Of one viscosity f1 = 1/2, f2 = 1/(12 mu), f0 = mu. Here
-!> 12 mu f2, f1 and f0/mu, mu the pad's viscosity, are functions of the place on the arc: polynomials of it, from -1 at
-!> the leading to 1 at the trailing edge, two of them of the logarithm.
+!> x with the journal; sliding resists by f0 U/h + f1 h p_x. Of one viscosity f1 = 1/2, f2 = 1/(12 mu), f0 = mu. So
+!> E = 12 mu f2, G = 2 f1 and S = f0/mu, mu the pad's viscosity, are functions of the place on the arc: polynomials of
+!> it, from -1 at the leading to 1 at the trailing edge, two of them of the logarithm.
 module film_oils
    use kinds, only: wp, pi
-   use pad_gap, only: pad_gap_type
+   use film_law, only: film_law_type, law_at_nodes, most_numbers
+   use pad_gap, only: pad_gap_type, film_motion
    implicit none (type, external)
    private
-   public :: film_oil, arc_weights, even_oil, uneven_oil, weights_degree, polynomials
+   public :: film_oil, even_oil, uneven_oil, weights_degree, polynomials
 
    !> Degree of the polynomials: of temperatures of pads it leaves 0.03 % of the stiffness and 0.3 % of the damping.
    integer, parameter :: weights_degree = 4
    !> Of flow, sliding and shear.
    integer, parameter :: polynomials = 3
 
-   type :: film_oil
-      !> Dynamic viscosity, Pa s.
-      real(wp) :: viscosity = 0
-      !> False where all of the oil has this viscosity, so that the polynomials do not count.
-      logical :: varies = .false.
+   !> Where it does not vary all of the oil has the law's viscosity: the polynomials do not count.
+   type, extends(film_law_type) :: film_oil
       !> Coefficients of ln(12 mu f2), f1 and ln(f0/mu) over the place.
       real(wp) :: flow(0:weights_degree) = 0
       real(wp) :: sliding(0:weights_degree) = [0.5_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
       real(wp) :: shear(0:weights_degree) = 0
    contains
-      procedure :: find_weights
+      procedure :: at_nodes
       procedure :: shear_weight
-      procedure :: coefficients
-      procedure :: differs
+      procedure :: numbers
       procedure :: mirrored
+      procedure :: coefficients
    end type film_oil
-
-   !> By place on the arc.
-   type :: arc_weights
-      !> 1/sqrt(12 mu f2); 2 f1.
-      real(wp), allocatable :: ease(:), sliding(:)
-      !> Derivatives over the angle, 1/rad and its powers, (place, order): of ln(12 mu f2) and of 2 f1.
-      real(wp), allocatable :: flow_slopes(:, :), sliding_slopes(:, :)
-   end type arc_weights
 
    !> Series of atan; halvings of the exponent, whose own series is short then.
    integer, parameter :: atan_terms = 14, halvings = 5
@@ -77,41 +67,37 @@ contains
       if (self%varies) coefficients = reshape([self%flow, self%sliding, self%shear], shape(coefficients))
    end function coefficients
 
-   !> Whether the polynomials are others.
-   pure logical function differs(self, other)
+   pure function numbers(self)
       class(film_oil), intent(in) :: self
-      type(film_oil), intent(in) :: other
-      differs = self%varies .neqv. other%varies
-      if (self%varies .and. other%varies) differs = any(abs(self%flow - other%flow) > 0 &
-         & .or. abs(self%sliding - other%sliding) > 0 .or. abs(self%shear - other%shear) > 0)
-   end function differs
+      real(wp) :: numbers(most_numbers)
+      numbers = 0
+      if (self%varies) numbers(:polynomials*(1 + weights_degree)) = [self%flow, self%sliding, self%shear]
+   end function numbers
 
-   !> The oil seen in a mirror, in which both edges change places.
-   pure type(film_oil) function mirrored(self)
+   function mirrored(self)
       class(film_oil), intent(in) :: self
-      mirrored%viscosity = self%viscosity
-      mirrored%varies = self%varies
-      mirrored%flow = self%flow
-      mirrored%sliding = self%sliding
-      mirrored%shear = self%shear
-      mirrored%flow(1::2) = -self%flow(1::2)
-      mirrored%sliding(1::2) = -self%sliding(1::2)
-      mirrored%shear(1::2) = -self%shear(1::2)
+      class(film_law_type), allocatable :: mirrored
+      real(wp) :: c(0:weights_degree, polynomials)
+      c = self%coefficients()
+      c(1::2, :) = -c(1::2, :)
+      allocate (mirrored, source=uneven_oil(self%viscosity, c))
    end function mirrored
 
-   !> The weights at places whose angles from the pivot have these sines and cosines; as many as there were before.
-   pure subroutine find_weights(oil, gap, sine, cosine, weights)
-      class(film_oil), intent(in) :: oil
+   pure subroutine at_nodes(self, gap, motion, sine, cosine, nodes)
+      class(film_oil), intent(in) :: self
       type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: sine(:), cosine(:)
-      type(arc_weights), intent(inout) :: weights
+      type(law_at_nodes), intent(inout) :: nodes
       real(wp) :: x(size(sine))
-      associate (n => size(sine), w => weights)
-         if (.not. allocated(w%ease)) allocate (w%ease(n), w%sliding(n), w%flow_slopes(n, 3), w%sliding_slopes(n, 2))
+      associate (n => size(sine), of => nodes)
+         if (.not. allocated(of%sliding)) allocate (of%inverse_root(n), of%sliding(n), of%flow_slopes(n, 3), &
+            & of%sliding_slopes(n, 2))
          call find_places(n, gap, sine, cosine, x)
-         call evaluate(n, -2/gap%arc(), oil%flow, oil%sliding, x, w%ease, w%sliding, w%flow_slopes, w%sliding_slopes)
+         call evaluate(n, -2/gap%arc(), self%flow, self%sliding, x, of%inverse_root, of%sliding, of%flow_slopes, &
+            & of%sliding_slopes)
       end associate
-   end subroutine find_weights
+   end subroutine at_nodes
 
    !> Places on the arc, from -1 to 1. A quarter of the angle from the middle has a tangent below 0.42 on arcs up to
    !> half a circle, where the series serves to 1e-12.
@@ -141,11 +127,11 @@ contains
       end do
    end subroutine find_places
 
-   !> The weights at places x of an arc on which the angle is -2 x/unit.
-   pure subroutine evaluate(n, unit, flow, sliding, x, ease, g, flow_slopes, sliding_slopes)
+   !> The law at places x of an arc on which the angle is -2 x/unit.
+   pure subroutine evaluate(n, unit, flow, sliding, x, root, g, flow_slopes, sliding_slopes)
       integer, intent(in) :: n
       real(wp), intent(in) :: unit, flow(0:4), sliding(0:4), x(n)
-      real(wp), intent(out) :: ease(n), g(n), flow_slopes(n, 3), sliding_slopes(n, 2)
+      real(wp), intent(out) :: root(n), g(n), flow_slopes(n, 3), sliding_slopes(n, 2)
       real(wp) :: y
       integer :: i, k
       !$omp simd private(y, k)
@@ -155,7 +141,7 @@ contains
          do k = 1, halvings
             y = y*y
          end do
-         ease(i) = y
+         root(i) = y
          flow_slopes(i, 1) = unit*(flow(1) + x(i)*(2*flow(2) + x(i)*(3*flow(3) + x(i)*4*flow(4))))
          flow_slopes(i, 2) = unit**2*(2*flow(2) + x(i)*(6*flow(3) + x(i)*12*flow(4)))
          flow_slopes(i, 3) = unit**3*(6*flow(3) + x(i)*24*flow(4))
@@ -165,10 +151,10 @@ contains
       end do
    end subroutine evaluate
 
-   !> f0/mu at an angle from the pivot, rad.
-   elemental real(wp) function shear_weight(self, gap, phi) result(weight)
+   elemental real(wp) function shear_weight(self, gap, motion, phi) result(weight)
       class(film_oil), intent(in) :: self
       type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: phi
       real(wp) :: x
       weight = 1

@@ -3,10 +3,11 @@
 module film_solver
    use kinds, only: wp, i8
    use pad_gap, only: pad_gap_type, pad_directions, film_motion
+   use film_law, only: film_law_type
    use film_oils, only: film_oil
    implicit none (type, external)
    private
-   public :: film_solver_type, film_motion, film_oil, film_response, film_counters
+   public :: film_solver_type, film_motion, film_law_type, film_oil, film_response, film_counters
    public :: film_ok, film_closed, film_not_converged, film_not_resolved
    public :: cavitation_none, cavitation_gumbel, cavitation_reynolds
 
@@ -29,6 +30,8 @@ module film_solver
       !> Of a film that is not resolved its error.
       real(wp) :: residual = 0
       integer :: max_sweeps = 0
+      !> Whether the force came from tables, so that its pressures are left to `take_pressures`.
+      logical :: from_tables = .false.
    end type film_response
 
    !> Work done since the solver was made.
@@ -66,11 +69,11 @@ module film_solver
    abstract interface
       !> An open film of a pad: what `evaluate` leaves to the solver.
       subroutine solve_film(self, i, motion, oil, speed, want_derivatives, response)
-         import :: film_solver_type, film_motion, film_oil, film_response, wp
+         import :: film_solver_type, film_motion, film_law_type, film_response, wp
          class(film_solver_type), intent(inout) :: self
          integer, intent(in) :: i
          type(film_motion), intent(in) :: motion
-         type(film_oil), intent(in) :: oil
+         class(film_law_type), intent(in) :: oil
          real(wp), intent(in) :: speed
          logical, intent(in) :: want_derivatives
          !> Its minimum thickness is set.
@@ -80,11 +83,11 @@ module film_solver
       !> Pressure of a pad's film, Pa, (axial position, angle), at a motion that leaves the film open, and a journal
       !> speed, rad/s.
       subroutine evaluate_field(self, i, motion, oil, speed, phi, z, pressure)
-         import :: film_solver_type, film_motion, film_oil, wp
+         import :: film_solver_type, film_motion, film_law_type, wp
          class(film_solver_type), intent(inout) :: self
          integer, intent(in) :: i
          type(film_motion), intent(in) :: motion
-         type(film_oil), intent(in) :: oil
+         class(film_law_type), intent(in) :: oil
          !> Angles from the pivot, rad, and distances from the middle plane, m, on the pad.
          real(wp), intent(in) :: speed, phi(:), z(:)
          real(wp), intent(out) :: pressure(:, :)
@@ -109,7 +112,7 @@ contains
    subroutine evaluate(self, motion, oil, speed, want_derivatives, response, chosen)
       class(film_solver_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
+      class(film_law_type), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response(:)
@@ -129,7 +132,7 @@ contains
       class(film_solver_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(out) :: response
@@ -148,7 +151,7 @@ contains
    subroutine field(self, motion, oil, speed, phi, z, pressure)
       class(film_solver_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
+      class(film_law_type), intent(in) :: oil(:)
       real(wp), intent(in) :: speed, phi(:, :), z(:, :)
       real(wp), intent(out) :: pressure(:, :, :)
       integer :: i
@@ -181,7 +184,7 @@ contains
    subroutine take_pressures(self, motion, oil, speed, response)
       class(film_solver_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion(:)
-      type(film_oil), intent(in) :: oil(:)
+      class(film_law_type), intent(in) :: oil(:)
       real(wp), intent(in) :: speed
       type(film_response), intent(inout) :: response(:)
    end subroutine take_pressures

@@ -1,4 +1,4 @@
-!> One pad's gap: geometry, clearance and the right-hand side of the Reynolds equation.
+!> One pad's gap: geometry, clearance and the pressures around it; film thicknesses at a position of the journal.
 !>
 !> Pad coordinates: the angle phi from the pivot, positive towards the leading edge; the axial
 !> coordinate from the middle of the pad.

@@ -8,14 +8,15 @@
 !> smooth for a film of any film thickness ratio, and Numerov's scheme solves it to fourth order (fourier_passes). The
 !> modes left out are summed in closed form: the narrow-pad limit u = -r/(h^3 Lambda^2) and its edge layers.
 !>
-!> Where the viscosity is uneven (film_oils), with E = 12 mu f2 and a prime for d/dphi, q = H sqrt(E) u, s gains
-!> 1/sqrt(E) and what 2 f1 does to the wedge, and v gains 3/2 H H' (ln E)' + H^2 ((ln E)''/2 + (ln E)'^2/4).
+!> Where the film's law varies (film_law), with a prime for d/dphi along the film, q = H sqrt(E) u, s gains 1/sqrt(E)
+!> and what G does to the wedge, v gains 3/2 H H' (ln E)' + H^2 ((ln E)''/2 + (ln E)'^2/4), and Lambda^2 the factor K.
 !>
 !> Guembel's condition needs the field: it is rebuilt at Gauss points across the half width, and what lies
 !> below the cavitation pressure is taken out of the force.
 module fourier_film
    use kinds, only: wp
-   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, cavitation_none, cavitation_gumbel
+   use film_solver, only: film_solver_type, film_motion, film_law_type, film_response, cavitation_none, &
+      & cavitation_gumbel
    use pad_gap, only: pad_gap_type
    use clipped_quadrature, only: clipped_weights
    use film_resolution, only: resolution_type, new_resolution, most_levels, enough_cells, enough_modes
@@ -71,7 +72,7 @@ contains
       class(fourier_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response
@@ -109,19 +110,19 @@ contains
       if (clips .and. response%min_pressure < pad%gap%cavitation_pressure) then
          call cavitation(pad, rise, want_derivatives, response)
       end if
-      if (want_derivatives) response%derivatives = force_slopes(pad, rise)
+      if (want_derivatives) call force_slopes(pad, rise, response%derivatives)
    end subroutine solve_pad
 
    subroutine field_of_pad(self, i, motion, oil, speed, phi, z, pressure)
       class(fourier_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed, phi(:), z(:)
       real(wp), intent(out) :: pressure(:, :)
       type(film_response) :: response
       call self%evaluate_pad(i, motion, oil, speed, .false., response)
-      pressure = field_of_modes(self%pads(self%level(i), i), phi, z)
+      pressure = field_of_modes(self%pads(self%level(i), i), motion, oil, phi, z)
       if (self%condition == cavitation_gumbel) pressure = max(pressure, self%gaps(i)%cavitation_pressure)
    end subroutine field_of_pad
 
@@ -129,7 +130,7 @@ contains
    !> which a pressure of 1 Pa at the leading edge alone has driven.
    pure function supply_flows(self, oil)
       class(fourier_film_type), intent(in) :: self
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp) :: supply_flows(2)
       supply_flows = edge_flows(self%pads(self%level(1), 1), oil)
    end function supply_flows
@@ -143,8 +144,8 @@ contains
       real(wp) :: force(2), edge(0:1), lowest, slope
       integer :: b
       associate (gap => pad%gap, n => pad%n, h => pad%h, tail => pad%axial%tail, sine => pad%sine, cosine => pad%cosine)
-         call weigh_nodes(n, pad%weight, pad%ease, sine, cosine, pad%narrow, tail(2), pad%point_tail(middle), along, &
-            & outward, force, p_middle)
+         call weigh_nodes(n, pad%weight, pad%inverse_root, sine, cosine, pad%narrow, tail(2), pad%point_tail(middle), &
+            & along, outward, force, p_middle)
          do b = 1, pad%axial%blocks
             associate (first => simd_width*b - simd_width + 1, last => simd_width*b)
                call sum_modes(n, along, outward, pad%axial%c(first:last), pad%at_middle(first:last), pad%q(:, :, b), &
@@ -153,12 +154,13 @@ contains
          end do
          ! layers at the edges of the modes left out, and the supply pressure in them
          slope = pad%e(2)*sine(n) - pad%e(1)*cosine(n)
-         edge = tail(3)*[pad%narrow(0)/h(0), pad%narrow(n)/h(n)]*[pad%ease(0), pad%ease(n)]
+         edge = tail(3)*[pad%narrow(0)/h(0), pad%narrow(n)/h(n)]*[pad%inverse_root(0), pad%inverse_root(n)]
          edge(1) = edge(1) + rise*(tail(1) + tail(2)*1.5_wp*slope/h(n))
-         if (pad%oil%varies) edge(1) = edge(1) + rise*tail(2)*pad%weights%flow_slopes(n + 1, 1)/2
+         if (pad%varies) edge(1) = edge(1) + rise*tail(2)*pad%law%flow_slopes(n + 1, 1)/2
          force = pad%d*force + edge(0)*[sine(0), cosine(0)] + edge(1)*[sine(n), cosine(n)] &
             & - tail(2)*rise*[cosine(n), -sine(n)] &
             & + gap%ambient_pressure*gap%axial_length*[cosine(0) - cosine(n), sine(n) - sine(0)]
+         if (pad%by_thickness) force = force + turned_layers(pad, rise)
          response%force = -pad%radius*force
          lowest = lowest_pressure(n, pad%axial%blocks, pad%narrow, pad%lift, pad%point_tail(gauss + 1:), pad%look, &
             & pad%q)
@@ -170,6 +172,23 @@ contains
          response%max_pressure = gap%ambient_pressure + peak(n, p_middle)
       end associate
    end subroutine sum_up
+
+   !> What K changes in the layers at the edges of the modes left out, which decay with Lambda sqrt(K).
+   pure function turned_layers(pad, rise) result(change)
+      type(fourier_pad_type), intent(in) :: pad
+      real(wp), intent(in) :: rise
+      real(wp) :: change(2), edge(0:1), by_root, falling
+      associate (n => pad%n, h => pad%h, tail => pad%axial%tail, law => pad%law, across => pad%law%across(pad%n + 1), &
+         & x => [pad%sine(pad%n), pad%cosine(pad%n)])
+         by_root = 1/sqrt(across)
+         edge = tail(3)*[pad%narrow(0)*pad%inverse_root(0)/h(0)*(1/sqrt(law%across(1)) - 1), &
+            & pad%narrow(n)*pad%inverse_root(n)/h(n)*(by_root - 1)]
+         falling = 1.5_wp*(pad%e(2)*x(1) - pad%e(1)*x(2))/h(n) + law%flow_slopes(n + 1, 1)/2
+         edge(1) = edge(1) + rise*(tail(1)*(by_root - 1) + tail(2)*((1/across - 1)*falling &
+            & + 0.75_wp*law%across_slope(n + 1)/across))
+         change = edge(0)*[pad%sine(0), pad%cosine(0)] + edge(1)*x - tail(2)*rise*(1/across - 1)*[x(2), -x(1)]
+      end associate
+   end function turned_layers
 
    !> Highest value of a function given at nodes 0:n, n >= 4: that of the quartic through the five nodes around the
    !> highest, found by Newton's method from the top of the parabola through three. Beside an edge that is higher than
@@ -233,7 +252,7 @@ contains
             lost(point, :) = (pad%d*point_weights(point)*pad%gap%axial_length)*weights
          end do
          do i = 0, n
-            missing = pad%radius*dot_product(lost(:, i), deficit(:, i))*pad%ease(i)
+            missing = pad%radius*dot_product(lost(:, i), deficit(:, i))*pad%inverse_root(i)
             response%force = response%force - missing*[pad%sine(i), pad%cosine(i)]
          end do
          response%max_pressure = max(response%max_pressure, pad%gap%cavitation_pressure)

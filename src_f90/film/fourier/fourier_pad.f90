@@ -2,8 +2,8 @@
 !> (fourier_film).
 module fourier_pad
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil
-   use film_oils, only: arc_weights
+   use film_solver, only: film_motion, film_law_type
+   use film_law, only: law_at_nodes
    use pad_gap, only: pad_gap_type, pad_directions
    use axial_modes, only: axial_modes_type, new_axial_modes
    use clipped_quadrature, only: gregory_weights, clipped_weights
@@ -15,9 +15,9 @@ module fourier_pad
    public :: gauss, middle, point_weights
 
    !> Points and weights across the half width, over it: Gauss-Legendre's over the root of the distance from the side,
-   !> beside which the pressure of an uneven film falls steeply. Behind them those where cavitation is looked for,
-   !> without weight: the middle, and towards the side, where a film that diverges at its trailing edge first falls
-   !> below the pressure of its edges.
+   !> beside which the pressure of a film that is not uniform falls steeply. Behind them those where cavitation is
+   !> looked for, without weight: the middle, and towards the side, where a film that diverges at its trailing edge
+   !> first falls below the pressure of its edges.
    integer, parameter :: gauss = 8, middle = 9, all_points = gauss + looks
    real(wp), parameter :: half_points(4) = [0.183434642495650_wp, 0.525532409916329_wp, &
       & 0.796666477413627_wp, 0.960289856497536_wp]
@@ -26,6 +26,16 @@ module fourier_pad
    real(wp), parameter :: roots(gauss) = 0.5_wp*(1 + [-half_points, half_points])
    real(wp), parameter :: points(all_points) = [1 - roots**2, 0.0_wp, 0.75_wp, 0.9_wp, 0.95_wp]
    real(wp), parameter :: point_weights(gauss) = roots*[half_weights, half_weights]
+
+   !> What the derivatives of both forces are summed up from (fourier_slopes), by node and component.
+   type :: force_adjoints
+      !> Derivatives over share q, and over d^2 v/12, d^2 K H^2/12 and d^2 s/12.
+      real(wp), allocatable, dimension(:, :) :: along, over_v, over_h2, over_s
+      !> Sum over the slots of share q, and the share of H, at the nodes; how these move, d phi/d e.
+      real(wp), allocatable :: solved(:), floor_share(:), shift(:, :)
+      !> Derivatives over H at the leading edge, as q is there what the pressure is; 1/d d d/d e.
+      real(wp) :: boundary(2), stretch(2)
+   end type force_adjoints
 
    !> One pad. Nodes 0:n run from the trailing to the leading edge at equal steps d of Sommerfeld's variable; film
    !> thickness H, and position e are over the clearance. Modes fill up blocks of ``simd_width``;
@@ -45,19 +55,20 @@ module fourier_pad
       real(wp) :: point_tail(all_points)
       !> Factors of dH/dphi and of w_1 sin(phi) + w_2 cos(phi) in s; e; velocity w, m/s.
       real(wp) :: wedge, squeeze, e(2), w(2)
-      !> At the nodes: H, sine and cosine of phi, s and s/H^2; 1 - d^2 v/12, d^2 H^2/12 and the scheme's load.
+      !> At the nodes: H, sine and cosine of phi, s and s/(K H^2); 1 - d^2 v/12, d^2 K H^2/12 and the scheme's load.
       real(wp), allocatable, dimension(:) :: h, sine, cosine, s, narrow, base, rate, load
-      !> Of the oil, and what its uneven viscosity makes of q and s at the nodes (fourier_film): q over pressure and the
-      !> root of 12 mu f2, upside down, with which q counts; its weights, where it varies.
-      type(film_oil) :: oil
-      real(wp), allocatable, dimension(:) :: lift, ease
-      type(arc_weights) :: weights
+      !> What the film's law makes of q and s at the nodes (fourier_film): q over pressure, and the inverse root of the
+      !> mobility E, with which q counts. Whether it varies, and turns with the thickness; where it varies the law.
+      real(wp), allocatable, dimension(:) :: lift, inverse_root
+      logical :: varies = .false., by_thickness = .false.
+      type(law_at_nodes) :: law
       !> By slot, node and block: a = 1 - d^2 V/12, factors f of the elimination, q.
       real(wp), allocatable :: a(:, :, :), f(:, :, :), q(:, :, :)
-      !> What q by (slot, node, block) and -s/H^2 by node count along the width: c and tail(2), less the part of the
+      !> What q by (slot, node, block) and -s/(K H^2) by node count along the width: c and tail(2), less the part of the
       !> width where the film has cavitated, if it has; and what the cavitation pressure counts there.
       real(wp), allocatable :: share(:, :, :), narrow_share(:), floor_share(:)
       logical :: shares_are_stale = .true.
+      type(force_adjoints) :: adjoints
    end type fourier_pad_type
 
 contains
@@ -86,9 +97,13 @@ contains
          end do
          allocate (pad%weight(0:n), pad%h(0:n), pad%sine(0:n), pad%cosine(0:n), pad%s(0:n), pad%narrow(0:n), &
             & pad%base(0:n), pad%rate(0:n), pad%load(0:n), pad%lift(0:n))
-         allocate (pad%ease(0:n), source=1.0_wp)
+         allocate (pad%inverse_root(0:n), source=1.0_wp)
          allocate (pad%a(simd_width, 0:n, blocks), pad%f(simd_width, 0:n, blocks), pad%q(simd_width, 0:n, blocks))
          allocate (pad%share(simd_width, 0:n, blocks), pad%narrow_share(0:n), pad%floor_share(0:n))
+      end associate
+      associate (of => pad%adjoints)
+         allocate (of%along(0:n, 2), of%over_v(0:n, 2), of%over_h2(0:n, 2), of%over_s(0:n, 2), of%solved(0:n), &
+            & of%floor_share(0:n), of%shift(0:n, 2))
       end associate
       call set_weights(pad, .false.)
    end subroutine init_pad
@@ -111,7 +126,7 @@ contains
    pure subroutine set_motion(pad, motion, oil, speed, along)
       type(fourier_pad_type), intent(inout) :: pad
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       !> The arc's span (sommerfeld_nodes).
       real(wp), intent(in) :: speed, along
       associate (gap => pad%gap)
@@ -122,78 +137,73 @@ contains
          pad%squeeze = -12*oil%viscosity*pad%radius**2/gap%machined_clearance**3
       end associate
       call place_nodes(pad%n, pad%d, pad%e, pad%directions, pad%h, pad%sine, pad%cosine)
-      call set_nodes(pad%n, pad%d, pad%e, [pad%wedge*pad%e(2) + pad%squeeze*pad%w(1), &
-         & -pad%wedge*pad%e(1) + pad%squeeze*pad%w(2)], pad%h, pad%sine, pad%cosine, pad%s, pad%narrow, pad%base, &
-         & pad%rate, pad%load)
+      call set_nodes(pad)
       if (oil%varies) then
-         call set_uneven(pad, oil)
-      else if (pad%oil%varies) then
-         pad%ease(:) = 1
+         call oil%at_nodes(pad%gap, motion, pad%sine, pad%cosine, pad%law)
+         pad%by_thickness = oil%turns_with_thickness()
+         call set_varied_nodes(pad)
+      else if (pad%varies) then
+         pad%inverse_root(:) = 1
+         pad%by_thickness = .false.
       end if
-      pad%lift(:) = pad%h/pad%ease
-      pad%oil = oil
+      pad%varies = oil%varies
+      call set_load(pad)
+      pad%lift(:) = pad%h/pad%inverse_root
    end subroutine set_motion
 
-   !> What uneven viscosity changes at the nodes.
-   pure subroutine set_uneven(pad, oil)
+   !> What the scheme takes from the film at the nodes, where the law does not vary.
+   pure subroutine set_nodes(pad)
       type(fourier_pad_type), intent(inout) :: pad
-      type(film_oil), intent(in) :: oil
-      call oil%find_weights(pad%gap, pad%sine, pad%cosine, pad%weights)
-      associate (w => pad%weights)
-         call set_uneven_nodes(pad%n, pad%d, pad%e, pad%w, pad%wedge, pad%squeeze, pad%h, pad%sine, pad%cosine, &
-            & w%ease, w%sliding, w%flow_slopes, w%sliding_slopes, pad%ease, pad%s, pad%narrow, pad%base, pad%load)
-      end associate
-   end subroutine set_uneven
-
-   !> The same from weights at the nodes, with whose ease their own begins.
-   pure subroutine set_uneven_nodes(n, d, e, w, wedge, squeeze, h, sine, cosine, of_oil, sliding, p, g, ease, s, &
-      & narrow, base, load)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: d, e(2), w(2), wedge, squeeze
-      real(wp), dimension(0:n), intent(in) :: h, sine, cosine, of_oil, sliding
-      !> Derivatives of ln(12 mu f2) and of 2 f1.
-      real(wp), intent(in) :: p(0:n, 3), g(0:n, 2)
-      real(wp), dimension(0:n), intent(inout) :: base, load
-      real(wp), dimension(0:n), intent(out) :: ease, s, narrow
-      real(wp) :: unit, slope
+      real(wp) :: k, unit, source(2)
       integer :: i
-      unit = d**2/12
-      !$omp simd private(slope)
-      do i = 0, n
-         slope = e(2)*sine(i) - e(1)*cosine(i)
-         base(i) = base(i) - unit*h(i)*(1.5_wp*slope*p(i, 1) + h(i)*(p(i, 2)/2 + p(i, 1)**2/4))
-         ease(i) = of_oil(i)
-         s(i) = ease(i)*(wedge*(slope*sliding(i) + h(i)*g(i, 1)) + squeeze*(w(1)*sine(i) + w(2)*cosine(i)))
-         narrow(i) = s(i)/h(i)**2
-      end do
+      k = dot_product(pad%e, pad%e) - 1
+      unit = pad%d**2/12
+      ! factors of sine and cosine in s
+      source = [pad%wedge*pad%e(2) + pad%squeeze*pad%w(1), -pad%wedge*pad%e(1) + pad%squeeze*pad%w(2)]
       !$omp simd
-      do i = 1, n - 1
-         load(i) = unit*(s(i - 1) + 10*s(i) + s(i + 1))
-      end do
-   end subroutine set_uneven_nodes
-
-   !> What the scheme takes from the film at the nodes.
-   pure subroutine set_nodes(n, d, e, source, h, sine, cosine, s, narrow, base, rate, load)
-      integer, intent(in) :: n
-      !> Step; position; factors of sine and cosine in s; H, sine and cosine.
-      real(wp), intent(in) :: d, e(2), source(2), h(0:n), sine(0:n), cosine(0:n)
-      real(wp), dimension(0:n), intent(out) :: s, narrow, base, rate, load
-      real(wp) :: k, unit
-      integer :: i
-      k = dot_product(e, e) - 1
-      unit = d**2/12
-      !$omp simd
-      do i = 0, n
-         s(i) = source(1)*sine(i) + source(2)*cosine(i)
-         rate(i) = unit*h(i)**2
-         base(i) = 1 - unit*(k + h(i)*(3 - 2*h(i)))
-         narrow(i) = s(i)/h(i)**2
-      end do
-      load(0) = 0
-      load(n) = 0
-      !$omp simd
-      do i = 1, n - 1
-         load(i) = unit*(s(i - 1) + 10*s(i) + s(i + 1))
+      do i = 0, pad%n
+         pad%s(i) = source(1)*pad%sine(i) + source(2)*pad%cosine(i)
+         pad%rate(i) = unit*pad%h(i)**2
+         pad%base(i) = 1 - unit*(k + pad%h(i)*(3 - 2*pad%h(i)))
+         pad%narrow(i) = pad%s(i)/pad%h(i)**2
       end do
    end subroutine set_nodes
+
+   !> What a law that varies changes at the nodes.
+   pure subroutine set_varied_nodes(pad)
+      type(fourier_pad_type), intent(inout) :: pad
+      real(wp) :: unit, slope, h
+      integer :: i
+      unit = pad%d**2/12
+      associate (of => pad%law, e => pad%e, w => pad%w)
+         !$omp simd private(slope, h)
+         do i = 0, pad%n
+            h = pad%h(i)
+            slope = e(2)*pad%sine(i) - e(1)*pad%cosine(i)
+            pad%base(i) = pad%base(i) - unit*h*(1.5_wp*slope*of%flow_slopes(i + 1, 1) &
+               & + h*(of%flow_slopes(i + 1, 2)/2 + of%flow_slopes(i + 1, 1)**2/4))
+            pad%inverse_root(i) = of%inverse_root(i + 1)
+            pad%s(i) = of%inverse_root(i + 1)*(pad%wedge*(slope*of%sliding(i + 1) + h*of%sliding_slopes(i + 1, 1)) &
+               & + pad%squeeze*(w(1)*pad%sine(i) + w(2)*pad%cosine(i)))
+            pad%narrow(i) = pad%s(i)/h**2
+         end do
+         if (.not. pad%by_thickness) return
+         pad%rate(:) = pad%rate*of%across
+         pad%narrow(:) = pad%narrow/of%across
+      end associate
+   end subroutine set_varied_nodes
+
+   !> The scheme's load.
+   pure subroutine set_load(pad)
+      type(fourier_pad_type), intent(inout) :: pad
+      real(wp) :: unit
+      integer :: i
+      unit = pad%d**2/12
+      pad%load(0) = 0
+      pad%load(pad%n) = 0
+      !$omp simd
+      do i = 1, pad%n - 1
+         pad%load(i) = unit*(pad%s(i - 1) + 10*pad%s(i) + pad%s(i + 1))
+      end do
+   end subroutine set_load
 end module fourier_pad

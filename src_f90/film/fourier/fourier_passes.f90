@@ -130,10 +130,10 @@ contains
 
    !> Weights of q in the sums over the nodes, and the narrow-pad part (the modes left out) of these sums and of
    !> the pressure in the middle (times H).
-   pure subroutine weigh_nodes(n, weight, ease, sine, cosine, narrow, tail, tail_middle, along, outward, sums, p_middle)
+   pure subroutine weigh_nodes(n, weight, root, sine, cosine, narrow, tail, tail_middle, along, outward, sums, p_middle)
       integer, intent(in) :: n
-      !> Of the quadrature; with what q counts; sine, cosine and s/H^2 by node; sums over the modes left out.
-      real(wp), intent(in) :: weight(0:n), ease(0:n), sine(0:n), cosine(0:n), narrow(0:n), tail, tail_middle
+      !> Of the quadrature; inverse root of the mobility; sine, cosine and s/H^2 by node; sums over the modes left out.
+      real(wp), intent(in) :: weight(0:n), root(0:n), sine(0:n), cosine(0:n), narrow(0:n), tail, tail_middle
       real(wp), intent(out) :: along(0:n), outward(0:n), sums(2), p_middle(0:n)
       real(wp) :: sum_along, sum_outward
       integer :: i
@@ -141,8 +141,8 @@ contains
       sum_outward = 0
       !$omp simd reduction(+:sum_along, sum_outward)
       do i = 0, n
-         along(i) = weight(i)*ease(i)*sine(i)
-         outward(i) = weight(i)*ease(i)*cosine(i)
+         along(i) = weight(i)*root(i)*sine(i)
+         outward(i) = weight(i)*root(i)*cosine(i)
          sum_along = sum_along - tail*along(i)*narrow(i)
          sum_outward = sum_outward - tail*outward(i)*narrow(i)
          p_middle(i) = -tail_middle*narrow(i)

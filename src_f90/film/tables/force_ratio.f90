@@ -5,13 +5,13 @@
 !> Reynolds these are finite volumes: half of their columns lie where the film diverges, all of them are narrow where
 !> it is thin, two grids are extrapolated by Richardson's rule, and slopes are those of a film that ends between cells.
 !> Where the film has gone from whole columns at the trailing edge, these are given to what is left of it. With
-!> Guembel's condition they are axial modes. Uneven oil drives films by its D, too (uneven_drive). Every film is solved
-!> from the same start: the answer does not depend on what came before.
+!> Guembel's condition they are axial modes. Where the rotation acts, D drives films, too (rotation_drive). Every film
+!> is solved from the same start: the answer does not depend on what came before.
 module force_ratio
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok
+   use film_solver, only: film_motion, film_response, film_counters, film_ok
    use dimensionless_pad, only: dimensionless_pad_type
-   use uneven_drive, only: uneven_drive_type
+   use rotation_drive, only: rotation_drive_type
    use film_grid, only: new_film_grid
    use elimination_film, only: elimination_film_type, new_elimination_film
    use fourier_film, only: fourier_film_type, converged_film
@@ -36,7 +36,7 @@ module force_ratio
    type :: force_ratio_solver
       private
       type(dimensionless_pad_type) :: pad
-      type(uneven_drive_type) :: drive
+      type(rotation_drive_type) :: drive
       logical :: gumbel
       integer :: columns, rows
       !> The finer and the coarser grid, once they are needed: what the grids of all films have in common.
@@ -60,11 +60,11 @@ module force_ratio
 
 contains
 
-   !> For films of a pad with its drive, with the condition of Reynolds or (of even oil) Guembel, to a tolerance over
+   !> For films of a pad with its drive, with the condition of Reynolds or (without a D) Guembel, to a tolerance over
    !> the force.
    function new_force_ratio_solver(pad, drive, gumbel, tolerance) result(solver)
       type(dimensionless_pad_type), intent(in) :: pad
-      type(uneven_drive_type), intent(in) :: drive
+      type(rotation_drive_type), intent(in) :: drive
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       type(force_ratio_solver) :: solver
@@ -79,8 +79,8 @@ contains
       if (gumbel) solver%clipped = converged_film(drive%gap, .true., tolerance)
    end function new_force_ratio_solver
 
-   !> The ratio of a film with these thicknesses at its edges, w = (1, w_2) and, of uneven oil, t; not ok where it is
-   !> closed.
+   !> The ratio of a film with these thicknesses at its edges, w = (1, w_2) and, where the rotation acts, t; not ok
+   !> where it is closed.
    type(force_ratio_type) function at(self, edges, w_2, t) result(ratio)
       class(force_ratio_solver), intent(inout) :: self
       real(wp), intent(in) :: edges(2), w_2, t
@@ -135,43 +135,41 @@ contains
 
    !> The ratio by finite volumes on two grids, extrapolated; slopes over the position.
    type(force_ratio_type) function by_volumes(self, motion, t) result(ratio)
-      type(force_ratio_solver), intent(in) :: self
+      class(force_ratio_solver), intent(inout) :: self
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: t
       type(force_ratio_type) :: coarse_ratio
-      type(elimination_film_type) :: coarse, fine
       type(film_response) :: coarse_cavitated, cavitated
       type(film_counters) :: unused
-      type(film_oil) :: oil
       real(wp) :: line(0:self%columns/2), rim, turn, speed
       complex(wp) :: coarse_over_t, fine_over_t, full_over_t
       integer :: gone, narrowed, given
-      oil = self%drive%oil
       speed = t*self%drive%speed_unit
       rim = -self%pad%half_arc
       turn = self%drive%turning_angle(motion%position, motion%velocity, t)
       given = 0
       do narrowed = 0, most_narrowed
          line = angles(self%pad, motion, turn, rim, self%columns/2, 1)
-         call make_grid(self, line, 2, coarse)
-         call coarse%evaluate(driven(self, motion, t), oil, speed, .true., .false., unused, coarse_cavitated)
-         gone = coarse%empty_columns() - margin - given
+         call set_grid(self, line, 2)
+         call self%grids(2)%evaluate(driven(self, motion, t), self%drive%oil, speed, .true., .false., unused, &
+            & coarse_cavitated)
+         gone = self%grids(2)%empty_columns() - margin - given
          if (gone <= empty_allowed*self%columns/2) exit
          rim = line(given + gone)
          if (.not. rim < turn) return
          given = ceiling(empty_share*self%columns/2)
       end do
-      call coarse%differentiate(coarse_cavitated)
-      coarse_over_t = over_t(coarse, coarse_cavitated)
-      call make_grid(self, angles(self%pad, motion, turn, rim, self%columns/2, 2), 1, fine)
-      call fine%start_from(coarse)
-      call fine%evaluate(driven(self, motion, t), oil, speed, .true., .true., unused, cavitated)
-      fine_over_t = over_t(fine, cavitated)
+      call self%grids(2)%differentiate(coarse_cavitated)
+      coarse_over_t = over_t(self%grids(2), coarse_cavitated)
+      call set_grid(self, angles(self%pad, motion, turn, rim, self%columns/2, 2), 1)
+      call self%grids(1)%start_from(self%grids(2))
+      call self%grids(1)%evaluate(driven(self, motion, t), self%drive%oil, speed, .true., .true., unused, cavitated)
+      fine_over_t = over_t(self%grids(1), cavitated)
       line = angles(self%pad, motion, turn, -self%pad%half_arc, self%columns/2, 1)
-      call make_grid(self, line, 2, coarse)
-      call make_grid(self, angles(self%pad, motion, turn, -self%pad%half_arc, self%columns/2, 2), 1, fine)
-      call compare(coarse_cavitated, coarse_over_t, coarse, coarse_ratio)
-      call compare(cavitated, fine_over_t, fine, ratio)
+      call set_grid(self, line, 2)
+      call set_grid(self, angles(self%pad, motion, turn, -self%pad%half_arc, self%columns/2, 2), 1)
+      call compare(coarse_cavitated, coarse_over_t, self%grids(2), coarse_ratio)
+      call compare(cavitated, fine_over_t, self%grids(1), ratio)
       ratio%ok = ratio%ok .and. coarse_ratio%ok
       if (.not. ratio%ok) return
       ! by Richardson's rule, of the logarithms
@@ -187,12 +185,13 @@ contains
          type(elimination_film_type), intent(inout) :: volumes
          type(force_ratio_type), intent(out) :: found
          type(film_response) :: full, reference
-         call volumes%evaluate(driven(self, onset(self, motion), t), oil, speed, .false., .true., unused, full)
+         call volumes%evaluate(driven(self, onset(self, motion), t), self%drive%oil, speed, .false., .true., unused, &
+            & full)
          full_over_t = over_t(volumes, full)
          call set_ratio(of_cavitated, full, found)
          if (.not. self%drive%acts .or. .not. found%ok) return
          found%over_t = (of_t - found%value*full_over_t)/complex_of(full%force)
-         call volumes%evaluate(onset(self, motion), oil, 0.0_wp, .false., .false., unused, reference)
+         call volumes%evaluate(onset(self, motion), self%drive%oil, 0.0_wp, .false., .false., unused, reference)
          found%pressure = of_cavitated%max_pressure/reference%max_pressure
       end subroutine compare
 
@@ -209,14 +208,13 @@ contains
    end function by_volumes
 
    !> The grid with these angles between its columns, and a part of the columns and rows.
-   subroutine make_grid(self, line, part, grid)
-      type(force_ratio_solver), intent(in) :: self
+   subroutine set_grid(self, line, part)
+      class(force_ratio_solver), intent(inout) :: self
       real(wp), intent(in) :: line(0:)
       integer, intent(in) :: part
-      type(elimination_film_type), intent(out) :: grid
-      grid = self%grids(part)
-      grid%grid = new_film_grid(self%drive%gap, self%columns/part, self%rows/part, line)
-   end subroutine make_grid
+      self%grids(part)%grid = new_film_grid(self%drive%gap, self%columns/part, self%rows/part, line)
+      call self%grids(part)%start_from()
+   end subroutine set_grid
 
    !> The ratio by axial modes, with Guembel's condition; slopes over the position.
    type(force_ratio_type) function by_modes(self, motion) result(ratio)

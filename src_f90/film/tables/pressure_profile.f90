@@ -2,13 +2,13 @@
 !> is sampled, not integrated.
 !>
 !> At points that crowd where the film is thin, pressure times film thickness squared is a polynomial of the film
-!> thicknesses at the edges, for either component of w and for a pressure at the leading edge or what else drives
-!> uneven oil.
+!> thicknesses at the edges, for either component of w and for a pressure at the leading edge or what the
+!> rotation drives besides.
 module pressure_profile
    use kinds, only: wp
    use film_solver, only: film_motion
    use dimensionless_pad, only: dimensionless_pad_type, unit_oil
-   use uneven_drive, only: uneven_drive_type
+   use rotation_drive, only: rotation_drive_type
    use fourier_film, only: fourier_film_type
    use cell_polynomials, only: node_points, fitted, patch_values
    implicit none (type, external)
@@ -23,7 +23,7 @@ module pressure_profile
       type(dimensionless_pad_type) :: pad
       real(wp) :: sines(points), cosines(points)
       !> (point and load, power of the second thickness, power of the first); loads are the components of w and, where
-      !> there is one, a pressure 1 at the leading edge, or D at t = 1 (uneven_drive).
+      !> there is one, a pressure 1 at the leading edge, or D at t = 1 (rotation_drive).
       real(wp), allocatable :: coefficients(:, :, :)
       !> Pressure at the leading edge over the third load.
       real(wp) :: at_edge = 1
@@ -37,7 +37,7 @@ contains
    !> around it, and with a pressure 1 at the leading edge or its drive.
    function new_pressure_profile(pad, drive, film, supplied_film, supplied, middle, per_half) result(profile)
       type(dimensionless_pad_type), intent(in) :: pad
-      type(uneven_drive_type), intent(in) :: drive
+      type(rotation_drive_type), intent(in) :: drive
       type(fourier_film_type), intent(inout) :: film, supplied_film
       logical, intent(in) :: supplied
       real(wp), intent(in) :: middle(2), per_half(2)

@@ -1,14 +1,15 @@
 !> One pad's film from the tables of its shape: the force with its derivatives, and the highest pressure.
 module table_pad
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil, film_response, film_counters
+   use film_solver, only: film_motion, film_law_type, film_response, film_counters
    use pad_gap, only: pad_gap_type, pad_directions
    use dimensionless_pad, only: dimensionless_pad_type, mid_arc_frame_type, middle_motion, middle_force, &
       & new_mid_arc_frame, thickness_scale
    use cell_polynomials, only: simd_width
-   use full_film, only: full_film_type, loads
-   use cavitated_film, only: cavitated_film_type, axes
-   use uneven_drive, only: uneven_drive_type
+   use full_film, only: full_film_type, full_film_forces
+   use cavitated_film, only: cavitated_film_type, node_type, axes
+   use rotation_drive, only: rotation_drive_type
+   use film_law, only: most_numbers
    implicit none (type, external)
    private
    public :: table_pad_type, shape_tables, new_table_pad
@@ -16,11 +17,12 @@ module table_pad
    !> The films of pads of one shape, from tables or solved.
    type :: shape_tables
       type(dimensionless_pad_type) :: pad
-      !> Of uneven oil, which is that of one pad alone.
-      type(uneven_drive_type) :: drive
+      !> The films' law: its numbers, and what drives them besides w.
+      real(wp) :: numbers(most_numbers) = 0
+      type(rotation_drive_type) :: drive
       !> Whether they have a pressure of their own at the leading edge.
       logical :: supplied = .false.
-      class(full_film_type), allocatable :: whole
+      class(full_film_type), allocatable :: full
       class(cavitated_film_type), allocatable :: cavitation
    end type shape_tables
 
@@ -30,8 +32,6 @@ module table_pad
       type(mid_arc_frame_type), private :: frame
       !> Which tables are the pad's; 0: none.
       integer :: shape = 0
-      !> Whether the last film came from the tables.
-      logical :: found = .false.
       !> Whether all pressures around the pad are equal: then the tables know cavitated films, too.
       logical :: even_pressure
       !> Pressure at the leading edge above the ambient pressure, Pa; R^2, m^2.
@@ -39,14 +39,15 @@ module table_pad
       real(wp), private :: square
       !> Force of the ambient pressure, N, in the pad frame.
       real(wp), private :: ambient_force(2)
-      integer, private :: whole_cell = 0, cavitation_cell = 0
+      integer, private :: full_cell = 0, cavitation_cell = 0
    contains
       procedure :: look_up
       procedure :: look_up_pressures
       procedure, private :: set_part
       procedure, private :: set_force
       procedure, private :: set_cavitated_force
-      procedure, private :: cavitated_pressure
+      procedure, private :: set_cavitated_pressure
+      procedure, private :: add_rotation
    end type table_pad_type
 
    !> What cavitation leaves of the film that is just full: force and highest pressure over those of that film, forces
@@ -55,6 +56,8 @@ module table_pad
       complex(wp) :: force = 1
       complex(wp) :: over_edges(2) = 0, over_w(2) = 0
       real(wp) :: pressure = 1
+      !> Whether the table has it.
+      logical :: found = .false.
    end type cavitated_part
 
 contains
@@ -74,12 +77,12 @@ contains
          & *[edges%trailing(2) - edges%leading(2), edges%leading(1) - edges%trailing(1)]
    end function new_table_pad
 
-   !> Force and its derivatives of an open film; `found` is false where the tables do not have it.
+   !> Force and its derivatives of an open film, where the tables have it: then the response is from tables.
    subroutine look_up(self, tables, motion, oil, speed, may_cavitate, want_derivatives, counters, response)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: may_cavitate, want_derivatives
       type(film_counters), intent(inout) :: counters
@@ -87,46 +90,47 @@ contains
       type(middle_motion) :: seen
       type(middle_force) :: force
       real(wp) :: part
+      logical :: found
       seen = self%frame%motion(motion, oil, speed)
       ! with different pressures around a film that may cavitate, all of it is solved: the force must not jump between
       ! two solvers where the film begins to diverge
-      self%found = all(seen%edges > 0) .and. (self%even_pressure .or. .not. may_cavitate)
-      if (.not. self%found) return
-      part = 0
-      if (tables%drive%acts) then
-         call drive_unevenly(self, tables, may_cavitate, seen, part)
-         if (.not. self%found) return
-      else if (may_cavitate) then
-         part = diverging_part(tables%pad, seen%w)
-      end if
+      if (.not. (all(seen%edges > 0) .and. (self%even_pressure .or. .not. may_cavitate))) return
+      call self%add_rotation(tables, may_cavitate, seen, part, found)
+      if (.not. found) return
       if (part >= 1) then
          response%force = self%ambient_force
+         response%from_tables = .true.
          return
       end if
       if (part > 0) then
-         call self%set_cavitated_force(tables, seen, part, want_derivatives, counters, force)
+         call self%set_cavitated_force(tables, seen, part, want_derivatives, counters, force, found)
       else
-         call self%set_force(tables, seen, seen%w, want_derivatives, counters, force)
+         call self%set_force(tables, seen, seen%w, want_derivatives, counters, force, found)
       end if
-      if (.not. self%found) return
+      if (.not. found) return
+      response%from_tables = .true.
       response%force = self%ambient_force + self%frame%force(force)
       if (.not. want_derivatives) return
-      if (tables%drive%acts) then
-         ! of uneven oil w changes with the thicknesses, too
-         force%over_edges = force%over_edges + seen%t*matmul(force%over_w, tables%drive%over_edges)
-      end if
+      ! where the rotation acts w changes with the thicknesses, too
+      if (tables%drive%acts) force%over_edges = force%over_edges + seen%t*matmul(force%over_w, tables%drive%over_edges)
       response%derivatives = self%frame%derivatives(seen, force)
    end subroutine look_up
 
-   !> Adds what drives uneven oil to the motion in the middle, and finds T; `found` becomes true where the tables may
-   !> have the film.
-   subroutine drive_unevenly(self, tables, may_cavitate, seen, part)
-      class(table_pad_type), intent(inout) :: self
+   !> Adds what the rotation drives besides to the motion in the middle, and finds T; `found` is true where the tables
+   !> may have the film.
+   pure subroutine add_rotation(self, tables, may_cavitate, seen, part, found)
+      class(table_pad_type), intent(in) :: self
       type(shape_tables), intent(in) :: tables
       logical, intent(in) :: may_cavitate
       type(middle_motion), intent(inout) :: seen
       real(wp), intent(out) :: part
+      logical, intent(out) :: found
       part = 0
+      found = .true.
+      if (.not. tables%drive%acts) then
+         if (may_cavitate) part = diverging_part(tables%pad, seen%w)
+         return
+      end if
       associate (position => tables%pad%position(seen%edges), drive => tables%drive)
          seen%t = seen%turn*self%gap%machined_clearance
          seen%w = seen%w + seen%t*drive%velocity(position)
@@ -135,9 +139,9 @@ contains
          ! the intervals of the table are those of a rotation forwards
          if (seen%t > 0 .and. drive%falls(position, seen%w, seen%t)) return
          part = 0
-         self%found = drive%is_full(position, seen%w, seen%t)
+         found = drive%is_full(position, seen%w, seen%t)
       end associate
-   end subroutine drive_unevenly
+   end subroutine add_rotation
 
    !> T, the part of a film that diverges, driven by w: 0 or less where it is full, 1 or more where nothing of it is
    !> left.
@@ -160,7 +164,7 @@ contains
       onset = [w(1), abs(w(1))*pad%tangent]
    end function onset
 
-   !> What is left of a film, 0 < T < 1; `found` becomes false where the table does not have it.
+   !> What is left of a film, 0 < T < 1, where the table has it.
    subroutine set_part(self, tables, seen, t, want_derivatives, counters, part)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
@@ -169,7 +173,8 @@ contains
       logical, intent(in) :: want_derivatives
       type(film_counters), intent(inout) :: counters
       type(cavitated_part), intent(out) :: part
-      real(wp) :: value(simd_width), slope(simd_width, axes), place(axes), drive
+      type(node_type) :: node
+      real(wp) :: place(axes), drive
       complex(wp) :: slopes(axes)
       integer :: leading, trailing
       associate (w => seen%w)
@@ -178,14 +183,11 @@ contains
          trailing = 3 - leading
          drive = 0
          if (tables%drive%acts) drive = seen%t/w(1)
-         place(1) = seen%edges(leading)
-         place(2) = seen%edges(trailing)
-         place(3) = t
-         place(4) = drive
-         call tables%cavitation%look_up(place, want_derivatives, self%cavitation_cell, counters, value, slope, &
-            & self%found)
-         if (.not. self%found) return
-         call tables%cavitation%set_ratio(t, value, slope, part%force, slopes, part%pressure)
+         place = [seen%edges([leading, trailing]), t, drive]
+         call tables%cavitation%look_up(place, want_derivatives, self%cavitation_cell, counters, node)
+         part%found = node%ok
+         if (.not. part%found) return
+         call tables%cavitation%set_ratio(t, node, part%force, slopes, part%pressure)
          if (.not. w(1) > 0) then
             part%force = conjg(part%force)
             slopes = conjg(slopes)
@@ -196,8 +198,8 @@ contains
       end associate
    end subroutine set_part
 
-   !> Force of a cavitated film, 0 < T < 1, and its derivatives, unless `found` becomes false.
-   subroutine set_cavitated_force(self, tables, seen, t, want_derivatives, counters, force)
+   !> Force of a cavitated film, 0 < T < 1, and its derivatives, where they are found.
+   subroutine set_cavitated_force(self, tables, seen, t, want_derivatives, counters, force, found)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(middle_motion), intent(in) :: seen
@@ -205,14 +207,16 @@ contains
       logical, intent(in) :: want_derivatives
       type(film_counters), intent(inout) :: counters
       type(middle_force), intent(out) :: force
+      logical, intent(out) :: found
       type(cavitated_part) :: part
       type(middle_force) :: full
       complex(wp) :: full_force
       integer :: i
       call self%set_part(tables, seen, t, want_derivatives, counters, part)
-      if (.not. self%found) return
-      call self%set_force(tables, seen, onset(tables%pad, seen%w), want_derivatives, counters, full)
-      if (.not. self%found) return
+      found = part%found
+      if (.not. found) return
+      call self%set_force(tables, seen, onset(tables%pad, seen%w), want_derivatives, counters, full, found)
+      if (.not. found) return
       full_force = cmplx(full%value(1), full%value(2), wp)
       force%value = vector_of(part%force*full_force)
       if (.not. want_derivatives) return
@@ -233,9 +237,9 @@ contains
       force%over_w(:, 2) = vector_of(part%over_w(2)*full_force)
    end subroutine set_cavitated_force
 
-   !> Force of a full film driven by w and by the pressure at its leading edge, and its derivatives, unless `found`
-   !> becomes false.
-   subroutine set_force(self, tables, seen, w, want_derivatives, counters, force)
+   !> Force of a full film driven by w, by the rotation and by the pressure at its leading edge, and its derivatives,
+   !> where they are found.
+   subroutine set_force(self, tables, seen, w, want_derivatives, counters, force, found)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(middle_motion), intent(in) :: seen
@@ -243,41 +247,43 @@ contains
       logical, intent(in) :: want_derivatives
       type(film_counters), intent(inout) :: counters
       type(middle_force), intent(out) :: force
-      real(wp) :: value(simd_width, loads), slope(simd_width, 2, loads), m(simd_width)
+      logical, intent(out) :: found
+      type(full_film_forces) :: film
+      real(wp) :: m(simd_width)
       integer :: i
-      call tables%whole%look_up(seen%edges, want_derivatives, self%whole_cell, counters, value, slope, self%found)
-      if (.not. self%found) return
-      m = seen%scale*value(:, 1)
+      call tables%full%look_up(seen%edges, want_derivatives, self%full_cell, counters, film, found)
+      if (.not. found) return
+      m = seen%scale*film%of_velocity
       force%value = m(1:2)*w(1) + m(2:3)*w(2)
       if (want_derivatives) then
          force%over_w(:, 1) = m(1:2)
          force%over_w(:, 2) = m(2:3)
          do i = 1, 2
             ! S falls as the thickness to the power of -3/2
-            force%over_edges(:, i) = seen%scale*(slope(1:2, i, 1)*w(1) + slope(2:3, i, 1)*w(2)) &
-               & - (1.5_wp/seen%edges(i))*force%value
+            force%over_edges(:, i) = seen%scale*(film%velocity_slopes(1:2, i)*w(1) &
+               & + film%velocity_slopes(2:3, i)*w(2)) - (1.5_wp/seen%edges(i))*force%value
          end do
       end if
       if (tables%drive%acts) then
-         force%value = force%value + (seen%t*seen%scale)*value(1:2, 2)
+         force%value = force%value + (seen%t*seen%scale)*film%of_rotation(1:2)
          if (.not. want_derivatives) return
          do i = 1, 2
-            force%over_edges(:, i) = force%over_edges(:, i) + (seen%t*seen%scale)*(slope(1:2, i, 2) &
-               & - (1.5_wp/seen%edges(i))*value(1:2, 2))
+            force%over_edges(:, i) = force%over_edges(:, i) + (seen%t*seen%scale)*(film%rotation_slopes(1:2, i) &
+               & - (1.5_wp/seen%edges(i))*film%of_rotation(1:2))
          end do
       end if
       if (.not. abs(self%rise) > 0) return
-      force%value = force%value + (self%rise*self%square)*value(1:2, 2)
-      if (want_derivatives) force%over_edges = force%over_edges + (self%rise*self%square)*slope(1:2, :, 2)
+      force%value = force%value + (self%rise*self%square)*film%of_supply(1:2)
+      if (want_derivatives) force%over_edges = force%over_edges + (self%rise*self%square)*film%supply_slopes(1:2, :)
    end subroutine set_force
 
-   !> Minimum and maximum pressure of a film that was found, in the middle plane; `found` becomes false where the tables
-   !> have forgotten it.
+   !> Minimum and maximum pressure of a film from the tables, in the middle plane; it is not from them any more where
+   !> they have forgotten it.
    subroutine look_up_pressures(self, tables, motion, oil, speed, may_cavitate, counters, response)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: may_cavitate
       type(film_counters), intent(inout) :: counters
@@ -286,54 +292,52 @@ contains
       !> Pressure over that of the unit pad, Pa s/m.
       real(wp) :: unit_pressure
       real(wp) :: rise, highest, lowest, t
+      logical :: found
       seen = self%frame%motion(motion, oil, speed)
-      t = 0
       unit_pressure = oil%viscosity*self%square/self%gap%machined_clearance**3
-      rise = self%rise/unit_pressure
-      if (tables%drive%acts) then
-         call drive_unevenly(self, tables, may_cavitate, seen, t)
-         rise = seen%t
-         ! the film in a mirror has another oil
-         if (t > 0 .and. t < 1) self%found = seen%w(1) > 0
-         if (.not. self%found) return
-      else if (may_cavitate) then
-         t = diverging_part(tables%pad, seen%w)
-      end if
+      call self%add_rotation(tables, may_cavitate, seen, t, found)
+      rise = merge(seen%t, self%rise/unit_pressure, tables%drive%acts)
+      ! the film in a mirror has another law
+      if (tables%drive%acts .and. t > 0 .and. t < 1) found = seen%w(1) > 0
       highest = 0
       lowest = 0
-      if (t > 0 .and. t < 1) then
-         highest = self%cavitated_pressure(tables, seen, t, counters)
-      else if (.not. t > 0) then
-         call tables%whole%highest_pressure(seen%edges, seen%w, rise, self%whole_cell, counters, highest)
+      if (found .and. t > 0 .and. t < 1) then
+         call self%set_cavitated_pressure(tables, seen, t, counters, highest, found)
+      else if (found .and. .not. t > 0) then
+         call tables%full%highest_pressure(seen%edges, seen%w, rise, self%full_cell, counters, highest)
       end if
-      if (.not. may_cavitate) call tables%whole%highest_pressure(seen%edges, -seen%w, -rise, self%whole_cell, &
+      response%from_tables = found
+      if (.not. found) return
+      if (.not. may_cavitate) call tables%full%highest_pressure(seen%edges, -seen%w, -rise, self%full_cell, &
          & counters, lowest)
-      if (.not. self%found) return
       response%max_pressure = self%gap%ambient_pressure + unit_pressure*highest
       response%min_pressure = min(self%gap%ambient_pressure, self%gap%supply_pressure, &
          & self%gap%ambient_pressure - unit_pressure*lowest)
    end subroutine look_up_pressures
 
-   !> The highest pressure of a cavitated film of the unit pad, 0 < T < 1, unless `found` becomes false.
-   real(wp) function cavitated_pressure(self, tables, seen, t, counters)
+   !> The highest pressure of a cavitated film of the unit pad, 0 < T < 1, where it is found.
+   subroutine set_cavitated_pressure(self, tables, seen, t, counters, highest, found)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(middle_motion), intent(in) :: seen
       real(wp), intent(in) :: t
       type(film_counters), intent(inout) :: counters
+      real(wp), intent(out) :: highest
+      logical, intent(out) :: found
       type(cavitated_part) :: part
-      real(wp) :: value(simd_width, loads), slope(simd_width, 2, loads)
+      type(full_film_forces) :: film
       logical :: good
-      cavitated_pressure = 0
+      highest = 0
       call self%set_part(tables, seen, t, .false., counters, part)
-      if (.not. self%found) return
+      found = part%found
+      if (.not. found) return
       associate (edges => seen%edges)
          ! where w_1 < 0 as in a mirror
-         call tables%whole%look_up(merge(edges, edges([2, 1]), seen%w(1) > 0), .false., self%whole_cell, counters, &
-            & value, slope, good)
-         cavitated_pressure = abs(seen%w(1))*thickness_scale(edges(1), edges(2))*value(4, 1)*part%pressure
+         call tables%full%look_up(merge(edges, edges([2, 1]), seen%w(1) > 0), .false., self%full_cell, counters, film, &
+            & good)
+         highest = abs(seen%w(1))*thickness_scale(edges(1), edges(2))*film%of_velocity(4)*part%pressure
       end associate
-   end function cavitated_pressure
+   end subroutine set_cavitated_pressure
 
    pure function vector_of(number) result(vector)
       complex(wp), intent(in) :: number

@@ -6,7 +6,7 @@
 !> set of the last motion (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002, theorem 3.2).
 module elimination_film
    use kinds, only: wp
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_not_converged
+   use film_solver, only: film_motion, film_law_type, film_response, film_counters, film_not_converged
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
    use volume_equations, only: volume_equations_type, new_volume_equations, boundary_conductance
@@ -60,7 +60,7 @@ contains
    subroutine evaluate(self, motion, oil, speed, cavitates, want_derivatives, counters, response)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: cavitates, want_derivatives
       type(film_counters), intent(inout) :: counters
@@ -83,13 +83,21 @@ contains
       if (want_derivatives) call self%differentiate(response)
    end subroutine evaluate
 
-   !> The derivatives of the last film's forces.
+   !> The derivatives of the last film's forces over position and velocity, by an adjoint for each.
    subroutine differentiate(self, response)
       class(elimination_film_type), intent(inout) :: self
       type(film_response), intent(inout) :: response
+      real(wp) :: along(0:self%grid%columns), weight(self%grid%columns, 2)
+      real(wp), dimension(self%grid%columns) :: across, total, none
+      integer :: m
       if (self%ends_between .and. self%first <= self%grid%columns) call end_between(self)
-      call find_adjoints(self)
-      call set_derivatives(self, response)
+      weight = self%grid%weight()
+      none = 0
+      do m = 1, 2
+         call self%solve(weight(:, m), none, self%adjoint(:, :, m))
+         call self%multiply(self%pressure, self%adjoint(:, :, m), along, across, total)
+         response%derivatives(m, :) = self%grid%derivatives_of_products(along, across, total)
+      end do
    end subroutine differentiate
 
    !> Pivots and blocks for changes of the pressure in a film that ends between its cells.
@@ -107,30 +115,6 @@ contains
       end do
       call self%eliminate(.true., boundary_conductance(self%grid, self%film, p, first, last))
    end subroutine end_between
-
-   !> The adjoints of both forces.
-   pure subroutine find_adjoints(self)
-      type(elimination_film_type), intent(inout) :: self
-      real(wp) :: weight(self%grid%columns, 2), none(self%grid%columns)
-      integer :: m
-      weight = self%grid%weight()
-      none = 0
-      do m = 1, 2
-         call self%solve(weight(:, m), none, self%adjoint(:, :, m))
-      end do
-   end subroutine find_adjoints
-
-   !> The derivatives of both forces over position and velocity.
-   pure subroutine set_derivatives(self, response)
-      type(elimination_film_type), intent(in) :: self
-      type(film_response), intent(inout) :: response
-      real(wp) :: along(0:self%grid%columns), across(self%grid%columns), total(self%grid%columns)
-      integer :: m
-      do m = 1, 2
-         call self%multiply(self%pressure, self%adjoint(:, :, m), along, across, total)
-         response%derivatives(m, :) = self%grid%derivatives_of_products(along, across, total)
-      end do
-   end subroutine set_derivatives
 
    !> Derivatives of both forces over the journal speed, N s, once they have been found over the motion.
    pure function over_speed(self) result(slopes)
@@ -176,7 +160,7 @@ contains
    subroutine field(self, motion, oil, speed, cavitates, phi, z, pressure)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: cavitates
       !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
@@ -212,7 +196,7 @@ contains
    subroutine force_of_cavitation(self, motion, oil, speed, counters, force, is_local)
       class(elimination_film_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_counters), intent(inout) :: counters
       real(wp), intent(out) :: force(2)

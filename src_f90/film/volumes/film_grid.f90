@@ -4,7 +4,7 @@
 !>
 !>    d/dphi(E h^3 dp/dphi) + R^2 E h^3 d2p/dZ2 = R^2 (-6 mu omega R_J/R d(G h)/dphi + 12 mu dh/dt),
 !>
-!> with E = 12 mu f2 and G = 2 f1 of uneven viscosity (film_oils), 1 of even viscosity.
+!> with E, K E across the film, and G those of the film's law (film_law); all are 1 where it does not vary.
 !>
 !> Columns of cells lie along the arc from the trailing to the leading edge, rows from the middle plane to
 !> the side, ever lower, as the film cavitates first and pressure bends most beside the edges. The equation of a
@@ -13,8 +13,8 @@
 module film_grid
    use kinds, only: wp
    use linear_algebra, only: solve_2x2
-   use film_solver, only: film_motion, film_oil
-   use film_oils, only: arc_weights
+   use film_solver, only: film_motion, film_law_type
+   use film_law, only: law_at_nodes, most_numbers
    use pad_gap, only: pad_gap_type, pad_directions
    implicit none (type, external)
    private
@@ -44,9 +44,14 @@ module film_grid
       real(wp) :: supply, ambient
       !> Sine, cosine and film thickness, m, at the cell centres and at the cell faces (0:columns).
       real(wp), allocatable :: sin_cell(:), cos_cell(:), sin_face(:), cos_face(:), h_cell(:), h_face(:)
-      !> 12 mu f2, 2 f1 and f0/mu at the same points, and the oil whose they are.
-      real(wp), allocatable :: flow_cell(:), sliding_cell(:), shear_cell(:), flow_face(:), sliding_face(:)
-      type(film_oil) :: oil
+      !> E at the faces, K E at the cells, G and S at the same points; where they turn with the thickness, the
+      !> derivatives of ln E and ln(K E) over ln h.
+      real(wp), allocatable :: mobility_face(:), mobility_cell(:), sliding_face(:), sliding_cell(:), shear_cell(:)
+      real(wp), allocatable :: power_face(:), power_cell(:)
+      !> The law whose they are: whether it varies, its numbers, and how it was at the cells and faces.
+      logical, private :: varies = .false.
+      real(wp), private :: numbers(most_numbers) = 0
+      type(law_at_nodes), private :: at_cell, at_face
       !> Conductances through the faces along the arc (0:columns), and between uniform rows of a column.
       real(wp), allocatable :: along(:), beside(:)
       !> Factors of the difference of h over a cell and of dh/dt in the right-hand side.
@@ -113,8 +118,8 @@ contains
       grid%sin_face(:) = sin(line)
       grid%cos_face(:) = cos(line)
       allocate (grid%h_cell(columns), grid%beside(columns), grid%source(columns), grid%edge_source(columns))
-      allocate (grid%flow_cell(columns), grid%sliding_cell(columns), grid%shear_cell(columns), source=1.0_wp)
-      allocate (grid%flow_face(0:columns), grid%sliding_face(0:columns), source=1.0_wp)
+      allocate (grid%mobility_cell(columns), grid%sliding_cell(columns), grid%shear_cell(columns), source=1.0_wp)
+      allocate (grid%mobility_face(0:columns), grid%sliding_face(0:columns), source=1.0_wp)
    end function new_film_grid
 
    !> Shares of the rows' means in the value at 0 of the even polynomial, of the fourth degree, with the means of the
@@ -137,16 +142,16 @@ contains
    pure subroutine set_motion(self, motion, oil, speed)
       class(film_grid_type), intent(inout) :: self
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       associate (n => self%columns)
          self%wedge = -6*oil%viscosity*speed*self%gap%journal_radius*self%gap%pad_radius()/self%d_phi
          self%squeeze = 12*oil%viscosity*self%gap%pad_radius()**2
          self%h_cell(:) = self%gap%thickness(motion, self%sin_cell, self%cos_cell)
          self%h_face(:) = self%gap%thickness(motion, self%sin_face, self%cos_face)
-         if (oil%differs(self%oil)) call weigh(self, oil)
-         self%along(:) = self%flow_face*self%h_face**3/(self%d_phi**2*self%between)
-         self%beside(:) = self%flow_cell*self%width*self%h_cell**3*(self%gap%pad_radius()/self%d_z)**2
+         if (oil%varies .or. self%varies) call take_law(self, motion, oil)
+         self%along(:) = self%mobility_face*self%h_face**3/(self%d_phi**2*self%between)
+         self%beside(:) = self%mobility_cell*self%width*self%h_cell**3*(self%gap%pad_radius()/self%d_z)**2
          self%source(:) = self%wedge*(self%sliding_face(1:n)*self%h_face(1:n) &
             & - self%sliding_face(0:n - 1)*self%h_face(0:n - 1)) &
             & - self%squeeze*self%width*(motion%velocity(1)*self%sin_cell + motion%velocity(2)*self%cos_cell)
@@ -156,20 +161,29 @@ contains
       end associate
    end subroutine set_motion
 
-   !> What the oil makes of the equation at the cells and faces.
-   pure subroutine weigh(grid, oil)
-      type(film_grid_type), intent(inout) :: grid
-      type(film_oil), intent(in) :: oil
-      type(arc_weights) :: at_cell, at_face
-      call oil%find_weights(grid%gap, grid%sin_cell, grid%cos_cell, at_cell)
-      call oil%find_weights(grid%gap, grid%sin_face, grid%cos_face, at_face)
-      grid%flow_cell(:) = 1/at_cell%ease**2
-      grid%sliding_cell(:) = at_cell%sliding
-      grid%shear_cell(:) = oil%shear_weight(grid%gap, grid%middle(1:grid%columns))
-      grid%flow_face(:) = 1/at_face%ease**2
-      grid%sliding_face(:) = at_face%sliding
-      grid%oil = oil
-   end subroutine weigh
+   !> What a law makes of the equation at the cells and faces, unless it is the last one and knows the place alone.
+   pure subroutine take_law(grid, motion, oil)
+      class(film_grid_type), intent(inout) :: grid
+      type(film_motion), intent(in) :: motion
+      class(film_law_type), intent(in) :: oil
+      if (oil%has_numbers(grid%numbers) .and. .not. oil%turns_with_thickness()) return
+      grid%varies = oil%varies
+      grid%numbers = oil%numbers()
+      associate (cell => grid%at_cell, face => grid%at_face)
+         call oil%at_nodes(grid%gap, motion, grid%sin_cell, grid%cos_cell, cell)
+         call oil%at_nodes(grid%gap, motion, grid%sin_face, grid%cos_face, face)
+         grid%mobility_cell(:) = 1/cell%inverse_root**2
+         grid%sliding_cell(:) = cell%sliding
+         grid%shear_cell(:) = oil%shear_weight(grid%gap, motion, grid%middle(1:grid%columns))
+         grid%mobility_face(:) = 1/face%inverse_root**2
+         grid%sliding_face(:) = face%sliding
+         if (allocated(grid%power_face)) deallocate (grid%power_face, grid%power_cell)
+         if (.not. oil%turns_with_thickness()) return
+         grid%mobility_cell(:) = grid%mobility_cell*cell%across
+         allocate (grid%power_face(0:grid%columns), source=face%flow_power(:, 0))
+         grid%power_cell = cell%flow_power(:, 0) + cell%across_power(:, 0)
+      end associate
+   end subroutine take_law
 
    !> What a row of mean height counts in the two forces, (column, force), m^2: area of two mirrored cells, in
    !> that direction.
@@ -225,8 +239,12 @@ contains
       real(wp), intent(in) :: along(0:), across(:), total(:)
       real(wp) :: derivatives(4)
       real(wp) :: over_face(0:self%columns), over_side(self%columns)
-      over_face = along*3*self%flow_face*self%h_face**2/(self%d_phi**2*self%between)
-      over_side = across*3*self%flow_cell*self%width*(self%h_cell*(self%gap%pad_radius()/self%d_z))**2
+      over_face = along*3*self%mobility_face*self%h_face**2/(self%d_phi**2*self%between)
+      over_side = across*3*self%mobility_cell*self%width*(self%h_cell*(self%gap%pad_radius()/self%d_z))**2
+      if (allocated(self%power_face)) then
+         over_face = over_face*(1 + self%power_face/3)
+         over_side = over_side*(1 + self%power_cell/3)
+      end if
       derivatives(1) = over_position(self%sin_face, self%sin_cell)
       derivatives(2) = over_position(self%cos_face, self%cos_cell)
       derivatives(3) = -self%squeeze*dot_product(self%width*self%sin_cell, total)

@@ -6,7 +6,7 @@
 !> up with idle cells (`whole = 0`) to a multiple of the vector length; so a sweep over one colour vectorises.
 module sor_film
    use kinds, only: wp, pi
-   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_not_converged, &
+   use film_solver, only: film_solver_type, film_motion, film_law_type, film_response, film_not_converged, &
       & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use film_grid, only: film_grid_type, new_film_grid
@@ -116,7 +116,7 @@ contains
       class(sor_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed, phi(:), z(:)
       real(wp), intent(out) :: pressure(:, :)
       type(film_response) :: response
@@ -130,7 +130,7 @@ contains
       class(sor_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(film_motion), intent(in) :: motion
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response

@@ -5,7 +5,7 @@
 !> gap's height and a share of its width.
 module volume_flows
    use kinds, only: wp
-   use film_solver, only: film_oil
+   use film_solver, only: film_law_type
    use film_grid, only: film_grid_type
    implicit none (type, external)
    private
@@ -30,7 +30,7 @@ contains
    !> The flows at the motion that the grid has been set to, with its oil, and a speed of the journal's surface, m/s.
    pure type(volume_flow_type) function flows_of_volumes(grid, oil, surface_speed, pressure, filled) result(flow)
       type(film_grid_type), intent(in) :: grid
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: surface_speed
       !> Above the cavitation pressure, Pa, (row, column); where the film is. Elsewhere the pressure counts only for
       !> the flow across the edge of the film.
@@ -62,7 +62,7 @@ contains
    !> Adds a row of cells.
    pure subroutine add_row(grid, oil, surface_speed, k, pressure, filled, flow)
       type(film_grid_type), intent(in) :: grid
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: surface_speed
       integer, intent(in) :: k
       real(wp), intent(in) :: pressure(:, :)
@@ -100,7 +100,7 @@ contains
    !> cavitated cell passes on.
    pure subroutine flows_of_row(grid, oil, surface_speed, k, pressure, filled, through, carried)
       type(film_grid_type), intent(in) :: grid
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: surface_speed
       integer, intent(in) :: k
       !> As in flows_of_volumes.
@@ -133,7 +133,7 @@ contains
    !> Flow a unit of width, m^2/s, per unit of the grid's equations.
    pure real(wp) function unit_flow(grid, oil)
       type(film_grid_type), intent(in) :: grid
-      type(film_oil), intent(in) :: oil
+      class(film_law_type), intent(in) :: oil
       unit_flow = grid%d_phi/(12*oil%viscosity*grid%gap%pad_radius())
    end function unit_flow
 

@@ -1,14 +1,12 @@
-!> One derived type for each namelist group of a machine: a shaft that turns in several bearings. Stations count from 1,
-!> between the sections of the shaft and at its ends. SI units.
-module machine_groups
+!> One derived type for each namelist group of a rotor: rigid, a shaft, or the matrices of another program. Stations
+!> count from 1, between the sections of the shaft and at its ends. SI units.
+module rotor_groups
    use kinds, only: wp, pi
-   use case_groups, only: bearing_type, oil_type, pads_type, pivot_type, friction_type, asperity_type, film_type, &
-      & unset, is_set
+   use case_groups, only: unset, is_set
    use given_rotor, only: given_rotor_type
    implicit none (type, external)
    private
-   public :: machine_type, shaft_type, disc_type, unbalance_type, load_type, support_type, reduction_type, &
-      & machine_bearing_type
+   public :: rotor_type, elastic_type, shaft_type, disc_type, unbalance_type, load_type, reduction_type
    public :: most_bearings, most_sections, most_stations
 
    !> Most bearings, and sections of a shaft; the highest number of a station, also of a rotor from a file.
@@ -41,35 +39,14 @@ module machine_groups
       real(wp) :: force(2) = 0
    end type load_type
 
-   !> What a bearing stands on: the mass that moves with its housing, kg, the pads' included; N/m and N s/m along y
-   !> and z.
-   type :: support_type
-      real(wp) :: mass = 0, stiffness(2) = unset, damping(2) = 0
-   end type support_type
-
    !> Up to which frequency, Hz, the shaft's modes on fixed bearings are kept (unset: by themselves); modes above a
    !> frequency, Hz, are damped with a damping ratio.
    type :: reduction_type
       real(wp) :: frequency = unset, damp_above = 500, damping_ratio = 0.3_wp
    end type reduction_type
 
-   type :: machine_bearing_type
-      character(len=:), allocatable :: name
-      integer :: station = 0
-      !> How far the bearing stands from the line of the others, y and z, m.
-      real(wp) :: offset(2) = 0
-      !> Not allocated: the bearing stands on the ground.
-      type(support_type), allocatable :: support
-      type(bearing_type) :: bearing
-      type(oil_type) :: oil
-      type(pads_type) :: pads
-      type(pivot_type) :: pivot
-      type(friction_type) :: friction
-      type(asperity_type) :: asperity
-      type(film_type) :: film
-   end type machine_bearing_type
-
-   type :: machine_type
+   !> A rotor that bends, and what is on it.
+   type :: elastic_type
       type(shaft_type) :: shaft
       !> The HDF5 file of matrices that stands for the shaft, and what was read from it; empty: there is a shaft.
       character(len=:), allocatable :: rotor_file
@@ -78,52 +55,57 @@ module machine_groups
       type(unbalance_type), allocatable :: unbalances(:)
       type(load_type), allocatable :: loads(:)
       type(reduction_type) :: reduction
-      type(machine_bearing_type), allocatable :: bearings(:)
    contains
       procedure :: begin
-      procedure :: find_bearing
+      procedure :: mass
+   end type elastic_type
+
+   type :: rotor_type
+      !> Not allocated: the rotor is a rigid journal.
+      type(elastic_type), allocatable :: elastic
+      !> Mass carried by the bearing, kg; unbalance, kg m.
+      real(wp) :: mass = 2000, unbalance = 0.010_wp
+      !> ISO 21940-11 grade, mm/s, that replaces the unbalance; its speed (unset: the highest of the run).
+      real(wp) :: balance_grade = unset, balance_speed_rpm = unset
+      real(wp) :: gravity = 9.81_wp
+      !> Extra force on the journal along y and z, N.
+      real(wp) :: static_load(2) = 0
+   contains
+      procedure :: is_rigid
       procedure :: station_count
-      procedure :: mass => machine_mass
-   end type machine_type
+   end type rotor_type
 
 contains
 
-   !> A machine of this number of parts, of which nothing is given yet.
-   subroutine begin(self, bearings, discs, unbalances, loads)
-      class(machine_type), intent(out) :: self
-      integer, intent(in) :: bearings, discs, unbalances, loads
-      integer :: b
-      allocate (self%bearings(bearings), self%discs(discs), self%unbalances(unbalances), self%loads(loads))
-      do b = 1, bearings
-         self%bearings(b)%name = ''
-      end do
+   !> One with this number of parts, of which nothing is given yet.
+   subroutine begin(self, discs, unbalances, loads)
+      class(elastic_type), intent(out) :: self
+      integer, intent(in) :: discs, unbalances, loads
+      allocate (self%discs(discs), self%unbalances(unbalances), self%loads(loads))
       self%rotor_file = ''
       self%shaft%length = [unset]
       self%shaft%diameter = [unset]
       self%shaft%bore = [0.0_wp]
    end subroutine begin
 
-   !> Number of the bearing of this name; 0 if there is none.
-   pure integer function find_bearing(self, name) result(b)
-      class(machine_type), intent(in) :: self
-      character(len=*), intent(in) :: name
-      do b = size(self%bearings), 1, -1
-         if (self%bearings(b)%name == name) return
-      end do
-   end function find_bearing
-
-   !> Stations of the shaft; 0 for a rotor from a file, which has its own.
-   pure integer function station_count(self)
-      class(machine_type), intent(in) :: self
-      station_count = 0
-      if (self%shaft%is_given()) station_count = size(self%shaft%length) + 1
-   end function station_count
-
    !> Mass of the shaft and its discs, kg; there must be a shaft.
-   pure real(wp) function machine_mass(self) result(mass)
-      class(machine_type), intent(in) :: self
+   pure real(wp) function mass(self)
+      class(elastic_type), intent(in) :: self
       mass = self%shaft%mass() + sum(self%discs%mass)
-   end function machine_mass
+   end function mass
+
+   elemental logical function is_rigid(self)
+      class(rotor_type), intent(in) :: self
+      is_rigid = .not. allocated(self%elastic)
+   end function is_rigid
+
+   !> Stations of the shaft; 0 of a rigid journal, and of a rotor from a file, which has its own.
+   pure integer function station_count(self)
+      class(rotor_type), intent(in) :: self
+      station_count = 0
+      if (self%is_rigid()) return
+      if (self%elastic%shaft%is_given()) station_count = size(self%elastic%shaft%length) + 1
+   end function station_count
 
    !> Whether there is a shaft.
    pure logical function is_given(self)
@@ -136,4 +118,4 @@ contains
       class(shaft_type), intent(in) :: self
       mass = sum(self%density*pi/4*(self%diameter**2 - self%bore**2)*self%length)
    end function shaft_mass
-end module machine_groups
+end module rotor_groups
