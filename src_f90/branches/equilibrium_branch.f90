@@ -10,12 +10,13 @@ module equilibrium_branch
    use errors, only: error_type, raise, numerics_error
    use linear_algebra, only: largest_first
    use equations_of_motion, only: machine_model
-   use newton_method, only: branch_problem_type, place_part_type
+   use newton_method, only: branch_problem_type, place_part_type, branch_point_type, newton_options, newton_iterations, &
+      & return_to
    use force_balance, only: forces, force_derivatives
    use pseudo_transient, only: clearances, reference_force
    use linear_bearing, only: linear_bearing_of, pivot_name, rotor_eigenvalues
    use film_network, only: warm_films_type, new_warm_films
-   use fixed_point, only: mixer_type, most_rounds
+   use fixed_point, only: field_reference, balance_type, solve_fields
    use film_field, only: film_field_type
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_residual, find_residual_slopes, &
@@ -24,6 +25,9 @@ module equilibrium_branch
    implicit none (type, external)
    private
    public :: equilibrium_problem_type, begin_equilibria
+
+   !> Longest way to a point that tells a tangent, and its part of a step: where steps are short the branch may turn.
+   real(wp), parameter :: longest_beside = 1e-3_wp, part = 0.1_wp
 
    type, extends(branch_problem_type) :: equilibrium_problem_type
       !> Present positions, in the order of layout%positions().
@@ -43,15 +47,15 @@ module equilibrium_branch
       real(wp), allocatable, private :: stiffness(:, :), damping(:, :)
       !> The heat balance that was found last.
       type(state_balance_type), private :: balance
-      !> Temperatures along and across films, and what leads from round to round of them.
+      !> Temperatures along and across films, where the case has them; the way to a point that tells a tangent then.
+      logical, private :: has_fields = .false.
       type(film_field_type), private :: films
-      type(mixer_type), private :: mixer
+      real(wp), private :: beside = longest_beside
    contains
       procedure :: linearize
       procedure :: move
       procedure :: predict
-      procedure :: update_fields
-      procedure :: explain
+      procedure :: solve
       procedure :: spectrum
       procedure :: kind => kind_of
       procedure :: get_place
@@ -60,6 +64,20 @@ module equilibrium_branch
       procedure :: temperatures
       procedure, private :: find_imbalance
    end type equilibrium_problem_type
+
+   !> A point of a branch: forces in equilibrium at the value of the parameter, or in a plane through where the problem
+   !> stands across `normal`.
+   type, extends(balance_type) :: point_balance
+      class(equilibrium_problem_type), pointer :: problem => null()
+      type(newton_options) :: options
+      real(wp), allocatable :: normal(:)
+      type(branch_point_type) :: point
+      !> Value of the parameter at the last equilibrium; iterations of that which took most.
+      real(wp) :: parameter = 0
+      integer :: most = 0
+   contains
+      procedure :: settle
+   end type point_balance
 
    !> The difference of the parameter for a derivative over it, over its size; as good as that of orbits.
    real(wp), parameter :: difference = 1e-5_wp
@@ -120,7 +138,6 @@ contains
          end do
          call problem%films%begin(model, cold, gaps_change=.true.)
       end if
-      call problem%mixer%begin(problem%films)
    end subroutine begin_films
 
    !> The state in equilibrium at the present positions.
@@ -207,47 +224,82 @@ contains
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       self%anew = .true.
-      if (self%has_fields) then
-         call self%films%begin_point()
-         call self%mixer%restart()
-      end if
+      self%beside = min(longest_beside, part*sqrt(self%dot(change, change)))
       call self%move(change, .false.)
    end subroutine predict
 
-   !> A round of the temperatures of films; oil that boils ends the branch.
-   subroutine update_fields(self, again, error)
-      class(equilibrium_problem_type), intent(inout) :: self
-      logical, intent(out) :: again
+   !> Newton's method, or, where films have temperatures, the fixed point of these around it. The equations freeze them:
+   !> the point in a plane beside this one tells the tangent.
+   subroutine solve(problem, options, point, way, error, normal)
+      class(equilibrium_problem_type), intent(inout), target :: problem
+      class(newton_options), intent(in) :: options
+      type(branch_point_type), intent(out) :: point
+      real(wp), intent(inout) :: way(:)
       type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable :: wanted(:)
-      real(wp) :: y(self%bearing%model%n)
-      again = .false.
-      if (.not. self%has_fields) return
-      associate (model => self%bearing%model)
-         call self%bearing%set_value(self%parameter, .false., error)
-         if (.not. allocated(error)) then
-            call self%films%apply(model)
-            allocate (wanted, mold=self%films%values)
-            y = self%state()
-            call self%films%find_wanted(model, y, wanted, error)
-            if (allocated(error)) return
-            call self%mixer%next(self%films%values, wanted, y)
-            again = .not. self%mixer%agrees .and. self%mixer%rounds < most_rounds
-            if (again) return
-            call self%films%check(model, self%mixer%agrees, error)
-            self%refused = self%mixer%agrees .and. allocated(error)
-            call self%mixer%restart()
-            call self%films%begin_point()
-         end if
-      end associate
-   end subroutine update_fields
+      real(wp), intent(in), optional :: normal(:)
+      type(branch_point_type) :: next
+      real(wp) :: there(size(way))
+      if (.not. problem%has_fields) then
+         call newton_iterations(problem, options, point, way, error, normal)
+         return
+      end if
+      call solve_with_films(problem, options, point, way, error, normal)
+      if (allocated(error) .or. .not. present(normal)) return
+      point%parameter = problem%parameter
+      there = problem%beside*point%tangent
+      call problem%move(there, .false.)
+      call solve_with_films(problem, options, next, there, error, normal)
+      if (allocated(error)) return
+      point%tangent = there/sqrt(problem%dot(there, there))
+      call return_to(problem, point)
+   end subroutine solve
 
-   !> Says of an error behind a change of the temperatures of films whose pad it is.
-   subroutine explain(self, error)
-      class(equilibrium_problem_type), intent(inout) :: self
-      type(error_type), allocatable, intent(inout) :: error
-      if (self%has_fields) call self%films%explain(self%bearing%model, self%state(), error)
-   end subroutine explain
+   !> A point at which the temperatures of films agree with those that it leads to; oil that boils ends the branch.
+   subroutine solve_with_films(problem, options, point, way, error, normal)
+      class(equilibrium_problem_type), intent(inout), target :: problem
+      class(newton_options), intent(in) :: options
+      type(branch_point_type), intent(out) :: point
+      real(wp), intent(inout) :: way(:)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: normal(:)
+      type(point_balance) :: balance
+      type(field_reference) :: fields(1)
+      real(wp) :: y(problem%bearing%model%n), from(size(way))
+      from = [problem%positions, problem%parameter]
+      balance%model => problem%bearing%model
+      balance%problem => problem
+      balance%options = options
+      if (present(normal)) balance%normal = normal
+      y = problem%state()
+      fields(1)%field => problem%films
+      call solve_fields(balance, y, fields, error)
+      problem%refused = balance%refused
+      point = balance%point
+      point%iterations = balance%most
+      way = way + ([problem%positions, problem%parameter] - from)/[problem%scale, problem%unit]
+   end subroutine solve_with_films
+
+   !> By Newton's method from the last equilibrium.
+   subroutine settle(self, last, y, first, error)
+      class(point_balance), intent(inout) :: self
+      real(wp), intent(in) :: last(:)
+      real(wp), intent(inout) :: y(:)
+      logical, intent(in) :: first
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: way(self%problem%n + 1)
+      if (first) self%parameter = self%problem%parameter
+      self%problem%positions = last(self%model%layout%positions())
+      self%problem%parameter = self%parameter
+      way = 0
+      call newton_iterations(self%problem, self%options, self%point, way, error, self%normal)
+      self%refused = self%problem%refused
+      self%most = max(self%most, self%point%iterations)
+      if (.not. allocated(error)) call self%problem%bearing%set_value(self%problem%parameter, .false., error)
+      if (allocated(error)) return
+      self%parameter = self%problem%parameter
+      call self%problem%films%apply(self%model)
+      y = self%problem%state()
+   end subroutine settle
 
    !> The eigenvalues, 1/s, that of largest real part first; growths are per radian of the shaft.
    subroutine spectrum(self, values, growth, ok)
@@ -296,8 +348,6 @@ contains
       self%positions = place(2)%values
       if (self%has_fields) then
          self%films%values = place(3)%values
-         call self%films%begin_point()
-         call self%mixer%restart()
       else
          self%viscosity = place(3)%values
       end if

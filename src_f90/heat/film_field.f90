@@ -29,7 +29,7 @@ module film_field
    type, extends(coupled_field) :: film_field_type
       !> Of each bearing; after a round `films%oil` has the temperatures that are wanted.
       type(warm_films_type), allocatable :: films(:)
-      !> By how much the temperatures of each pad were to change in the last round, K; none before the first.
+      !> By how much the temperatures of each pad were to change in the last round, K.
       real(wp), allocatable, private :: changes(:)
       !> Of the oil that the model was given last, (station, pad).
       type(film_profile), allocatable, private :: profiles(:, :)
@@ -38,7 +38,6 @@ module film_field
       logical, private :: gaps_change = .false.
    contains
       procedure :: begin
-      procedure :: begin_point
       procedure :: apply
       procedure :: find_wanted
       procedure :: check
@@ -68,12 +67,6 @@ contains
       allocate (self%profiles(size(films(1)%fields, 2), model%layout%pads))
    end subroutine begin
 
-   !> Begins at another state, where no round was made.
-   pure subroutine begin_point(self)
-      class(film_field_type), intent(inout) :: self
-      if (allocated(self%changes)) deallocate (self%changes)
-   end subroutine begin_point
-
    subroutine apply(self, model)
       class(film_field_type), intent(inout) :: self
       type(machine_model), intent(inout) :: model
@@ -86,7 +79,8 @@ contains
                fields(:, :, i) = reshape(self%values(n*pad + 1:n*(pad + 1)), shape(fields(:, :, i))) &
                   & + oil%supply_temperature
                pad = pad + 1
-               call oil_of_field(oil, self%films(b)%heat(i)%zeta, fields(:, :, i), self%profiles(:, pad), model%oil(pad))
+               call oil_of_field(oil, self%films(b)%heat(i)%zeta, fields(:, :, i), self%profiles(:, pad), &
+                  & model%oil(pad))
             end do
          end associate
       end do
@@ -203,18 +197,19 @@ contains
 
    !> Says of a search that ended with an error in the state y which pad's temperatures led nowhere: those that change
    !> most, or, before the first round, those of the pad that Newton's method would move most.
-   subroutine explain(self, model, y, error)
+   subroutine explain(self, model, y, first, error)
       class(film_field_type), intent(in) :: self
       type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
+      logical, intent(in) :: first
       type(error_type), allocatable, intent(inout) :: error
-      if (allocated(self%changes)) then
+      if (first) then
+         error%message = 'the search finds no equilibrium with them ('//error%message//')'//remedy
+         call name_pad(model, pad_that_moves(model, y), error)
+      else
          error%message = 'they would change by '//to_text(maxval(self%changes)) &
             & //' K more, to which the search finds no equilibrium ('//error%message//')'//remedy
          call name_pad(model, maxloc(self%changes, 1), error)
-      else
-         error%message = 'the search finds no equilibrium with them ('//error%message//')'//remedy
-         call name_pad(model, pad_that_moves(model, y), error)
       end if
    end subroutine explain
 

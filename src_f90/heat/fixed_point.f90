@@ -9,14 +9,12 @@
 !> of what it wants on both sides (Filippov), and the others agree beside it.
 module fixed_point
    use kinds, only: wp
-   use errors, only: error_type, stopped, asked_to_stop
+   use errors, only: error_type, stopped
    use linear_algebra, only: dgesv
    use equations_of_motion, only: machine_model
-   use pseudo_transient, only: follow_motion
-   use static_model, only: solve_equilibrium
    implicit none (type, external)
    private
-   public :: coupled_field, field_reference, mixer_type, solve_fields, most_rounds
+   public :: coupled_field, field_reference, balance_type, solve_fields, most_rounds
 
    !> Values that follow from an equilibrium of forces, and on which it depends.
    type, abstract :: coupled_field
@@ -36,7 +34,27 @@ module fixed_point
       class(coupled_field), pointer :: field => null()
    end type field_reference
 
+   !> What comes to equilibrium with the values of fields: a model.
+   type, abstract :: balance_type
+      type(machine_model), pointer :: model => null()
+      !> Whether the last error says that there can be no equilibrium: others than the last values would not help.
+      logical :: refused = .false.
+   contains
+      procedure(find_equilibrium), deferred :: settle
+   end type balance_type
+
    abstract interface
+      !> Brings the state y, in which the forces are nearly in equilibrium with the present values, to equilibrium with
+      !> them. But for the first time it must not be far; the last equilibrium is there to start from as well.
+      subroutine find_equilibrium(self, last, y, first, error)
+         import :: balance_type, error_type, wp
+         class(balance_type), intent(inout) :: self
+         real(wp), intent(in) :: last(:)
+         real(wp), intent(inout) :: y(:)
+         logical, intent(in) :: first
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine find_equilibrium
+
       !> Gives a model what follows from the values.
       subroutine apply_values(self, model)
          import :: coupled_field, machine_model
@@ -69,14 +87,12 @@ module fixed_point
    !> Of the largest diagonal element of the normal equations, added to all: differences may be nearly parallel.
    real(wp), parameter :: regularity = 1e-12_wp
    !> Rounds without a residual of half the least one, after which it is taken to jump.
-   integer, parameter :: patience = 12
+   integer, parameter :: stalled_rounds = 12
    !> Residual up to which the equilibrium is sought from the last one: from where it is expected to be, a pad that
    !> carries little would be left as far from it as the residual of the forces lets it.
    real(wp), parameter :: far = 1e4_wp
    !> Part of a step that is tried where the whole does not lead to equilibrium; least part of the longest step.
    real(wp), parameter :: shorter = 0.25_wp, shortest = 5e-3_wp
-   !> Iterations of a search for the equilibrium of a step.
-   integer, parameter :: most_iterations = 6, most_motion = 60
 
    !> Of each value what its field says, and the number of its part among all.
    type :: value_limits
@@ -89,7 +105,7 @@ module fixed_point
       integer :: rounds = 0
       logical :: agrees = .false.
       type(value_limits), allocatable, private :: limits(:)
-      integer, private :: known = 0
+      integer, private :: known = -1
       real(wp), allocatable, private :: x(:), residual(:), y(:)
       !> Differences between rounds of values, residuals and states, the newest first.
       real(wp), allocatable, private :: steps(:, :), differences(:, :), moves(:, :)
@@ -101,7 +117,6 @@ module fixed_point
       logical, allocatable, private :: kept(:)
    contains
       procedure :: begin
-      procedure :: restart
       procedure :: next
       procedure, private :: keep
       procedure, private :: forget
@@ -111,25 +126,22 @@ module fixed_point
 
 contains
 
-   !> Adds to the error of a search that did not end what the field knows of it.
-   subroutine explain(self, model, y, error)
+   !> Adds to the error of a search that did not end, perhaps the first, what the field knows of it.
+   subroutine explain(self, model, y, first, error)
       class(coupled_field), intent(in) :: self
       type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
+      logical, intent(in) :: first
       type(error_type), allocatable, intent(inout) :: error
    end subroutine explain
 
-   !> Brings the state y of a model that is near equilibrium to equilibrium, and all fields to the values to which this
-   !> leads. An error where they do not agree, or with values that are no answer.
-   subroutine solve_fields(model, y, fields, residual, error, give_up, held)
-      type(machine_model), intent(inout) :: model
+   !> Brings the state y of what is near equilibrium to equilibrium, and all fields to the values to which this leads. An
+   !> error where they do not agree, or with values that are no answer.
+   subroutine solve_fields(balance, y, fields, error)
+      class(balance_type), intent(inout) :: balance
       real(wp), intent(inout) :: y(:)
       type(field_reference), intent(in) :: fields(:)
-      real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      !> Pads that are held where they are.
-      logical, intent(in), optional :: held(:)
       type(mixer_type) :: mixer
       real(wp), allocatable :: x(:), wanted(:)
       integer :: first(size(fields) + 1), f
@@ -142,23 +154,24 @@ contains
       end do
       allocate (wanted(size(x)))
       do
-         call take_step(model, y, fields, first, x, mixer, residual, error, give_up, held)
+         call take_step(balance, y, fields, first, x, mixer, error)
          if (allocated(error)) then
-            if (error%status == stopped) return
+            if (error%status == stopped .or. balance%refused) return
             do f = 1, size(fields)
-               call fields(f)%field%explain(model, y, error)
+               call fields(f)%field%explain(balance%model, y, mixer%rounds == 0, error)
             end do
             return
          end if
          do f = 1, size(fields)
-            call fields(f)%field%find_wanted(model, y, wanted(first(f):first(f + 1) - 1), error)
+            call fields(f)%field%find_wanted(balance%model, y, wanted(first(f):first(f + 1) - 1), error)
             if (allocated(error)) return
          end do
          call mixer%next(x, wanted, y)
          if (mixer%agrees .or. mixer%rounds == most_rounds) exit
       end do
       do f = 1, size(fields)
-         call fields(f)%field%check(model, mixer%agrees .or. .not. lacks(f), error)
+         call fields(f)%field%check(balance%model, mixer%agrees .or. .not. lacks(f), error)
+         balance%refused = mixer%agrees .and. allocated(error)
          if (allocated(error)) return
       end do
 
@@ -173,41 +186,33 @@ contains
 
    !> Brings the state y in equilibrium with the present values of the fields to equilibrium with the values x, or with
    !> those of the longest part of this step that it can follow. An error where that is next to nothing.
-   subroutine take_step(model, y, fields, first, x, mixer, residual, error, give_up, held)
-      type(machine_model), intent(inout) :: model
+   subroutine take_step(balance, y, fields, first, x, mixer, error)
+      class(balance_type), intent(inout) :: balance
       real(wp), intent(inout) :: y(:), x(:)
       type(field_reference), intent(in) :: fields(:)
       integer, intent(in) :: first(:)
-      type(mixer_type), intent(inout) :: mixer
-      real(wp), intent(out) :: residual
+      type(mixer_type), intent(in) :: mixer
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      logical, intent(in), optional :: held(:)
-      real(wp) :: before(size(x)), trial(size(y))
+      real(wp) :: before(size(x)), last(size(y))
       integer :: f
       before = x
-      trial = y
+      last = y
       if (mixer%rounds > 0) then
          before = mixer%x*mixer%limits%agreement
-         y = mixer%y
+         last = mixer%y
       end if
       do
          do f = 1, size(fields)
             fields(f)%field%values = x(first(f):first(f + 1) - 1)
-            call fields(f)%field%apply(model)
+            call fields(f)%field%apply(balance%model)
          end do
-         call solve_equilibrium(model, trial, residual, error, give_up, held, &
-            & merge(most_iterations, huge(1), mixer%rounds > 0))
-         if (.not. allocated(error)) exit
-         if (error%status == stopped .or. mixer%rounds == 0) return
-         trial = y
-         call follow_motion(model, trial, residual, error, give_up, held, most=most_motion)
-         if (.not. allocated(error)) exit
-         if (error%status == stopped .or. .not. any(abs(x - before) > shortest*mixer%limits%longest)) return
+         call balance%settle(last, y, mixer%rounds == 0, error)
+         if (.not. allocated(error)) return
+         y = last
+         if (error%status == stopped .or. balance%refused .or. mixer%rounds == 0) return
+         if (.not. any(abs(x - before) > shortest*mixer%limits%longest)) return
          x = before + shorter*(x - before)
-         trial = y
       end do
-      y = trial
    end subroutine take_step
 
    !> Begins with the values of a field, behind those of others.
@@ -221,19 +226,9 @@ contains
       if (.not. allocated(self%limits)) allocate (self%limits(0))
       self%limits = [self%limits, [(value_limits(field%agreement, field%jump, field%longest, &
          & before + 1 + (i - 1)*field%parts/n), i=1, n)]]
-      call self%restart()
-   end subroutine begin
-
-   !> Begins anew.
-   pure subroutine restart(self)
-      class(mixer_type), intent(inout) :: self
-      self%rounds = 0
-      self%least = huge(self%least)
-      self%since = 0
       self%kept = spread(.false., 1, size(self%limits))
       self%mean = spread(0.0_wp, 1, size(self%limits))
-      call self%forget()
-   end subroutine restart
+   end subroutine begin
 
    !> Forgets the rounds before the last one.
    pure subroutine forget(self)
@@ -264,7 +259,7 @@ contains
       self%mean = self%mean + (wanted - self%mean)/self%since
       call self%remember(x/self%limits%agreement, residual, y)
       if (self%agrees) return
-      if (self%since > patience) call self%keep(x, residual)
+      if (self%since > stalled_rounds) call self%keep(x, residual)
       call self%combine(residual, step, y)
       step = step*self%limits%agreement
       x = x + step/max(1.0_wp, maxval(abs(step)/self%limits%longest))

@@ -91,10 +91,11 @@ contains
    end subroutine check
 
    !> The reason of a shape, where a search in one on the way to it has failed.
-   subroutine explain(self, model, y, error)
+   subroutine explain(self, model, y, first, error)
       class(shape_field_type), intent(in) :: self
       type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
+      logical, intent(in) :: first
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: reason
       if (allocated(self%wanted)) call check_shapes(self%wanted, self%cold, reason)

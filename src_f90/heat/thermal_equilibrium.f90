@@ -3,17 +3,18 @@
 !> to be, until they agree (fixed_point).
 module thermal_equilibrium
    use kinds, only: wp
-   use errors, only: error_type, asked_to_stop
+   use errors, only: error_type, stopped, asked_to_stop
    use film_oils, only: even_oil
    use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
    use oil_properties, only: viscosity
    use equations_of_motion, only: machine_model
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_temperatures
+   use pseudo_transient, only: follow_motion
    use static_model, only: solve_equilibrium, start
    use film_network, only: warm_films_type, new_warm_films
    use bearing_shape, only: bearing_shape_type
-   use fixed_point, only: field_reference, solve_fields
+   use fixed_point, only: field_reference, balance_type, solve_fields
    use oil_field, only: oil_field_type
    use film_field, only: film_field_type
    use shape_field, only: shape_field_type
@@ -21,6 +22,17 @@ module thermal_equilibrium
    private
    public :: guess_oil, guesses, solve_thermal_equilibrium, solve_warm_films, solve_shape
 
+   !> A static model whose pads are in equilibrium or held where they are.
+   type, extends(balance_type) :: static_balance
+      real(wp) :: residual = 0
+      logical, allocatable :: held(:)
+      procedure(asked_to_stop), pointer, nopass :: give_up => null()
+   contains
+      procedure :: settle
+   end type static_balance
+
+   !> Iterations of a search for another equilibrium from the last one.
+   integer, parameter :: most_iterations = 6, most_motion = 60
    !> Residual of the logarithms of viscosities; the same where temperatures along and across the films follow, which
    !> are changed by ten times as much; where it jumps; longest step.
    real(wp), parameter :: agreement = 1e-8_wp, rough = 1e-2_wp, jump = 1e-4_wp, longest_step = 1
@@ -51,10 +63,36 @@ contains
       model%oil = even_oil(wanted)
    end subroutine guess_oil
 
+   !> A static model, with the reason to give up and pads that are held, where there are such.
+   type(static_balance) function new_balance(model, give_up, held) result(balance)
+      type(machine_model), intent(inout), target :: model
+      procedure(asked_to_stop), optional :: give_up
+      logical, intent(in), optional :: held(:)
+      balance%model => model
+      if (present(give_up)) balance%give_up => give_up
+      if (present(held)) balance%held = held
+   end function new_balance
+
+   !> By Newton's method, which goes astray where an unloaded pad has lost its stiffness at the last place; else by the
+   !> motion from there.
+   subroutine settle(self, last, y, first, error)
+      class(static_balance), intent(inout) :: self
+      real(wp), intent(in) :: last(:)
+      real(wp), intent(inout) :: y(:)
+      logical, intent(in) :: first
+      type(error_type), allocatable, intent(out) :: error
+      call solve_equilibrium(self%model, y, self%residual, error, self%give_up, self%held, &
+         & merge(huge(1), most_iterations, first))
+      if (first .or. .not. allocated(error)) return
+      if (error%status == stopped) return
+      y = last
+      call follow_motion(self%model, y, self%residual, error, self%give_up, self%held, most=most_motion)
+   end subroutine settle
+
    !> Brings a state that is near equilibrium to equilibrium, as solve_equilibrium does, and the oil, where it is warm,
    !> to the temperatures of this equilibrium: the model then has its viscosities.
    subroutine solve_thermal_equilibrium(model, y, residual, error, give_up, held, kept, films)
-      type(machine_model), intent(inout) :: model
+      type(machine_model), intent(inout), target :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
@@ -67,6 +105,7 @@ contains
       type(warm_films_type), allocatable, intent(out), optional :: films(:)
       type(warm_films_type), allocatable :: found(:)
       type(oil_field_type), target :: pads
+      type(static_balance) :: balance
       type(field_reference) :: fields(1)
       type(oil_temperatures_type) :: oil(size(model%bearings))
       if (.not. has_warm_oil(model)) then
@@ -77,7 +116,9 @@ contains
       model%oil = even_oil(model%oil%viscosity)
       pads = new_oil_field(model, kept)
       fields(1)%field => pads
-      call solve_fields(model, y, fields, residual, error, give_up, held)
+      balance = new_balance(model, give_up, held)
+      call solve_fields(balance, y, fields, error)
+      residual = balance%residual
       if (allocated(error) .or. model%inputs%thermal%model /= 'film') return
       call find_temperatures(model, y, pads%balance, oil)
       call make_films(model%inputs, oil, found)
@@ -87,7 +128,7 @@ contains
 
    !> The same of a model whose films have temperatures already, and whose oil is theirs.
    subroutine solve_warm_films(model, y, films, residual, error, give_up, held)
-      type(machine_model), intent(inout) :: model
+      type(machine_model), intent(inout), target :: model
       real(wp), intent(inout) :: y(:)
       type(warm_films_type), allocatable, intent(inout) :: films(:)
       real(wp), intent(out) :: residual
@@ -95,17 +136,20 @@ contains
       procedure(asked_to_stop), optional :: give_up
       logical, intent(in), optional :: held(:)
       type(film_field_type), target :: field
+      type(static_balance) :: balance
       type(field_reference) :: fields(1)
       call field%begin(model, films)
       fields(1)%field => field
-      call solve_fields(model, y, fields, residual, error, give_up, held)
+      balance = new_balance(model, give_up, held)
+      call solve_fields(balance, y, fields, error)
+      residual = balance%residual
       call move_alloc(field%films, films)
    end subroutine solve_warm_films
 
    !> Brings the state y of a static model that is in equilibrium in the shapes of its case to equilibrium in the shapes
    !> that this leads to, of each bearing, with their temperatures; an error where there is none.
    subroutine solve_shape(model, y, films, shapes, residual, error, give_up)
-      type(machine_model), intent(inout) :: model
+      type(machine_model), intent(inout), target :: model
       real(wp), intent(inout) :: y(:)
       !> Of each bearing, where films have temperatures.
       type(warm_films_type), allocatable, intent(inout) :: films(:)
@@ -117,6 +161,7 @@ contains
       type(film_field_type), target :: field
       type(oil_field_type), target :: pads
       type(field_reference) :: fields(2)
+      type(static_balance) :: balance
       call shape%begin(model%inputs, field)
       ! a shape needs the temperatures that its own values change
       fields(2)%field => shape
@@ -127,7 +172,9 @@ contains
          pads = new_oil_field(model)
          fields(1)%field => pads
       end if
-      call solve_fields(model, y, fields(merge(1, 2, has_warm_oil(model)):), residual, error, give_up)
+      balance = new_balance(model, give_up)
+      call solve_fields(balance, y, fields(merge(1, 2, has_warm_oil(model)):), error)
+      residual = balance%residual
       if (allocated(field%films)) call move_alloc(field%films, films)
       if (.not. allocated(error)) call move_alloc(shape%wanted, shapes)
    end subroutine solve_shape
