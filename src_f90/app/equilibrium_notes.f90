@@ -40,7 +40,7 @@ contains
          return
       end if
       call put_stability(run%file, static)
-      loads = bearing_loads(run%model, static%rotor)
+      loads = bearing_loads(run%model, static)
       slopes = bearing_slopes(run, static)
       call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads)
       if (.not. run%quiet) call print_shaft(run%file)

@@ -4,10 +4,12 @@ module bearings_alone
    use kinds, only: wp
    use factories, only: march_films, static_films
    use equations_of_motion, only: machine_model, new_machine_model
+   use state_layout, only: of_journal
+   use bearing_samples, only: element_forces
    use equilibrium_record, only: equilibrium_type
    implicit none (type, external)
    private
-   public :: bearing_alone, part_of, bearing_loads
+   public :: bearing_alone, part_of, bearing_loads, forces_at_rest
 
 contains
 
@@ -46,14 +48,27 @@ contains
       end associate
    end function part_of
 
-   !> What the rotor, at rest with these displacements, lays on its bearings, (2, bearing), N, along y and z.
-   pure function bearing_loads(model, displacements) result(loads)
+   !> What the rotor, at rest in this equilibrium, lays on its bearings, (2, bearing), N, along y and z.
+   pure function bearing_loads(model, found) result(loads)
       type(machine_model), intent(in) :: model
-      real(wp), intent(in) :: displacements(:)
-      real(wp) :: loads(2, size(model%bearings)), force(size(displacements)), states(2*size(displacements))
-      states(:size(displacements)) = displacements
-      states(size(displacements) + 1:) = 0
-      force = model%rotor%force(states, model%point%static(), 0.0_wp)
+      type(equilibrium_type), intent(in) :: found
+      real(wp) :: loads(2, size(model%bearings)), force(model%rotor%positions)
+      force = forces_at_rest(model, model%static_state(found%rotor, found%pads))
       loads = reshape(force(:size(loads)), shape(loads))
    end function bearing_loads
+
+   !> Forces on the displacements of the rotor, at rest in the state y, N, but for those of its bearings.
+   pure function forces_at_rest(model, y) result(force)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      real(wp) :: force(model%rotor%positions), of_others(of_journal, size(model%others))
+      integer :: e
+      force = model%rotor%force(y(:model%rotor%states), model%point%static(), 0.0_wp)
+      of_others = element_forces(model, 0.0_wp, y)
+      do e = 1, size(model%others)
+         associate (at => model%layout%elements(size(model%bearings) + e)%journal)
+            force(at) = force(at) + of_others(:, e)
+         end associate
+      end do
+   end function forces_at_rest
 end module bearings_alone

@@ -7,15 +7,15 @@ module load_shares
    use text, only: to_text
    use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop
    use linear_algebra, only: dgesv
-   use state_layout, only: pad_state
+   use state_layout, only: pad_state, of_journal
    use equations_of_motion, only: machine_model
-   use force_balance, only: bearing_derivatives, stability_at
+   use force_balance, only: bearing_derivatives, part_derivatives, stability_at
    use equilibrium_record, only: equilibrium_type, describe
    use static_model, only: solve_equilibrium
    use film_network, only: warm_films_type
    use thermal_equilibrium, only: solve_warm_films
    use bearing_equilibrium, only: find_bearing_equilibrium, settle
-   use bearings_alone, only: bearing_alone, part_of, bearing_loads
+   use bearings_alone, only: bearing_alone, part_of, bearing_loads, forces_at_rest
    implicit none (type, external)
    private
    public :: share_loads
@@ -64,7 +64,7 @@ contains
          return
       end if
       if (present(known)) then
-         loads = [bearing_loads(model, found%rotor)]
+         loads = [bearing_loads(model, found)]
       else
          call guess_loads(model, rotor, loads)
       end if
@@ -116,19 +116,21 @@ contains
          & //'settle: '//to_text(norm2(step))//' N are left unbalanced')
    end subroutine find_loads
 
-   !> The rotor's static forces and stiffness onto its journals.
+   !> The rotor's static forces and stiffness onto its journals, with those of what acts on it beside its bearings,
+   !> which here are linear about the state without displacements.
    subroutine condense(model, rotor, ok)
-      type(machine_model), intent(in) :: model
+      type(machine_model), intent(inout) :: model
       type(rotor_at_rest), intent(out) :: rotor
       logical, intent(out) :: ok
       real(wp), dimension(model%rotor%positions, model%rotor%positions) :: over_positions, over_rates
-      real(wp) :: force(model%rotor%positions), states(model%rotor%states)
+      real(wp) :: force(model%rotor%positions), y(model%n)
       real(wp), allocatable :: inner(:, :), right(:, :)
       integer, allocatable :: pivots(:)
       integer :: info
-      states = 0
-      force = model%rotor%force(states, model%point, 0.0_wp)
+      y = 0
+      force = forces_at_rest(model, y)
       call model%rotor%force_derivatives(model%point%speed(0.0_wp), over_positions, over_rates)
+      call add_others(model, y, over_positions)
       associate (n => 2*size(model%bearings), m => model%rotor%positions, k => over_positions)
          inner = -k(n + 1:, n + 1:)
          allocate (right(m - n, n + 1), pivots(m - n))
@@ -144,6 +146,30 @@ contains
          rotor%borne = force(:n) + matmul(k(:n, n + 1:), rotor%bent)
       end associate
    end subroutine condense
+
+   !> Adds how the forces of what acts on the rotor beside its bearings change with its displacements in the state y,
+   !> their own displacements held. One that refuses the state counts as none.
+   subroutine add_others(model, y, over_positions)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(inout) :: over_positions(:, :)
+      real(wp), allocatable, dimension(:, :) :: positions, rates
+      character(len=:), allocatable :: refusal
+      logical :: ok
+      integer :: e, i
+      do e = 1, size(model%others)
+         associate (of => model%layout%elements(size(model%bearings) + e), other => model%others(e)%of)
+            call other%evaluate(model%rotor%journal(y(:model%rotor%states), of%pair()), of%pad_states(y), &
+               & model%oil(of%all_pads()), model%point%speed(0.0_wp), .true., refusal, ok)
+            if (.not. ok) cycle
+            do i = 1, of%parts
+               call part_derivatives(other, i, of%coordinates, positions, rates)
+               over_positions(of%journal, of%journal) = over_positions(of%journal, of%journal) &
+                  & + positions(:of_journal, :of_journal)
+            end do
+         end associate
+      end do
+   end subroutine add_others
 
    !> Loads on bearings that yield as springs, by part of their clearance under a mean share.
    subroutine guess_loads(model, rotor, loads)

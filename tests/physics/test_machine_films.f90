@@ -49,7 +49,7 @@ contains
       integer :: b
       call analyse(case_of(shaft//left//middle//right//oils//warm), 'a machine', found, static, model)
       if (.not. allocated(static%films)) return
-      loads = bearing_loads(model, static%rotor)
+      loads = bearing_loads(model, static)
       call expect(minval(loads(1, :)) < 2*maxval(loads(1, :)), 'loads differ')
       do b = 1, 3
          call analyse(model%inputs%alone(b, loads(:, b)), 'alone', linear, rigid, one)

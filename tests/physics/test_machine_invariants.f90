@@ -264,7 +264,7 @@ contains
          inputs%rotor%elastic%loads(b)%force = load/2
       end do
       call stand(inputs, model, found)
-      loads = bearing_loads(model, found%rotor)
+      loads = bearing_loads(model, found)
       do b = 1, 2
          call expect_close(norm2(loads(:, b) - [load(1)/2 - 2000*9.81_wp, load(2)/2]), 0.0_wp, 1e-5_wp*2e4_wp, 'load')
          call expect(maxval(abs(found%rotor(2*b - 1:2*b) - rigid%rotor)) < 1e-6_wp*maxval(abs(rigid%rotor)), 'journal')

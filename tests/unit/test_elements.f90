@@ -16,6 +16,8 @@ program test_elements
    use force_balance, only: forces, force_derivatives, masses
    use equilibrium_record, only: equilibrium_type
    use static_model, only: make_static, solve_equilibrium
+   use bearings_alone, only: bearing_loads
+   use equilibrium, only: find_equilibrium, settle_equilibrium
    use linear_bearing, only: bearing_coefficients_type, find_coefficients
    use input_cases, only: case_of
    use machine_cases, only: symmetric_rotor
@@ -38,11 +40,12 @@ program test_elements
       call solutions(symmetric_rotor('lugre', 4100.0_wp, 0.01_wp), [2, 1, 2], 'shaft')
    end if
    if (runs('balance')) call balance()
-   if (runs('equilibrium')) call equilibrium()
+   if (runs('rest_on_spring')) call rest_on_spring()
    if (runs('modes')) call modes()
    if (runs('two_on_one_pair')) call two_on_one_pair()
    if (runs('on_a_shaft')) call on_a_shaft()
    if (runs('under_a_housing')) call under_a_housing()
+   if (runs('shares_of_the_load')) call shares_of_the_load()
    call report()
 
 contains
@@ -65,8 +68,7 @@ contains
    end function on_pairs
 
    !> Journals and pads that carry, in motion, away from the switching points of friction; the rotor's other
-   !> displacements
-   !> move by part of their scale.
+   !> displacements move by part of their scale.
    function moving_state(model) result(y)
       type(machine_model), intent(in) :: model
       real(wp) :: y(model%n)
@@ -252,7 +254,7 @@ contains
 
    !> The journal lies where it does without a spring under the load that the spring leaves: both searches end at 1e-8
    !> of the load, 1e-7 of the clearance or less.
-   subroutine equilibrium()
+   subroutine rest_on_spring()
       type(machine_model) :: static, model
       type(case_type) :: inputs
       type(equilibrium_type) :: found
@@ -264,7 +266,7 @@ contains
       call expect_close(norm2(found%rotor - y(1:2)), 0.0_wp, 1e-7_wp*inputs%bearings(1)%clearance(), 'the same place')
       y = y - model%static_state(found%rotor, found%pads)
       call expect_close(maxval(abs(y)/static%scale), 0.0_wp, 1e-6_wp, 'and the same pads')
-   end subroutine equilibrium
+   end subroutine rest_on_spring
 
    !> Linear analysis: the bearing alone is that without the spring, what the rotor meets has its stiffness and damping
    !> more, and the modes are the eigenvalues of the Jacobian, which is put together in another way.
@@ -376,10 +378,10 @@ contains
       end associate
    end subroutine on_a_shaft
 
-   !> A shaft in housings on supports, of which a part is in the rotor's matrices and the rest an element on the pair of
-   !> each housing, moves as one whose supports are all in the matrices.
-   subroutine under_a_housing()
-      type(machine_model) :: folded, acting
+   !> A shaft in housings on supports that are in the rotor's matrices, and one with a part of them there and the rest
+   !> as elements on the pair of each housing.
+   subroutine make_supported(folded, acting)
+      type(machine_model), intent(out) :: folded, acting
       type(case_type) :: inputs, part
       type(linear_element_type) :: rest(2)
       integer :: b
@@ -401,6 +403,44 @@ contains
       end do
       folded = new_machine_model(inputs)
       acting = new_machine_model(part, others=on_pairs(rest, [3, 4]))
+   end subroutine make_supported
+
+   !> They move alike.
+   subroutine under_a_housing()
+      type(machine_model) :: folded, acting
+      call make_supported(folded, acting)
       call same_motion(acting, folded, moving_state(folded), 'supports')
    end subroutine under_a_housing
+
+   !> They rest alike, found from nothing and from one another, to the 1e-8 of the load at which searches end. Without
+   !> the elements a quarter of the supports would carry, and the journals lie elsewhere.
+   subroutine shares_of_the_load()
+      type(machine_model) :: folded, acting, static
+      type(equilibrium_type) :: expected, found
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: y(:)
+      call make_supported(folded, acting)
+      call find_equilibrium(folded, expected, error)
+      call expect_no_error(error, 'an equilibrium, supports in the matrices')
+      call find_equilibrium(acting, found, error)
+      call expect_no_error(error, 'an equilibrium, supports as elements')
+      if (.not. allocated(expected%pads) .or. .not. allocated(found%pads)) return
+      call same_rest(folded, expected, acting, found, 'found from nothing')
+      call make_static(acting, acting%point%cavitation, static)
+      call settle_equilibrium(static, found, y, error)
+      call expect_no_error(error, 'an equilibrium from a known one')
+      call same_rest(folded, expected, acting, found, 'found from itself')
+   end subroutine shares_of_the_load
+
+   subroutine same_rest(model, expected, other, found, what)
+      type(machine_model), intent(in) :: model, other
+      type(equilibrium_type), intent(in) :: expected, found
+      character(len=*), intent(in) :: what
+      real(wp) :: loads(2, 2)
+      loads = bearing_loads(model, expected)
+      call expect_close(maxval(abs(bearing_loads(other, found) - loads)), 0.0_wp, 1e-6_wp*maxval(abs(loads)), &
+         & 'loads on the bearings, '//what)
+      call expect_close(maxval(abs(found%rotor - expected%rotor)/model%scale(:size(found%rotor))), 0.0_wp, 1e-6_wp, &
+         & 'displacements, '//what)
+   end subroutine same_rest
 end program test_elements

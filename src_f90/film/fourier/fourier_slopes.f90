@@ -50,75 +50,69 @@ contains
          end if
          if (pad%by_thickness) of%over_h2 = of%over_h2*spread(pad%law%across, 2, 2)
          do m = 1, 2
-            derivatives(m, :) = from_nodes(pad, n, m, rise, pad%h, pad%s, pad%narrow, pad%narrow_share, &
-               & of%floor_share, of%solved, of%along(:, m), of%along(:, 3 - m), of%over_s(:, m), of%over_v(:, m), &
-               & of%over_h2(:, m), of%boundary(m), of%shift, of%stretch)
+            derivatives(m, :) = from_nodes(pad, m, rise)
          end do
       end associate
    end subroutine force_slopes
 
    !> Derivatives of component m of the force from those over what stands at the nodes.
-   pure function from_nodes(pad, n, m, rise, h, s, narrow, narrow_share, floor_share, solved, along, across, over_s, &
-      & over_v, over_h2, boundary, shift, stretch) result(derivatives)
-      ! long: every term of the force once; arrays of explicit shape, of which the compiler knows that they are apart
+   pure function from_nodes(pad, m, rise) result(derivatives)
+      ! long: every term of the force once
       type(fourier_pad_type), intent(in) :: pad
-      integer, intent(in) :: n, m
+      integer, intent(in) :: m
       real(wp), intent(in) :: rise
-      !> Of the pad; the modes' sums at the nodes; derivatives as in force_slopes, `across` of the other component.
-      real(wp), dimension(0:n), intent(in) :: h, s, narrow, narrow_share, floor_share, solved, along, across, over_s, &
-         & over_v, over_h2
-      real(wp), intent(in) :: boundary, shift(0:n, 2), stretch(2)
       real(wp) :: derivatives(4)
-      real(wp), dimension(0:n) :: by_h, by_s, by_phi
+      real(wp), dimension(0:pad%n) :: by_h, by_s, by_phi
       real(wp) :: k, unit, sign, total, slope, s_slope, by_k, by_log_d, psi, at_edge, by_slope
       integer :: i
-      k = dot_product(pad%e, pad%e) - 1
-      unit = pad%d**2/12
-      ! dpsi/dphi is the other component's psi, or less it
-      sign = 3 - 2*m
-      by_k = 0
-      by_log_d = 0
-      !$omp simd private(total) reduction(+:by_k, by_log_d)
-      do i = 0, n
-         total = solved(i) - narrow_share(i)*narrow(i) + floor_share(i)*h(i)
-         by_k = by_k + unit*over_v(i)
-         by_log_d = by_log_d + along(i)*total &
-            & + 2*unit*(over_v(i)*(k + h(i)*(3 - 2*h(i))) + over_h2(i)*h(i)**2 + over_s(i)*s(i))
-         by_h(i) = unit*(over_v(i)*(3 - 4*h(i)) + over_h2(i)*2*h(i)) &
-            & + along(i)*(2*narrow_share(i)*narrow(i)/h(i) + floor_share(i))
-         by_s(i) = unit*over_s(i) - along(i)*narrow_share(i)/h(i)**2
-         by_phi(i) = sign*across(i)*total
-      end do
-      ! layers of the modes left out at both edges
-      do i = 0, n, n
-         psi = -pad%radius*merge(pad%sine(i), pad%cosine(i), m == 1)
-         at_edge = pad%axial%tail(3)*psi/h(i)**3
-         by_s(i) = by_s(i) + at_edge
-         by_h(i) = by_h(i) - 3*at_edge*s(i)/h(i)
-      end do
-      ! the pressure at the leading edge
-      by_slope = pad%axial%tail(2)*rise*1.5_wp*psi/h(n)
-      if (pad%by_thickness) by_slope = by_slope/pad%law%across(n + 1)
-      by_h(n) = by_h(n) + boundary + along(n)*solved(n)/h(n) &
-         & - by_slope*(pad%e(2)*pad%sine(n) - pad%e(1)*pad%cosine(n))/h(n)
-      derivatives = 0
-      if (pad%varies) then
-         derivatives = varied_sum(pad, m, rise, by_s, by_h, by_phi)
-         by_h = 0
-         by_s = 0
-         by_phi = 0
-      end if
-      associate (sine => pad%sine, cosine => pad%cosine, e => pad%e, w => pad%w)
+      associate (of => pad%adjoints, n => pad%n, h => pad%h, s => pad%s, e => pad%e, w => pad%w, sine => pad%sine, &
+         & cosine => pad%cosine, narrow => pad%narrow, narrow_share => pad%narrow_share)
+         k = dot_product(e, e) - 1
+         unit = pad%d**2/12
+         ! dpsi/dphi is the other component's psi, or less it
+         sign = 3 - 2*m
+         by_k = 0
+         by_log_d = 0
+         !$omp simd private(total) reduction(+:by_k, by_log_d)
+         do i = 0, n
+            total = of%solved(i) - narrow_share(i)*narrow(i) + of%floor_share(i)*h(i)
+            by_k = by_k + unit*of%over_v(i, m)
+            by_log_d = by_log_d + of%along(i, m)*total + 2*unit*(of%over_v(i, m)*(k + h(i)*(3 - 2*h(i))) &
+               & + of%over_h2(i, m)*h(i)**2 + of%over_s(i, m)*s(i))
+            by_h(i) = unit*(of%over_v(i, m)*(3 - 4*h(i)) + of%over_h2(i, m)*2*h(i)) &
+               & + of%along(i, m)*(2*narrow_share(i)*narrow(i)/h(i) + of%floor_share(i))
+            by_s(i) = unit*of%over_s(i, m) - of%along(i, m)*narrow_share(i)/h(i)**2
+            by_phi(i) = sign*of%along(i, 3 - m)*total
+         end do
+         ! layers of the modes left out at both edges
+         do i = 0, n, n
+            psi = -pad%radius*merge(sine(i), cosine(i), m == 1)
+            at_edge = pad%axial%tail(3)*psi/h(i)**3
+            by_s(i) = by_s(i) + at_edge
+            by_h(i) = by_h(i) - 3*at_edge*s(i)/h(i)
+         end do
+         ! the pressure at the leading edge
+         by_slope = pad%axial%tail(2)*rise*1.5_wp*psi/h(n)
+         if (pad%by_thickness) by_slope = by_slope/pad%law%across(n + 1)
+         by_h(n) = by_h(n) + of%boundary(m) + of%along(n, m)*of%solved(n)/h(n) &
+            & - by_slope*(e(2)*sine(n) - e(1)*cosine(n))/h(n)
+         derivatives = 0
+         if (pad%varies) then
+            derivatives = varied_sum(pad, m, rise, by_s, by_h, by_phi)
+            by_h = 0
+            by_s = 0
+            by_phi = 0
+         end if
          do i = 0, n
             slope = e(2)*sine(i) - e(1)*cosine(i)
             s_slope = pad%wedge*(1 - h(i)) + pad%squeeze*(w(1)*cosine(i) - w(2)*sine(i))
             by_phi(i) = by_phi(i) + by_h(i)*slope + by_s(i)*s_slope
-            derivatives(1) = derivatives(1) + by_phi(i)*shift(i, 1) - by_h(i)*sine(i) - by_s(i)*pad%wedge*cosine(i)
-            derivatives(2) = derivatives(2) + by_phi(i)*shift(i, 2) - by_h(i)*cosine(i) + by_s(i)*pad%wedge*sine(i)
+            derivatives(1) = derivatives(1) + by_phi(i)*of%shift(i, 1) - by_h(i)*sine(i) - by_s(i)*pad%wedge*cosine(i)
+            derivatives(2) = derivatives(2) + by_phi(i)*of%shift(i, 2) - by_h(i)*cosine(i) + by_s(i)*pad%wedge*sine(i)
             derivatives(3) = derivatives(3) + by_s(i)*sine(i)
             derivatives(4) = derivatives(4) + by_s(i)*cosine(i)
          end do
-         derivatives(:2) = derivatives(:2) + 2*e*by_k + stretch*by_log_d + by_slope*[-cosine(n), sine(n)]
+         derivatives(:2) = derivatives(:2) + 2*e*by_k + of%stretch*by_log_d + by_slope*[-cosine(n), sine(n)]
       end associate
       derivatives(:2) = derivatives(:2)/pad%gap%machined_clearance
       derivatives(3:) = derivatives(3:)*pad%squeeze
@@ -149,21 +143,16 @@ contains
          over_s(i) = over_s(i) + layer
          over_h(i) = over_h(i) - 3*layer*pad%s(i)/pad%h(i)
       end do
-      associate (law => pad%law, of => pad%adjoints)
-         call add_place(pad%n, pad%d, pad%e, pad%w, pad%wedge, pad%squeeze, pad%h, pad%sine, pad%cosine, pad%s, &
-            & pad%inverse_root, law%sliding, law%flow_slopes, law%sliding_slopes, held, of%over_v(:, m), over_s, &
-            & over_h, by_phi, of%shift, of%stretch, derivatives)
-      end associate
+      call add_place(pad, m, held, over_s, over_h, by_phi, derivatives)
       if (pad%by_thickness) derivatives(:2) = derivatives(:2) + over_thickness(pad, m, rise, held + over_s*pad%s)
    end function varied_sum
 
    !> That sum for a law that follows the nodes along the film.
-   pure subroutine add_place(n, d, e, w, wedge, squeeze, h, sine, cosine, s, root, sliding, p, g, held, over_v, &
-      & over_s, over_h, by_phi, shift, stretch, derivatives)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: d, e(2), w(2), wedge, squeeze
-      real(wp), dimension(0:n), intent(in) :: h, sine, cosine, s, root, sliding, held, over_v, over_s, over_h, by_phi
-      real(wp), intent(in) :: p(0:n, 3), g(0:n, 2), shift(0:n, 2), stretch(2)
+   pure subroutine add_place(pad, m, held, over_s, over_h, by_phi, derivatives)
+      type(fourier_pad_type), intent(in) :: pad
+      integer, intent(in) :: m
+      !> As in varied_sum.
+      real(wp), dimension(0:pad%n), intent(in) :: held, over_s, over_h, by_phi
       real(wp), intent(out) :: derivatives(4)
       real(wp) :: slope, bend, of_v, of_s, of_h, of_slope, of_phi, by_log_d, over_y, over_z, over_vy, over_vz
       integer :: i
@@ -172,27 +161,30 @@ contains
       over_z = 0
       over_vy = 0
       over_vz = 0
-      !$omp simd private(slope, bend, of_v, of_s, of_h, of_slope, of_phi) &
-      !$omp& reduction(+:over_y, over_z, over_vy, over_vz, by_log_d)
-      do i = 0, n
-         slope = e(2)*sine(i) - e(1)*cosine(i)
-         bend = p(i, 2)/2 + p(i, 1)**2/4
-         of_v = d**2/12*over_v(i)
-         of_s = root(i)*over_s(i)
-         by_log_d = by_log_d + 2*of_v*h(i)*(1.5_wp*slope*p(i, 1) + h(i)*bend)
-         of_h = over_h(i) + of_v*(1.5_wp*slope*p(i, 1) + 2*h(i)*bend) + of_s*wedge*g(i, 1)
-         of_slope = of_v*1.5_wp*h(i)*p(i, 1) + of_s*wedge*sliding(i)
-         of_phi = by_phi(i) - p(i, 1)/2*(held(i) + over_s(i)*s(i)) &
-            & + of_v*h(i)*(1.5_wp*slope*p(i, 2) + h(i)*(p(i, 3) + p(i, 1)*p(i, 2))/2) &
-            & + of_s*(wedge*(slope*g(i, 1) + h(i)*g(i, 2)) + squeeze*(w(1)*cosine(i) - w(2)*sine(i))) &
-            & + of_h*slope + of_slope*(1 - h(i))
-         over_y = over_y + of_phi*shift(i, 1) - of_h*sine(i) - of_slope*cosine(i)
-         over_z = over_z + of_phi*shift(i, 2) - of_h*cosine(i) + of_slope*sine(i)
-         over_vy = over_vy + of_s*sine(i)
-         over_vz = over_vz + of_s*cosine(i)
-      end do
-      derivatives = [over_y, over_z, over_vy, over_vz]
-      derivatives(:2) = derivatives(:2) + stretch*by_log_d
+      associate (of => pad%adjoints, h => pad%h, sine => pad%sine, cosine => pad%cosine, e => pad%e, w => pad%w, &
+         & p => pad%law%flow_slopes, g => pad%law%sliding_slopes)
+         !$omp simd private(slope, bend, of_v, of_s, of_h, of_slope, of_phi) &
+         !$omp& reduction(+:over_y, over_z, over_vy, over_vz, by_log_d)
+         do i = 0, pad%n
+            slope = e(2)*sine(i) - e(1)*cosine(i)
+            bend = p(i + 1, 2)/2 + p(i + 1, 1)**2/4
+            of_v = pad%d**2/12*of%over_v(i, m)
+            of_s = pad%inverse_root(i)*over_s(i)
+            by_log_d = by_log_d + 2*of_v*h(i)*(1.5_wp*slope*p(i + 1, 1) + h(i)*bend)
+            of_h = over_h(i) + of_v*(1.5_wp*slope*p(i + 1, 1) + 2*h(i)*bend) + of_s*pad%wedge*g(i + 1, 1)
+            of_slope = of_v*1.5_wp*h(i)*p(i + 1, 1) + of_s*pad%wedge*pad%law%sliding(i + 1)
+            of_phi = by_phi(i) - p(i + 1, 1)/2*(held(i) + over_s(i)*pad%s(i)) &
+               & + of_v*h(i)*(1.5_wp*slope*p(i + 1, 2) + h(i)*(p(i + 1, 3) + p(i + 1, 1)*p(i + 1, 2))/2) &
+               & + of_s*(pad%wedge*(slope*g(i + 1, 1) + h(i)*g(i + 1, 2)) &
+               & + pad%squeeze*(w(1)*cosine(i) - w(2)*sine(i))) + of_h*slope + of_slope*(1 - h(i))
+            over_y = over_y + of_phi*of%shift(i, 1) - of_h*sine(i) - of_slope*cosine(i)
+            over_z = over_z + of_phi*of%shift(i, 2) - of_h*cosine(i) + of_slope*sine(i)
+            over_vy = over_vy + of_s*sine(i)
+            over_vz = over_vz + of_s*cosine(i)
+         end do
+         derivatives = [over_y, over_z, over_vy, over_vz]
+         derivatives(:2) = derivatives(:2) + of%stretch*by_log_d
+      end associate
    end subroutine add_place
 
    !> Derivatives over e by what the law makes of another thickness in the same place. With a = (d ln h)/d e, ln E
