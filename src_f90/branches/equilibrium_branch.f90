@@ -280,11 +280,11 @@ contains
    end subroutine solve_with_films
 
    !> By Newton's method from the last equilibrium.
-   subroutine settle(self, last, y, first, error)
+   subroutine settle(self, last, y, first, final, error)
       class(point_balance), intent(inout) :: self
       real(wp), intent(in) :: last(:)
       real(wp), intent(inout) :: y(:)
-      logical, intent(in) :: first
+      logical, intent(in) :: first, final
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: way(self%problem%n + 1)
       if (first) self%parameter = self%problem%parameter

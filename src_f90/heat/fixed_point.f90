@@ -45,13 +45,14 @@ module fixed_point
 
    abstract interface
       !> Brings the state y, in which the forces are nearly in equilibrium with the present values, to equilibrium with
-      !> them. But for the first time it must not be far; the last equilibrium is there to start from as well.
-      subroutine find_equilibrium(self, last, y, first, error)
+      !> them. But for the first time it should not be far: where it is, shorter steps of the values lead there, until
+      !> they are `final`; the last equilibrium is there to start from as well.
+      subroutine find_equilibrium(self, last, y, first, final, error)
          import :: balance_type, error_type, wp
          class(balance_type), intent(inout) :: self
          real(wp), intent(in) :: last(:)
          real(wp), intent(inout) :: y(:)
-         logical, intent(in) :: first
+         logical, intent(in) :: first, final
          type(error_type), allocatable, intent(out) :: error
       end subroutine find_equilibrium
 
@@ -91,8 +92,9 @@ module fixed_point
    !> Residual up to which the equilibrium is sought from the last one: from where it is expected to be, a pad that
    !> carries little would be left as far from it as the residual of the forces lets it.
    real(wp), parameter :: far = 1e4_wp
-   !> Part of a step that is tried where the whole does not lead to equilibrium; least part of the longest step.
-   real(wp), parameter :: shorter = 0.25_wp, shortest = 5e-3_wp
+   !> Part of a step that is tried where the whole does not lead to equilibrium; how much longer than one that does the
+   !> next may be; least part of the longest step.
+   real(wp), parameter :: shorter = 0.25_wp, longer = 2, shortest = 5e-3_wp
 
    !> Of each value what its field says, and the number of its part among all.
    type :: value_limits
@@ -105,6 +107,8 @@ module fixed_point
       integer :: rounds = 0
       logical :: agrees = .false.
       type(value_limits), allocatable, private :: limits(:)
+      !> How long a step may be, over the longest.
+      real(wp), private :: reach = 1
       integer, private :: known = -1
       real(wp), allocatable, private :: x(:), residual(:), y(:)
       !> Differences between rounds of values, residuals and states, the newest first.
@@ -191,9 +195,9 @@ contains
       real(wp), intent(inout) :: y(:), x(:)
       type(field_reference), intent(in) :: fields(:)
       integer, intent(in) :: first(:)
-      type(mixer_type), intent(in) :: mixer
+      type(mixer_type), intent(inout) :: mixer
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: before(size(x)), last(size(y))
+      real(wp) :: before(size(x)), last(size(y)), length
       integer :: f
       before = x
       last = y
@@ -201,18 +205,21 @@ contains
          before = mixer%x*mixer%limits%agreement
          last = mixer%y
       end if
+      length = maxval(abs(x - before)/mixer%limits%longest)
       do
          do f = 1, size(fields)
             fields(f)%field%values = x(first(f):first(f + 1) - 1)
             call fields(f)%field%apply(balance%model)
          end do
-         call balance%settle(last, y, mixer%rounds == 0, error)
-         if (.not. allocated(error)) return
+         call balance%settle(last, y, mixer%rounds == 0, length <= shortest, error)
+         if (.not. allocated(error)) exit
          y = last
-         if (error%status == stopped .or. balance%refused .or. mixer%rounds == 0) return
-         if (.not. any(abs(x - before) > shortest*mixer%limits%longest)) return
+         if (error%status == stopped .or. balance%refused .or. length <= shortest) return
          x = before + shorter*(x - before)
+         length = shorter*length
+         mixer%reach = length
       end do
+      mixer%reach = min(1.0_wp, longer*mixer%reach)
    end subroutine take_step
 
    !> Begins with the values of a field, behind those of others.
@@ -262,7 +269,7 @@ contains
       if (self%since > stalled_rounds) call self%keep(x, residual)
       call self%combine(residual, step, y)
       step = step*self%limits%agreement
-      x = x + step/max(1.0_wp, maxval(abs(step)/self%limits%longest))
+      x = x + step/max(1.0_wp, maxval(abs(step)/(self%reach*self%limits%longest)))
    end subroutine next
 
    !> Lets the part of the values that jumps most keep the mean of what it wanted, if it jumps by no more than it may.

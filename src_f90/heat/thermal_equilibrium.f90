@@ -31,8 +31,9 @@ module thermal_equilibrium
       procedure :: settle
    end type static_balance
 
-   !> Iterations of a search for another equilibrium from the last one.
-   integer, parameter :: most_iterations = 6, most_motion = 60
+   !> Iterations of a search for another equilibrium: by Newton's method, which takes about five where it leads there;
+   !> from where it has led; by the motion.
+   integer, parameter :: most_iterations = 6, more_iterations = 50, most_motion = 60
    !> Residual of the logarithms of viscosities; the same where temperatures along and across the films follow, which
    !> are changed by ten times as much; where it jumps; longest step.
    real(wp), parameter :: agreement = 1e-8_wp, rough = 1e-2_wp, jump = 1e-4_wp, longest_step = 1
@@ -73,17 +74,20 @@ contains
       if (present(held)) balance%held = held
    end function new_balance
 
-   !> By Newton's method, which goes astray where an unloaded pad has lost its stiffness at the last place; else by the
-   !> motion from there.
-   subroutine settle(self, last, y, first, error)
+   !> By Newton's method, which goes astray where an unloaded pad has lost its stiffness at the last place: then anew from
+   !> there, and in the end by the motion from the last place.
+   subroutine settle(self, last, y, first, final, error)
       class(static_balance), intent(inout) :: self
       real(wp), intent(in) :: last(:)
       real(wp), intent(inout) :: y(:)
-      logical, intent(in) :: first
+      logical, intent(in) :: first, final
       type(error_type), allocatable, intent(out) :: error
       call solve_equilibrium(self%model, y, self%residual, error, self%give_up, self%held, &
          & merge(huge(1), most_iterations, first))
       if (first .or. .not. allocated(error)) return
+      if (error%status == stopped) return
+      call solve_equilibrium(self%model, y, self%residual, error, self%give_up, self%held, more_iterations)
+      if (.not. (final .and. allocated(error))) return
       if (error%status == stopped) return
       y = last
       call follow_motion(self%model, y, self%residual, error, self%give_up, self%held, most=most_motion)

@@ -83,11 +83,11 @@ contains
       error%message = trim(merge('at first', 'later   ', first))//': '//error%message
    end subroutine explain
 
-   subroutine settle(self, last, y, first, error)
+   subroutine settle(self, last, y, first, final, error)
       class(near_balance), intent(inout) :: self
       real(wp), intent(in) :: last(:)
       real(wp), intent(inout) :: y(:)
-      logical, intent(in) :: first
+      logical, intent(in) :: first, final
       type(error_type), allocatable, intent(out) :: error
       y = self%field%values
       if ((first .or. maxval(abs(y - last)) <= self%reach) .and. maxval(y) <= self%highest) return
