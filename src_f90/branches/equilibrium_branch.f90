@@ -10,8 +10,8 @@ module equilibrium_branch
    use errors, only: error_type, raise, numerics_error
    use linear_algebra, only: largest_first
    use equations_of_motion, only: machine_model
-   use newton_method, only: branch_problem_type, place_part_type, branch_point_type, newton_options, newton_iterations, &
-      & return_to
+   use newton_method, only: branch_problem_type, place_part_type, branch_point_type, newton_options, return_to, &
+      & newton_iterations
    use force_balance, only: forces, force_derivatives
    use pseudo_transient, only: clearances, reference_force
    use linear_bearing, only: linear_bearing_of, pivot_name, rotor_eigenvalues
@@ -72,7 +72,7 @@ module equilibrium_branch
       type(newton_options) :: options
       real(wp), allocatable :: normal(:)
       type(branch_point_type) :: point
-      !> Value of the parameter at the last equilibrium; iterations of that which took most.
+      !> Value of the parameter at the last equilibrium; most iterations that one took.
       real(wp) :: parameter = 0
       integer :: most = 0
    contains
@@ -133,7 +133,8 @@ contains
       else
          do b = 1, size(cold)
             associate (own => model%inputs%bearings(b))
-               cold(b) = new_warm_films(own, model%inputs%thermal, spread(own%oil%supply_temperature, 1, own%pad_count()))
+               cold(b) = new_warm_films(own, model%inputs%thermal, spread(own%oil%supply_temperature, 1, &
+                  & own%pad_count()))
             end associate
          end do
          call problem%films%begin(model, cold, gaps_change=.true.)

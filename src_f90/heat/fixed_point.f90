@@ -139,8 +139,8 @@ contains
       type(error_type), allocatable, intent(inout) :: error
    end subroutine explain
 
-   !> Brings the state y of what is near equilibrium to equilibrium, and all fields to the values to which this leads. An
-   !> error where they do not agree, or with values that are no answer.
+   !> Brings the state y of what is near equilibrium to equilibrium, and all fields to the values to which this leads.
+   !> An error where they do not agree, or with values that are no answer.
    subroutine solve_fields(balance, y, fields, error)
       class(balance_type), intent(inout) :: balance
       real(wp), intent(inout) :: y(:)

@@ -74,8 +74,8 @@ contains
       if (present(held)) balance%held = held
    end function new_balance
 
-   !> By Newton's method, which goes astray where an unloaded pad has lost its stiffness at the last place: then anew from
-   !> there, and in the end by the motion from the last place.
+   !> By Newton's method, which goes astray where an unloaded pad has lost its stiffness at the last place: then anew
+   !> from there, and in the end by the motion from the last place.
    subroutine settle(self, last, y, first, final, error)
       class(static_balance), intent(inout) :: self
       real(wp), intent(in) :: last(:)

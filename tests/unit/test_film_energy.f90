@@ -10,7 +10,7 @@ program test_film_energy
    use film_conduction, only: film_heat_type, solid_layers, by_nothing, by_inlet, by_shaft
    use film_energy, only: pad_heat, solve_energy
    use paper_bearing, only: offset_pad, paper_oil, speed, clearance
-   use check, only: runs, expect, expect_close, between, report
+   use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
    integer, parameter :: layers = 12, stations = 40
