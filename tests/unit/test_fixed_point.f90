@@ -1,5 +1,5 @@
-!> A field that wants what a map makes of its values, and what comes to equilibrium with any of them, or with those alone
-!> that are near the last ones.
+!> A field that wants what a map makes of its values, and what comes to equilibrium with any of them, or with those
+!> alone that are near the last ones.
 module mapped_values
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
@@ -96,8 +96,8 @@ contains
    end subroutine settle
 end module mapped_values
 
-!> The fixed point of coupled fields: maps whose fixed points are known, one that would diverge if it were repeated, values
-!> that jump, steps that are too long, and what is refused.
+!> The fixed point of coupled fields: maps whose fixed points are known, one that would diverge if it were repeated,
+!> values that jump, steps that are too long, and what is refused.
 program test_fixed_point
    use kinds, only: wp
    use errors, only: error_type
@@ -107,6 +107,7 @@ program test_fixed_point
    use mapped_values, only: mapped_field, near_balance
    use check, only: runs, expect, expect_close, expect_no_error, between, report
    implicit none (type, external)
+   type(machine_model), target :: model
 
    if (runs('contraction')) call contraction()
    if (runs('repeated_map_diverges')) call repeated_map_diverges()
@@ -150,7 +151,6 @@ contains
       type(mapped_field), intent(inout), target :: field
       type(near_balance), intent(inout) :: balance
       type(error_type), allocatable, intent(out) :: error
-      type(machine_model), target :: model
       type(field_reference) :: fields(1)
       real(wp) :: y(4)
       y = 0
@@ -174,8 +174,8 @@ contains
       do i = 1, 4
          call expect_close(field%values(i), 0.739085133215160642_wp, 1e-9_wp, 'fixed point')
       end do
-      ! repeated, the map takes 53
-      call expect(field%rounds <= 8, 'few rounds')
+      ! repeated, the map takes about 50
+      call expect(field%rounds <= 10, 'few rounds')
    end subroutine contraction
 
    !> (I - A) x = b.
@@ -203,7 +203,6 @@ contains
    subroutine two_fields()
       type(mapped_field), target :: field(2)
       type(near_balance) :: balance
-      type(machine_model), target :: model
       type(field_reference) :: fields(2)
       type(error_type), allocatable :: error
       real(wp) :: y(4)
