@@ -26,7 +26,7 @@ module thermal_equilibrium
    type, extends(balance_type) :: static_balance
       real(wp) :: residual = 0
       logical, allocatable :: held(:)
-      procedure(asked_to_stop), pointer, nopass :: give_up => null()
+      procedure(asked_to_stop), pointer, nopass :: give_up => never
    contains
       procedure :: settle
    end type static_balance
@@ -73,6 +73,11 @@ contains
       if (present(give_up)) balance%give_up => give_up
       if (present(held)) balance%held = held
    end function new_balance
+
+   !> The answer where nothing may ask to stop.
+   logical function never()
+      never = .false.
+   end function never
 
    !> By Newton's method, which goes astray where an unloaded pad has lost its stiffness at the last place: then anew
    !> from there, and in the end by the motion from the last place.
