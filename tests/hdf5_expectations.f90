@@ -1,12 +1,37 @@
-!> What tests expect of HDF5 files that are damaged.
+!> What tests put into HDF5 files, and what they expect of those that are damaged.
 module hdf5_expectations
+   use kinds, only: wp
    use hdf5_file, only: hdf5_type
    use check, only: expect
    implicit none (type, external)
    private
-   public :: expect_damaged
+   public :: put_real, put_list, put_table, expect_damaged
 
 contains
+
+   !> A number.
+   subroutine put_real(file, path, value, units, long_name)
+      class(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: path, units, long_name
+      real(wp), intent(in) :: value
+      call file%put_array(path, [value], [integer ::], units, long_name, '')
+   end subroutine put_real
+
+   !> Numbers, over one scale or none.
+   subroutine put_list(file, path, values, units, long_name, scales)
+      class(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: path, units, long_name, scales
+      real(wp), intent(in) :: values(:)
+      call file%put_array(path, values, [size(values)], units, long_name, scales)
+   end subroutine put_list
+
+   !> Numbers over two scales or none.
+   subroutine put_table(file, path, values, units, long_name, scales)
+      class(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: path, units, long_name, scales
+      real(wp), intent(in) :: values(:, :)
+      call file%put_array(path, [values], shape(values), units, long_name, scales)
+   end subroutine put_table
 
    !> The file fails in reading, with these words; it is closed.
    subroutine expect_damaged(file, words)

@@ -13,8 +13,7 @@ module case_run
    use bearing_file, only: bearing_file_type, new_bearing_file
    use provenance, only: running
    use summary_group, only: run_extremes_type
-   use march_figures, only: put_progress, put_march_figures
-   use station_figures, only: put_station_figures
+   use march_figures, only: put_progress, put_march_figures, put_station_figures
    use run_statistics, only: run_statistics_type
    use result_remarks, only: remarks_on_run, put_remarks, new_lines
    use run_summary, only: print_remarks
@@ -183,7 +182,7 @@ contains
       end associate
       call put_film_costs(statistics, [(self%model%bearings(b)%film%counters, b=1, size(self%model%bearings))])
       call statistics%put('resumes', merge(1_i8, 0_i8, self%resumed), 'times that the run was resumed')
-      call statistics%put('output_seconds', self%sampling + self%file%writing_seconds(), 'wall time of sampling')
+      call statistics%put('output_seconds', self%sampling + self%file%hdf5%writing_seconds, 'wall time of sampling')
       call statistics%put('checkpoint_seconds', self%checkpoints, 'wall time of the checkpoints before the last')
       call statistics%put('wall_seconds', wall_clock() - self%started, 'wall time of the run')
       call statistics%add(self%earlier)

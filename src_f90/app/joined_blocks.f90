@@ -38,8 +38,10 @@ contains
       path = share%path(place%name)
       call table%claim(path, error)
       if (allocated(error)) return
-      if (.not. place%quiet .and. table%taken_from() /= '') print '(a)', path//': '//table%taken_from() &
-         & //', which wrote it, has ended'
+      associate (taken_from => table%working%lock%taken_from)
+         if (.not. place%quiet .and. taken_from /= '') print '(a)', path//': '//taken_from//', which wrote it, has ' &
+            & //'ended'
+      end associate
       if (has_rows(place, path)) then
          call table%reopen(study, error)
          if (.not. allocated(error)) return
@@ -92,7 +94,7 @@ contains
       taken = block_paths(place%name)
       do i = 1, size(taken)
          if (allocated(error)) exit
-         call table%beat(int(wall_clock()))
+         call table%working%beat(int(wall_clock()))
          call table%join(study, taken(i)%path, error)
          if (allocated(error)) then
             if (.not. allocated(table%failure)) call refuse(taken(i)%path, place%overwrite, way_out, error)
@@ -101,7 +103,7 @@ contains
          end if
       end do
       if (allocated(error) .or. place%quiet .or. size(taken) == 0) return
-      print '(a)', table%path()//': takes the rows of '//to_text(size(taken))//' files of blocks'
+      print '(a)', table%name//': takes the rows of '//to_text(size(taken))//' files of blocks'
    end subroutine open_joined
 
    !> Deletes files whose rows have been published.

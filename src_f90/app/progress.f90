@@ -21,8 +21,6 @@ module progress
       procedure :: report_runs
       procedure :: note
       procedure :: clear
-      procedure, private :: is_due
-      procedure, private :: show
    end type progress_type
 
 contains
@@ -46,10 +44,10 @@ contains
       real(wp), intent(in) :: t, now
       integer(i8), intent(in) :: steps
       character(len=:), allocatable :: line
-      if (.not. self%is_due(now)) return
+      if (.not. is_due(self, now)) return
       line = 't = '//to_text(t)//' s of '//to_text(self%duration)//' s, '//to_text(int(100*t/self%duration)) &
          & //' %, '//to_text(steps)//' steps'
-      call self%show(line, t)
+      call show(self, line, t)
    end subroutine report
 
    !> Shows how many runs have ended, well or not, and how many a second since the clock was started, if it is time to.
@@ -57,9 +55,9 @@ contains
       class(progress_type), intent(inout) :: self
       integer, intent(in) :: ended, failed
       real(wp) :: rate
-      if (.not. self%is_due(wall_clock())) return
+      if (.not. is_due(self, wall_clock())) return
       rate = (ended - self%from)/(self%last - self%started)
-      call self%show(to_text(ended)//' of '//to_text(nint(self%duration))//' runs, '//to_text(failed)//' failed, ' &
+      call show(self, to_text(ended)//' of '//to_text(nint(self%duration))//' runs, '//to_text(failed)//' failed, ' &
          & //fixed_text(rate, merge(1, 3, rate >= 10))//' runs/s', real(ended, wp))
    end subroutine report_runs
 

@@ -39,9 +39,6 @@ module recorder
       procedure :: wants_state
       procedure :: take_state
       procedure :: put_spectra => put_all_spectra
-      procedure, private :: record
-      procedure, private :: follow_orbit
-      procedure, private :: watched
    end type recorder_type
 
    !> One of this number of samples is timed.
@@ -62,7 +59,7 @@ contains
       end do
       allocate (self%stations(2, run%model%rotor%stations), self%elements(2, size(run%model%others)))
       self%progress = new_progress(t, run%inputs%operation%duration, run%quiet)
-      if (run%inputs%integration%stop_when_periodic > 0) call self%follow_orbit()
+      if (run%inputs%integration%stop_when_periodic > 0) call follow_orbit(self)
    end subroutine begin_recording
 
    !> Readies the watch for a periodic orbit, with what was sampled before the run was resumed.
@@ -89,7 +86,7 @@ contains
             pads(model%layout%elements(b)%all_pads(), :)%x(tilt) = values
          end do
          do i = 1, n
-            call self%orbit%add(self%watched(model%static_state(rotor(:, i), pads(:, i))))
+            call self%orbit%add(watched(self, model%static_state(rotor(:, i), pads(:, i))))
          end do
       end associate
    end subroutine follow_orbit
@@ -113,10 +110,10 @@ contains
       real(wp) :: started
       logical :: timed
       timed = mod(self%samples, timing_stride) == timing_stride - 1
-      if (timed) started = wall_clock() - self%run%file%writing_seconds()
-      call self%record(t, y, output, error)
+      if (timed) started = wall_clock() - self%run%file%hdf5%writing_seconds
+      call record(self, t, y, output, error)
       if (timed) self%run%sampling = self%run%sampling &
-         & + timing_stride*(wall_clock() - self%run%file%writing_seconds() - started)
+         & + timing_stride*(wall_clock() - self%run%file%hdf5%writing_seconds - started)
       self%samples = self%samples + 1
    end subroutine sample
 
@@ -143,7 +140,7 @@ contains
       self%run%reached = t
       associate (limit => self%run%inputs%integration%stop_when_periodic)
          if (limit > 0) then
-            call self%orbit%add(self%watched(y))
+            call self%orbit%add(watched(self, y))
             self%satisfied = self%orbit%change <= limit
          end if
       end associate

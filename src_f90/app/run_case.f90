@@ -7,7 +7,7 @@ module run_case
    use parameter_study, only: run_tag
    use equations_of_motion, only: new_machine_model
    use record, only: record_type, move_record
-   use record_reader, only: read_record
+   use record_file, only: read_record
    use hdf5_file, only: hdf5_type
    use restart, only: restart_type, read_result, open_result, refuse_other_case
    use rotor_file, only: read_rotor
@@ -56,7 +56,8 @@ contains
 
       call results%clear()
       if (verified_states > 0) call check_verification(inputs, verified_states, error)
-      if (.not. allocated(error)) call check_memory(inputs, error)
+      if (.not. allocated(error) .and. .not. can_have(int(memory_bytes(inputs), i8))) call raise(error, system_error, &
+         & 'out of memory: the run needs '//bytes_text(memory_bytes(inputs))//memory_advice(inputs))
       if (allocated(error)) return
       call begin_run(run, inputs, path, tag, verified_states, quiet)
       call read_rotor(run%inputs%rotor, error)
@@ -98,15 +99,6 @@ contains
       call file%close()
    end subroutine recall_results
 
-   !> Refuses a run whose memory the system does not have, before it computes anything.
-   subroutine check_memory(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(out) :: error
-      if (can_have(int(memory_bytes(inputs), i8))) return
-      call raise(error, system_error, 'out of memory: the run needs '//bytes_text(memory_bytes(inputs)) &
-         & //memory_advice(inputs))
-   end subroutine check_memory
-
    !> Has the task of a case done, and closes its file.
    subroutine perform(run, error)
       type(case_run_type), intent(inout), target :: run
@@ -146,8 +138,10 @@ contains
       if (complete .or. allocated(error)) return
       call run%file%hdf5%claim(run%path, error)
       if (allocated(error)) return
-      if (.not. run%quiet .and. run%file%hdf5%taken_from() /= '') print '(a)', run%path//': ' &
-         & //run%file%hdf5%taken_from()//', which wrote it, has ended'
+      associate (taken_from => run%file%hdf5%working%lock%taken_from)
+         if (.not. run%quiet .and. taken_from /= '') print '(a)', run%path//': '//taken_from//', which wrote it, has ' &
+            & //'ended'
+      end associate
       ! and behind it, as another run may have written meanwhile
       call look_at_file(run, go_on, overwrite, complete, error)
       if (allocated(error) .or. complete) call run%file%abandon()

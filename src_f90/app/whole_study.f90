@@ -180,7 +180,7 @@ contains
       type(study_type), intent(in) :: study
       type(assignment_type), allocatable :: varied(:)
       integer :: i
-      varied = study%variables()
+      varied = study%varied%targets()
       keeps_differ = any([(any(target_text(varied(i)) == [character(len=11) :: 'case%task', 'output%keep']), &
          & i=1, size(varied))])
    end function keeps_differ
@@ -237,14 +237,14 @@ contains
       type(assignment_type), allocatable :: varied(:)
       type(token_type) :: token
       integer :: i, k, way
-      varied = study%variables()
+      varied = study%varied%targets()
       marks = marks_of_run(study, 1)
       do i = 1, size(varied)
          if (all(varied(i)%name /= deciding)) cycle
          do way = 1, -1, -2
             seen = newline
             do k = merge(1, study%runs, way > 0), merge(study%runs, 1, way > 0), way
-               call study%value(i, k, token)
+               call study%varied%value(i, k, token)
                if (index(seen, newline//token%text//newline) > 0) cycle
                seen = seen//token%text//newline
                marks = marks//marks_of_run(study, k)

@@ -3,8 +3,8 @@ module linear_algebra
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv, dgbsv, zgesv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, solve_2x2, solve_few, &
-      & simd_width, padded, apply
+   public :: dgesv, dgbsv, zgesv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, identity, &
+      & solve_2x2, solve_few, simd_width, padded, apply
 
    !> Rows are filled up to a multiple of this, so that loops over them have no remainder.
    integer, parameter :: simd_width = 8
@@ -141,6 +141,17 @@ contains
          waiting(places(i)) = .false.
       end do
    end function largest_first
+
+   !> The identity matrix of n rows.
+   pure function identity(n)
+      integer, intent(in) :: n
+      real(wp) :: identity(n, n)
+      integer :: i
+      identity = 0
+      do i = 1, n
+         identity(i, i) = 1
+      end do
+   end function identity
 
    !> x of the equations a x = b; 0 where they are singular.
    pure function solve_2x2(a, b) result(x)

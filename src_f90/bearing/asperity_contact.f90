@@ -39,10 +39,6 @@ module asperity_contact
       procedure :: act
       procedure :: evaluate
       procedure :: heat
-      procedure, private :: set_loads
-      procedure, private :: add_arc
-      procedure, private :: add_stretch
-      procedure, private :: set_film
    end type asperity_contact_type
 
    !> Nothing touches.
@@ -99,8 +95,8 @@ contains
       load%thickness = gap%min_film_thickness(motion, directions)
       load%touches = abs(load%thickness) < self%reach
       if (.not. load%touches) return
-      call self%set_loads(gap, motion%position, speed*gap%journal_radius, load)
-      call self%set_film(gap, directions, motion%position, load)
+      call set_loads(self, gap, motion%position, speed*gap%journal_radius, load)
+      call set_film(self, gap, directions, motion%position, load)
    end subroutine evaluate
 
    !> Normal force, N.
@@ -117,7 +113,7 @@ contains
       real(wp), intent(in) :: position(2), speed
       type(asperity_load), intent(inout) :: load
       type(contact_sums) :: sums
-      call self%add_arc(gap, position, -gap%trailing_angle, gap%leading_angle, sums)
+      call add_arc(self, gap, position, -gap%trailing_angle, gap%leading_angle, sums)
       ! friction pulls the journal along phi, and turns the pad with the journal
       associate (friction => friction_at(self, speed), s => sums%slopes)
          load%normal = sums%normal
@@ -150,7 +146,7 @@ contains
       do i = 1, n
          sums = contact_sums()
          associate (leading => gap%leading_angle, part => gap%arc()/n)
-            call self%add_arc(gap, position, leading - i*part, leading - (i - 1)*part, sums)
+            call add_arc(self, gap, position, leading - i*part, leading - (i - 1)*part, sums)
          end associate
          parts(i) = friction_at(self, speed)*sums%normal*speed
       end do
@@ -170,7 +166,7 @@ contains
       do turn = -1, 1
          low = max(towards + 2*pi*turn - half, first)
          high = min(towards + 2*pi*turn + half, last)
-         if (high > low) call self%add_stretch(gap, position, low, high, sums)
+         if (high > low) call add_stretch(self, gap, position, low, high, sums)
       end do
    end subroutine add_arc
 

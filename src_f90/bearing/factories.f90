@@ -11,17 +11,15 @@ module factories
    use table_film, only: new_table_film
    use film_losses, only: film_losses_type, new_film_losses
    use sor_film, only: new_sor_film, sor_options
-   use contact_law, only: contact_law_type, make_contact_law
-   use measured_contact, only: new_measured_contact
+   use contact_law, only: contact_law_type, make_contact_law, new_measured_contact
    use contact_table, only: contact_table_type, new_contact_table, new_untabulated_contact
-   use friction, only: friction_law, bengisu_akay_friction, lugre_friction, default_bristle_damping, &
-      & never_sticks
+   use friction, only: friction_law, bengisu_akay_friction, lugre_friction, default_bristle_damping, never_sticks
    use asperity_contact, only: asperity_contact_type, new_asperity_contact, no_asperities
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, usual_arc, march_films, static_films, converged_films, quick_films, filled_films, of_march
-   public :: new_losses, make_law, make_contact, make_friction, new_asperities, new_pads
+   public :: make_film, usual_arc, march_films, static_films, converged_films, quick_films, filled_films, of_march, &
+      & new_losses, make_law, make_friction, new_asperities, new_pads, pad_pivot, make_contacts, make_frictions
 
    !> What films are for: a march; the search for an equilibrium, which goes far and stays nowhere; what is linearised
    !> at a single state, with converged films; long ways of which only the end counts; a few states of a march, with
@@ -48,6 +46,11 @@ module factories
    !> Residual of over-relaxation over the relative tolerance of the march, at most, and what rounding leaves: films
    !> solved less well shake stiff pivots, and the steps become short.
    real(wp), parameter :: sor_tolerance = 1e-3_wp, least_residual = 1e-13_wp
+
+   type :: pad_pivot
+      type(contact_table_type) :: contact
+      class(friction_law), allocatable :: friction
+   end type pad_pivot
 
 contains
 
@@ -264,4 +267,35 @@ contains
          end associate
       end do
    end function new_pads
+
+   ! Contact and friction of the pivots of a bearing's pads.
+
+   !> The contact of every pivot, which takes time to make: equal ones are made once; for a motion or not.
+   subroutine make_contacts(v, moves, pivots)
+      type(pivot_type), intent(in) :: v
+      logical, intent(in) :: moves
+      type(pad_pivot), intent(inout) :: pivots(:)
+      integer :: i, k
+      do i = 1, size(pivots)
+         do k = 1, i - 1
+            if (abs(v%socket_radius(i) - v%socket_radius(k)) <= 0 &
+               & .and. abs(v%radius_difference(i) - v%radius_difference(k)) <= 0) exit
+         end do
+         if (k < i) then
+            pivots(i)%contact = pivots(k)%contact
+         else
+            call make_contact(v, i, moves, pivots(i)%contact)
+         end if
+      end do
+   end subroutine make_contacts
+
+   !> The friction of every pivot.
+   subroutine make_frictions(friction, pivots)
+      type(friction_type), intent(in) :: friction
+      type(pad_pivot), intent(inout) :: pivots(:)
+      integer :: i
+      do i = 1, size(pivots)
+         call make_friction(friction, i, pivots(i)%friction)
+      end do
+   end subroutine make_frictions
 end module factories

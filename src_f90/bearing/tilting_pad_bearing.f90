@@ -15,8 +15,8 @@ module tilting_pad_bearing
    use abstract_element, only: element_type
    use kinematics, only: pad_frame, frame_of, motion_of
    use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads, pad_derivatives
-   use factories, only: make_film, new_asperities, new_pads, march_films, static_films, of_march
-   use pad_pivots, only: pad_pivot, make_contacts, make_frictions
+   use factories, only: make_film, new_asperities, new_pads, march_films, static_films, of_march, pad_pivot, &
+      & make_contacts, make_frictions
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
@@ -91,9 +91,6 @@ module tilting_pad_bearing
       procedure :: warning
       procedure :: films_converge
       procedure :: use_in_statics
-      procedure, private :: set_parts
-      procedure, private :: evaluate_films
-      procedure, private :: set_loads
    end type tilting_pad_bearing_type
 
    !> One of this number of film evaluations is timed.
@@ -118,7 +115,7 @@ contains
       type(tilting_pad_bearing_type) :: bearing
       associate (given => inputs%bearings(b), n => inputs%bearings(b)%pad_count())
          allocate (bearing%pivots(n))
-         call bearing%set_parts(inputs, b)
+         call set_parts(bearing, inputs, b)
          if (present(accuracy)) bearing%accuracy = accuracy
          call make_film(given, inputs%integration%relative_tolerance, bearing%accuracy, bearing%film)
          call make_contacts(given%pivot, inputs%moves(), bearing%pivots)
@@ -195,7 +192,7 @@ contains
       logical, intent(in) :: pivots_differ, anew
       type(tilting_pad_type) :: before(size(self%pads))
       before = self%pads
-      call self%set_parts(inputs, b)
+      call set_parts(self, inputs, b)
       if (anew) call self%film%forget()
       if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, inputs, b)
       if (pivots_differ) call make_contacts(inputs%bearings(b)%pivot, inputs%moves(), self%pivots)
@@ -250,7 +247,7 @@ contains
          self%film_motion(i) = self%motion(i)
          if (self%asperity(i)%touches) self%film_motion(i)%position = self%asperity(i)%film_position
       end do
-      call self%evaluate_films(oil, speed, want_derivatives, chosen)
+      call evaluate_films(self, oil, speed, want_derivatives, chosen)
       do i = 1, size(self%pads)
          if (skipped(i)) cycle
          ok = self%pads(i)%admitted(pads(i), self%response(i))
@@ -260,7 +257,7 @@ contains
       end do
       do i = 1, size(self%pads)
          if (skipped(i)) cycle
-         call self%set_loads(i, self%frame(i), pads(i), self%response(i)%force, self%asperity(i), self%loads(i))
+         call set_loads(self, i, self%frame(i), pads(i), self%response(i)%force, self%asperity(i), self%loads(i))
          if (want_derivatives) call self%coordinates%derivatives(self%pads(i), self%frame(i), self%motion(i), pads(i), &
             & self%response(i), self%asperity(i), self%loads(i), self%derivatives(i))
       end do
@@ -511,7 +508,7 @@ contains
          associate (film => output(pad_outputs*(i - 1) + 1:pad_outputs*i), pad => self%pads(i), gap => self%pads(i)%gap)
             call self%asperities%evaluate(gap, pad%directions, motion_of(pad%position, frame, journal, pads(i)), &
                & speed, asperity)
-            call self%set_loads(i, frame, pads(i), film(1:2), asperity, loads)
+            call set_loads(self, i, frame, pads(i), film(1:2), asperity, loads)
             ! between steps at which it leaps a polynomial may undershoot
             samples(i) = pad_sample(loads%contact, pad%ball_radius*loads%friction%force, film(1:2), &
                & asperity%thickness, max(film(3), gap%supply_pressure, gap%ambient_pressure), asperity%carried())

@@ -3,7 +3,6 @@ module bearing_numbers
    use kinds, only: wp
    use text, only: to_text, fixed_text
    use case_groups, only: bearing_type
-   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use oil_properties, only: reference_viscosity
    use operating_point, only: operating_point_type

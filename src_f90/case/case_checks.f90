@@ -7,11 +7,14 @@ module case_checks
    use other_units, only: in_other_units
    use case_inputs, only: case_type
    use excitation_checks, only: check_excitations
-   use machine_checks, only: check_machine
-   use shape_checks, only: check_shape
+   use excitations, only: excitation_type
+   use rotor_groups, only: elastic_type, most_stations
    implicit none (type, external)
    private
    public :: check_case
+
+   !> How far a pad that bends may reach from its pivot, deg.
+   real(wp), parameter :: farthest = 90
 
    !> Most values in the blocks of all columns and pads, times four: 400 MB.
    real(wp), parameter :: most_in_blocks = 2e8_wp
@@ -275,4 +278,202 @@ contains
             & //'equilibria', error)
       end associate
    end subroutine check_branch
+
+   ! Checks of a machine: what no single value of its shaft and of what stands on it or under it can tell. A message
+   ! names the group, its variables, their values and what is allowed.
+
+   !> Raises an error for the first requirement that a machine does not meet.
+   subroutine check_machine(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      associate (s => inputs%start, q => inputs%coefficients%cross_stiffness)
+         call check_shaft(inputs%rotor%elastic, error)
+         call check_bearings(inputs%bearings, inputs%rotor%station_count(), error)
+         call check_parts(inputs%rotor%elastic, inputs%excitations, inputs%rotor%station_count(), error)
+         call check_supports(inputs%bearings, error)
+         call require(any(s%from == ['equilibrium', 'file       ']), 'start%from = '''//s%from//''': must be ' &
+            & //'''equilibrium'' or ''file'' for a machine', error)
+         if (abs(q) > 0) call refuse('coefficients%cross_stiffness = '//to_text(q)//': must be 0 for a machine', error)
+      end associate
+   end subroutine check_machine
+
+   !> A shaft or a rotor from a file, and every section a tube.
+   subroutine check_shaft(elastic, error)
+      type(elastic_type), intent(in) :: elastic
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i
+      associate (shaft => elastic%shaft)
+         if (.not. shaft%is_given()) then
+            call require(elastic%rotor_file /= '', 'shaft%length: must be given, the lengths of the shaft''s ' &
+               & //'sections; or rotor%file, the matrices of a rotor', error)
+            return
+         end if
+         call require(elastic%rotor_file == '', 'rotor%file = '''//elastic%rotor_file//''': shaft%length is given ' &
+            & //'too; give one of them', error)
+         call require(all(is_set(shaft%length)), 'shaft%length: every section needs one', error)
+         call require(all(is_set(shaft%diameter)), 'shaft%diameter: must be given, of each of the '// &
+            & to_text(size(shaft%length))//' sections', error)
+         do i = 1, size(shaft%length)
+            if (.not. shaft%bore(i) < shaft%diameter(i)) call refuse('shaft%bore = '//to_text(shaft%bore(i)) &
+               & //': must be below shaft%diameter = '//to_text(shaft%diameter(i))//' (section '//to_text(i)//')', &
+               & error)
+         end do
+      end associate
+   end subroutine check_shaft
+
+   !> Enough bearings, each at a station of its own.
+   subroutine check_bearings(bearings, stations, error)
+      type(bearing_type), intent(in) :: bearings(:)
+      integer, intent(in) :: stations
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: b, c
+      if (size(bearings) < 2) call refuse('a machine needs two or more groups &bearing, each with a name; there ' &
+         & //trim(merge('are none', 'is one  ', size(bearings) == 0)), error)
+      do b = 1, size(bearings)
+         call check_station('bearing'//bearings(b)%suffix(), bearings(b)%station, stations, error)
+         do c = 1, b - 1
+            if (bearings(b)%station == bearings(c)%station) call refuse('bearing'//bearings(b)%suffix() &
+               & //'%station = '//to_text(bearings(b)%station)//': is that of '//bearings(c)%label(' already'), error)
+         end do
+      end do
+   end subroutine check_bearings
+
+   !> What is on the shaft is at its stations.
+   subroutine check_parts(elastic, excitations, stations, error)
+      type(elastic_type), intent(in) :: elastic
+      type(excitation_type), intent(in) :: excitations(:)
+      integer, intent(in) :: stations
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i
+      do i = 1, size(elastic%discs)
+         associate (disc => elastic%discs(i))
+            call check_station('disc('//to_text(i)//')', disc%station, stations, error)
+            ! the moments of inertia of any body
+            if (.not. disc%polar_inertia <= 2*disc%diametral_inertia) call refuse('disc('//to_text(i) &
+               & //')%polar_inertia = '//to_text(disc%polar_inertia)//': must be at most twice diametral_inertia = ' &
+               & //to_text(disc%diametral_inertia), error)
+         end associate
+      end do
+      do i = 1, size(elastic%unbalances)
+         call check_station('unbalance('//to_text(i)//')', elastic%unbalances(i)%station, stations, error)
+      end do
+      do i = 1, size(elastic%loads)
+         call check_station('load('//to_text(i)//')', elastic%loads(i)%station, stations, error)
+      end do
+      do i = 1, size(excitations)
+         call check_station('excitation('//to_text(i)//')', excitations(i)%station, stations, error)
+      end do
+   end subroutine check_parts
+
+   !> A support holds the bearing.
+   subroutine check_supports(bearings, error)
+      type(bearing_type), intent(in) :: bearings(:)
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: b
+      do b = 1, size(bearings)
+         if (.not. allocated(bearings(b)%support)) cycle
+         associate (k => bearings(b)%support%stiffness, mass => bearings(b)%support%mass, &
+            & group => 'support'//bearings(b)%suffix())
+            if (.not. mass > 0) call refuse(group//'%mass = '//to_text(mass)//': must be above 0, kg', error)
+            if (.not. all(is_set(k))) then
+               call refuse(group//'%stiffness: must be given, along y and z', error)
+            else if (.not. all(k > 0)) then
+               call refuse(group//'%stiffness = '//to_text(minval(k))//': must be above 0 along y and z', error)
+            end if
+         end associate
+      end do
+   end subroutine check_supports
+
+   !> Refuses a station that is left out or that the shaft, of this number of stations, does not have.
+   subroutine check_station(group, station, stations, error)
+      character(len=*), intent(in) :: group
+      integer, intent(in) :: station, stations
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: last
+      last = stations
+      if (last == 0) last = most_stations
+      if (station == 0) then
+         call refuse(group//'%station: must be given, 1 to '//to_text(last), error)
+      else if (station > last) then
+         call refuse(group//'%station = '//to_text(station)//': must be 1 to '//to_text(last)//', the stations of ' &
+            & //'the shaft, of which there is one more than sections', error)
+      end if
+   end subroutine check_station
+
+   ! Checks of bent pads and of clearances that heat changes: which cases have them, and what they need.
+
+   !> Raises an error for the first requirement that a case does not meet.
+   subroutine check_shape(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: b
+      do b = 1, size(inputs%bearings)
+         associate (bearing => inputs%bearings(b))
+            if (.not. bearing%changes_shape()) cycle
+            if (allocated(error)) return
+            call check_shape_tasks(inputs, what(bearing), error)
+            if (bearing%pads%bending /= 'none') call check_bending(bearing, inputs%thermal%model, error)
+            if (is_set(bearing%clearance_temperature)) call check_expansion(bearing, inputs%thermal%model, error)
+            call add_context(error, bearing%label())
+         end associate
+      end do
+   end subroutine check_shape
+
+   !> The variable that changes the shape, with its value.
+   function what(bearing)
+      type(bearing_type), intent(in) :: bearing
+      character(len=:), allocatable :: what
+      if (bearing%pads%bending /= 'none') then
+         what = 'pads%bending = '''//bearing%pads%bending//''''
+      else
+         what = 'bearing%clearance_temperature = '//to_text(bearing%clearance_temperature)
+      end if
+   end function what
+
+   !> Shapes are those of one equilibrium; `what` changes them.
+   subroutine check_shape_tasks(inputs, what, error)
+      type(case_type), intent(in) :: inputs
+      character(len=*), intent(in) :: what
+      type(error_type), allocatable, intent(inout) :: error
+      call require(inputs%about%task /= 'branch', what//': is not for case%task = ''branch''; a study of ' &
+         & //'equilibria finds the shape of each', error)
+      call require(.not. inputs%coefficients%threshold_up_to_rpm > 0, 'coefficients%threshold_up_to_rpm = ' &
+         & //to_text(inputs%coefficients%threshold_up_to_rpm)//': is not for '//what//'; a study of ' &
+         & //'coefficients over the speed finds the shape at each', error)
+      call require(inputs%start%from /= 'partial', 'start%from = ''partial'': is not for '//what &
+         & //', which starts at the equilibrium', error)
+      call require(inputs%thermal%march == 'frozen', 'thermal%march = '''//inputs%thermal%march//''': is not for ' &
+         & //what//'; ''frozen'' keeps oil and shape of the start', error)
+   end subroutine check_shape_tasks
+
+   subroutine check_bending(bearing, thermal_model, error)
+      type(bearing_type), intent(in) :: bearing
+      character(len=*), intent(in) :: thermal_model
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i
+      associate (p => bearing%pads)
+         call require(bearing%tilting(), what(bearing)//': is for pads that tilt on a pivot; pads%motion = ''fixed'' ' &
+            & //'has none', error)
+         call require(p%bending == 'elastic' .or. thermal_model == 'film', what(bearing)//': needs the ' &
+            & //'temperatures in the pads, thermal%model = ''film''; ''elastic'' does not', error)
+         do i = 1, bearing%pad_count()
+            if (.not. p%arc_deg(i)*max(p%pivot_ratio(i), 1 - p%pivot_ratio(i)) <= farthest) call refuse( &
+               & 'pads%arc_deg = '//to_text(p%arc_deg(i))//': a pad that bends may reach at most ' &
+               & //to_text(farthest)//' deg from its pivot (pad '//to_text(i)//')', error)
+         end do
+      end associate
+   end subroutine check_bending
+
+   subroutine check_expansion(bearing, thermal_model, error)
+      type(bearing_type), intent(in) :: bearing
+      character(len=*), intent(in) :: thermal_model
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i
+      call require(thermal_model /= 'none' .or. is_set(bearing%oil%shaft_temperature), what(bearing)//': needs ' &
+         & //'oil%shaft_temperature, or thermal%model = ''pad'' or ''film'', which give the shaft''s', error)
+      do i = 1, bearing%pad_count()
+         call require(thermal_model == 'film' .or. is_set(bearing%pads%temperature(i)), what(bearing)//': needs ' &
+            & //'pads%temperature, or thermal%model = ''film'', which gives it (pad '//to_text(i)//')', error)
+      end do
+   end subroutine check_expansion
 end module case_checks

@@ -34,10 +34,6 @@ module excitations
       procedure :: force
       procedure :: force_rate
       procedure :: next_switch
-      procedure, private :: acts
-      procedure, private :: phase
-      procedure, private :: direction
-      procedure, private :: interval
    end type excitation_type
 
 contains
@@ -143,18 +139,18 @@ contains
       real(wp) :: force(2), angle, rate
       integer :: k
       force = 0
-      if (.not. self%acts(t)) return
+      if (.not. acts(self, t)) return
       select case (self%law)
       case (table)
-         k = self%interval(t - self%start)
+         k = interval(self, t - self%start)
          if (k > 0) force = self%table(:, k) + (t - self%start - self%time(k))*slope(self, k)
       case (step)
          force = self%amplitude*self%along
       case (ramp)
          force = self%amplitude*min(1.0_wp, (t - self%start)/(self%end - self%start))*self%along
       case default
-         call self%phase(t, turned, 0.0_wp, angle, rate)
-         force = self%amplitude*self%direction(angle)
+         call phase(self, t, turned, 0.0_wp, angle, rate)
+         force = self%amplitude*direction(self, angle)
       end select
    end function force
 
@@ -165,18 +161,18 @@ contains
       real(wp) :: force_rate(2), angle, rate
       integer :: k
       force_rate = 0
-      if (.not. self%acts(t)) return
+      if (.not. acts(self, t)) return
       select case (self%law)
       case (table)
-         k = self%interval(t - self%start)
+         k = interval(self, t - self%start)
          if (k > 0) force_rate = slope(self, k)
       case (step)
          force_rate = 0
       case (ramp)
          if (t < self%end) force_rate = self%amplitude/(self%end - self%start)*self%along
       case default
-         call self%phase(t, turned, speed, angle, rate)
-         force_rate = self%amplitude*rate*self%direction(angle + 0.5_wp*pi)
+         call phase(self, t, turned, speed, angle, rate)
+         force_rate = self%amplitude*rate*direction(self, angle + 0.5_wp*pi)
       end select
    end function force_rate
 

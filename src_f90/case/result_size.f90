@@ -3,7 +3,6 @@ module result_size
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use case_groups, only: bearing_type
-   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    implicit none (type, external)
    private

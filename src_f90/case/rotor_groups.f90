@@ -3,11 +3,22 @@
 module rotor_groups
    use kinds, only: wp, pi
    use case_groups, only: unset, is_set
-   use given_rotor, only: given_rotor_type
    implicit none (type, external)
    private
-   public :: rotor_type, elastic_type, shaft_type, disc_type, unbalance_type, load_type, reduction_type
-   public :: most_bearings, most_sections, most_stations
+   public :: rotor_type, elastic_type, shaft_type, disc_type, unbalance_type, load_type, reduction_type, &
+      & most_bearings, most_sections, most_stations, given_rotor_type
+
+   type :: given_rotor_type
+      !> (n, n), SI units.
+      real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness
+      !> matmul(station, q) is y and z of station 1, y and z of station 2, ..., m; matmul(slope, q) are the slopes dy/dx
+      !> and dz/dx there: (2*stations, n).
+      real(wp), allocatable, dimension(:, :) :: station, slope
+      !> The mass matrix times a translation of 1 m along y, kg: what gravity acts on.
+      real(wp), allocatable :: weighed(:)
+      !> kg
+      real(wp) :: total_mass = 0
+   end type given_rotor_type
 
    !> Most bearings, and sections of a shaft; the highest number of a station, also of a rotor from a file.
    integer, parameter :: most_bearings = 20, most_sections = 500, most_stations = 10000

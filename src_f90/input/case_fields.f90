@@ -7,9 +7,8 @@ module case_fields
    use case_inputs, only: case_type
    use rotor_groups, only: rotor_type, elastic_type
    use excitations, only: excitation_type, make_excitations
-   use excitation_fields, only: list_excitations
+   use machine_fields, only: list_excitations, list_rotor_file, list_parts, list_bearings, list_place
    use bearing_fields, only: list_bearing, list_oil, list_pads, list_pivot, list_friction, list_asperity, list_film
-   use machine_fields, only: list_rotor_file, list_parts, list_bearings, list_place
    implicit none (type, external)
    private
    public :: list_variables, put_variables, list_all_variables

@@ -8,15 +8,19 @@ module namelist_text
    use machine_names, only: counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable, &
       & is_name, longest_bearing
    use variable_names, only: meant_variable
+   use input_file, only: read_input
    implicit none (type, external)
    private
-   public :: parse_namelist, parse_override
+   public :: parse_namelist, parse_override, read_text, parse_case
 
    !> Maximum number of groups, assignments, or values of one assignment, and maximum length of a name.
    integer, parameter :: most_items = 1000, longest_name = 60
 
    character(len=*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz_'
    character(len=*), parameter :: name_characters = letters//'0123456789'
+
+   !> Longest input file, bytes.
+   integer, parameter :: longest_file = 100000
 
 contains
 
@@ -309,4 +313,27 @@ contains
          token%text = token%text//scan%text(scan%at:scan%at)
       end do
    end subroutine quoted
+
+   ! A case file, read and split into assignments.
+
+   !> The text of a case file.
+   subroutine read_text(file, text, error)
+      character(len=*), intent(in) :: file
+      character(len=:), allocatable, intent(out) :: text
+      type(error_type), allocatable, intent(out) :: error
+      call read_input(file, 'case', longest_file, '; tiltpad-collect makes a study of a folder of results', &
+         & '; tiltpad-plot draws it, tiltpad --resume '//file//' continues a result', text, error)
+   end subroutine read_text
+
+   !> The assignments of a case's text, with the overrides ("group%name=value"); `file` is for messages.
+   subroutine parse_case(text, file, overrides, parsed, error)
+      character(len=*), intent(in) :: text, file, overrides(:)
+      type(namelist_type), intent(out) :: parsed
+      type(error_type), allocatable, intent(out) :: error
+      integer :: i
+      call parse_namelist(text, file, parsed, error)
+      do i = 1, size(overrides)
+         if (.not. allocated(error)) call parse_override(trim(overrides(i)), parsed, error)
+      end do
+   end subroutine parse_case
 end module namelist_text

@@ -1,12 +1,12 @@
 !> Parameter studies: in a case with the group &sweep variables have several values; the case describes many runs.
 module parameter_study
-   use kinds, only: wp, i8
+   use kinds, only: i8
    use text, only: to_text, checksum
    use errors, only: error_type
    use case_inputs, only: case_type
-   use assignments, only: namelist_type, assignment_type, token_type, put_assignment, study_group
+   use assignments, only: namelist_type, assignment_type, put_assignment, study_group
    use study_variables, only: study_variables_type
-   use case_text, only: read_text, parse_case
+   use namelist_text, only: read_text, parse_case
    use case_namelist, only: case_from_namelist, fill_case
    use namelist_writer, only: namelist_of
    use number_columns, only: read_tables
@@ -33,7 +33,8 @@ module parameter_study
       logical :: given = .false.
       integer :: runs = 1
       type(namelist_type), private :: base
-      type(study_variables_type), private :: varied
+      !> The varied variables, and their values in each run.
+      type(study_variables_type) :: varied
       !> Checksums of the base and of the runs up to the k-th, k = 0, ..., runs.
       integer(i8), allocatable, private :: marks(:)
    contains
@@ -42,11 +43,6 @@ module parameter_study
       procedure :: tag
       procedure :: resolved
       procedure :: checked
-      !> The varied variables, and the value of the i-th in the k-th run.
-      procedure :: variables
-      procedure :: value
-      procedure :: number
-      procedure, private :: namelist_of_run
    end type study_type
 
 contains
@@ -97,7 +93,7 @@ contains
       type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
-      call self%namelist_of_run(k, parsed)
+      call namelist_of_run(self, k, parsed)
       call case_from_namelist(parsed, inputs, error)
    end subroutine case_of_run
 
@@ -135,29 +131,6 @@ contains
          & //to_text(self%marks(self%runs))
    end subroutine tag
 
-   !> Their assignments, without values.
-   function variables(self) result(found)
-      class(study_type), intent(in) :: self
-      type(assignment_type), allocatable :: found(:)
-      found = self%varied%targets()
-   end function variables
-
-   subroutine value(self, i, k, token)
-      class(study_type), intent(in) :: self
-      integer, intent(in) :: i, k
-      type(token_type), intent(out) :: token
-      call self%varied%value(i, k, token)
-   end subroutine value
-
-   !> The same as a number; `ok` is false where it is none.
-   subroutine number(self, i, k, x, ok)
-      class(study_type), intent(in) :: self
-      integer, intent(in) :: i, k
-      real(wp), intent(out) :: x
-      logical, intent(out) :: ok
-      call self%varied%number_of_run(i, k, x, ok)
-   end subroutine number
-
    !> The k-th run's case with every default, marked, and what follows from it; its tables are read as a run reads them.
    subroutine checked(self, k, text, error)
       class(study_type), intent(in) :: self
@@ -169,7 +142,7 @@ contains
       call self%inputs(k, inputs, error)
       if (.not. allocated(error)) call read_tables(inputs, error)
       if (allocated(error)) return
-      call self%namelist_of_run(k, parsed)
+      call namelist_of_run(self, k, parsed)
       text = marked_text(inputs, parsed)//derived_text(inputs)
    end subroutine checked
 
@@ -181,7 +154,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
       type(case_type) :: inputs
-      call self%namelist_of_run(1, parsed)
+      call namelist_of_run(self, 1, parsed)
       call fill_case(parsed, inputs, error)
       if (allocated(error)) return
       text = namelist_of(inputs)//self%varied%text()
@@ -196,7 +169,7 @@ contains
       integer :: i
       parsed = self%base
       if (.not. self%given) return
-      do i = 1, self%varied%number()
+      do i = 1, size(self%varied%variables)
          call self%varied%assignment_of_run(i, k, new)
          call put_assignment(new, parsed)
       end do

@@ -37,7 +37,7 @@ module study_variables
       private
       !> True where all factors change together.
       logical :: zip = .false.
-      type(variable_type), allocatable :: variables(:)
+      type(variable_type), allocatable, public :: variables(:)
       !> How many values each factor has; every list is one, and so is the table.
       integer, allocatable :: counts(:)
       type(study_table_type) :: table
@@ -45,7 +45,6 @@ module study_variables
       procedure, public :: begin
       procedure, public :: read => read_assignment
       procedure, public :: count_runs
-      procedure, public :: number
       procedure, public :: targets
       procedure, public :: assignment_of_run
       procedure, public :: value
@@ -54,8 +53,6 @@ module study_variables
       procedure, public :: find_checksums
       procedure, public :: text => group_text
       procedure :: add
-      procedure :: read_file
-      procedure :: row_of
       procedure :: line
    end type study_variables_type
 
@@ -83,7 +80,7 @@ contains
             & given%origin//': '//assignment_text(given)//': must be one of ''product'', ''zip''', error)
          self%zip = order == 'zip'
       case ('file')
-         call self%read_file(given, base, error)
+         call read_file(self, given, base, error)
       case default
          percent = index(given%name, '%')
          new%target = given
@@ -160,12 +157,6 @@ contains
       if (.not. allocated(error)) self%variables = [self%variables, new]
    end subroutine add
 
-   !> How many variables are varied.
-   pure integer function number(self)
-      class(study_variables_type), intent(in) :: self
-      number = size(self%variables)
-   end function number
-
    !> The assignments to the varied variables, without values.
    function targets(self) result(found)
       class(study_variables_type), intent(in) :: self
@@ -234,7 +225,7 @@ contains
       class(study_variables_type), intent(in) :: self
       integer, intent(in) :: i, k
       type(token_type), intent(out) :: token
-      associate (v => self%variables(i), row => self%row_of(i, k))
+      associate (v => self%variables(i), row => row_of(self, i, k))
          if (v%column > 0) then
             call self%table%value(row, v%column, token)
          else
@@ -254,7 +245,7 @@ contains
          call self%value(i, k, token)
          call read_number(lower_case(token%text), x, ok)
       else
-         call self%variables(i)%values%number(self%row_of(i, k), x, ok)
+         call self%variables(i)%values%number(row_of(self, i, k), x, ok)
       end if
    end subroutine number_of_run
 
@@ -266,7 +257,7 @@ contains
       found = self%variables(i)%target
       allocate (found%values(1))
       call self%value(i, k, found%values(1))
-      if (self%variables(i)%column > 0) found%origin = self%table%origin(self%row_of(i, k))
+      if (self%variables(i)%column > 0) found%origin = self%table%origin(row_of(self, i, k))
    end subroutine assignment_of_run
 
    !> The values of the k-th run, a line for each variable.
@@ -306,7 +297,7 @@ contains
       do k = 1, runs
          marks(k) = marks(k - 1)
          do i = 1, size(lines)
-            associate (row => self%row_of(i, k))
+            associate (row => row_of(self, i, k))
                if (row /= rows(i)) lines(i)%text = self%line(i, k)//newline
                rows(i) = row
             end associate

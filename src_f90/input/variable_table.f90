@@ -60,8 +60,6 @@ module variable_table
       procedure :: numbers
       procedure :: each
       procedure :: list
-      procedure, private :: next
-      procedure, private :: enlarge
    end type variable_table_type
 
 contains
@@ -109,7 +107,7 @@ contains
       self%at = self%at + 1
       new = .not. self%filled
       if (.not. new) return
-      if (self%at > size(self%variables)) call self%enlarge()
+      if (self%at > size(self%variables)) call enlarge(self)
       self%count = self%at
       associate (v => self%variables(self%at))
          v%group = self%this_group
@@ -140,7 +138,7 @@ contains
       character(len=:), allocatable, intent(inout) :: value
       character(len=*), intent(in) :: name, choices, meaning
       logical :: new
-      new = self%next(name, meaning)
+      new = next(self, name, meaning)
       associate (v => self%variables(self%at))
          if (new) then
             v%is_text = .true.
@@ -170,7 +168,7 @@ contains
       real(wp), intent(in) :: low, high
       character(len=*), intent(in) :: name, unit, meaning
       logical :: new
-      new = self%next(name, meaning)
+      new = next(self, name, meaning)
       associate (v => self%variables(self%at))
          if (new) then
             v%unit = unit

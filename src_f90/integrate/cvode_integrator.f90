@@ -5,10 +5,9 @@ module cvode_integrator
    use fcvode_mod, only: fcvodecreate, fcvodeinit, fcvodereinit, fcvodewftolerances, fcvodesetuserdata, &
       & fcvodesetlinearsolver, fcvodesetlinsysfn, fcvodesetlinearsolutionscaling, fcvodesetjacevalfrequency, &
       & fcvodesetlsetupfrequency, fcvodegetcurrentgamma, fcvodesetnonlinconvcoef, fcvodesetmaxord, &
-      & fcvodesetmaxerrtestfails, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, &
-      & fcvodefree, fcvodegetnumrhsevals, fcvodegetnumjacevals, fcvodegetnumerrtestfails, &
-      & fcvodegetnumnonlinsolvconvfails, fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, &
-      & cv_first_rhsfunc_err
+      & fcvodesetmaxerrtestfails, fcvodesetmaxstep, fcvodesetminstep, fcvodesetstoptime, fcvode, fcvodefree, &
+      & fcvodegetnumrhsevals, fcvodegetnumjacevals, fcvodegetnumerrtestfails, fcvodegetnumnonlinsolvconvfails, &
+      & fcvodegetcurrentstep, fcvodegetlastorder, cv_bdf, cv_one_step, cv_first_rhsfunc_err
    use sundials_context, only: index_kind, new_context, free_context, silence, cvode_failure, n_vector, fn_vdestroy, &
       & sunmatrix, fsunmatdestroy, sunlinearsolver, sunlinearsolver_ops, sunlinearsolver_direct, fsunlinsolnewempty, &
       & fsunlinsolfreeempty
@@ -20,11 +19,33 @@ module cvode_integrator
    use errors, only: error_type, raise, numerics_error
    use ode_model, only: ode_model_type, integrator_counts_type
    use newton_iteration, only: newton_iteration_type
-   use next_stop, only: next_stop_type
-   use step_history, only: step_history_type, new_step_history
    implicit none (type, external)
    private
-   public :: integrator_type, integrator_options
+   public :: integrator_type, integrator_options, step_history_type, new_step_history
+
+   !> Highest order of BDF, and so points kept beside the last.
+   integer, parameter :: highest_order = 5
+
+   type :: step_history_type
+      real(wp) :: time(0:highest_order) = 0
+      !> (value, point); the points follow each other round and round.
+      real(wp), allocatable :: values(:, :)
+      !> Where the last point stands, and how many there are.
+      integer :: last = highest_order, points = 0
+   contains
+      procedure :: add
+      procedure :: at
+   end type step_history_type
+
+   type :: next_stop_type
+      !> When steps end, and from when on they go on, s: where the rates jump, steps end just before, as at the time
+      !> itself the rates are those after the jump.
+      real(wp) :: time = huge(1.0_wp), resumed = huge(1.0_wp)
+      !> Whether the rates jump: what was before says nothing of what follows.
+      logical :: anew = .false.
+   contains
+      procedure :: find
+   end type next_stop_type
 
    type :: integrator_options
       real(wp) :: relative_tolerance = 1e-6_wp
@@ -64,7 +85,6 @@ module cvode_integrator
 
    !> One integration. It owns all it allocates, and must not be copied by assignment.
    type :: integrator_type
-      private
       type(core_type), pointer :: core => null()
    contains
       procedure :: start
@@ -347,4 +367,71 @@ contains
       call core%model%solve(gamma(1), x, ok)
       solve_callback = merge(0_c_int, 1_c_int, ok)
    end function solve_callback
+
+   ! States and outputs at the ends of the last steps, and between them.
+   ! BDF's solution between steps is a polynomial of the step's order. The one through the last values, as many as the
+   ! order and one, is as accurate, for the states as for quantities that follow from them.
+
+   !> An empty history of a number of values.
+   pure type(step_history_type) function new_step_history(n) result(history)
+      integer, intent(in) :: n
+      allocate (history%values(n, 0:highest_order), source=0.0_wp)
+   end function new_step_history
+
+   !> States and outputs, together as many as there are values, at the end of a step, later than all before.
+   pure subroutine add(self, t, states, outputs)
+      class(step_history_type), intent(inout) :: self
+      real(wp), intent(in) :: t, states(:), outputs(:)
+      self%last = modulo(self%last + 1, highest_order + 1)
+      self%time(self%last) = t
+      self%values(:size(states), self%last) = states
+      self%values(size(states) + 1:, self%last) = outputs
+      self%points = min(self%points, highest_order) + 1
+   end subroutine add
+
+   !> Values at a time in the last step, which was of this order.
+   pure subroutine at(self, t, order, values)
+      class(step_history_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      integer, intent(in) :: order
+      real(wp), intent(out), contiguous :: values(:)
+      real(wp), dimension(0:highest_order) :: back, weight
+      real(wp) :: ahead, apart
+      integer :: i, j, k, point(0:highest_order), n
+      n = min(order, self%points - 1)
+      do i = 0, n
+         point(i) = modulo(self%last - i, highest_order + 1)
+         back(i) = t - self%time(point(i))
+      end do
+      weight = 0
+      do i = 0, n
+         ahead = 1
+         apart = 1
+         do k = 0, n
+            if (k == i) cycle
+            ahead = ahead*back(k)
+            apart = apart*(back(k) - back(i))
+         end do
+         weight(point(i)) = ahead/apart
+      end do
+      associate (w => weight, v => self%values)
+         !$omp simd
+         do j = 1, size(values)
+            values(j) = w(0)*v(j, 0) + w(1)*v(j, 1) + w(2)*v(j, 2) + w(3)*v(j, 3) + w(4)*v(j, 4) + w(5)*v(j, 5)
+         end do
+      end associate
+   end subroutine at
+
+   ! Where the steps of an integration end next because its model switches.
+
+   !> The first stop of an integration from t to t_end, s, where the last is.
+   pure subroutine find(self, model, t, t_end)
+      class(next_stop_type), intent(inout) :: self
+      class(ode_model_type), intent(in) :: model
+      real(wp), intent(in) :: t, t_end
+      call model%next_switch(t, self%resumed, self%anew)
+      self%anew = self%anew .and. self%resumed < t_end
+      self%time = min(t_end, self%resumed)
+      if (self%anew) self%time = nearest(self%resumed, -1.0_wp)
+   end subroutine find
 end module cvode_integrator

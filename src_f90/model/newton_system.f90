@@ -2,7 +2,7 @@
 !> last.
 module newton_system
    use kinds, only: wp
-   use linear_algebra, only: dgesv
+   use linear_algebra, only: dgesv, identity
    use abstract_rotor, only: rotor_type
    use state_layout, only: state_layout_type, of_journal
    use abstract_element, only: element_type, element_pointer
@@ -168,16 +168,11 @@ contains
       real(wp), intent(in) :: gamma
       logical, intent(out) :: ok
       real(wp) :: a(self%rotor, self%rotor), inner(self%rotor - self%journals, self%rotor - self%journals)
-      integer :: pivots(size(inner, 1)), info, i
+      integer :: pivots(size(inner, 1)), info
       a = rotor%newton_matrix(gamma, self%speed)
       associate (n => self%journals, of => self%condensed)
          inner = a(n + 1:, n + 1:)
-         if (allocated(of%inverse)) deallocate (of%inverse)
-         allocate (of%inverse, mold=inner)
-         of%inverse = 0
-         do i = 1, size(inner, 1)
-            of%inverse(i, i) = 1
-         end do
+         of%inverse = identity(size(inner, 1))
          info = 0
          if (size(inner, 1) > 0) call dgesv(size(inner, 1), size(inner, 1), inner, size(inner, 1), pivots, &
             & of%inverse, size(inner, 1), info)

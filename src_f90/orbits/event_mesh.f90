@@ -22,9 +22,6 @@ module event_mesh
       real(wp), allocatable :: time(:)
       integer, allocatable :: switching_point(:)
       logical :: changed = .false.
-   contains
-      procedure :: put_end
-      procedure :: drop_end
    end type mesh_type
 
 contains
@@ -42,7 +39,7 @@ contains
       mesh%time = [orbit%time]
       mesh%switching_point = [orbit%switching_point]
       do k = 1, orbit%intervals()
-         if (orbit%switching_point(k) < 0) call mesh%drop_end(orbit%time(k))
+         if (orbit%switching_point(k) < 0) call drop_end(mesh, orbit%time(k))
       end do
       do switching_point = 1, size(state)
          call follow_switching_point(orbit, switching_point, state(switching_point), value(switching_point), mesh)
@@ -71,9 +68,9 @@ contains
             else
                above = orbit%at(state, i, k) - value
                if (at_end) then
-                  if (above < 0 .eqv. last < 0) call mesh%drop_end(orbit%time(k - 1))
+                  if (above < 0 .eqv. last < 0) call drop_end(mesh, orbit%time(k - 1))
                else if (above < 0 .neqv. last < 0) then
-                  call mesh%put_end(passage(orbit, state, value, root_bracket([before, now], [last, above])), &
+                  call put_end(mesh, passage(orbit, state, value, root_bracket([before, now], [last, above])), &
                      & switching_point)
                end if
                at_end = .false.

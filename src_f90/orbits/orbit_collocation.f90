@@ -4,7 +4,7 @@
 !> unstable orbit is found like a stable one. Elimination from interval to interval leaves the monodromy matrix.
 module orbit_collocation
    use kinds, only: wp
-   use linear_algebra, only: padded
+   use linear_algebra, only: padded, identity
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
    use ode_model, only: ode_model_type
@@ -78,9 +78,7 @@ contains
       equations%shift(columns + 1, ends(2:size(ends) - 1)) = 1
       equations%maps = new_interval_maps(model, orbit%scale, orbit%intervals(), constants)
       start = 0
-      do i = 1, columns
-         start(i, i) = 1
-      end do
+      start(:columns, :columns) = identity(columns)
       do k = 1, orbit%intervals()
          call linearize(model, orbit, k, jacobian, gap, error, shift)
          refused = allocated(error)
@@ -114,14 +112,12 @@ contains
    function transitions(self)
       class(orbit_equations_type), intent(in) :: self
       real(wp), allocatable :: transitions(:, :, :), start(:, :), at(:, :, :)
-      integer :: i, k
+      integer :: k
       associate (n => self%n)
          allocate (transitions(n, n, ubound(self%shift, 2)))
          allocate (start(padded(n), n + self%constants), source=0.0_wp)
          allocate (at(padded(n), n, points))
-         do i = 1, n
-            start(i, i) = 1
-         end do
+         start(:n, :n) = identity(n)
          do k = 1, size(transitions, 3)
             call self%maps%follow(k, points, start, at)
             transitions(:, :, k) = transpose(at(:n, :, points))

@@ -51,8 +51,6 @@ module orbit_problem
       procedure :: fits
       procedure :: period
       procedure :: residual
-      procedure, private :: set_shift
-      procedure, private :: defect
    end type orbit_problem_type
 
    !> The difference of the parameter for a derivative over it, over its size. The rates are known to some 1e-10 of
@@ -125,7 +123,7 @@ contains
       call follow_switching_points(self%ode%model, self%orbit)
       if (size(matrix, 2) > self%n) then
          allocate (shift)
-         call self%set_shift(shift, error)
+         call set_shift(self, shift, error)
          self%refused = allocated(error)
          if (self%refused) return
       end if
@@ -191,7 +189,7 @@ contains
       real(wp), allocatable :: mesh(:), before(:)
       real(wp) :: now
       self%ode%start = self%ode%found
-      now = self%defect(between)
+      now = defect(self, between)
       if (self%first_defect < 0) self%first_defect = now
       if (now > largest_growth*self%first_defect) then
          call self%ode%new_mesh(self%orbit, mesh)
@@ -219,7 +217,7 @@ contains
    !> By how much the orbit is no solution, over the scales: the defect at the points, and the gap of the period.
    real(wp) function residual(self)
       class(orbit_problem_type), intent(inout) :: self
-      residual = max(self%defect(place), maxval(abs(self%orbit%gap())))
+      residual = max(defect(self, place), maxval(abs(self%orbit%gap())))
    end function residual
 
    !> The largest defect of the rates at these places in an interval, 0 to 1, times its length, over the scales.

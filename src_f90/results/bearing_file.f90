@@ -25,13 +25,11 @@ module bearing_file
       procedure :: list_size
       procedure :: get_text
       procedure :: samples
-      procedure :: first_sample
       procedure :: declare
       procedure :: last_samples
       procedure :: part_of_samples
       procedure :: sampled_revolutions
       procedure :: last_revolutions
-      procedure, private :: series
    end type bearing_file_type
 
 contains
@@ -118,12 +116,6 @@ contains
       samples = self%run%samples
    end function samples
 
-   !> Number of the first sample, from 0, from which on all are kept.
-   pure integer(i8) function first_sample(self)
-      class(bearing_file_type), intent(in) :: self
-      first_sample = self%run%first_sample()
-   end function first_sample
-
    !> A series of this number of values over the axis, or, where `across` names a scale of the bearing, over both.
    subroutine declare(self, name, width, across, units, long_name)
       class(bearing_file_type), intent(in) :: self
@@ -138,7 +130,7 @@ contains
       character(len=*), intent(in) :: name
       integer, intent(in) :: n
       real(wp), allocatable, intent(out) :: values(:, :)
-      call self%run%last_samples(self%series(name), n, values)
+      call self%run%last_samples(series(self, name), n, values)
    end subroutine last_samples
 
    !> The n samples of a series behind the first `skip` ones, (width, n): all kept, or the first one alone.
@@ -148,7 +140,7 @@ contains
       integer(i8), intent(in) :: skip
       integer, intent(in) :: n
       real(wp), allocatable, intent(out) :: values(:, :)
-      call self%run%part_of_samples(self%series(name), skip, n, values)
+      call self%run%part_of_samples(series(self, name), skip, n, values)
    end subroutine part_of_samples
 
    !> Revolutions from the first sample to the last.
@@ -168,7 +160,7 @@ contains
       real(wp) :: start
       integer(i8) :: low, high, middle
       high = self%samples() - 1
-      low = self%first_sample()
+      low = self%run%first_sample()
       if (high > low) then
          call self%last_samples('shaft_angle', 2, angle)
          ! half a sample more, so that rounding loses none

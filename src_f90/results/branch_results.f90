@@ -56,7 +56,7 @@ contains
       real(wp), allocatable :: values(:)
       logical :: first
       integer :: b
-      first = .not. file%is_declared()
+      first = .not. file%declared
       values = [real(wp) ::]
       frozen = ''
       group = ''

@@ -3,21 +3,23 @@
 module march_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi, degree
-   use case_groups, only: bearing_type
+   use case_groups, only: bearing_type, pivot_type
    use case_inputs, only: case_type
-   use loops, only: path_integral, harmonic, slow_share
+   use loops, only: path_integral, harmonic, slow_share, integral_over_way
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
-   use revolution_figures, only: put_revolutions
-   use wear_figures, only: put_wear
    use record, only: record_type
    use bearing_file, only: bearing_file_type
    use summary_group, only: put_figure, run_extremes_type
+   use contact_law, only: contact_law_type, contact_point
+   use factories, only: make_law
    implicit none (type, external)
    private
-   public :: put_progress, put_march_figures
+   public :: put_progress, put_march_figures, put_revolutions, put_station_figures
 
+   character(len=*), parameter :: group = 'by_revolution/', over = 'revolution'
    !> Part of a revolution that a whole one may lack by rounding.
    real(wp), parameter :: rounding = 1e-9_wp
+
    !> A pivot sticks below this share of the velocity over which friction falls from static to dynamic; the values of
    !> the paper give 5e-5 m/s for both laws.
    real(wp), parameter :: sticking = 0.05_wp
@@ -287,4 +289,167 @@ contains
       call put_figure(file, 'pad_order_amplitude', found%amplitude, 'rad', 'amplitude at this order')
       call put_figure(file, 'pad_flutters', merge(1.0_wp, 0.0_wp, found%flutters), '1', '1 where it flutters')
    end subroutine put_behaviour
+
+   ! Figures of each of the last revolutions of a run, as many as the spectra may have, group `by_revolution`: the
+   ! states of journal and pads once a revolution (Poincare points), and their extremes in it. A motion that repeats
+   ! after k revolutions is k points.
+
+   !> Writes those of the last n samples, which are of whole revolutions, this many at most; of tilts where pads tilt.
+   subroutine put_revolutions(file, tilting, n, most)
+      type(bearing_file_type), intent(inout) :: file
+      logical, intent(in) :: tilting
+      integer, intent(in) :: n, most
+      real(wp), allocatable :: angle(:, :)
+      integer :: first, last, k
+      call file%last_samples('shaft_angle', n, angle)
+      ! a point at an end counts in spite of rounding; where both ends have one, the last points are taken
+      last = floor(angle(1, n)/(2*pi) + rounding)
+      first = max(ceiling(angle(1, 1)/(2*pi) - rounding), last + 1 - most)
+      if (last < first) return
+      call file%put_list(over, [(real(k, wp), k=first - last, 0)], '1', &
+         & 'revolutions before the last Poincare point', over)
+      call put('journal_y', 'y', 'm', 'journal y')
+      call put('journal_z', 'z', 'm', 'journal z')
+      if (tilting) call put('pad_tilt', 'tilt', 'rad', 'tilt')
+   contains
+      subroutine put(name, short, units, meaning)
+         character(len=*), intent(in) :: name, short, units, meaning
+         real(wp), allocatable :: values(:, :)
+         real(wp), allocatable, dimension(:, :) :: points, lowest, highest
+         integer :: i
+         call file%last_samples(name, n, values)
+         allocate (points(size(values, 1), last - first + 1))
+         allocate (lowest, highest, mold=points)
+         do i = 1, last - first + 1
+            points(:, i) = at_angle(angle(1, :), values, 2*pi*(first + i - 1))
+         end do
+         call find_extremes(angle(1, :), values, lowest, highest)
+         call put_values('poincare_'//short, points, units, meaning//' once a revolution')
+         call put_values('lowest_'//short, lowest, units, meaning//' at its lowest in a revolution')
+         call put_values('highest_'//short, highest, units, meaning//' at its highest in a revolution')
+      end subroutine put
+
+      !> Of the journal, or of each pad.
+      subroutine put_values(name, values, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), intent(in) :: values(:, :)
+         if (index(name, 'tilt') > 0) then
+            call file%put_table(group//name, values, units, long_name, over//' pad')
+         else
+            call file%put_list(group//name, values(1, :), units, long_name, over)
+         end if
+      end subroutine put_values
+   end subroutine put_revolutions
+
+   !> Values (:, time) where the rising angle has the value wanted, by the cubic through the four nearest samples.
+   pure function at_angle(angle, values, wanted) result(found)
+      real(wp), intent(in) :: angle(:), values(:, :), wanted
+      real(wp) :: found(size(values, 1)), weight
+      integer :: number, first, i, j
+      number = min(4, size(angle))
+      first = count(angle < wanted) - number/2 + 1
+      first = max(1, min(first, size(angle) - number + 1))
+      found = 0
+      do i = first, first + number - 1
+         weight = 1
+         do j = first, first + number - 1
+            if (j /= i) weight = weight*(wanted - angle(j))/(angle(i) - angle(j))
+         end do
+         found = found + weight*values(:, i)
+      end do
+   end function at_angle
+
+   !> Extremes of values (:, time) in the whole revolutions before the last sample, the last of which is the last
+   !> column; not a number where there are fewer revolutions than columns.
+   pure subroutine find_extremes(angle, values, lowest, highest)
+      real(wp), intent(in) :: angle(:), values(:, :)
+      real(wp), intent(out) :: lowest(:, :), highest(:, :)
+      integer :: n, revolutions, column, start, next, k
+      n = size(angle)
+      lowest = ieee_value(1.0_wp, ieee_quiet_nan)
+      highest = lowest
+      revolutions = int((angle(n) - angle(1))/(2*pi) + rounding)
+      next = n + 1
+      do k = 1, min(revolutions, size(lowest, 2))
+         column = size(lowest, 2) + 1 - k
+         start = 1 + count(angle < angle(n) - 2*pi*k - rounding)
+         lowest(:, column) = minval(values(:, start:next - 1), dim=2)
+         highest(:, column) = maxval(values(:, start:next - 1), dim=2)
+         next = start
+      end do
+   end subroutine find_extremes
+
+   ! Figures of the stations of a shaft in a march or a periodic orbit, from its samples: of the last revolution.
+
+   !> Writes how far each station moves, and how much of it with the shaft; `bearing` is any of the bearings.
+   subroutine put_station_figures(file, bearing)
+      class(record_type), intent(inout) :: file
+      type(bearing_file_type), intent(in) :: bearing
+      real(wp), allocatable :: angle(:, :), values(:, :)
+      integer :: n, i
+      n = bearing%last_revolutions(1)
+      call bearing%last_samples('shaft_angle', n, angle)
+      do i = 1, 2
+         associate (name => 'station_'//'yz'(i:i))
+            call bearing%last_samples(name, n, values)
+            call put(name//'_max', maxval(values, dim=2), 'm', 'highest displacement of the shaft')
+            call put(name//'_min', minval(values, dim=2), 'm', 'lowest displacement of the shaft')
+            call put(name//'_size', maxval(values, dim=2) - minval(values, dim=2), 'm', &
+               & 'orbit of the shaft, peak to peak')
+            if (bearing%sampled_revolutions() >= 1 - rounding) call put_vibration(name)
+         end associate
+      end do
+   contains
+      !> The vibration with the shaft.
+      subroutine put_vibration(name)
+         character(len=*), intent(in) :: name
+         complex(wp) :: parts(size(values, 1))
+         integer :: k
+         parts = [(harmonic(angle(1, :), values(k, :), 1.0_wp), k=1, size(parts))]
+         call put(name//'_amplitude', abs(parts), 'm', 'vibration of the shaft with its turning, amplitude')
+         call put(name//'_phase', -atan2(parts%im, parts%re), 'rad', &
+            & 'angle of the shaft by which its maximum comes after zero')
+      end subroutine put_vibration
+
+      subroutine put(name, values, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), intent(in) :: values(:)
+         call put_figure(file, name, values, units, long_name, 'station')
+      end subroutine put
+   end subroutine put_station_figures
+
+   ! Wear of the pivots in the last revolution of a march, by Archard's law: the worn volume is the wear coefficient
+   ! times the integral of the pivot load over the distance slid.
+
+   !> The rates at which the pivots wear in the last samples, at these times, s: volume, and depth over the area of the
+   !> contact under the mean pivot load. What LuGre's bristles give back is not slid.
+   subroutine put_wear(file, pivot, time)
+      type(bearing_file_type), intent(inout) :: file
+      type(pivot_type), intent(in) :: pivot
+      real(wp), intent(in) :: time(:)
+      real(wp), allocatable :: tilt(:, :), load(:, :), bristle(:, :)
+      real(wp), dimension(size(pivot%socket_radius)) :: volume, depth
+      class(contact_law_type), allocatable :: law
+      type(contact_point) :: contact
+      integer :: i
+      call file%last_samples('pad_tilt', size(time), tilt)
+      call file%last_samples('pivot_load', size(time), load)
+      allocate (bristle, source=0*tilt)
+      if (file%has('bristle_deflection')) call file%last_samples('bristle_deflection', size(time), bristle)
+      associate (lasted => time(size(time)) - time(1))
+         do i = 1, size(volume)
+            volume(i) = pivot%wear_coefficient*integral_over_way((pivot%socket_radius(i) &
+               & - pivot%radius_difference(i))*tilt(i, :) - bristle(i, :), load(i, :))/lasted
+            depth(i) = 0
+            if (.not. volume(i) > 0) cycle
+            call make_law(pivot, i, law)
+            contact = law%at(law%pivot_deflection(sum(load(i, :))/size(time)))
+            ! a measured law does not tell the radius
+            depth(i) = ieee_value(0.0_wp, ieee_quiet_nan)
+            if (contact%radius > 0) depth(i) = volume(i)/(pi*contact%radius**2)
+         end do
+      end associate
+      call put_figure(file, 'pad_wear_rate', volume, 'm^3/s', 'worn volume of the pivot in a second')
+      call put_figure(file, 'pad_wear_depth_rate', depth, 'm/s', 'depth worn off the pivot in a second')
+   end subroutine put_wear
 end module march_figures

@@ -36,11 +36,11 @@ contains
       logical :: first
       integer :: n, b
       ! its series are declared as the first sample is added
-      first = .not. file%is_declared()
+      first = .not. file%declared
       n = 0
-      call one('time', samples(1)%time, 's', 'time')
-      call one('shaft_angle', samples(1)%shaft_angle, 'rad', 'shaft angle')
-      call one('speed', samples(1)%speed, 'rad/s', 'shaft speed')
+      call along('', 'time', [samples(1)%time], 's', 'time')
+      call along('', 'shaft_angle', [samples(1)%shaft_angle], 'rad', 'shaft angle')
+      call along('', 'speed', [samples(1)%speed], 'rad/s', 'shaft speed')
       do b = 1, size(samples)
          call take_bearing(bearings(b), samples(b), first, values, n)
       end do
@@ -59,15 +59,7 @@ contains
       call file%add(values(:n))
       call file%error_of(error)
    contains
-      subroutine one(name, value, units, long_name)
-         character(len=*), intent(in) :: name, units, long_name
-         real(wp), intent(in) :: value
-         if (first) call file%declare(name, 1, '', units, long_name)
-         n = n + 1
-         values(n) = value
-      end subroutine one
-
-      !> At all stations of the shaft, or of all excitations or elements.
+      !> Of the shaft (''), at all its stations, or of all excitations or elements.
       subroutine along(dimension, name, at, units, long_name)
          character(len=*), intent(in) :: dimension, name, units, long_name
          real(wp), intent(in) :: at(:)

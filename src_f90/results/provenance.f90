@@ -27,7 +27,6 @@ module provenance
       procedure :: begin
       procedure :: resume
       procedure :: note
-      procedure, private :: put_maker
    end type provenance_type
 
 contains
@@ -42,7 +41,7 @@ contains
       call file%put_flag('format_version', merge(machine_version, format_version, of_machine))
       call file%put_text('program', 'tiltpad')
       call file%put_text('created', self%started)
-      call self%put_maker(file)
+      call put_maker(self, file)
    end subroutine begin
 
    !> Notes that a file is continued from simulated time t, s.
@@ -55,7 +54,7 @@ contains
       call file%get_text('history', self%earlier)
       call file%get_flag('resumes', self%resumes)
       self%resumes = self%resumes + 1
-      call self%put_maker(file)
+      call put_maker(self, file)
    end subroutine resume
 
    subroutine put_maker(self, file)

@@ -61,9 +61,11 @@ contains
       end do
    end function columns_of
 
+   !> Whether a dataset is one; each of its dimensions has a scale.
    pure logical function is_column(dataset)
       type(dataset_type), intent(in) :: dataset
-      is_column = group_of(dataset) > 0 .and. dataset%kind /= of_texts .and. has_all_scales(dataset)
+      is_column = group_of(dataset) > 0 .and. dataset%kind /= of_texts &
+         & .and. size(dataset%extents) == scale_count(dataset%scales)
    end function is_column
 
    !> Which of the groups a dataset is in, of the whole run or of a bearing; 0 for another.
@@ -97,10 +99,4 @@ contains
          begins = begins .or. index(name, trim(of_any(i))) == 1
       end do
    end function begins
-
-   !> Whether each of its dimensions has a scale.
-   pure logical function has_all_scales(dataset) result(has)
-      type(dataset_type), intent(in) :: dataset
-      has = size(dataset%extents) == scale_count(dataset%scales)
-   end function has_all_scales
 end module record_columns

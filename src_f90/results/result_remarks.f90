@@ -6,9 +6,7 @@ module result_remarks
    use text, only: to_text, fixed_text, micro
    use case_groups, only: bearing_type
    use case_inputs, only: case_type
-   use case_remarks, only: remarks_on_case, behind, newline
-   use load_remarks, only: remarks_on_load
-   use unit_remarks, only: remark_on_unbalance
+   use case_remarks, only: remarks_on_case, behind, newline, remarks_on_load, remark_on_unbalance
    use equilibrium_refusal, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
    use record, only: record_type

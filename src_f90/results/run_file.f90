@@ -9,8 +9,7 @@ module run_file
    use namelist_writer, only: namelist_of
    use parameter_study, only: run_tag
    use record, only: record_type
-   use record_file, only: write_record
-   use record_reader, only: read_record
+   use record_file, only: write_record, read_record
    use growing_file, only: growing_file_type
    use recent_samples, only: recent_samples_type
    use result_size, only: figure_samples
@@ -29,6 +28,8 @@ module run_file
       integer(i8), private :: wanted = 0
       character(len=:), allocatable, private :: axis
       type(growing_file_type) :: hdf5
+      !> Whether the series have names.
+      logical :: declared = .false.
       type(recent_samples_type), private :: recent
       !> Samples added, also before the run was resumed.
       integer(i8) :: samples = 0
@@ -42,13 +43,10 @@ module run_file
       procedure :: has => has_result
       procedure :: begin_series
       procedure :: declare
-      procedure :: is_declared
       procedure :: add
       procedure :: first_sample
       procedure :: last_samples
       procedure :: part_of_samples
-      !> Wall time of writing samples, s.
-      procedure :: writing_seconds
       procedure :: begin_checkpoint
       procedure :: checkpoint
       procedure :: finish
@@ -57,7 +55,6 @@ module run_file
       procedure :: beat
       !> What has gone wrong with the file so far.
       procedure :: error_of
-      procedure, private :: write_recent
    end type run_file_type
 
 contains
@@ -129,7 +126,7 @@ contains
             call self%get_list('checkpoint/state', state)
             ok = ok .and. all(ieee_is_finite(state))
          end if
-         if (.not. ok) call raise(error, system_error, self%hdf5%path()//': damaged: its checkpoint is not whole')
+         if (.not. ok) call raise(error, system_error, self%hdf5%working%path//': damaged: its checkpoint is not whole')
       end if
       if (allocated(error)) then
          call self%abandon()
@@ -174,11 +171,13 @@ contains
          call write_record(self, self%hdf5, .false.)
          call self%hdf5%begin_series(axis, expected)
          self%samples = self%hdf5%samples
+         self%declared = .false.
       else
          call self%recent%begin(int(min(self%wanted, expected)))
          call self%recent%restore(self%record_type, ok)
          if (.not. ok) call self%hdf5%check_read(-1, 'find all samples of the checkpoint')
          self%samples = self%recent%count
+         self%declared = size(self%recent%series) > 0
       end if
    end subroutine begin_series
 
@@ -192,17 +191,8 @@ contains
       else
          call self%recent%declare(name, width, across, units, long_name)
       end if
+      self%declared = .true.
    end subroutine declare
-
-   !> Whether the series have names.
-   pure logical function is_declared(self)
-      class(run_file_type), intent(in) :: self
-      if (self%keep == 'all') then
-         is_declared = self%hdf5%is_declared()
-      else
-         is_declared = self%recent%is_declared()
-      end if
-   end function is_declared
 
    !> A sample: the values of all series, in the order in which they were declared.
    subroutine add(self, values)
@@ -245,11 +235,6 @@ contains
          call self%recent%part(name, skip, n, values)
       end if
    end subroutine part_of_samples
-
-   pure real(wp) function writing_seconds(self)
-      class(run_file_type), intent(in) :: self
-      writing_seconds = self%hdf5%writing_seconds
-   end function writing_seconds
 
    !> Begins a new checkpoint, at time t, s: what the run goes on from belongs into its group.
    subroutine begin_checkpoint(self, t)
@@ -295,7 +280,7 @@ contains
       call self%provenance%note(self%record_type, t, status, reason)
       if (status == 0) call self%put_flag('complete', 1)
       if (.not. self%filed) return
-      if (self%keep == 'last_revolutions') call self%write_recent()
+      if (self%keep == 'last_revolutions') call write_recent(self)
       call self%publish(.false., error)
    end subroutine finish
 
@@ -337,12 +322,12 @@ contains
    subroutine beat(self, now)
       class(run_file_type), intent(inout) :: self
       integer, intent(in) :: now
-      if (self%filed) call self%hdf5%beat(now)
+      if (self%filed) call self%hdf5%working%beat(now)
    end subroutine beat
 
    subroutine error_of(self, error)
       class(run_file_type), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
-      if (self%filed) call self%hdf5%error_of(error)
+      if (self%filed) call self%hdf5%error_of(self%hdf5%working%path, error)
    end subroutine error_of
 end module run_file

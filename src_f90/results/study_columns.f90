@@ -41,7 +41,6 @@ module study_columns
    contains
       procedure :: begin
       procedure :: find
-      procedure :: find_dimension
       !> A column of one value a run, with the value of the runs that were not written.
       procedure :: add_single
       procedure :: extend
@@ -152,7 +151,7 @@ contains
       character(len=*), intent(in) :: names
       integer, allocatable :: over(:)
       integer :: i
-      over = [(self%find_dimension(scale_name(names, i)), i=1, scale_count(names))]
+      over = [(find_dimension(self, scale_name(names, i)), i=1, scale_count(names))]
    end function over_of
 
    !> Makes room for the labels of those of the scales that are used, and for new columns over them. `written` tells
@@ -170,7 +169,7 @@ contains
       allocate (grown(size(before)), source=.false.)
       do i = 1, size(scales)
          if (.not. used(i)) cycle
-         d = self%find_dimension(scales(i)%name)
+         d = find_dimension(self, scales(i)%name)
          if (d == 0) then
             call add_dimension(self, scales(i))
             call scales(i)%write(file)

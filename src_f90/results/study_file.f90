@@ -3,11 +3,11 @@
 !> last checkpoint. After a failure every routine does nothing; the next one with an error tells it.
 module study_file
    use kinds, only: wp
-   use errors, only: error_type, raise, system_error
+   use errors, only: error_type
    use clock, only: wall_clock
    use record, only: record_type
    use parameter_study, only: study_type
-   use inherited_file, only: unlock, empty
+   use guarded_open, only: unlock, empty
    use hdf5_file, only: hdf5_type
    use hdf5_texts, only: text_type
    use working_file, only: working_file_type
@@ -24,8 +24,9 @@ module study_file
    real(wp), parameter :: rest = 20
 
    type, extends(hdf5_type) :: study_file_type
-      character(len=:), allocatable, private :: name
-      type(working_file_type), private :: working
+      !> Name of the file, as it was given.
+      character(len=:), allocatable :: name
+      type(working_file_type) :: working
       type(study_rows_type), private :: rows
       !> Clock when the last checkpoint was done, and how long it took, s.
       real(wp), private :: last_checkpoint = 0, taken = 0
@@ -49,18 +50,8 @@ module study_file
       procedure :: abandon
       !> Forgets the file in a child process; nothing happens to it.
       procedure :: let_go
-      !> Shows other programs that this one lives, and has the system write; to be called often with a clock, s.
-      procedure :: beat
-      !> The dead process that held the file's lock; empty where there was none.
-      procedure :: taken_from
       !> Who has the lock, where it was refused for that; else empty.
       procedure :: held_by
-      procedure :: path
-      !> What has gone wrong with the file so far.
-      procedure :: error_of
-      procedure, private :: note
-      procedure, private :: close_all
-      procedure, private :: open_part
    end type study_file_type
 
 contains
@@ -96,7 +87,7 @@ contains
          call write_parameters(self, study, parameters, from, to, .false.)
          call self%rows%begin(self, study%runs, names_of(parameters))
          self%last_checkpoint = wall_clock()
-         call self%error_of(error)
+         call self%error_of(self%working%path, error)
       end if
       if (allocated(error)) call self%abandon()
    end subroutine begin
@@ -116,7 +107,7 @@ contains
          call found%close()
       end if
       if (.not. allocated(error)) call self%working%copy_published(error)
-      if (.not. allocated(error)) call self%open_part(error)
+      if (.not. allocated(error)) call open_part(self, error)
       if (.not. allocated(error)) then
          parameters = parameters_of(study)
          call self%rows%read_layout(self, names_of(parameters))
@@ -129,7 +120,7 @@ contains
          end if
          call self%put_flag('finished', 0)
          self%last_checkpoint = wall_clock()
-         call self%error_of(error)
+         call self%error_of(self%working%path, error)
       end if
       if (allocated(error)) call self%abandon()
    end subroutine reopen
@@ -169,7 +160,7 @@ contains
       real(wp), intent(in) :: now, seconds
       type(error_type), allocatable, intent(out) :: error
       if (allocated(self%failure)) then
-         call self%error_of(error)
+         call self%error_of(self%working%path, error)
          call self%abandon()
       else if (self%grown .and. seconds > 0 .and. now - self%last_checkpoint >= max(seconds, rest*self%taken)) then
          call self%checkpoint(error)
@@ -184,15 +175,15 @@ contains
       logical :: exchanged
       started = wall_clock()
       self%grown = .false.
-      call self%note()
-      call self%close_all()
-      call self%error_of(error)
+      call note(self)
+      call close_all(self)
+      call self%error_of(self%working%path, error)
       if (.not. allocated(error)) call self%working%publish(exchanged, error)
       if (.not. allocated(error)) call self%working%copy_published(error)
-      if (.not. allocated(error)) call self%open_part(error)
+      if (.not. allocated(error)) call open_part(self, error)
       if (.not. allocated(error)) then
          call self%rows%open(self)
-         call self%error_of(error)
+         call self%error_of(self%working%path, error)
       end if
       if (allocated(error)) call self%abandon()
       self%last_checkpoint = wall_clock()
@@ -206,9 +197,9 @@ contains
       type(study_type), intent(in) :: study
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
-      call self%error_of(error)
+      call self%error_of(self%working%path, error)
       if (.not. allocated(error)) call join_rows(self, self%rows, study, path, error)
-      if (.not. allocated(error)) call self%error_of(error)
+      if (.not. allocated(error)) call self%error_of(self%working%path, error)
    end subroutine join
 
    !> Writes what is left and publishes the file, which is finished where all runs have a row. Nothing can be added
@@ -217,9 +208,9 @@ contains
       class(study_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       logical :: exchanged
-      call self%note()
-      call self%close_all()
-      call self%error_of(error)
+      call note(self)
+      call close_all(self)
+      call self%error_of(self%working%path, error)
       if (.not. allocated(error)) call self%working%publish(exchanged, error)
    end subroutine publish
 
@@ -243,7 +234,7 @@ contains
    subroutine let_go(self)
       class(study_file_type), intent(inout) :: self
       call empty(self%hdf5_type)
-      call self%close_all()
+      call close_all(self)
    end subroutine let_go
 
    !> Opens the part, unless another run has taken the place of this one, whose part then has the name.
@@ -264,21 +255,9 @@ contains
 
    subroutine abandon(self)
       class(study_file_type), intent(inout) :: self
-      call self%close_all()
+      call close_all(self)
       call self%working%release()
    end subroutine abandon
-
-   subroutine beat(self, now)
-      class(study_file_type), intent(inout) :: self
-      integer, intent(in) :: now
-      call self%working%beat(now)
-   end subroutine beat
-
-   function taken_from(self)
-      class(study_file_type), intent(in) :: self
-      character(len=:), allocatable :: taken_from
-      taken_from = self%working%lock%taken_from
-   end function taken_from
 
    function held_by(self)
       class(study_file_type), intent(in) :: self
@@ -286,22 +265,4 @@ contains
       held_by = ''
       if (allocated(self%working%lock%held_by)) held_by = self%working%lock%held_by
    end function held_by
-
-   !> Name of the file, as it was given.
-   function path(self)
-      class(study_file_type), intent(in) :: self
-      character(len=:), allocatable :: path
-      path = self%name
-   end function path
-
-   subroutine error_of(self, error)
-      class(study_file_type), intent(in) :: self
-      type(error_type), allocatable, intent(out) :: error
-      if (.not. allocated(self%failure)) return
-      if (self%damaged) then
-         call raise(error, system_error, self%working%path//': damaged: '//self%failure)
-      else
-         call raise(error, system_error, 'cannot write '//self%working%path//': '//self%failure)
-      end if
-   end subroutine error_of
 end module study_file

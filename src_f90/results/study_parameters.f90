@@ -39,7 +39,7 @@ contains
       character(len=:), allocatable :: names, suffix
       integer :: i
       call list_all_variables(case_type(), table)
-      targets = study%variables()
+      targets = study%varied%targets()
       names = taken
       do i = 1, size(targets)
          names = names//short_name(targets(i))//' '
@@ -156,7 +156,7 @@ contains
       do from = first, last, most_rows
          n = min(most_rows, last - from + 1)
          do k = 1, n
-            call study%value(i, from + k - 1, token)
+            call study%varied%value(i, from + k - 1, token)
             texts(k)%text = token%text
          end do
          call list%write(file, from, texts(:n))
@@ -185,7 +185,7 @@ contains
       do from = first, last, most_rows
          n = min(most_rows, last - from + 1)
          do k = 1, n
-            call study%number(i, from + k - 1, values(1, k), ok)
+            call study%varied%number_of_run(i, from + k - 1, values(1, k), ok)
             if (.not. ok) values(1, k) = nan
          end do
          call column%write(file, from, values(:, :n))

@@ -55,7 +55,6 @@ module study_rows
       procedure :: open => open_rows
       procedure :: close => close_rows
       procedure :: resize
-      procedure, private :: make_room
    end type study_rows_type
 
 contains
@@ -126,7 +125,7 @@ contains
       integer, intent(in) :: k, status, source
       character(len=*), intent(in) :: reason
       type(record_type), intent(in) :: record
-      call self%make_room(file, record, source, status == 0)
+      call make_room(self, file, record, source, status == 0)
       if (allocated(file%failure)) return
       if (.not. allocated(self%held)) call allocate_held(self)
       if (self%count == size(self%numbers) .or. any(self%numbers(:self%count) == k)) call self%flush(file)

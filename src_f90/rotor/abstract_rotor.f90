@@ -2,6 +2,7 @@
 !> first displacements are those of its journals in their bearings: y and z in the first bearing, in the second, ...
 module abstract_rotor
    use kinds, only: wp
+   use linear_algebra, only: identity
    use operating_point, only: operating_point_type
    implicit none (type, external)
    private
@@ -22,16 +23,16 @@ module abstract_rotor
       procedure, non_overridable :: with_journals
       procedure(scales), deferred :: scales
       procedure(loads), deferred :: loads
-      procedure(station_displacements), deferred :: station_displacements
-      procedure(station_slopes), deferred :: station_slopes
+      procedure :: station_displacements
+      procedure :: station_slopes
       procedure(force), deferred :: force
       procedure(turn), deferred :: turn
       procedure(accelerations), deferred :: accelerations
       procedure(masses), deferred :: masses
-      procedure(force_derivatives), deferred :: force_derivatives
+      procedure :: force_derivatives
       procedure(newton_rows), deferred :: newton_rows
-      procedure(newton_matrix), deferred :: newton_matrix
-      procedure(newton_right), deferred :: newton_right
+      procedure :: newton_matrix
+      procedure :: newton_right
       procedure(row_accelerations), deferred :: row_accelerations
    end type rotor_type
 
@@ -52,22 +53,6 @@ module abstract_rotor
          type(operating_point_type), intent(in) :: point
          real(wp) :: loads(2, self%journals)
       end function loads
-
-      !> Displacements y and z of the stations, (2, station), m, in a state.
-      pure function station_displacements(self, states) result(displacements)
-         import :: rotor_type, wp
-         class(rotor_type), intent(in) :: self
-         real(wp), intent(in) :: states(:)
-         real(wp) :: displacements(2, self%stations)
-      end function station_displacements
-
-      !> Slopes dy/dx and dz/dx of the shaft at the stations, (2, station), in a state.
-      pure function station_slopes(self, states) result(slopes)
-         import :: rotor_type, wp
-         class(rotor_type), intent(in) :: self
-         real(wp), intent(in) :: states(:)
-         real(wp) :: slopes(2, self%stations)
-      end function station_slopes
 
       !> Forces on the displacements in a state at time t, N: all but those of the bearings. In a run-up with the
       !> tangential force of the unbalance.
@@ -104,14 +89,6 @@ module abstract_rotor
          real(wp) :: masses(self%positions, self%positions)
       end function masses
 
-      !> Derivatives of the forces over displacements and over rates at a speed, rad/s.
-      pure subroutine force_derivatives(self, speed, over_positions, over_rates)
-         import :: rotor_type, wp
-         class(rotor_type), intent(in) :: self
-         real(wp), intent(in) :: speed
-         real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
-      end subroutine force_derivatives
-
       !> Forces on a journal, (2, any), as they stand in the rotor's equations: P F, with P the rotor's own choice.
       pure function newton_rows(self, forces) result(rows)
          import :: rotor_type, wp
@@ -119,23 +96,6 @@ module abstract_rotor
          real(wp), intent(in) :: forces(:, :)
          real(wp) :: rows(2, size(forces, 2))
       end function newton_rows
-
-      !> The matrix of these equations on the rates u of the displacements x = x_0 + gamma u, in a step of Newton's
-      !> method: P (M - gamma dF/dv - gamma^2 dF/dx).
-      pure function newton_matrix(self, gamma, speed) result(matrix)
-         import :: rotor_type, wp
-         class(rotor_type), intent(in) :: self
-         real(wp), intent(in) :: gamma, speed
-         real(wp) :: matrix(self%positions, self%positions)
-      end function newton_matrix
-
-      !> Their right-hand side, P (M u_0 + gamma dF/dx x_0), in place of u_0.
-      pure subroutine newton_right(self, gamma, x, u)
-         import :: rotor_type, wp
-         class(rotor_type), intent(in) :: self
-         real(wp), intent(in) :: gamma, x(:)
-         real(wp), intent(inout) :: u(:)
-      end subroutine newton_right
 
       !> Accelerations of all displacements from rows of the forces on one journal: M^-1 F.
       pure function row_accelerations(self, rows, journal) result(accelerations)
@@ -171,4 +131,47 @@ contains
          states(self%positions + 2*i - 1:self%positions + 2*i) = journals(i)%velocity
       end do
    end function with_journals
+
+   ! What follows holds for a rotor without stations that answers no motion, P = 1/M, as a rigid journal.
+
+   !> Displacements y and z of the stations, (2, station), m, in a state.
+   pure function station_displacements(self, states) result(displacements)
+      class(rotor_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      real(wp) :: displacements(2, self%stations)
+      displacements = 0
+   end function station_displacements
+
+   !> Slopes dy/dx and dz/dx of the shaft at the stations, (2, station), in a state.
+   pure function station_slopes(self, states) result(slopes)
+      class(rotor_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      real(wp) :: slopes(2, self%stations)
+      slopes = 0
+   end function station_slopes
+
+   !> Derivatives of the forces over displacements and over rates at a speed, rad/s.
+   pure subroutine force_derivatives(self, speed, over_positions, over_rates)
+      class(rotor_type), intent(in) :: self
+      real(wp), intent(in) :: speed
+      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      over_positions = 0
+      over_rates = 0
+   end subroutine force_derivatives
+
+   !> The matrix of the rotor's equations on the rates u of the displacements x = x_0 + gamma u, in a step of Newton's
+   !> method: P (M - gamma dF/dv - gamma^2 dF/dx).
+   pure function newton_matrix(self, gamma, speed) result(matrix)
+      class(rotor_type), intent(in) :: self
+      real(wp), intent(in) :: gamma, speed
+      real(wp) :: matrix(self%positions, self%positions)
+      matrix = identity(self%positions)
+   end function newton_matrix
+
+   !> Their right-hand side, P (M u_0 + gamma dF/dx x_0), in place of u_0.
+   pure subroutine newton_right(self, gamma, x, u)
+      class(rotor_type), intent(in) :: self
+      real(wp), intent(in) :: gamma, x(:)
+      real(wp), intent(inout) :: u(:)
+   end subroutine newton_right
 end module abstract_rotor

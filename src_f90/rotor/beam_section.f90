@@ -13,11 +13,9 @@ module beam_section
       procedure :: area
       procedure :: second_moment
       procedure :: shear_coefficient
-      procedure :: shear_parameter
       procedure :: stiffness
       procedure :: mass
       procedure :: gyroscopic
-      procedure, private :: rotary_mass
    end type beam_section_type
 
 contains
@@ -56,7 +54,7 @@ contains
    pure function stiffness(self) result(k)
       class(beam_section_type), intent(in) :: self
       real(wp) :: k(4, 4), phi
-      phi = self%shear_parameter()
+      phi = shear_parameter(self)
       associate (l => self%length)
          k(:, 1) = [12.0_wp, 6*l, -12.0_wp, 6*l]
          k(:, 2) = [6*l, (4 + phi)*l**2, -6*l, (2 - phi)*l**2]
@@ -70,7 +68,7 @@ contains
    pure function mass(self) result(m)
       class(beam_section_type), intent(in) :: self
       real(wp) :: m(4, 4), phi, direct, far, coupled, crossed, own, other
-      phi = self%shear_parameter()
+      phi = shear_parameter(self)
       associate (l => self%length)
          direct = 312 + 588*phi + 280*phi**2
          far = 108 + 252*phi + 140*phi**2
@@ -82,7 +80,7 @@ contains
          m(:, 2) = [coupled, own, crossed, other]
          m(:, 3) = [far, crossed, direct, -coupled]
          m(:, 4) = [-crossed, other, -coupled, own]
-         m = m*self%density*self%area()*l/(840*(1 + phi)**2) + self%rotary_mass()
+         m = m*self%density*self%area()*l/(840*(1 + phi)**2) + rotary_mass(self)
       end associate
    end function mass
 
@@ -91,14 +89,14 @@ contains
    pure function gyroscopic(self) result(g)
       class(beam_section_type), intent(in) :: self
       real(wp) :: g(4, 4)
-      g = 2*self%rotary_mass()
+      g = 2*rotary_mass(self)
    end function gyroscopic
 
    !> The part of the mass that comes from the rotation of the cross-sections about their diameters.
    pure function rotary_mass(self) result(m)
       class(beam_section_type), intent(in) :: self
       real(wp) :: m(4, 4), phi, coupled, own, other
-      phi = self%shear_parameter()
+      phi = shear_parameter(self)
       associate (l => self%length)
          coupled = (3 - 15*phi)*l
          own = (4 + 5*phi + 10*phi**2)*l**2

@@ -1,7 +1,7 @@
 !> A shaft that bends in several bearings, by the matrices of its equations on its journals.
 module elastic_rotor
    use kinds, only: wp
-   use linear_algebra, only: dgesv
+   use linear_algebra, only: dgesv, identity
    use operating_point, only: operating_point_type
    use rotor_matrices, only: rotor_matrices_type
    use abstract_rotor, only: rotor_type
@@ -31,8 +31,6 @@ module elastic_rotor
       procedure :: newton_matrix
       procedure :: newton_right
       procedure :: row_accelerations
-      procedure, private :: share
-      procedure, private :: from_stations
    end type elastic_rotor_type
 
 contains
@@ -135,10 +133,10 @@ contains
       speed = point%speed(t)
       associate (m => self%matrices, n => self%positions)
          force = m%load - matmul(m%stiffness, states(:n)) - matmul(m%damping + speed*m%gyroscopic, states(n + 1:)) &
-            & + self%share(point)*(speed**2*(m%unbalance(:, 1)*cos(phase) + m%unbalance(:, 2)*sin(phase)) &
+            & + share(self, point)*(speed**2*(m%unbalance(:, 1)*cos(phase) + m%unbalance(:, 2)*sin(phase)) &
             & + point%acceleration*(m%unbalance(:, 1)*sin(phase) - m%unbalance(:, 2)*cos(phase)))
       end associate
-      if (allocated(point%excitations)) force = force + self%from_stations(point, point%excitation_forces(t))
+      if (allocated(point%excitations)) force = force + from_stations(self, point, point%excitation_forces(t))
    end function force
 
    !> The unbalance turns, and excitations change.
@@ -149,9 +147,9 @@ contains
       real(wp) :: turn(self%positions), phase
       phase = point%shaft_angle(t)
       associate (u => self%matrices%unbalance)
-         turn = self%share(point)*point%speed(t)**3*(u(:, 2)*cos(phase) - u(:, 1)*sin(phase))
+         turn = share(self, point)*point%speed(t)**3*(u(:, 2)*cos(phase) - u(:, 1)*sin(phase))
       end associate
-      if (allocated(point%excitations)) turn = turn + self%from_stations(point, point%excitation_rates(t))
+      if (allocated(point%excitations)) turn = turn + from_stations(self, point, point%excitation_rates(t))
    end function turn
 
    pure function accelerations(self, force)
@@ -206,16 +204,6 @@ contains
       real(wp) :: accelerations(self%positions, size(rows, 2))
       accelerations = matmul(self%per_mass(:, 2*journal - 1:2*journal), rows)
    end function row_accelerations
-
-   pure function identity(n)
-      integer, intent(in) :: n
-      real(wp) :: identity(n, n)
-      integer :: i
-      identity = 0
-      do i = 1, n
-         identity(i, i) = 1
-      end do
-   end function identity
 
    !> x of a x = b; `ok` is false where a is singular, and x is 0 then.
    subroutine solve(a, b, x, ok)

@@ -13,16 +13,11 @@ module rigid_journal
    contains
       procedure :: scales
       procedure :: loads
-      procedure :: station_displacements
-      procedure :: station_slopes
       procedure :: force
       procedure :: turn
       procedure :: accelerations
       procedure :: masses
-      procedure :: force_derivatives
       procedure :: newton_rows
-      procedure :: newton_matrix
-      procedure :: newton_right
       procedure :: row_accelerations
    end type rigid_journal_type
 
@@ -51,21 +46,6 @@ contains
       real(wp) :: loads(2, self%journals)
       loads(:, 1) = point%load
    end function loads
-
-   !> It has no stations.
-   pure function station_displacements(self, states) result(displacements)
-      class(rigid_journal_type), intent(in) :: self
-      real(wp), intent(in) :: states(:)
-      real(wp) :: displacements(2, self%stations)
-      displacements = 0
-   end function station_displacements
-
-   pure function station_slopes(self, states) result(slopes)
-      class(rigid_journal_type), intent(in) :: self
-      real(wp), intent(in) :: states(:)
-      real(wp) :: slopes(2, self%stations)
-      slopes = 0
-   end function station_slopes
 
    !> Load, unbalance and excitations.
    pure function force(self, states, point, t)
@@ -107,15 +87,6 @@ contains
       masses = reshape([self%mass, 0.0_wp, 0.0_wp, self%mass], [2, 2])
    end function masses
 
-   !> No force depends on the motion.
-   pure subroutine force_derivatives(self, speed, over_positions, over_rates)
-      class(rigid_journal_type), intent(in) :: self
-      real(wp), intent(in) :: speed
-      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
-      over_positions = 0
-      over_rates = 0
-   end subroutine force_derivatives
-
    !> P = 1/M: accelerations.
    pure function newton_rows(self, forces) result(rows)
       class(rigid_journal_type), intent(in) :: self
@@ -123,19 +94,6 @@ contains
       real(wp) :: rows(2, size(forces, 2))
       rows = forces/self%mass
    end function newton_rows
-
-   pure function newton_matrix(self, gamma, speed) result(matrix)
-      class(rigid_journal_type), intent(in) :: self
-      real(wp), intent(in) :: gamma, speed
-      real(wp) :: matrix(self%positions, self%positions)
-      matrix = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
-   end function newton_matrix
-
-   pure subroutine newton_right(self, gamma, x, u)
-      class(rigid_journal_type), intent(in) :: self
-      real(wp), intent(in) :: gamma, x(:)
-      real(wp), intent(inout) :: u(:)
-   end subroutine newton_right
 
    pure function row_accelerations(self, rows, journal) result(accelerations)
       class(rigid_journal_type), intent(in) :: self

@@ -2,27 +2,22 @@
 module rotor_component
    ! heap: matrices of all displacements of a shaft
    use kinds, only: wp
-   use rotor_groups, only: elastic_type
-   use given_rotor, only: given_rotor_type
-   use shaft_matrices, only: shaft_matrices_type, new_shaft_matrices
+   use rotor_groups, only: elastic_type, given_rotor_type
+   use beam_section, only: beam_section_type
    implicit none (type, external)
    private
-   public :: rotor_component_type, shaft_component, given_component, in_planes
+   public :: rotor_component_type, shaft_component, in_planes
 
-   type :: rotor_component_type
+   !> Mass and gyroscopic matrix as in `beam_section`, and stiffness; (2*stations, 2*stations).
+   type :: shaft_matrices_type
+      real(wp), allocatable :: mass(:, :), gyroscopic(:, :), stiffness(:, :)
+   end type shaft_matrices_type
+
+   type, extends(given_rotor_type) :: rotor_component_type
       !> 2: the displacements go in pairs, along y and z, and both planes have the same mass and stiffness; else 1.
       integer :: planes = 1
       !> The sense in which the shaft turns: 1 clockwise, from y to z, -1 anticlockwise.
       real(wp) :: sense = 1
-      !> (n, n); G stands for a shaft that turns in this sense.
-      real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness
-      !> Deflections and slopes of the shaft at its stations: matmul(station, q) is y and z of station 1, y and z of
-      !> station 2, ... (2*stations, n). Slopes are 0 where nothing is known of them.
-      real(wp), allocatable, dimension(:, :) :: station, slope
-      !> What gravity acts on: its force is -gravity*weighed, kg.
-      real(wp), allocatable :: weighed(:)
-      !> kg
-      real(wp) :: total_mass = 0
    contains
       procedure :: turn_in
    end type rotor_component_type
@@ -64,20 +59,6 @@ contains
       component%total_mass = sum(component%weighed(1::4))
    end function shaft_component
 
-   !> A rotor of matrices that are given, turning clockwise.
-   pure function given_component(given) result(component)
-      type(given_rotor_type), intent(in) :: given
-      type(rotor_component_type) :: component
-      component%mass = given%mass
-      component%damping = given%damping
-      component%gyroscopic = given%gyroscopic
-      component%stiffness = given%stiffness
-      component%station = given%station
-      component%slope = given%slope
-      component%weighed = given%weighed
-      component%total_mass = given%total_mass
-   end function given_component
-
    !> A matrix that acts alike in this many planes, whose rows and columns take turns.
    pure function in_planes(matrix, planes) result(all)
       real(wp), intent(in) :: matrix(:, :)
@@ -89,4 +70,38 @@ contains
          all(p::planes, p::planes) = matrix
       end do
    end function in_planes
+
+   ! Matrices of a whole shaft with its discs in one plane: deflection and slope of station 1, of station 2, ... The
+   ! other plane has the same ones.
+
+   !> Those of a shaft and its discs.
+   pure function new_shaft_matrices(rotor) result(matrices)
+      type(elastic_type), intent(in) :: rotor
+      type(shaft_matrices_type) :: matrices
+      type(beam_section_type) :: section
+      integer :: n, i, at
+      associate (s => rotor%shaft)
+         n = 2*(size(s%length) + 1)
+         allocate (matrices%mass(n, n), matrices%gyroscopic(n, n), matrices%stiffness(n, n), source=0.0_wp)
+         do i = 1, size(s%length)
+            section = beam_section_type(s%length(i), s%diameter(i), s%bore(i), s%young_modulus, s%poisson_ratio, &
+               & s%density)
+            at = 2*i - 1
+            associate (m => matrices%mass(at:at + 3, at:at + 3), k => matrices%stiffness(at:at + 3, at:at + 3), &
+               & g => matrices%gyroscopic(at:at + 3, at:at + 3))
+               m = m + section%mass()
+               k = k + section%stiffness()
+               g = g + section%gyroscopic()
+            end associate
+         end do
+      end associate
+      do i = 1, size(rotor%discs)
+         associate (disc => rotor%discs(i))
+            at = 2*disc%station
+            matrices%mass(at - 1, at - 1) = matrices%mass(at - 1, at - 1) + disc%mass
+            matrices%mass(at, at) = matrices%mass(at, at) + disc%diametral_inertia
+            matrices%gyroscopic(at, at) = matrices%gyroscopic(at, at) + disc%polar_inertia
+         end associate
+      end do
+   end function new_shaft_matrices
 end module rotor_component

@@ -7,7 +7,7 @@ module rotor_matrices
    use fixed_interface, only: fixed_interface_type
    use mode_selection, only: mode_damping
    use station_forces, only: static_forces, unbalance_moments
-   use bearing_supports, only: relative_displacements, add_supports
+   use linear_element, only: relative_displacements, add_supports
    implicit none (type, external)
    private
    public :: rotor_matrices_type, reduced_rotor

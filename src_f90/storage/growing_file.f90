@@ -5,7 +5,7 @@
 !> moment leaves the last checkpoint, or before the first one the previous file as it was.
 module growing_file
    use kinds, only: wp, i8
-   use errors, only: error_type, raise, system_error
+   use errors, only: error_type
    use clock, only: wall_clock
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type, chunk_samples
@@ -22,7 +22,7 @@ module growing_file
    end type series_type
 
    type, extends(hdf5_type) :: growing_file_type
-      type(working_file_type), private :: working
+      type(working_file_type) :: working
       !> Name of the series that is the scale of all; it is declared first.
       character(len=:), allocatable, private :: axis
       !> How many samples there will be, if this is known.
@@ -45,26 +45,11 @@ module growing_file
       procedure :: begin_series
       !> Names a series; all before the first sample.
       procedure :: declare
-      procedure :: is_declared
       procedure :: add
-      procedure :: last_samples
       procedure :: part_of_samples
       procedure :: publish
       !> Deletes what was not published, and frees the lock.
       procedure :: abandon
-      procedure :: path
-      !> Shows other programs that this one lives, and has the system write; to be called often with a clock, s.
-      procedure :: beat
-      !> The dead process that held the file's lock; empty where there was none.
-      procedure :: taken_from
-      !> What has gone wrong with the file so far.
-      procedure :: error_of
-      procedure, private :: open_part
-      procedure, private :: open_series
-      procedure, private :: close_part
-      procedure, private :: write_held
-      procedure, private :: catch_up
-      procedure, private :: copy_missing
    end type growing_file_type
 
 contains
@@ -90,7 +75,7 @@ contains
       class(growing_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       call self%working%copy_published(error)
-      if (.not. allocated(error)) call self%open_part(error)
+      if (.not. allocated(error)) call open_part(self, error)
    end subroutine reopen
 
    !> Opens the part, unless another run has taken the place of this one, whose part then has the name.
@@ -146,12 +131,6 @@ contains
       self%stride = [self%stride, (width, i=1, width)]
    end subroutine declare
 
-   !> Whether the series have names.
-   pure logical function is_declared(self)
-      class(growing_file_type), intent(in) :: self
-      is_declared = size(self%series) > 0
-   end function is_declared
-
    !> A sample: the values of all series, in the order in which they were declared.
    subroutine add(self, values)
       class(growing_file_type), intent(inout) :: self
@@ -159,7 +138,7 @@ contains
       integer :: i
       if (.not. allocated(self%buffer)) allocate (self%buffer(chunk_samples*size(values)))
       ! chunks of the file are filled up, also after a checkpoint in the middle of one
-      if (self%held > 0 .and. mod(self%samples, int(chunk_samples, i8)) == 0) call self%write_held()
+      if (self%held > 0 .and. mod(self%samples, int(chunk_samples, i8)) == 0) call write_held(self)
       do i = 1, size(values)
          self%buffer(self%place(i) + self%stride(i)*self%held) = values(i)
       end do
@@ -185,15 +164,6 @@ contains
       self%writing_seconds = self%writing_seconds + wall_clock() - started
    end subroutine write_held
 
-   !> The last n samples of a series, (width, n); n at most the samples there are.
-   subroutine last_samples(self, name, n, values)
-      class(growing_file_type), intent(inout) :: self
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: n
-      real(wp), allocatable, intent(out) :: values(:, :)
-      call self%part_of_samples(name, self%samples - n, n, values)
-   end subroutine last_samples
-
    !> The n samples of a series behind the first `skip` ones, (width, n).
    subroutine part_of_samples(self, name, skip, n, values)
       class(growing_file_type), intent(inout) :: self
@@ -203,7 +173,7 @@ contains
       real(wp), allocatable, intent(out) :: values(:, :)
       type(hdf5_series_type) :: data
       integer :: k
-      call self%write_held()
+      call write_held(self)
       do k = 1, size(self%series)
          if (self%series(k)%name /= name) cycle
          call self%series(k)%data%read(self%hdf5_type, skip, n, values)
@@ -224,11 +194,11 @@ contains
       logical, intent(out) :: behind
       logical :: exchanged
       behind = .false.
-      call self%write_held()
-      call self%close_part()
-      call self%error_of(error)
+      call write_held(self)
+      call close_part(self)
+      call self%error_of(self%working%path, error)
       if (.not. allocated(error)) call self%working%publish(exchanged, error)
-      if (.not. allocated(error) .and. continued) call self%catch_up(exchanged, error, behind)
+      if (.not. allocated(error) .and. continued) call catch_up(self, exchanged, error, behind)
       if (allocated(error) .or. .not. continued) call self%abandon()
    end subroutine publish
 
@@ -241,21 +211,21 @@ contains
       logical, intent(inout) :: behind
       type(hdf5_type) :: published
       if (exchanged) then
-         call self%open_part(error)
+         call open_part(self, error)
          if (allocated(error)) return
          call published%open(self%working%path, writing=.false.)
-         call self%open_series()
-         call self%copy_missing(published)
+         call open_series(self)
+         call copy_missing(self, published)
          call published%close()
          behind = .not. allocated(self%failure) .and. .not. allocated(published%failure)
          if (behind) return
-         call self%close_part()
+         call close_part(self)
       end if
       call self%working%copy_published(error)
-      if (.not. allocated(error)) call self%open_part(error)
+      if (.not. allocated(error)) call open_part(self, error)
       if (allocated(error)) return
-      call self%open_series()
-      call self%error_of(error)
+      call open_series(self)
+      call self%error_of(self%working%path, error)
    end subroutine catch_up
 
    !> Adds to a file, whose series are open, the samples that it lacks from another that has them all.
@@ -301,37 +271,7 @@ contains
 
    subroutine abandon(self)
       class(growing_file_type), intent(inout) :: self
-      call self%close_part()
+      call close_part(self)
       call self%working%release()
    end subroutine abandon
-
-   subroutine beat(self, now)
-      class(growing_file_type), intent(inout) :: self
-      integer, intent(in) :: now
-      call self%working%beat(now)
-   end subroutine beat
-
-   function taken_from(self)
-      class(growing_file_type), intent(in) :: self
-      character(len=:), allocatable :: taken_from
-      taken_from = self%working%lock%taken_from
-   end function taken_from
-
-   !> Name of the file, links followed.
-   function path(self)
-      class(growing_file_type), intent(in) :: self
-      character(len=:), allocatable :: path
-      path = self%working%path
-   end function path
-
-   subroutine error_of(self, error)
-      class(growing_file_type), intent(in) :: self
-      type(error_type), allocatable, intent(out) :: error
-      if (.not. allocated(self%failure)) return
-      if (self%damaged) then
-         call raise(error, system_error, self%working%path//': damaged: '//self%failure)
-      else
-         call raise(error, system_error, 'cannot write '//self%working%path//': '//self%failure)
-      end if
-   end subroutine error_of
 end module growing_file

@@ -9,11 +9,12 @@ module hdf5_base
       & h5t_string, h5t_cset_utf8_f, h5acreate_f, h5aopen_f, h5aread_f, h5awrite_f, h5aclose_f, h5aget_type_f, &
       & h5adelete_f, h5aexists_f, h5aget_space_f, h5sget_simple_extent_npoints_f, h5lexists_f, h5ldelete_f, &
       & h5t_native_integer
+   use errors, only: error_type, raise, system_error
    use processes, only: set_environment
    use system_texts, only: fortran_text, write_refusal, forget_missing
    implicit none (type, external)
    private
-   public :: hdf5_base_type, start_hdf5
+   public :: hdf5_base_type, start_hdf5, is_of_texts, kind_of_texts, c_free
 
    !> Version of a file's first structure from which on all have checksums (HDF5 1.10) but the heaps that hold texts of
    !> attributes and lists of scales; its byte in the file.
@@ -44,12 +45,12 @@ module hdf5_base
       procedure :: put_flag
       procedure :: get_text
       procedure :: get_flag
+      !> What has gone wrong so far, as an error with a file of this name.
+      procedure :: error_of
       !> For modules that build on it: keep a failed action, in writing and reading; write an attribute of any object.
       procedure :: check
       procedure :: check_read
       procedure :: write_attribute
-      procedure, private :: open_attribute
-      procedure, private :: ready
    end type hdf5_base_type
 
    interface
@@ -105,7 +106,7 @@ contains
       character(len=*), intent(in) :: path
       integer(hid_t) :: access
       integer :: status
-      call self%ready()
+      call ready(self)
       call h5pcreate_f(h5p_file_access_f, access, status)
       ! in this version structures have checksums: damaged ones are refused before they are changed
       call h5pset_libver_bounds_f(access, h5f_libver_v110_f, h5f_libver_v110_f, status)
@@ -120,7 +121,7 @@ contains
       logical, intent(in) :: writing
       integer :: status
       logical :: exists
-      call self%ready()
+      call ready(self)
       call h5fopen_f(path, merge(h5f_acc_rdwr_f, h5f_acc_rdonly_f, writing), self%id, status)
       ! where it could not write HDF5 looks for other files, too
       inquire (file=path, exist=exists)
@@ -214,22 +215,14 @@ contains
       character(len=:), allocatable, intent(out) :: text
       type(c_ptr), target :: pointer(1)
       type(c_ptr) :: buffer
-      integer(hid_t) :: attribute, kind, letter
-      integer(size_t) :: bytes
+      integer(hid_t) :: attribute, kind
       integer :: status
-      logical :: variable
       text = ''
       if (allocated(self%failure)) return
-      call self%open_attribute(name, attribute, status)
+      call open_attribute(self, name, attribute, status)
       if (status < 0) return
       call h5aget_type_f(attribute, kind, status)
-      call h5tis_variable_str_f(kind, variable, status)
-      ! a damaged type may claim letters of any size, and HDF5 would take memory for them
-      bytes = 0
-      if (status >= 0 .and. variable) call h5tget_super_f(kind, letter, status)
-      if (status >= 0 .and. variable) call h5tget_size_f(letter, bytes, status)
-      if (status >= 0 .and. variable) call h5tclose_f(letter, status)
-      if (bytes /= 1) status = -1
+      if (.not. is_of_texts(kind)) status = -1
       pointer(1) = c_null_ptr
       buffer = c_loc(pointer)
       if (status >= 0) call h5aread_f(attribute, kind, buffer, status)
@@ -241,6 +234,30 @@ contains
       call h5tclose_f(kind, status)
       call h5aclose_f(attribute, status)
    end subroutine get_text
+
+   !> Whether a type is that of texts of any length. A damaged one may claim letters of any size, and HDF5 would take
+   !> memory for them.
+   logical function is_of_texts(kind) result(is)
+      integer(hid_t), intent(in) :: kind
+      integer(hid_t) :: letter
+      integer(size_t) :: bytes
+      integer :: status
+      call h5tis_variable_str_f(kind, is, status)
+      is = is .and. status >= 0
+      if (.not. is) return
+      bytes = 0
+      call h5tget_super_f(kind, letter, status)
+      if (status >= 0) call h5tget_size_f(letter, bytes, status)
+      if (status >= 0) call h5tclose_f(letter, status)
+      is = bytes == 1
+   end function is_of_texts
+
+   !> The type of texts of any length, UTF-8; to be closed.
+   integer(hid_t) function kind_of_texts() result(kind)
+      integer :: status
+      call h5tcopy_f(h5t_string, kind, status)
+      call h5tset_cset_f(kind, h5t_cset_utf8_f, status)
+   end function kind_of_texts
 
    !> Integer root attribute; replaces one of the name.
    subroutine put_flag(self, name, value)
@@ -274,7 +291,7 @@ contains
       value = 0
       if (allocated(self%failure)) return
       pointer = c_loc(buffer)
-      call self%open_attribute(name, attribute, status)
+      call open_attribute(self, name, attribute, status)
       if (status < 0) return
       call h5aread_f(attribute, h5t_native_integer, pointer, status)
       call self%check_read(status, 'read attribute '//name)
@@ -314,8 +331,7 @@ contains
       if (allocated(self%failure)) return
       buffer = text//c_null_char
       pointer(1) = c_loc(buffer)
-      call h5tcopy_f(h5t_string, kind, status)
-      call h5tset_cset_f(kind, h5t_cset_utf8_f, status)
+      kind = kind_of_texts()
       call h5screate_f(h5s_scalar_f, space, status)
       call h5acreate_f(object, name, kind, space, attribute, status)
       call self%check(status, 'create attribute '//name)
@@ -347,4 +363,16 @@ contains
       self%failure = 'HDF5 could not '//action
       self%damaged = .true.
    end subroutine check_read
+
+   subroutine error_of(self, path, error)
+      class(hdf5_base_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+      if (.not. allocated(self%failure)) return
+      if (self%damaged) then
+         call raise(error, system_error, path//': damaged: '//self%failure)
+      else
+         call raise(error, system_error, 'cannot write '//path//': '//self%failure)
+      end if
+   end subroutine error_of
 end module hdf5_base

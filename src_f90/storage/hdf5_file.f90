@@ -25,9 +25,6 @@ module hdf5_file
       !> dimension first, as h5py shows them, separated by blanks; a dataset whose only scale is itself becomes
       !> that scale.
       procedure :: put_count
-      procedure :: put_real
-      procedure :: put_list
-      procedure :: put_table
       procedure :: put_array
       procedure :: put_labels
       procedure :: get_count
@@ -38,11 +35,6 @@ module hdf5_file
       procedure :: open_dataset
       procedure :: expect_type
       procedure :: describe
-      procedure, private :: open_or_create
-      procedure, private :: open_expected
-      procedure, private :: write_all
-      procedure, private :: read_all
-      procedure, private :: write_reals
    end type hdf5_type
 
    !> Numbers in a list; only a damaged file says more.
@@ -59,38 +51,22 @@ contains
       if (allocated(self%failure)) return
       buffer = value
       kind = h5kind_to_type(i8, h5_integer_kind)
-      call self%open_or_create(path, kind, [integer(hsize_t) ::], '1', long_name, '', dataset)
-      call self%write_all(dataset, kind, c_loc(buffer), path)
+      call open_or_create(self, path, kind, [integer(hsize_t) ::], '1', long_name, '', dataset)
+      call write_all(self, dataset, kind, c_loc(buffer), path)
    end subroutine put_count
 
-   subroutine put_real(self, path, value, units, long_name)
-      class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name
-      real(wp), intent(in) :: value
-      call self%write_reals(path, [value], [integer(hsize_t) ::], units, long_name, '')
-   end subroutine put_real
-
-   subroutine put_list(self, path, values, units, long_name, scales)
-      class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name, scales
-      real(wp), intent(in) :: values(:)
-      call self%write_reals(path, values, int([size(values)], hsize_t), units, long_name, scales)
-   end subroutine put_list
-
-   subroutine put_table(self, path, values, units, long_name, scales)
-      class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name, scales
-      real(wp), intent(in) :: values(:, :)
-      call self%write_reals(path, [values], int(shape(values), hsize_t), units, long_name, scales)
-   end subroutine put_table
-
-   !> Values in the order of Fortran, with these numbers in each dimension, the fastest first.
+   !> A number, or values in the order of Fortran, with these numbers in each dimension, the fastest first.
    subroutine put_array(self, path, values, counts, units, long_name, scales)
       class(hdf5_type), intent(inout) :: self
       character(len=*), intent(in) :: path, units, long_name, scales
       real(wp), intent(in) :: values(:)
       integer, intent(in) :: counts(:)
-      call self%write_reals(path, values, int(counts, hsize_t), units, long_name, scales)
+      real(wp), target :: buffer(size(values))
+      integer(hid_t) :: dataset
+      if (allocated(self%failure)) return
+      buffer = values
+      call open_or_create(self, path, h5t_native_double, int(counts, hsize_t), units, long_name, scales, dataset)
+      call write_all(self, dataset, h5t_native_double, c_loc(buffer), path)
    end subroutine put_array
 
    !> Texts, all of one length in the file, filled up with zero bytes.
@@ -108,23 +84,10 @@ contains
       call h5tcopy_f(h5t_fortran_s1, kind, status)
       call h5tset_size_f(kind, len(labels, size_t), status)
       call h5tset_strpad_f(kind, h5t_str_nullpad_f, status)
-      call self%open_or_create(path, kind, int(counts, hsize_t), '1', long_name, scales, dataset)
-      call self%write_all(dataset, kind, c_loc(buffer), path)
+      call open_or_create(self, path, kind, int(counts, hsize_t), '1', long_name, scales, dataset)
+      call write_all(self, dataset, kind, c_loc(buffer), path)
       call h5tclose_f(kind, status)
    end subroutine put_labels
-
-   subroutine write_reals(self, path, values, dims, units, long_name, scales)
-      class(hdf5_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name, scales
-      real(wp), intent(in) :: values(:)
-      integer(hsize_t), intent(in) :: dims(:)
-      real(wp), target :: buffer(size(values))
-      integer(hid_t) :: dataset
-      if (allocated(self%failure)) return
-      buffer = values
-      call self%open_or_create(path, h5t_native_double, dims, units, long_name, scales, dataset)
-      call self%write_all(dataset, h5t_native_double, c_loc(buffer), path)
-   end subroutine write_reals
 
    !> Opens a dataset whose values are in this file, in chunks of a size that HDF5 may take memory for; a failure, and
    !> a negative status, where there is none.
@@ -185,7 +148,7 @@ contains
       integer(hid_t) :: space
       integer :: status
       if (self%has(path)) then
-         call self%open_expected(path, kind, product(dims), dataset)
+         call open_expected(self, path, kind, product(dims), dataset)
          return
       end if
       if (size(dims) == 0) then
@@ -218,7 +181,7 @@ contains
       character(len=*), intent(in) :: path
       integer(i8), target :: buffer
       buffer = 0
-      call self%read_all(path, h5kind_to_type(i8, h5_integer_kind), 1, c_loc(buffer))
+      call read_all(self, path, h5kind_to_type(i8, h5_integer_kind), 1, c_loc(buffer))
       get_count = buffer
    end function get_count
 
@@ -227,7 +190,7 @@ contains
       character(len=*), intent(in) :: path
       real(wp), target :: buffer
       buffer = 0
-      call self%read_all(path, h5t_native_double, 1, c_loc(buffer))
+      call read_all(self, path, h5t_native_double, 1, c_loc(buffer))
       get_real = buffer
    end function get_real
 
@@ -237,7 +200,7 @@ contains
       character(len=*), intent(in) :: path
       real(wp), intent(out), contiguous, target :: values(:)
       values = 0
-      call self%read_all(path, h5t_native_double, size(values), c_loc(values))
+      call read_all(self, path, h5t_native_double, size(values), c_loc(values))
    end subroutine get_list
 
    !> Numbers in a dataset; 0, and a failure, where there is none.
@@ -272,7 +235,7 @@ contains
       integer :: status
       if (allocated(self%failure)) return
       if (.not. self%has(path)) call self%check_read(-1, 'find '//path)
-      call self%open_expected(path, kind, int(n, hsize_t), dataset)
+      call open_expected(self, path, kind, int(n, hsize_t), dataset)
       if (dataset < 0) return
       status = 0
       if (.not. allocated(self%failure)) call h5dread_f(dataset, kind, buffer, status)

@@ -3,14 +3,14 @@
 !> failure, which the file keeps, every routine does nothing.
 module hdf5_rows
    use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
-   use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
-      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sselect_hyperslab_f, h5dcreate_f, h5dwrite_f, &
+   use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5screate_simple_f, h5sclose_f, &
+      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5dcreate_f, h5dwrite_f, &
       & h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_space_f, h5dget_type_f, h5pcreate_f, h5pclose_f, &
       & h5pset_chunk_f, h5pset_fill_value_f, h5p_dataset_create_f, h5tequal_f, h5tclose_f, h5t_native_double, &
       & h5p_dataset_xfer_f, h5pset_buffer_f, h5kind_to_type, h5_integer_kind
    use kinds, only: wp, i8
    use hdf5_file, only: hdf5_type
-   use hdf5_series, only: without_cache
+   use hdf5_series, only: without_cache, select_part
    implicit none (type, external)
    private
    public :: hdf5_rows_type, rows_a_chunk, most_rows, small_transfers
@@ -37,7 +37,6 @@ module hdf5_rows
       procedure :: write => write_rows
       procedure :: read => read_rows
       procedure :: resize
-      procedure, private :: select
    end type hdf5_rows_type
 
 contains
@@ -62,7 +61,7 @@ contains
       most = h5s_unlimited_f
       kind = h5t_native_double
       if (whole) kind = h5kind_to_type(i8, h5_integer_kind)
-      call h5screate_simple_f(size(most), dimensions(self), space, status, most)
+      call h5screate_simple_f(size(most), dimensions(self, rows), space, status, most)
       call h5pcreate_f(h5p_dataset_create_f, properties, status)
       call h5pset_chunk_f(properties, size(most), int([max(extents, 1), rows_a_chunk(rows, product(extents))], &
          & hsize_t), status)
@@ -141,10 +140,12 @@ contains
       call h5tclose_f(found, status)
    end subroutine expect_numbers
 
-   pure function dimensions(self) result(dims)
+   !> Sizes of the dimensions of n rows, the fastest first.
+   pure function dimensions(self, n) result(dims)
       type(hdf5_rows_type), intent(in) :: self
+      integer, intent(in) :: n
       integer(hsize_t) :: dims(size(self%extents) + 1)
-      dims = int([self%extents, self%rows], hsize_t)
+      dims = int([self%extents, n], hsize_t)
    end function dimensions
 
    !> Values a row.
@@ -162,7 +163,7 @@ contains
       if (allocated(file%failure)) return
       self%extents = extents
       self%rows = rows
-      call h5dset_extent_f(self%id, dimensions(self), status)
+      call h5dset_extent_f(self%id, dimensions(self, rows), status)
       call file%check(status, 'change the size of a dataset')
    end subroutine resize
 
@@ -175,7 +176,7 @@ contains
       integer(hid_t) :: memory, space
       integer :: status
       if (allocated(file%failure) .or. size(values) == 0) return
-      call self%select(first, size(values, 2), memory, space, status)
+      call select_part(self%id, first - 1_i8, dimensions(self, size(values, 2)), memory, space, status)
       if (status >= 0) call h5dwrite_f(self%id, h5t_native_double, c_loc(values), status, memory, space, &
          & self%transfer)
       call file%check(status, 'write rows')
@@ -199,28 +200,13 @@ contains
       allocate (values(self%width(), n), source=0.0_wp)
       if (size(values) == 0) return
       buffer = c_loc(values)
-      call self%select(first, n, memory, space, status)
+      call select_part(self%id, first - 1_i8, dimensions(self, n), memory, space, status)
       if (status >= 0) call h5dread_f(self%id, h5t_native_double, buffer, status, memory, space, &
          & self%transfer)
       call file%check_read(status, 'read rows')
       call h5sclose_f(space, status)
       call h5sclose_f(memory, status)
    end subroutine read_rows
-
-   !> Selects n rows from the `first` on, in file and memory.
-   subroutine select(self, first, n, memory, space, status)
-      class(hdf5_rows_type), intent(in) :: self
-      integer, intent(in) :: first, n
-      integer(hid_t), intent(out) :: memory, space
-      integer, intent(out) :: status
-      integer(hsize_t) :: start(size(self%extents) + 1), count(size(self%extents) + 1)
-      start = 0
-      start(size(start)) = first - 1
-      count = int([self%extents, n], hsize_t)
-      call h5screate_simple_f(size(count), count, memory, status)
-      call h5dget_space_f(self%id, space, status)
-      call h5sselect_hyperslab_f(space, h5s_select_set_f, start, count, status)
-   end subroutine select
 
    subroutine close_rows(self, file)
       class(hdf5_rows_type), intent(inout) :: self

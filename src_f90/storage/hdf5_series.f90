@@ -9,7 +9,7 @@ module hdf5_series
    use hdf5_file, only: hdf5_type
    implicit none (type, external)
    private
-   public :: hdf5_series_type, chunk_samples, without_cache
+   public :: hdf5_series_type, chunk_samples, without_cache, select_part
 
    !> Samples in a chunk, at most: a series that is known to be shorter has chunks of its own length.
    integer, parameter :: chunk_samples = 4096
@@ -30,7 +30,6 @@ module hdf5_series
       procedure :: close => close_series
       procedure :: append
       procedure :: read => read_part
-      procedure, private :: select
    end type hdf5_series_type
 
 contains
@@ -113,15 +112,13 @@ contains
       class(hdf5_series_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
       real(wp), intent(in), contiguous, target :: values(:, :)
-      integer(hsize_t) :: dims(2)
       integer(hid_t) :: memory, space
       integer :: status
       if (allocated(file%failure) .or. size(values) == 0) return
-      dims = [int(self%width, hsize_t), int(self%length + size(values, 2), hsize_t)]
-      call h5dset_extent_f(self%id, dims(3 - self%rank:), status)
+      call h5dset_extent_f(self%id, extents(self, self%length + size(values, 2)), status)
       call file%check(status, 'lengthen a dataset')
       if (status < 0) return
-      call self%select(self%length, size(values, 2), memory, space, status)
+      call select_part(self%id, self%length, extents(self, size(values, 2, i8)), memory, space, status)
       if (status >= 0) call h5dwrite_f(self%id, h5t_native_double, c_loc(values), status, memory, space)
       call file%check(status, 'write samples')
       self%length = self%length + size(values, 2)
@@ -143,7 +140,7 @@ contains
       buffer = c_loc(values)
       if (allocated(file%failure)) values = 0
       if (allocated(file%failure) .or. n == 0) return
-      call self%select(skip, n, memory, space, status)
+      call select_part(self%id, skip, extents(self, int(n, i8)), memory, space, status)
       if (status >= 0) call h5dread_f(self%id, h5t_native_double, buffer, status, memory, space)
       call file%check_read(status, 'read samples')
       if (status < 0) values = 0
@@ -151,20 +148,29 @@ contains
       call h5sclose_f(memory, status)
    end subroutine read_part
 
-   !> Selects n samples behind the first `skip` ones, in file and memory.
-   subroutine select(self, skip, n, memory, space, status)
-      class(hdf5_series_type), intent(in) :: self
+   !> Sizes of the dimensions of n samples, the fastest first.
+   pure function extents(self, n)
+      type(hdf5_series_type), intent(in) :: self
+      integer(i8), intent(in) :: n
+      integer(hsize_t) :: extents(self%rank)
+      extents(1) = self%width
+      extents(self%rank) = n
+   end function extents
+
+   !> Selects a part of a dataset that has these extents, the last of them behind the first `skip`, in file and memory.
+   subroutine select_part(dataset, skip, extents, memory, space, status)
+      integer(hid_t), intent(in) :: dataset
       integer(i8), intent(in) :: skip
-      integer, intent(in) :: n
+      integer(hsize_t), intent(in) :: extents(:)
       integer(hid_t), intent(out) :: memory, space
       integer, intent(out) :: status
-      integer(hsize_t) :: start(2), count(2)
-      start = [0_hsize_t, int(skip, hsize_t)]
-      count = [int(self%width, hsize_t), int(n, hsize_t)]
-      call h5screate_simple_f(self%rank, count(3 - self%rank:), memory, status)
-      call h5dget_space_f(self%id, space, status)
-      call h5sselect_hyperslab_f(space, h5s_select_set_f, start(3 - self%rank:), count(3 - self%rank:), status)
-   end subroutine select
+      integer(hsize_t) :: start(size(extents))
+      start = 0
+      start(size(start)) = skip
+      call h5screate_simple_f(size(extents), extents, memory, status)
+      call h5dget_space_f(dataset, space, status)
+      call h5sselect_hyperslab_f(space, h5s_select_set_f, start, extents, status)
+   end subroutine select_part
 
    subroutine close_series(self, file)
       class(hdf5_series_type), intent(inout) :: self

@@ -2,12 +2,14 @@
 !> routine does nothing.
 module hdf5_texts
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_loc, c_null_char, c_null_ptr, c_ptr
-   use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
-      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5sselect_hyperslab_f, h5dcreate_f, h5dwrite_f, &
+   use hdf5, only: hid_t, hsize_t, h5s_unlimited_f, h5screate_simple_f, h5sclose_f, &
+      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5dcreate_f, h5dwrite_f, &
       & h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_space_f, h5dget_type_f, h5pcreate_f, h5pclose_f, &
-      & h5pset_chunk_f, h5p_dataset_create_f, h5tcopy_f, h5tclose_f, h5tset_cset_f, h5tis_variable_str_f, &
-      & h5tget_super_f, h5tget_size_f, h5t_string, h5t_cset_utf8_f
+      & h5pset_chunk_f, h5p_dataset_create_f, h5tclose_f
+   use hdf5_base, only: is_of_texts, kind_of_texts, c_free
+   use kinds, only: i8
    use hdf5_file, only: hdf5_type
+   use hdf5_series, only: select_part
    use hdf5_rows, only: rows_a_chunk, small_transfers
    use system_texts, only: fortran_text
    implicit none (type, external)
@@ -28,15 +30,7 @@ module hdf5_texts
       procedure :: resize
       procedure :: write => write_texts
       procedure :: read => read_texts
-      procedure, private :: select
    end type hdf5_texts_type
-
-   interface
-      subroutine c_free(memory) bind(c, name='free')
-         import :: c_ptr
-         type(c_ptr), value :: memory
-      end subroutine c_free
-   end interface
 
 contains
 
@@ -61,12 +55,6 @@ contains
       call h5sclose_f(space, status)
       call h5tclose_f(kind, status)
    end subroutine create
-
-   integer(hid_t) function kind_of_texts() result(kind)
-      integer :: status
-      call h5tcopy_f(h5t_string, kind, status)
-      call h5tset_cset_f(kind, h5t_cset_utf8_f, status)
-   end function kind_of_texts
 
    !> An existing list; a failure for what is none.
    subroutine open_texts(self, file, name)
@@ -93,24 +81,15 @@ contains
       if (allocated(file%failure)) call self%close(file)
    end subroutine open_texts
 
-   !> Whether a dataset has texts of any length; a damaged type may claim letters of any size.
+   !> Whether a dataset has texts of any length.
    logical function are_texts(dataset)
       integer(hid_t), intent(in) :: dataset
-      integer(hid_t) :: kind, letter
-      integer(size_t) :: bytes
+      integer(hid_t) :: kind
       integer :: status
       are_texts = .false.
       call h5dget_type_f(dataset, kind, status)
       if (status < 0) return
-      call h5tis_variable_str_f(kind, are_texts, status)
-      are_texts = are_texts .and. status >= 0
-      if (are_texts) then
-         bytes = 0
-         call h5tget_super_f(kind, letter, status)
-         if (status >= 0) call h5tget_size_f(letter, bytes, status)
-         if (status >= 0) call h5tclose_f(letter, status)
-         are_texts = bytes == 1
-      end if
+      are_texts = is_of_texts(kind)
       call h5tclose_f(kind, status)
    end function are_texts
 
@@ -147,7 +126,7 @@ contains
       end do
       kind = kind_of_texts()
       transfer = small_transfers()
-      call self%select(first, size(texts), memory, space, status)
+      call select_part(self%id, first - 1_i8, [size(texts, kind=hsize_t)], memory, space, status)
       if (status >= 0) call h5dwrite_f(self%id, kind, c_loc(pointers), status, memory, space, transfer)
       call file%check(status, 'write texts')
       call h5sclose_f(space, status)
@@ -173,7 +152,7 @@ contains
       buffer = c_loc(pointers)
       kind = kind_of_texts()
       transfer = small_transfers()
-      call self%select(first, n, memory, space, status)
+      call select_part(self%id, first - 1_i8, [int(n, hsize_t)], memory, space, status)
       if (status >= 0) call h5dread_f(self%id, kind, buffer, status, memory, space, transfer)
       call file%check_read(status, 'read texts')
       do i = 1, n
@@ -186,19 +165,6 @@ contains
       call h5pclose_f(transfer, status)
       call h5tclose_f(kind, status)
    end subroutine read_texts
-
-   !> Selects n texts from the `first` on, in file and memory.
-   subroutine select(self, first, n, memory, space, status)
-      class(hdf5_texts_type), intent(in) :: self
-      integer, intent(in) :: first, n
-      integer(hid_t), intent(out) :: memory, space
-      integer, intent(out) :: status
-      integer(hsize_t) :: count(1)
-      count = n
-      call h5screate_simple_f(1, count, memory, status)
-      call h5dget_space_f(self%id, space, status)
-      call h5sselect_hyperslab_f(space, h5s_select_set_f, [int(first - 1, hsize_t)], count, status)
-   end subroutine select
 
    subroutine close_texts(self, file)
       class(hdf5_texts_type), intent(inout) :: self

@@ -26,7 +26,6 @@ module recent_samples
    contains
       procedure :: begin
       procedure :: declare
-      procedure :: is_declared
       procedure :: has
       procedure :: add
       !> Number of the sample, from 0, from which on all are kept.
@@ -36,7 +35,6 @@ module recent_samples
       !> Into the checkpoint of a record, and out of it.
       procedure :: save => save_samples
       procedure :: restore
-      procedure, private :: place
    end type recent_samples_type
 
    character(len=*), parameter :: group = 'checkpoint/samples', first_sample = 'checkpoint/first_sample', &
@@ -65,11 +63,6 @@ contains
       self%series = [self%series, series_type(name, units, long_name, across, sum(self%series%width), width)]
    end subroutine declare
 
-   pure logical function is_declared(self)
-      class(recent_samples_type), intent(in) :: self
-      is_declared = size(self%series) > 0
-   end function is_declared
-
    pure logical function has(self, name)
       class(recent_samples_type), intent(in) :: self
       character(len=*), intent(in) :: name
@@ -87,7 +80,7 @@ contains
       real(wp), intent(in) :: values(:)
       if (.not. allocated(self%values)) allocate (self%values(size(values), 0:self%room))
       if (self%count == 0) self%values(:, 0) = values
-      self%values(:, self%place(self%count)) = values
+      self%values(:, place(self, self%count)) = values
       self%count = self%count + 1
    end subroutine add
 
@@ -119,7 +112,7 @@ contains
          if (skip < self%first()) then
             values = self%values(first:last, :n - 1)
          else
-            at = self%place(skip)
+            at = place(self, skip)
             up_to_end = min(n, self%room + 1 - at)
             values(:, :up_to_end) = self%values(first:last, at:at + up_to_end - 1)
             values(:, up_to_end + 1:) = self%values(first:last, 1:n - up_to_end)
@@ -132,7 +125,7 @@ contains
       class(recent_samples_type), intent(in) :: self
       integer(i8), intent(in) :: number
       real(wp), allocatable :: values(:)
-      values = self%values(:, self%place(number))
+      values = self%values(:, place(self, number))
    end function sample
 
    subroutine save_samples(self, results)
@@ -241,7 +234,7 @@ contains
          if (.not. ok) return
          call results%get_list(path, values)
          do i = 1, kept
-            self%values(own%before + 1:own%before + own%width, self%place(self%first() + i - 1)) = &
+            self%values(own%before + 1:own%before + own%width, place(self, self%first() + i - 1)) = &
                & values((i - 1)*own%width + 1:i*own%width)
          end do
       end subroutine restore_series

@@ -72,7 +72,6 @@ module record
       !> Forgets a dataset or all of a group; forgets everything.
       procedure :: delete
       procedure :: clear
-      procedure, private :: find
    end type record_type
 
    integer, parameter :: first_room = 64
@@ -150,7 +149,7 @@ contains
       real(wp), intent(in) :: values(:)
       integer :: k
       logical :: same
-      k = self%find(path)
+      k = find(self, path)
       same = k > 0
       if (.not. same) then
          call add_dataset(self)
@@ -247,7 +246,7 @@ contains
       class(record_type), intent(in) :: self
       character(len=*), intent(in) :: path
       integer :: k
-      k = self%find(path)
+      k = find(self, path)
       has = k > 0
       if (has) has = self%datasets(k)%there
       if (k > 0) return
@@ -261,7 +260,7 @@ contains
       character(len=*), intent(in) :: path
       integer :: k
       get_real = 0
-      k = self%find(path)
+      k = find(self, path)
       if (k == 0) return
       if (self%datasets(k)%there) get_real = self%datasets(k)%values(1)
    end function get_real
@@ -273,7 +272,7 @@ contains
       real(wp), intent(out) :: values(:)
       integer :: k
       values = 0
-      k = self%find(path)
+      k = find(self, path)
       if (k == 0) return
       if (self%datasets(k)%there .and. size(self%datasets(k)%values) == size(values)) values = self%datasets(k)%values
    end subroutine get_list
@@ -283,7 +282,7 @@ contains
       character(len=*), intent(in) :: path
       integer :: k
       list_size = 0
-      k = self%find(path)
+      k = find(self, path)
       if (k == 0) return
       if (self%datasets(k)%there) list_size = product(self%datasets(k)%extents)
    end function list_size

@@ -47,11 +47,8 @@ module working_file
       procedure :: beat
       !> Deletes the part; frees the lock, whose file stays where the part does.
       procedure :: release
-      procedure, private :: choose_part
       !> An error where the part must not be written any more; to be asked before it is opened.
       procedure :: check_part
-      procedure, private :: check_lock
-      procedure, private :: delete_part
    end type working_file_type
 
 contains
@@ -72,7 +69,7 @@ contains
       end if
       call self%lock%acquire(self%path, error)
       if (allocated(error)) return
-      call self%choose_part(error)
+      call choose_part(self, error)
       if (allocated(error)) then
          call self%lock%release(files_left=.true.)
          return
@@ -146,7 +143,7 @@ contains
       ! what this run has published becomes the part when the names are exchanged
       published = ''
       if (self%published) published = ' '//self%there
-      call self%check_lock(error)
+      call check_lock(self, error)
       if (allocated(error)) return
       call self%lock%note_files(about_to_be//published, noted)
       if (.not. noted) then
@@ -160,14 +157,14 @@ contains
       call identify(self%part, self%made, error)
       if (allocated(error)) then
          self%made = ''
-         call self%check_lock(lost)
+         call check_lock(self, lost)
          if (.not. allocated(lost)) call delete_file(self%part)
          return
       end if
       call self%lock%note_files(self%made//published)
       ! it may have stood still for long at any of these lines
       call self%check_part(error)
-      if (allocated(error)) call self%delete_part()
+      if (allocated(error)) call delete_part(self)
    end subroutine make_part
 
    !> An error once another run has taken this one for dead, or the folder is gone.
@@ -183,7 +180,7 @@ contains
       class(working_file_type), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: found
-      call self%check_lock(error)
+      call check_lock(self, error)
       if (.not. allocated(error)) call identify(self%part, found, error)
       if (allocated(error)) return
       if (found /= self%made) call raise(error, system_error, 'cannot write '//self%path//': ' &
@@ -194,7 +191,7 @@ contains
       class(working_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
       ! a new file under the name: a reader may still have the old one open
-      call self%delete_part()
+      call delete_part(self)
       call self%make_part(error)
       if (allocated(error)) return
       if (.not. copy_file(self%path, self%part)) call raise(error, system_error, &
@@ -266,7 +263,7 @@ contains
       class(working_file_type), intent(inout) :: self
       ! without the lock it may be another's
       if (.not. self%stranded) then
-         if (self%lock%is_ours()) call self%delete_part()
+         if (self%lock%is_ours()) call delete_part(self)
       end if
       if (self%made /= '') call self%lock%note_files(self%made)
       call self%lock%release(files_left=self%made /= '')

@@ -50,10 +50,6 @@ module file_lock
       procedure :: beat
       procedure :: release
       procedure :: is_ours
-      procedure, private :: attempt
-      procedure, nopass, private :: identity
-      procedure, private :: watch_time
-      procedure, private :: write_beat
    end type file_lock_type
 
    interface
@@ -112,7 +108,7 @@ contains
       self%files = ''
       waited = 0
       do
-         call self%attempt(found, holder)
+         call attempt(self, found, holder)
          if (found == failed) then
             call raise(error, system_error, 'cannot write '//path//': '//no_lock_reason(path))
          else if (found == foreign) then
@@ -121,7 +117,7 @@ contains
          end if
          if (allocated(error)) return
          if (waited == 0) first = holder
-         watched = self%watch_time(found, holder)
+         watched = watch_time(self, found, holder)
          if (found /= held .and. waited >= watched) exit
          call close_lock(self)
          if (holder /= first .or. waited >= watched) then
@@ -144,7 +140,7 @@ contains
          self%files = self%files_left
       end if
       self%beats = 0
-      if (.not. self%write_beat()) then
+      if (.not. write_beat(self)) then
          call delete_file(self%path)
          call close_lock(self)
          call raise(error, system_error, 'cannot write '//path//': '//no_lock_reason(path))
@@ -256,7 +252,7 @@ contains
       if (self%descriptor < 0) return
       if (.not. is_there(self)) return
       call read_content(self, line, is_ours)
-      if (is_ours) is_ours = index(line, self%identity()) == 1
+      if (is_ours) is_ours = index(line, identity()) == 1
    end function is_ours
 
    !> "host process ".
@@ -274,7 +270,7 @@ contains
       if (.not. self%is_ours()) return
       self%last_beat = now
       self%beats = self%beats + 1
-      ignored = self%write_beat()
+      ignored = write_beat(self)
    end subroutine beat
 
    subroutine note_files(self, identities, noted)
@@ -285,7 +281,7 @@ contains
       ok = self%is_ours()
       if (ok) then
          self%files = trim(adjustl(identities))
-         ok = self%write_beat()
+         ok = write_beat(self)
       end if
       if (present(noted)) noted = ok
    end subroutine note_files
@@ -295,7 +291,7 @@ contains
       class(file_lock_type), intent(in) :: self
       character(len=longest) :: line
       ! of one length, so that it replaces what is there and needs no room on the disk
-      line = trim(self%identity()//to_text(self%beats)//' '//self%files)
+      line = trim(identity()//to_text(self%beats)//' '//self%files)
       line(longest:) = achar(10)
       ok = write_start(self%descriptor, line)
    end function write_beat

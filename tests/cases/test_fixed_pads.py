@@ -172,6 +172,22 @@ def test_pictures_of_fixed_pads_name_no_pivots(tiltpad, run):
     plt.close("all")
 
 
+@pytest.mark.parametrize(("motion", "told"), [("fixed", 0), ("tilting_only", 1)])
+def test_a_machine_tells_of_pads_that_tilt_alone(tiltpad, tmp_path, motion, told):
+    (tmp_path / "case.nml").write_text(f"""&case task='equilibrium' /
+&pads motion='{motion}', pivot_angle_deg=-45,45,135,225, arc_deg=72 /
+&bearing journal_radius=50e-3, assembled_clearance=100e-6, axial_length=50e-3, viscosity=0.02, preload=0.4 /
+&bearing name='left', station=1 /
+&bearing name='right', station=3 /
+&shaft length=2*0.5, diameter=0.1 /
+&disc station=2, mass=600, polar_inertia=20, diametral_inertia=12 /
+&operation speed_rpm=5000 /
+""")
+    said = tiltpad("case.nml", cwd=tmp_path, status=0).stdout
+    assert "the shaft is" in said
+    assert said.count("the pads are") == told
+
+
 def wide_arcs(tiltpad, folder, load, *films):
     """Stiffness and damping of two pads of 160 degrees, and the place of the journal in clearances."""
     (folder / "case.nml").write_text(f"""&case task='coefficients' /

@@ -10,7 +10,6 @@ from commands import LIMIT
 SOURCES = (
     "input/namelist_text",
     "input/case_namelist",
-    "input/assigned_values",
     "input/assignments",
     "input/parameter_study",
     "input/study_variables",

@@ -15,7 +15,7 @@ program global_search
    use kinds, only: wp, pi
    use errors, only: error_type
    use case_inputs, only: case_type
-   use case_text, only: read_text
+   use namelist_text, only: read_text
    use case_namelist, only: case_from_text
    use linear_algebra, only: solve_2x2, dgesv
    use film_solver, only: film_solver_type, film_motion, film_response, film_ok

@@ -8,7 +8,7 @@ program test_case_namelist
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables, put_variables
    use assignments, only: namelist_type
-   use case_text, only: parse_case
+   use namelist_text, only: parse_case
    use case_namelist, only: case_from_text, case_from_namelist
    use namelist_writer, only: namelist_of
    use input_cases, only: case_of, expect_refused

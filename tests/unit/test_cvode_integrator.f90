@@ -53,11 +53,10 @@ program test_cvode_integrator
    use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, numerics_error
-   use cvode_integrator, only: integrator_type, integrator_options
+   use cvode_integrator, only: integrator_type, integrator_options, step_history_type, new_step_history
    use ode_model, only: integrator_counts_type
    use swinging, only: oscillator, exact
-   use step_history, only: step_history_type, new_step_history
-   use order_control, only: order_control_type, stable_order
+   use marching, only: order_control_type, stable_order
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    real(wp), parameter :: tolerance = 1e-8_wp

@@ -9,8 +9,7 @@ program test_elements
    use factories, only: converged_films
    use state_layout, only: pad_state
    use abstract_element, only: element_slot
-   use linear_element, only: linear_element_type
-   use bearing_supports, only: support_element
+   use linear_element, only: linear_element_type, support_element
    use equations_of_motion, only: machine_model, new_machine_model
    use bearing_samples, only: element_forces
    use force_balance, only: forces, force_derivatives, masses

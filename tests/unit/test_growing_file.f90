@@ -9,7 +9,7 @@ program test_growing_file
    use hdf5_series, only: hdf5_series_type, chunk_samples
    use growing_file, only: growing_file_type
    use scratch, only: scratch_path, file_there
-   use hdf5_expectations, only: expect_damaged
+   use hdf5_expectations, only: put_real, put_list, put_table, expect_damaged
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
    !> Samples of a long series.
@@ -133,8 +133,8 @@ contains
       type(hdf5_series_type) :: series
       call file%create(path)
       call file%put_count('count', 1_i8, 'a count')
-      call file%put_real('number', 1.0_wp, 'm', 'a number')
-      call file%put_table('wide', spread(spread(0.0_wp, 1, 1001), 2, 2), 'm', 'a table', '')
+      call put_real(file, 'number', 1.0_wp, 'm', 'a number')
+      call put_table(file, 'wide', spread(spread(0.0_wp, 1, 1001), 2, 2), 'm', 'a table', '')
       call series%open(file, 'missing')
       call expect_damaged(file, 'open missing')
       call file%open(path, writing=.false.)
@@ -208,19 +208,23 @@ contains
       call expect_no_error(error, 'claimed')
       call file%begin(error)
       call expect_no_error(error, 'begun')
-      call file%put_list('pad', [1.0_wp, 2.0_wp], '1', 'pad number', 'pad')
-      call file%begin_series('frequency', 5000_i8)
+      call put_list(file, 'pad', [1.0_wp, 2.0_wp], '1', 'pad number', 'pad')
+      call begin_series(file)
    end subroutine begin_new
+
+   !> Begins the series of a file, new or opened again.
+   subroutine begin_series(file)
+      type(growing_file_type), intent(inout) :: file
+      call file%begin_series('frequency', 5000_i8)
+      call file%declare('frequency', 1, '', 'Hz', 'frequency')
+      call file%declare('amplitude', 2, 'pad', 'm', 'amplitude')
+   end subroutine begin_series
 
    !> Adds samples first to last.
    subroutine add_samples(file, first, last)
       type(growing_file_type), intent(inout) :: file
       integer, intent(in) :: first, last
       integer :: k
-      if (.not. file%is_declared()) then
-         call file%declare('frequency', 1, '', 'Hz', 'frequency')
-         call file%declare('amplitude', 2, 'pad', 'm', 'amplitude')
-      end if
       do k = first, last
          call file%add([real(k, wp), amplitude(k)])
       end do
@@ -284,7 +288,7 @@ contains
       call later%claim(path, error)
       call later%reopen(error)
       call expect_no_error(error, 'opened again')
-      call later%begin_series('frequency', 5000_i8)
+      call begin_series(later)
       call expect(later%samples == 4000_i8, 'the samples in the file count')
       call add_samples(later, 4001, 4500)
       call later%publish(continued=.true., error=error, behind=behind)
@@ -303,7 +307,7 @@ contains
       real(wp), allocatable :: values(:, :)
       call begin_new(file)
       call add_samples(file, 1, 5000)
-      call file%last_samples('amplitude', 1500, values)
+      call file%part_of_samples('amplitude', 3500_i8, 1500, values)
       call expect(all(shape(values) == [2, 1500]), 'as many as asked for')
       call expect_close(norm2(values(:, 1) - amplitude(3501)) + norm2(values(:, 1500) - amplitude(5000)), 0.0_wp, &
          & 0.0_wp, 'the last ones')
@@ -311,7 +315,7 @@ contains
       call later%claim(path, error)
       call later%reopen(error)
       call later%begin_series('frequency', 5000_i8)
-      call later%last_samples('frequency', 2, values)
+      call later%part_of_samples('frequency', 4998_i8, 2, values)
       call expect_close(norm2(values(1, :) - [4999.0_wp, 5000.0_wp]), 0.0_wp, 0.0_wp, 'those from before')
       call later%abandon()
    end subroutine last_samples
@@ -341,7 +345,7 @@ contains
       call file%claim(path, error)
       call file%begin(error)
       call expect_no_error(error, 'begun')
-      call file%put_real('value', 1.5_wp, '1', 'a value')
+      call put_real(file, 'value', 1.5_wp, '1', 'a value')
       call file%publish(continued=.true., error=error, behind=behind)
       call expect_no_error(error, 'published without series')
       call expect(file%samples == 0, 'no samples')
@@ -369,9 +373,9 @@ contains
       call expect(.not. allocated(bad%failure), 'made')
       call file%claim(path, error)
       call file%reopen(error)
-      call file%begin_series('frequency', 5000_i8)
+      call begin_series(file)
       call add_samples(file, 4, 4)
-      call file%error_of(error)
+      call file%error_of(path, error)
       call expect(allocated(error), 'uneven series are refused')
       if (allocated(error)) call expect(index(error%message, 'damaged') > 0 &
          & .and. index(error%message, 'amplitude') > 0, 'with the name: '//error%message)

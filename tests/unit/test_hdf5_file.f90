@@ -11,7 +11,7 @@ program test_hdf5_file
    use run_statistics, only: run_statistics_type
    use files, only: delete_file
    use scratch, only: scratch_path, file_there, write_bytes
-   use hdf5_expectations, only: expect_damaged
+   use hdf5_expectations, only: put_real, put_list, put_table, expect_damaged
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    character(len=:), allocatable :: path
@@ -190,9 +190,9 @@ contains
       list = [1.0_wp/3, -0.0_wp, tiny(1.0_wp), huge(1.0_wp), ieee_value(1.0_wp, ieee_positive_inf), &
          & ieee_value(1.0_wp, ieee_quiet_nan)]
       call file%create(path)
-      call file%put_real('real', list(1), 'm', 'a number')
+      call put_real(file, 'real', list(1), 'm', 'a number')
       call file%put_count('count', 2_i8**62 + 1, 'a large number')
-      call file%put_list('list', list, 'm', 'several', '')
+      call put_list(file, 'list', list, 'm', 'several', '')
       call file%close()
       call file%open(path, writing=.false.)
       call expect_close(file%get_real('real'), list(1), 0.0_wp, 'a number')
@@ -208,7 +208,7 @@ contains
       real(wp) :: table(3, 2), found(6)
       table = reshape([1, 2, 3, 4, 5, 6], [3, 2])
       call file%create(path)
-      call file%put_table('table', table, '1', 'a table', '')
+      call put_table(file, 'table', table, '1', 'a table', '')
       call file%get_list('table', found)
       call expect_close(maxval(abs(found - [table])), 0.0_wp, 0.0_wp, 'in the order of the memory')
       call file%close()
@@ -220,14 +220,14 @@ contains
       type(hdf5_type) :: file
       real(wp) :: found(2)
       call file%create(path)
-      call file%put_real('real', 1.0_wp, 'm', 'a number')
+      call put_real(file, 'real', 1.0_wp, 'm', 'a number')
       call file%put_count('count', 1_i8, 'a count')
-      call file%put_list('list', [1.0_wp, 2.0_wp], 'm', 'a list', '')
+      call put_list(file, 'list', [1.0_wp, 2.0_wp], 'm', 'a list', '')
       call file%close()
       call file%open(path, writing=.true.)
-      call file%put_real('real', 3.0_wp, 'm', 'a number')
+      call put_real(file, 'real', 3.0_wp, 'm', 'a number')
       call file%put_count('count', 4_i8, 'a count')
-      call file%put_list('list', [5.0_wp, 6.0_wp], 'm', 'a list', '')
+      call put_list(file, 'list', [5.0_wp, 6.0_wp], 'm', 'a list', '')
       call file%close()
       call file%open(path, writing=.false.)
       call file%get_list('list', found)
@@ -242,8 +242,8 @@ contains
       type(hdf5_type) :: file
       call file%create(path)
       call file%make_group('inner')
-      call file%put_real('inner/real', 1.0_wp, 'm', 'a number')
-      call file%put_real('real', 2.0_wp, 'm', 'another')
+      call put_real(file, 'inner/real', 1.0_wp, 'm', 'a number')
+      call put_real(file, 'real', 2.0_wp, 'm', 'another')
       call expect(file%has('inner/real'), 'what is in a group')
       call expect(.not. file%has('inner/other'), 'what is in a group')
       call expect_close(file%get_real('inner/real'), 1.0_wp, 0.0_wp, 'the number in it')
@@ -258,9 +258,9 @@ contains
    subroutine scales()
       type(hdf5_type) :: file
       call file%create(path)
-      call file%put_list('x', [1.0_wp, 2.0_wp, 3.0_wp], 'm', 'places', 'x')
-      call file%put_list('y', [1.0_wp, 2.0_wp], 'm', 'others', 'y')
-      call file%put_table('table', reshape([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp], [3, 2]), '1', 'a table', &
+      call put_list(file, 'x', [1.0_wp, 2.0_wp, 3.0_wp], 'm', 'places', 'x')
+      call put_list(file, 'y', [1.0_wp, 2.0_wp], 'm', 'others', 'y')
+      call put_table(file, 'table', reshape([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp, 6.0_wp], [3, 2]), '1', 'a table', &
          & 'y x')
       call expect(is_scale(file, 'x'), 'what is a scale')
       call expect(is_scale(file, 'y'), 'what is a scale')
@@ -268,7 +268,7 @@ contains
       call expect(is_attached(file, 'table', 'y', 1), 'of which dimension')
       call expect(is_attached(file, 'table', 'x', 2), 'of which dimension')
       call expect(.not. is_attached(file, 'table', 'x', 1), 'and of which not')
-      call file%put_list('z', [1.0_wp, 2.0_wp], 'm', 'no such scale', 'nowhere')
+      call put_list(file, 'z', [1.0_wp, 2.0_wp], 'm', 'no such scale', 'nowhere')
       call expect(allocated(file%failure), 'a scale that is not there')
       if (allocated(file%failure)) call expect(index(file%failure, 'attach nowhere to z') > 0, file%failure)
       call file%close()
@@ -326,7 +326,7 @@ contains
       type(hdf5_type) :: file
       real(wp) :: list(2)
       call file%create(path)
-      call file%put_list('list', [1.0_wp, 2.0_wp, 3.0_wp], 'm', 'a list', '')
+      call put_list(file, 'list', [1.0_wp, 2.0_wp, 3.0_wp], 'm', 'a list', '')
       call file%get_list('list', list)
       call expect_close(maxval(abs(list)), 0.0_wp, 0.0_wp, 'a list of another size')
       call expect_damaged(file, 'find the right size of list')
@@ -339,7 +339,7 @@ contains
       type(hdf5_type) :: file
       call file%create(path)
       call file%put_count('count', 1_i8, 'a count')
-      call file%put_real('real', 1.0_wp, 'm', 'a number')
+      call put_real(file, 'real', 1.0_wp, 'm', 'a number')
       call expect_close(file%get_real('count'), 0.0_wp, 0.0_wp, 'a count as a number')
       call expect_damaged(file, 'find numbers of the right kind in count')
       call file%open(path, writing=.false.)
@@ -383,15 +383,15 @@ contains
          & objects(*) = [character(len=5) :: 'group', 'real', 'count', 'list', 'table']
       call file%create(path)
       call file%put_flag('before', 1)
-      call file%put_real('before', 1.0_wp, 'm', 'a number')
+      call put_real(file, 'before', 1.0_wp, 'm', 'a number')
       call expect_close(file%get_real('missing'), 0.0_wp, 0.0_wp, 'a failure')
       call file%put_flag('flag', 1)
       call file%put_text('text', 'behind')
       call file%make_group('group')
-      call file%put_real('real', 1.0_wp, 'm', 'a number')
+      call put_real(file, 'real', 1.0_wp, 'm', 'a number')
       call file%put_count('count', 1_i8, 'a count')
-      call file%put_list('list', [1.0_wp], 'm', 'a list', '')
-      call file%put_table('table', reshape([1.0_wp], [1, 1]), 'm', 'a table', '')
+      call put_list(file, 'list', [1.0_wp], 'm', 'a list', '')
+      call put_table(file, 'table', reshape([1.0_wp], [1, 1]), 'm', 'a table', '')
       call expect_flag(file, 'before', 0)
       call expect(.not. file%has_attribute('before'), 'no attribute is found')
       call expect(.not. file%has('before'), 'nor a dataset')

@@ -6,7 +6,7 @@ program test_machine_results
    use case_inputs, only: case_type
    use parameter_study, only: run_tag
    use record, only: record_type
-   use record_reader, only: read_record
+   use record_file, only: read_record
    use hdf5_file, only: hdf5_type
    use hdf5_series, only: hdf5_series_type
    use run_case, only: run_task

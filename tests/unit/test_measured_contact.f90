@@ -2,8 +2,7 @@
 program test_measured_contact
    use kinds, only: wp
    use text, only: to_text
-   use contact_law, only: contact_law_type, contact_point
-   use measured_contact, only: new_measured_contact
+   use contact_law, only: contact_law_type, contact_point, new_measured_contact
    use paper_bearing, only: paper_law
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)

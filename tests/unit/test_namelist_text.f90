@@ -4,11 +4,10 @@ program test_namelist_text
    use errors, only: error_type, input_error
    use assignments, only: namelist_type, assignment_text, assignment_type, token_type, put_assignment, undoes, &
       & target_text, value_text
-   use case_text, only: read_text, parse_case
+   use namelist_text, only: read_text, parse_case, parse_namelist, parse_override
    use files, only: delete_file
    use scratch, only: scratch_path, write_bytes
    use text, only: to_text
-   use namelist_text, only: parse_namelist, parse_override
    use check, only: runs, expect, expect_no_error, expect_error, report
    implicit none (type, external)
    character(len=:), allocatable :: path

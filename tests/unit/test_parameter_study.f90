@@ -316,12 +316,12 @@ contains
          & //'friction%model = ''none'', lugre /')
       do k = 1, study%runs
          do i = 1, 2
-            call study%number(i, k, x, ok)
-            call study%value(i, k, token)
+            call study%varied%number_of_run(i, k, x, ok)
+            call study%varied%value(i, k, token)
             read (token%text, *) y
             call expect(ok .and. abs(x - y) <= 0, token%text)
          end do
-         call study%number(3, k, x, ok)
+         call study%varied%number_of_run(3, k, x, ok)
          call expect(.not. ok, 'a word')
       end do
    end subroutine numbers

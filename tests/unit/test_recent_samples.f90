@@ -60,9 +60,9 @@ contains
       integer :: room, n
       do room = 1, 12
          call recent%begin(room)
-         call expect(.not. recent%is_declared() .and. .not. recent%has('time'), 'nothing at first')
+         call expect(size(recent%series) == 0 .and. .not. recent%has('time'), 'nothing at first')
          call declare_all(recent)
-         call expect(recent%is_declared() .and. recent%has('time') .and. .not. recent%has('speed'), 'declared')
+         call expect(size(recent%series) > 0 .and. recent%has('time') .and. .not. recent%has('speed'), 'declared')
          do n = 1, last
             call recent%add(values_of(n - 1))
             call expect_samples(recent, n, room)
@@ -105,7 +105,7 @@ contains
       call expect(.not. record%has('checkpoint'), 'nothing is saved')
       call later%begin(5)
       call later%restore(record, ok)
-      call expect(ok .and. .not. later%is_declared() .and. later%count == 0, 'and nothing taken up')
+      call expect(ok .and. size(later%series) == 0 .and. later%count == 0, 'and nothing taken up')
    end subroutine before_the_first
 
    !> One that does not fit together, as of a damaged file, or of another number of samples that are kept.

@@ -6,8 +6,7 @@ program test_record
    use text, only: to_text
    use files, only: delete_file
    use record, only: record_type, move_record
-   use record_file, only: write_record
-   use record_reader, only: read_record
+   use record_file, only: write_record, read_record
    use record_message, only: description, take_description, numbers, take_numbers
    use hdf5_file, only: hdf5_type
    use scratch, only: scratch_path

@@ -7,7 +7,7 @@ program test_revolution_figures
    use case_inputs, only: case_type
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
-   use revolution_figures, only: put_revolutions
+   use march_figures, only: put_revolutions
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)

@@ -4,12 +4,13 @@ program test_rotor_file
    use errors, only: error_type, input_error
    use case_groups, only: unset
    use case_inputs, only: case_type
-   use given_rotor, only: given_rotor_type
+   use rotor_groups, only: given_rotor_type
    use rotor_component, only: rotor_component_type, shaft_component
    use rotor_matrices, only: rotor_matrices_type
    use shaft_in_bearings, only: find_rotor
    use rotor_file, only: read_rotor
    use hdf5_file, only: hdf5_type
+   use hdf5_expectations, only: put_real, put_list, put_table
    use scratch, only: scratch_path, write_bytes
    use example_machine, only: turbine, rotor_of, put_disc, put_bearings, unbalance_response, static_stations
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
@@ -51,14 +52,14 @@ contains
       type(given_rotor_type), intent(in) :: rotor
       type(hdf5_type) :: file
       call file%create(path)
-      call file%put_table('mass', transpose(rotor%mass), 'kg', '', '')
-      call file%put_table('damping', transpose(rotor%damping), 'N s/m', '', '')
-      call file%put_table('gyroscopic', transpose(rotor%gyroscopic), 'kg', '', '')
-      call file%put_table('stiffness', transpose(rotor%stiffness), 'N/m', '', '')
-      call file%put_table('station', transpose(rotor%station), '1', '', '')
-      call file%put_table('slope', transpose(rotor%slope), '1/m', '', '')
-      call file%put_list('weighed', rotor%weighed, 'kg', '', '')
-      call file%put_real('total_mass', rotor%total_mass, 'kg', '')
+      call put_table(file, 'mass', transpose(rotor%mass), 'kg', '', '')
+      call put_table(file, 'damping', transpose(rotor%damping), 'N s/m', '', '')
+      call put_table(file, 'gyroscopic', transpose(rotor%gyroscopic), 'kg', '', '')
+      call put_table(file, 'stiffness', transpose(rotor%stiffness), 'N/m', '', '')
+      call put_table(file, 'station', transpose(rotor%station), '1', '', '')
+      call put_table(file, 'slope', transpose(rotor%slope), '1/m', '', '')
+      call put_list(file, 'weighed', rotor%weighed, 'kg', '', '')
+      call put_real(file, 'total_mass', rotor%total_mass, 'kg', '')
       call file%close()
    end subroutine write_rotor
 

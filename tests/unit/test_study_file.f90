@@ -9,9 +9,8 @@ program test_study_file
    use files, only: delete_file
    use processes, only: new_process, end_child, exit_status, process_id, stop_process, ended, pause_seconds
    use record, only: record_type
-   use record_file, only: write_record
+   use record_file, only: write_record, read_record
    use record_message, only: numbers, take_numbers
-   use record_reader, only: read_record
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type
    use hdf5_texts, only: hdf5_texts_type, text_type
