@@ -5,7 +5,8 @@ module linear_analysis
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium, only: find_equilibrium, settle_equilibrium
-   use static_model, only: equilibrium_type, make_fine
+   use equilibrium_record, only: equilibrium_type
+   use static_model, only: make_fine
    use linear_bearing, only: bearing_coefficients_type, find_coefficients
    use stability_threshold, only: find_thresholds
    use check, only: expect_no_error

@@ -5,7 +5,7 @@ module machine_orbits
    use case_inputs, only: case_type
    use factories, only: converged_films
    use equations_of_motion, only: machine_model, new_machine_model
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use equilibrium, only: find_equilibrium
    use marching, only: march_options
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit

@@ -5,7 +5,7 @@ module branch_task
    use text, only: to_text
    use errors, only: error_type, raise, add_context, system_error, stopped
    use clock, only: wall_clock
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use equilibrium, only: settle_equilibrium
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of

@@ -6,7 +6,8 @@ module coefficients_task
    use errors, only: error_type, add_context, stopped
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model
-   use static_model, only: equilibrium_type, make_fine
+   use equilibrium_record, only: equilibrium_type
+   use static_model, only: make_fine
    use mode_names, only: is_of_rotor, position_names
    use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type
    use equilibrium, only: settle_equilibrium

@@ -1,10 +1,10 @@
 !> What a run writes and prints of its equilibrium: of each bearing the same, of a machine besides what is of the whole.
 module equilibrium_notes
    use kinds, only: wp
-   use static_model, only: equilibrium_type
    use state_layout, only: tilt
+   use equilibrium_record, only: equilibrium_type
    use equations_of_motion, only: machine_model
-   use heat_balance_equations, only: static_figures_type, find_static_figures
+   use static_figures, only: static_figures_type, find_static_figures
    use bearings_alone, only: bearing_alone, part_of, bearing_loads
    use bearing_file, only: bearing_file_type
    use checked_case, only: first_equal

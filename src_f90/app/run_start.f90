@@ -9,7 +9,7 @@ module run_start
    use read_files, only: file_marks, marks_name
    use film_oils, only: film_oil
    use state_layout, only: pad_state, tilt, pivot_deflection
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use bearing_equilibrium, only: find_partial_equilibrium
    use equilibrium, only: find_equilibrium
    use heat_balance_equations, only: has_warm_oil

@@ -10,9 +10,9 @@ module run_summary
    use heat_balance, only: oil_temperatures_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number, of_supply
    use state_layout, only: pad_state, tilt, pivot_deflection
-   use static_model, only: equilibrium_type
    use force_balance, only: stability_type
-   use heat_balance_equations, only: static_figures_type
+   use equilibrium_record, only: equilibrium_type
+   use static_figures, only: static_figures_type
    use record, only: record_type
    use summary_group, only: figure, pad_figures, has_figure
    use run_statistics, only: run_statistics_type

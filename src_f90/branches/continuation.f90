@@ -24,8 +24,6 @@ module continuation
    !> Longest way in the plane from the place where a point is sought, over the step. A branch that turns evenly by the
    !> largest turn comes to 0.32: what is further away belongs to another part of it, behind two folds.
    real(wp), parameter :: farthest = 0.35_wp
-   !> Longest way to a point that tells a tangent, and its part of a step: where steps are short the branch may turn.
-   real(wp), parameter :: beside = 1e-3_wp, part = 0.1_wp
 
 contains
 
@@ -65,7 +63,6 @@ contains
       logical :: again
       do
          length = min(length, options%max_step)
-         problem%beside = min(beside, part*length)
          predicted = here%parameter + problem%unit*length*here%tangent(problem%n + 1)
          ends = beyond(predicted)
          if (ends) then

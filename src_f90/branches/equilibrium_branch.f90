@@ -3,26 +3,31 @@
 !> With warm oil the logarithms of the viscosities are unknowns, too, and the heat balance has an equation for each. The
 !> motion keeps these viscosities.
 !>
-!> Temperatures along and across films follow instead: with those of a point the equations are those of cold oil, and
-!> the rounds of film_equilibrium lead to others, until they agree in a plane across the branch.
+!> Temperatures along and across films are a coupled field instead: with those of a point the equations are those of
+!> cold oil, and rounds of a fixed point lead to others, until they agree in a plane across the branch.
 module equilibrium_branch
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
    use linear_algebra, only: largest_first
    use equations_of_motion, only: machine_model
-   use newton_method, only: branch_problem_type, place_part_type
+   use newton_method, only: branch_problem_type, place_part_type, branch_point_type, newton_options, return_to, &
+      & newton_iterations
    use force_balance, only: forces, force_derivatives
    use pseudo_transient, only: clearances, reference_force
    use linear_bearing, only: linear_bearing_of, pivot_name, rotor_eigenvalues
    use film_network, only: warm_films_type, new_warm_films
-   use film_equilibrium, only: film_rounds_type
+   use fixed_point, only: field_reference, balance_type, solve_fields
+   use film_field, only: film_field_type
    use heat_balance, only: oil_temperatures_type
-   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_lack, find_lack_slopes, &
+   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_residual, find_residual_slopes, &
       & find_force_slopes, find_temperatures, check_heat
    use varied_bearing, only: varied_bearing_type
    implicit none (type, external)
    private
    public :: equilibrium_problem_type, begin_equilibria
+
+   !> Longest way to a point that tells a tangent, and its part of a step: where steps are short the branch may turn.
+   real(wp), parameter :: longest_beside = 1e-3_wp, part = 0.1_wp
 
    type, extends(branch_problem_type) :: equilibrium_problem_type
       !> Present positions, in the order of layout%positions().
@@ -42,15 +47,15 @@ module equilibrium_branch
       real(wp), allocatable, private :: stiffness(:, :), damping(:, :)
       !> The heat balance that was found last.
       type(state_balance_type), private :: balance
-      !> Of each bearing, where films have temperatures along and across; how they follow.
-      type(warm_films_type), allocatable, private :: films(:)
-      type(film_rounds_type), private :: rounds
+      !> Temperatures along and across films, where the case has them; the way to a point that tells a tangent then.
+      logical, private :: has_fields = .false.
+      type(film_field_type), private :: films
+      real(wp), private :: beside = longest_beside
    contains
       procedure :: linearize
       procedure :: move
       procedure :: predict
-      procedure :: follow
-      procedure :: explain
+      procedure :: solve
       procedure :: spectrum
       procedure :: kind => kind_of
       procedure :: get_place
@@ -59,6 +64,20 @@ module equilibrium_branch
       procedure :: temperatures
       procedure, private :: find_imbalance
    end type equilibrium_problem_type
+
+   !> A point of a branch: forces in equilibrium at the value of the parameter, or in a plane through where the problem
+   !> stands across `normal`.
+   type, extends(balance_type) :: point_balance
+      class(equilibrium_problem_type), pointer :: problem => null()
+      type(newton_options) :: options
+      real(wp), allocatable :: normal(:)
+      type(branch_point_type) :: point
+      !> Value of the parameter at the last equilibrium; most iterations that one took.
+      real(wp) :: parameter = 0
+      integer :: most = 0
+   contains
+      procedure :: settle
+   end type point_balance
 
    !> The difference of the parameter for a derivative over it, over its size; as good as that of orbits.
    real(wp), parameter :: difference = 1e-5_wp
@@ -78,8 +97,8 @@ contains
       associate (model => bearing%model)
          problem%positions = y(model%layout%positions())
          problem%viscosity = [real(wp) ::]
-         problem%has_followers = model%inputs%thermal%model == 'film'
-         if (problem%has_followers) then
+         problem%has_fields = model%inputs%thermal%model == 'film'
+         if (problem%has_fields) then
             call begin_films(problem, model, films)
          else if (has_warm_oil(model)) then
             problem%viscosity = model%oil%viscosity
@@ -102,24 +121,24 @@ contains
       problem%unit = unit
    end subroutine begin_equilibria
 
-   !> Readies what follows, with these films or any.
+   !> Readies the temperatures of films, with these or any.
    subroutine begin_films(problem, model, films)
       type(equilibrium_problem_type), intent(inout) :: problem
       type(machine_model), intent(in) :: model
       type(warm_films_type), intent(in), optional :: films(:)
+      type(warm_films_type) :: cold(size(model%bearings))
       integer :: b
       if (present(films)) then
-         problem%films = films
+         call problem%films%begin(model, films, gaps_change=.true.)
       else
-         allocate (problem%films(size(model%bearings)))
-         do b = 1, size(problem%films)
+         do b = 1, size(cold)
             associate (own => model%inputs%bearings(b))
-               problem%films(b) = new_warm_films(own, model%inputs%thermal, spread(own%oil%supply_temperature, 1, &
+               cold(b) = new_warm_films(own, model%inputs%thermal, spread(own%oil%supply_temperature, 1, &
                   & own%pad_count()))
             end associate
          end do
+         call problem%films%begin(model, cold, gaps_change=.true.)
       end if
-      call problem%rounds%begin(model, problem%films)
    end subroutine begin_films
 
    !> The state in equilibrium at the present positions.
@@ -157,7 +176,7 @@ contains
       end do
       if (size(self%viscosity) > 0) then
          associate (model => self%bearing%model, y => self%state())
-            call find_lack_slopes(model, y, self%balance, self%scale(:n), matrix(n + 1:, :self%n))
+            call find_residual_slopes(model, y, self%balance, self%scale(:n), matrix(n + 1:, :self%n))
             call find_force_slopes(model, y, matrix(:n, n + 1:self%n))
          end associate
       end if
@@ -166,7 +185,7 @@ contains
       b = -now/self%force
    end subroutine linearize
 
-   !> What is out of balance at the present unknowns: the forces, and what the viscosities lack. An error where the
+   !> What is out of balance at the present unknowns: the forces, and the residual of viscosities. An error where the
    !> model admits no such state.
    subroutine find_imbalance(self, want_derivatives, imbalance, error)
       class(equilibrium_problem_type), intent(inout) :: self
@@ -176,16 +195,16 @@ contains
       logical :: ok
       associate (model => self%bearing%model, n => size(self%positions))
          if (size(self%viscosity) > 0) model%oil%viscosity = self%viscosity
-         if (self%has_followers) call self%rounds%set_oil(model, self%films)
+         if (self%has_fields) call self%films%apply(model)
          call model%evaluate(0.0_wp, self%state(), want_derivatives, ok)
          imbalance(:n) = forces(model, 0.0_wp, self%state())
          imbalance(n + 1:) = 0
          if (.not. ok) then
             call raise(error, numerics_error, model%refusal)
          else if (size(self%viscosity) > 0) then
-            call find_lack(model, self%state(), self%balance)
+            call find_residual(model, self%state(), self%balance)
             call check_heat(model, self%balance, error)
-            imbalance(n + 1:) = self%balance%lack
+            imbalance(n + 1:) = self%balance%residual
          end if
       end associate
    end subroutine find_imbalance
@@ -206,35 +225,82 @@ contains
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       self%anew = .true.
-      if (self%has_followers) call self%rounds%begin_anew()
+      self%beside = min(longest_beside, part*sqrt(self%dot(change, change)))
       call self%move(change, .false.)
    end subroutine predict
 
-   !> Lets the temperatures of films follow; oil that boils ends the branch.
-   subroutine follow(self, again, error)
-      class(equilibrium_problem_type), intent(inout) :: self
-      logical, intent(out) :: again
+   !> Newton's method, or, where films have temperatures, the fixed point of these around it. The equations freeze them:
+   !> the point in a plane beside this one tells the tangent.
+   subroutine solve(problem, options, point, way, error, normal)
+      class(equilibrium_problem_type), intent(inout), target :: problem
+      class(newton_options), intent(in) :: options
+      type(branch_point_type), intent(out) :: point
+      real(wp), intent(inout) :: way(:)
       type(error_type), allocatable, intent(out) :: error
-      logical :: agrees
-      again = .false.
-      if (.not. self%has_followers) return
-      associate (model => self%bearing%model)
-         call self%bearing%set_value(self%parameter, .false., error)
-         if (.not. allocated(error)) then
-            call self%rounds%set_oil(model, self%films)
-            call self%rounds%make(model, self%state(), self%films, agrees, error)
-            self%refused = agrees .and. allocated(error)
-            again = .not. agrees
-         end if
-      end associate
-   end subroutine follow
+      real(wp), intent(in), optional :: normal(:)
+      type(branch_point_type) :: next
+      real(wp) :: there(size(way))
+      if (.not. problem%has_fields) then
+         call newton_iterations(problem, options, point, way, error, normal)
+         return
+      end if
+      call solve_with_films(problem, options, point, way, error, normal)
+      if (allocated(error) .or. .not. present(normal)) return
+      point%parameter = problem%parameter
+      there = problem%beside*point%tangent
+      call problem%move(there, .false.)
+      call solve_with_films(problem, options, next, there, error, normal)
+      if (allocated(error)) return
+      point%tangent = there/sqrt(problem%dot(there, there))
+      call return_to(problem, point)
+   end subroutine solve
 
-   !> Says of an error behind a change of the temperatures of films whose pad it is.
-   subroutine explain(self, error)
-      class(equilibrium_problem_type), intent(inout) :: self
-      type(error_type), allocatable, intent(inout) :: error
-      if (self%has_followers) call self%rounds%refuse_lost(self%bearing%model, self%state(), error)
-   end subroutine explain
+   !> A point at which the temperatures of films agree with those that it leads to; oil that boils ends the branch.
+   subroutine solve_with_films(problem, options, point, way, error, normal)
+      class(equilibrium_problem_type), intent(inout), target :: problem
+      class(newton_options), intent(in) :: options
+      type(branch_point_type), intent(out) :: point
+      real(wp), intent(inout) :: way(:)
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: normal(:)
+      type(point_balance) :: balance
+      type(field_reference) :: fields(1)
+      real(wp) :: y(problem%bearing%model%n), from(size(way))
+      from = [problem%positions, problem%parameter]
+      balance%model => problem%bearing%model
+      balance%problem => problem
+      balance%options = options
+      if (present(normal)) balance%normal = normal
+      y = problem%state()
+      fields(1)%field => problem%films
+      call solve_fields(balance, y, fields, error)
+      problem%refused = balance%refused
+      point = balance%point
+      point%iterations = balance%most
+      way = way + ([problem%positions, problem%parameter] - from)/[problem%scale, problem%unit]
+   end subroutine solve_with_films
+
+   !> By Newton's method from the last equilibrium.
+   subroutine settle(self, last, y, first, final, error)
+      class(point_balance), intent(inout) :: self
+      real(wp), intent(in) :: last(:)
+      real(wp), intent(inout) :: y(:)
+      logical, intent(in) :: first, final
+      type(error_type), allocatable, intent(out) :: error
+      real(wp) :: way(self%problem%n + 1)
+      if (first) self%parameter = self%problem%parameter
+      self%problem%positions = last(self%model%layout%positions())
+      self%problem%parameter = self%parameter
+      way = 0
+      call newton_iterations(self%problem, self%options, self%point, way, error, self%normal)
+      self%refused = self%problem%refused
+      self%most = max(self%most, self%point%iterations)
+      if (.not. allocated(error)) call self%problem%bearing%set_value(self%problem%parameter, .false., error)
+      if (allocated(error)) return
+      self%parameter = self%problem%parameter
+      call self%problem%films%apply(self%model)
+      y = self%problem%state()
+   end subroutine settle
 
    !> The eigenvalues, 1/s, that of largest real part first; growths are per radian of the shaft.
    subroutine spectrum(self, values, growth, ok)
@@ -258,7 +324,7 @@ contains
       if (abs(value%im) > 0) then
          kind = 'hopf'
       else
-         kind = trim(merge('divergence', 'fold      ', size(self%viscosity) > 0 .or. self%has_followers))
+         kind = trim(merge('divergence', 'fold      ', size(self%viscosity) > 0 .or. self%has_fields))
       end if
    end function kind_of
 
@@ -271,9 +337,9 @@ contains
       place(1)%values = [self%parameter]
       place(2)%values = self%positions
       place(3)%values = self%viscosity
-      if (.not. self%has_followers) return
+      if (.not. self%has_fields) return
       place(3) = place_part_type('warming', 'K', 'temperatures of films and pads above that of the supply')
-      place(3)%values = reshape(self%rounds%fields, [size(self%rounds%fields)])
+      place(3)%values = self%films%values
    end subroutine get_place
 
    subroutine go_to(self, place)
@@ -281,9 +347,8 @@ contains
       type(place_part_type), intent(in) :: place(:)
       self%parameter = place(1)%values(1)
       self%positions = place(2)%values
-      if (self%has_followers) then
-         self%rounds%fields = reshape(place(3)%values, shape(self%rounds%fields))
-         call self%rounds%begin_anew()
+      if (self%has_fields) then
+         self%films%values = place(3)%values
       else
          self%viscosity = place(3)%values
       end if
@@ -296,11 +361,13 @@ contains
       type(oil_temperatures_type), intent(out) :: oil(:)
       real(wp), allocatable, intent(out) :: viscosity(:)
       type(error_type), allocatable :: ignored
+      real(wp), allocatable :: wanted(:)
       associate (model => self%bearing%model)
-         if (self%has_followers) then
-            call self%rounds%set_oil(model, self%films)
-            call self%rounds%find_oil(model, self%state(), self%films, ignored)
-            oil = self%films%oil
+         if (self%has_fields) then
+            call self%films%apply(model)
+            wanted = self%films%values
+            call self%films%find_wanted(model, self%state(), wanted, ignored)
+            oil = self%films%films%oil
          else
             model%oil%viscosity = self%viscosity
             call find_temperatures(model, self%state(), self%balance, oil)

@@ -13,13 +13,14 @@ module bearing_equilibrium
    use pseudo_transient, only: follow_motion, unbalanced, newtons, residual_limit
    use force_balance, only: stability_at
    use pad_elimination, only: eliminate_pads, search_pads
-   use static_model, only: equilibrium_type, describe, make_static, make_quick, solve_equilibrium, start, starts
+   use equilibrium_record, only: equilibrium_type, describe
+   use static_model, only: make_static, make_quick, solve_equilibrium, start, starts
    use heat_balance_equations, only: has_warm_oil
    use thermal_equilibrium, only: guess_oil, guesses, solve_thermal_equilibrium
    use equilibrium_refusal, only: search_traces, note_divergence, refusal
    implicit none (type, external)
    private
-   public :: find_bearing_equilibrium, find_partial_equilibrium
+   public :: find_bearing_equilibrium, find_partial_equilibrium, settle
 
    !> The methods of the wider search, in their order.
    character(len=*), parameter :: methods(*) = [character(len=6) :: 'pads', 'newton']
@@ -332,4 +333,27 @@ contains
       call raise(error, numerics_error, 'no partial equilibrium found at '//to_text(model%point%speed_rpm) &
          & //' rpm: the journal finds no equilibrium on pads that do')
    end subroutine find_partial_equilibrium
+
+   !> Brings an equilibrium that another model has found to that of this one, whose films differ a little; y is its
+   !> state.
+   subroutine settle(model, found, y, error, give_up)
+      type(machine_model), intent(inout) :: model
+      type(equilibrium_type), intent(inout) :: found
+      real(wp), allocatable, intent(out) :: y(:)
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      logical :: ok
+      y = model%static_state(found%rotor, found%pads)
+      model%oil = found%oil
+      if (any(model%oil%varies)) then
+         ! the temperatures of films stay what they are
+         call solve_equilibrium(model, y, found%residual, error, give_up)
+      else
+         call solve_thermal_equilibrium(model, y, found%residual, error, give_up)
+      end if
+      if (allocated(error)) return
+      call describe(model, y, found)
+      call stability_at(model, y, found%stability, ok)
+      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
+   end subroutine settle
 end module bearing_equilibrium

@@ -6,7 +6,7 @@ module bearings_alone
    use equations_of_motion, only: machine_model, new_machine_model
    use state_layout, only: of_journal
    use bearing_samples, only: element_forces
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    implicit none (type, external)
    private
    public :: bearing_alone, part_of, bearing_loads, forces_at_rest

@@ -8,7 +8,7 @@ module branch_hint
    use case_checks, only: check_case
    use case_parameter, only: case_parameter_type, find_parameter
    use equations_of_motion, only: machine_model
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use bearing_equilibrium, only: find_bearing_equilibrium
    implicit none (type, external)
    private

@@ -1,13 +1,14 @@
 !> Static equilibrium of a rotor and the pads of its bearings at constant speed: no unbalance, no friction.
 module equilibrium
    use kinds, only: wp
-   use errors, only: error_type, stopped, asked_to_stop
+   use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop
    use equations_of_motion, only: machine_model
-   use static_model, only: equilibrium_type, make_static
-   use thermal_equilibrium, only: settle
-   use bearing_equilibrium, only: find_bearing_equilibrium
+   use equilibrium_record, only: equilibrium_type, describe
+   use static_model, only: make_static
+   use force_balance, only: stability_at
+   use bearing_equilibrium, only: find_bearing_equilibrium, settle
    use branch_hint, only: offer_branch
-   use shape_equilibrium, only: settle_shape
+   use thermal_equilibrium, only: solve_shape
    use load_shares, only: share_loads
    implicit none (type, external)
    private
@@ -37,6 +38,26 @@ contains
       if (allocated(error)) return
       if (any(model%inputs%bearings%changes_shape())) call settle_shape(model, found, error, give_up)
    end subroutine find_equilibrium
+
+   !> Brings an equilibrium of a model in the shapes of its case to one in the shapes that it leads to, of each bearing,
+   !> which the record has then; an error where there is none.
+   subroutine settle_shape(model, found, error, give_up)
+      type(machine_model), intent(in) :: model
+      type(equilibrium_type), intent(inout) :: found
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(machine_model) :: static
+      real(wp), allocatable :: y(:)
+      logical :: ok
+      call make_static(model, model%point%cavitation, static)
+      y = static%static_state(found%rotor, found%pads)
+      static%oil = found%oil
+      call solve_shape(static, y, found%films, found%shapes, found%residual, error, give_up)
+      if (allocated(error)) return
+      call describe(static, y, found)
+      call stability_at(static, y, found%stability, ok)
+      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
+   end subroutine settle_shape
 
    !> Brings an equilibrium that another model has found to that of this static one, whose films differ a little; y is
    !> its state.

@@ -10,11 +10,11 @@ module load_shares
    use state_layout, only: pad_state, of_journal
    use equations_of_motion, only: machine_model
    use force_balance, only: bearing_derivatives, part_derivatives, stability_at
-   use static_model, only: equilibrium_type, describe, solve_equilibrium
-   use thermal_equilibrium, only: settle
+   use equilibrium_record, only: equilibrium_type, describe
+   use static_model, only: solve_equilibrium
    use film_network, only: warm_films_type
-   use film_equilibrium, only: solve_warm_films
-   use bearing_equilibrium, only: find_bearing_equilibrium
+   use thermal_equilibrium, only: solve_warm_films
+   use bearing_equilibrium, only: find_bearing_equilibrium, settle
    use bearings_alone, only: bearing_alone, part_of, bearing_loads, forces_at_rest
    implicit none (type, external)
    private

@@ -7,7 +7,8 @@ module newton_method
    use linear_algebra, only: dgesv
    implicit none (type, external)
    private
-   public :: branch_problem_type, place_part_type, branch_point_type, newton_options, correct, return_to, can_be_of
+   public :: branch_problem_type, place_part_type, branch_point_type, newton_options, correct, newton_iterations
+   public :: return_to, can_be_of
 
    !> Numbers of a place, as a file names them.
    type :: place_part_type
@@ -28,16 +29,11 @@ module newton_method
       real(wp) :: correction = 0
       !> Whether the last error of `linearize` says that there can be no solution here: no Newton's method would help.
       logical :: refused = .false.
-      !> Whether something follows the unknowns that is frozen in the equations: `follow` lets it.
-      logical :: has_followers = .false.
-      !> Length of the branch to the point beside another that tells its tangent where something follows.
-      real(wp) :: beside = 1e-3_wp
    contains
       procedure(linearize_problem), deferred :: linearize
       procedure(move_problem), deferred :: move
       procedure :: predict
-      procedure :: follow
-      procedure :: explain
+      procedure :: solve => newton_iterations
       procedure, non_overridable :: dot
       procedure(find_spectrum), deferred :: spectrum
       procedure(name_kind), deferred :: kind
@@ -153,22 +149,6 @@ contains
       call self%move(change, .false.)
    end subroutine predict
 
-   !> Lets what is frozen in the equations follow a solution of them; where that changes it, they are to be solved
-   !> `again`.
-   subroutine follow(self, again, error)
-      class(branch_problem_type), intent(inout) :: self
-      logical, intent(out) :: again
-      type(error_type), allocatable, intent(out) :: error
-      again = .false.
-   end subroutine follow
-
-   !> Adds to the error of a Newton's method that was to bring a problem to the equations of what followed last.
-   subroutine explain(self, error)
-      class(branch_problem_type), intent(inout) :: self
-      type(error_type), allocatable, intent(inout) :: error
-      if (self%has_followers) call add_context(error, 'what follows does not settle')
-   end subroutine explain
-
    !> The product of two directions.
    pure real(wp) function dot(self, a, b)
       class(branch_problem_type), intent(in) :: self
@@ -182,7 +162,7 @@ contains
    !> `normal`. The plane belongs to a step along a branch: far corrections are refused, as a shorter step is better,
    !> and the last correction must be small itself, as the tangent is that of the place before it.
    subroutine correct(problem, options, point, error, normal)
-      class(branch_problem_type), intent(inout) :: problem
+      class(branch_problem_type), intent(inout), target :: problem
       class(newton_options), intent(in) :: options
       type(branch_point_type), intent(out) :: point
       type(error_type), allocatable, intent(out) :: error
@@ -190,40 +170,17 @@ contains
       real(wp) :: way(problem%n + 1)
       logical :: ok
       way = 0
-      call iterate(problem, options, point, way, error, normal)
+      call problem%solve(options, point, way, error, normal)
       if (allocated(error)) return
       point%distance = sqrt(problem%dot(way, way))
       point%parameter = problem%parameter
       call problem%spectrum(point%values, point%growth, ok)
-      if (.not. ok) then
-         call raise(error, numerics_error, 'the eigenvalues that tell stability were not found')
-      else if (present(normal) .and. problem%has_followers) then
-         call find_tangent(problem, options, normal, point, error)
-      end if
+      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues that tell stability were not found')
    end subroutine correct
 
-   !> The tangent of a branch at a point where the problem stands, from that in which what follows is frozen: by the
-   !> point in a plane beside it.
-   subroutine find_tangent(problem, options, normal, point, error)
-      class(branch_problem_type), intent(inout) :: problem
-      class(newton_options), intent(in) :: options
-      real(wp), intent(in) :: normal(:)
-      type(branch_point_type), intent(inout) :: point
-      type(error_type), allocatable, intent(out) :: error
-      type(branch_point_type) :: next
-      real(wp) :: way(size(normal))
-      way = problem%beside*point%tangent
-      call problem%move(way, .false.)
-      call iterate(problem, options, next, way, error, normal)
-      if (allocated(error)) return
-      point%tangent = way/sqrt(problem%dot(way, way))
-      call return_to(problem, point)
-   end subroutine find_tangent
-
-   !> The iterations of Newton's method, again and again until what follows the unknowns has followed. The point has the
-   !> number of those that took most, and the tangent of the equations.
-   subroutine iterate(problem, options, point, way, error, normal)
-      class(branch_problem_type), intent(inout) :: problem
+   !> The iterations of Newton's method. The point has the tangent of the equations.
+   subroutine newton_iterations(problem, options, point, way, error, normal)
+      class(branch_problem_type), intent(inout), target :: problem
       class(newton_options), intent(in) :: options
       type(branch_point_type), intent(out) :: point
       !> Gains all changes of unknowns and, in a plane, the parameter.
@@ -232,38 +189,25 @@ contains
       real(wp), intent(in), optional :: normal(:)
       real(wp), allocatable :: matrix(:, :), b(:, :)
       real(wp) :: before, left, best, best_before
-      logical :: again
-      integer :: n, unknowns, most
+      integer :: n, unknowns
       n = problem%n
       unknowns = merge(n + 1, n, present(normal))
       allocate (matrix(unknowns, unknowns), b(unknowns, 1 + unknowns - n))
-      most = 0
-      again = .true.
-      do while (again)
-         before = 0
-         best = huge(best)
-         best_before = best
-         point%iterations = 0
-         do
-            call check_progress(options, point, best, best_before, error)
-            if (.not. allocated(error)) call take_step()
-            if (allocated(error)) then
-               if (error%status /= stopped .and. .not. problem%refused) call problem%explain(error)
-               return
-            end if
-            left = point%correction
-            ! by as much as this correction is shorter than the last, the next is shorter still
-            if (before > 0 .and. .not. present(normal)) left = left*min(1.0_wp, left/before)
-            before = point%correction
-            best = min(best, point%correction)
-            if (point%iterations == 1) best_before = best
-            if (left <= options%tolerance) exit
-         end do
-         most = max(most, point%iterations)
-         call problem%follow(again, error)
+      before = 0
+      best = huge(best)
+      best_before = best
+      do
+         call check_progress(options, point, best, best_before, error)
+         if (.not. allocated(error)) call take_step()
          if (allocated(error)) return
+         left = point%correction
+         ! by as much as this correction is shorter than the last, the next is shorter still
+         if (before > 0 .and. .not. present(normal)) left = left*min(1.0_wp, left/before)
+         before = point%correction
+         best = min(best, point%correction)
+         if (point%iterations == 1) best_before = best
+         if (left <= options%tolerance) exit
       end do
-      point%iterations = most
       if (present(normal)) point%tangent = b(:, 2)/sqrt(problem%dot(b(:, 2), b(:, 2)))
 
    contains
@@ -291,7 +235,7 @@ contains
          way(:unknowns) = way(:unknowns) + point%change
          point%correction = problem%correction
       end subroutine take_step
-   end subroutine iterate
+   end subroutine newton_iterations
 
    !> Takes a problem back to a point of its branch, linearised there as it was. An error where the point comes from
    !> elsewhere and is none of the branch.

@@ -8,8 +8,8 @@ module equilibrium_results
    use film_conduction, only: solid_layers
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use tilting_pad, only: pad_coordinates_type
-   use static_model, only: equilibrium_type
-   use heat_balance_equations, only: static_figures_type
+   use equilibrium_record, only: equilibrium_type
+   use static_figures, only: static_figures_type
    use summary_group, only: put_figure
    implicit none (type, external)
    private

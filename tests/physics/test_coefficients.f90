@@ -9,7 +9,7 @@ program test_coefficients
    use force_balance, only: forces
    use input_cases, only: case_of
    use linear_analysis, only: analyse
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use linear_bearing, only: bearing_coefficients_type
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)

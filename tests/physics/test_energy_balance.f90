@@ -226,7 +226,7 @@ program test_energy_balance
    use case_inputs, only: case_type
    use state_layout, only: pad_state, tilt, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use equilibrium, only: find_equilibrium
    use sampled_march, only: march_samples
    use energy_ledger, only: ledger, energy_of

@@ -10,7 +10,7 @@ program test_equilibrium_table
    use sor_film, only: sor_film_type, sor_options, new_sor_film
    use state_layout, only: tilt, pivot_deflection
    use equations_of_motion, only: new_machine_model
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use equilibrium, only: find_equilibrium
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report

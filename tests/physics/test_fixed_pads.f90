@@ -15,7 +15,7 @@ program test_fixed_pads
    use abstract_rotor, only: journal_motion
    use state_layout, only: pad_state
    use kinematics, only: frame_of, motion_of
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use equilibrium, only: find_equilibrium
    use pad_behaviour, only: whirl_of
    use sampled_march, only: march_samples

@@ -5,7 +5,7 @@ program test_machine_films
    use text, only: to_text
    use input_cases, only: case_of
    use equations_of_motion, only: machine_model
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use bearings_alone, only: bearing_loads, part_of
    use linear_bearing, only: bearing_coefficients_type
    use linear_analysis, only: analyse

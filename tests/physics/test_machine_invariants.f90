@@ -8,7 +8,7 @@ program test_machine_invariants
    use tilting_pad_bearing, only: pad_sample
    use state_layout, only: pad_state, tilt, pivot_deflection
    use equations_of_motion, only: machine_model
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use bearings_alone, only: bearing_loads
    use linear_bearing, only: bearing_coefficients_type
    use rotor_response, only: rotor_response_type, find_rotor_response

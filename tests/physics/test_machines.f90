@@ -6,7 +6,8 @@ program test_machines
    use errors, only: error_type
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model
-   use static_model, only: equilibrium_type, make_static
+   use equilibrium_record, only: equilibrium_type
+   use static_model, only: make_static
    use bearings_alone, only: bearing_loads
    use force_balance, only: forces
    use linear_bearing, only: bearing_coefficients_type

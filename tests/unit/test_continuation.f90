@@ -11,12 +11,10 @@ module branch_problems
    public :: parabola, turning_frame, duffing, oscillator_orbits
 
    !> x' = p - x**2 at rest: a fold at p = 0; values of p below `least` are refused. Where x = -1 it leaps by 2 `leap`:
-   !> there is no equilibrium for p within `leap` of 1 on this side. With followers p - x**2 - f/2, where f follows x:
-   !> a fold at x = -1/4, of which nothing tells where f is frozen.
+   !> there is no equilibrium for p within `leap` of 1 on this side.
    type, extends(branch_problem_type) :: parabola
-      real(wp) :: x = 1, least = -1, leap = 0, follower = 1
+      real(wp) :: x = 1, least = -1, leap = 0
    contains
-      procedure :: follow => follow_parabola
       procedure :: linearize => parabola_equations
       procedure :: move => move_parabola
       procedure :: spectrum => parabola_spectrum
@@ -63,7 +61,6 @@ contains
       type(error_type), allocatable, intent(out) :: error
       matrix(1, :) = [-2*self%x, self%unit]
       b = self%x**2 - self%parameter - sign(self%leap, self%x + 1)
-      if (self%has_followers) b = b + self%follower/2
       self%refused = self%parameter < self%least
       if (self%refused) call raise(error, input_error, 'too small')
    end subroutine parabola_equations
@@ -83,18 +80,9 @@ contains
       real(wp), allocatable, intent(out) :: growth(:)
       logical, intent(out) :: ok
       growth = [-2*self%x]
-      if (self%has_followers) growth = -1
       values = cmplx(growth, 0.0_wp, wp)
       ok = .true.
    end subroutine parabola_spectrum
-
-   subroutine follow_parabola(self, again, error)
-      class(parabola), intent(inout) :: self
-      logical, intent(out) :: again
-      type(error_type), allocatable, intent(out) :: error
-      again = self%has_followers .and. abs(self%follower - self%x) > 1e-12_wp
-      if (again) self%follower = self%x
-   end subroutine follow_parabola
 
    pure function parabola_kind(self, value) result(kind)
       class(parabola), intent(in) :: self
@@ -106,10 +94,9 @@ contains
    pure subroutine parabola_place(self, place)
       class(parabola), intent(in) :: self
       type(place_part_type), allocatable, intent(out) :: place(:)
-      place = [place_part_type('parameter'), place_part_type('x'), place_part_type('follower')]
+      place = [place_part_type('parameter'), place_part_type('x')]
       place(1)%values = [self%parameter]
       place(2)%values = [self%x]
-      place(3)%values = [self%follower]
    end subroutine parabola_place
 
    subroutine put_parabola(self, place)
@@ -117,7 +104,6 @@ contains
       type(place_part_type), intent(in) :: place(:)
       self%parameter = place(1)%values(1)
       self%x = place(2)%values(1)
-      self%follower = place(3)%values(1)
    end subroutine put_parabola
 
    !> Columns of the frame.
@@ -218,7 +204,6 @@ program test_continuation
    implicit none (type, external)
 
    if (runs('fold')) call fold()
-   if (runs('follower')) call follower()
    if (runs('leap')) call leap()
    if (runs('refused')) call refused()
    if (runs('return')) call return()
@@ -273,29 +258,6 @@ contains
       call expect_close(here%arc_length, sqrt(5.0_wp) + 0.5_wp*asinh(2.0_wp), 2e-2_wp, 'length of the branch')
       call expect(here%growth(1) > 0, 'and it ends unstable')
    end subroutine fold
-
-   !> The same where a part of the equations is frozen: p = x**2 + x/2. The fold is known to what the tangent misses, as
-   !> p changes by the square of the way from it.
-   subroutine follower()
-      type(parabola) :: problem
-      type(branch_point_type) :: here
-      type(bifurcation_type), allocatable :: special(:)
-      type(branch_options) :: options
-      options = branch_options(low=-1.0_wp, high=1.0_wp, tolerance=1e-10_wp)
-      problem%has_followers = .true.
-      call begin_parabola(problem, options, here)
-      call expect_close(problem%x, (sqrt(17.0_wp) - 1)/4, 1e-11_wp, 'the start')
-      associate (slope => here%tangent(2)/here%tangent(1))
-         call expect_close(slope, 2*problem%x + 0.5_wp, 2e-3_wp, 'its tangent')
-      end associate
-      call follow(problem, options, here, special)
-      call expect_close(here%parameter, 1.0_wp, 0.0_wp, 'the end is at the bound')
-      call expect_close(problem%x, -(sqrt(17.0_wp) + 1)/4, 1e-11_wp, 'on the other side')
-      call expect(size(special) == 1, 'one bifurcation point')
-      if (size(special) /= 1) return
-      call expect(special(1)%kind == 'fold', 'a fold')
-      call expect_close(special(1)%point%parameter, -1/16.0_wp, 1e-6_wp, 'where p is least')
-   end subroutine follower
 
    !> The same where the equations leap at the bound: the branch is not lost there.
    subroutine leap()

@@ -13,7 +13,8 @@ program test_elements
    use equations_of_motion, only: machine_model, new_machine_model
    use bearing_samples, only: element_forces
    use force_balance, only: forces, force_derivatives, masses
-   use static_model, only: equilibrium_type, make_static, solve_equilibrium
+   use equilibrium_record, only: equilibrium_type
+   use static_model, only: make_static, solve_equilibrium
    use bearings_alone, only: bearing_loads
    use equilibrium, only: find_equilibrium, settle_equilibrium
    use linear_bearing, only: bearing_coefficients_type, find_coefficients

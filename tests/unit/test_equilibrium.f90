@@ -7,7 +7,7 @@ program test_equilibrium
    use state_layout, only: tilt, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces
-   use static_model, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type
    use bearing_equilibrium, only: find_partial_equilibrium
    use equilibrium, only: find_equilibrium
    use equilibrium_refusal, only: search_traces, refusal

@@ -1,8 +1,7 @@
 !> Temperatures in films: profiles across against closed forms, streams against losses and flows found otherwise, the
-!> energy equation against heat that is only conducted, only carried, and balanced; Anderson's acceleration.
+!> energy equation against heat that is only conducted, only carried, and balanced.
 program test_film_energy
    use kinds, only: wp
-   use anderson, only: anderson_type
    use film_solver, only: film_motion, film_oil, cavitation_reynolds
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use elimination_film, only: elimination_film_type
@@ -11,7 +10,7 @@ program test_film_energy
    use film_conduction, only: film_heat_type, solid_layers, by_nothing, by_inlet, by_shaft
    use film_energy, only: pad_heat, solve_energy
    use paper_bearing, only: offset_pad, paper_oil, speed, clearance
-   use check, only: runs, expect, expect_close, between, report
+   use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
    integer, parameter :: layers = 12, stations = 40
@@ -29,7 +28,6 @@ program test_film_energy
    if (runs('carried')) call carried()
    if (runs('one_temperature')) call one_temperature()
    if (runs('balance')) call balance()
-   if (runs('acceleration')) call acceleration()
    call report()
 
 contains
@@ -250,24 +248,4 @@ contains
          & + found%back_flow*dot_product(found%back, parts) - (stream%flow(0) + found%back_flow)*inlet)
       call expect_close(left, found%made, 1e-9_wp*found%made, 'balance')
    end subroutine balance
-
-   !> A linear map of four unknowns, which would diverge if it were repeated, ends after few rounds.
-   subroutine acceleration()
-      type(anderson_type) :: method
-      real(wp) :: x(4), matrix(4, 4), constant(4)
-      integer :: i, k
-      matrix = 0
-      do i = 1, 4
-         matrix(i, i) = -0.5_wp*i
-         do k = 1, 4
-            matrix(i, k) = matrix(i, k) + between(-0.2_wp, 0.2_wp)
-         end do
-      end do
-      constant = [1.0_wp, -2.0_wp, 0.5_wp, 3.0_wp]
-      x = 0
-      do i = 1, 8
-         call method%advance(x, matmul(matrix, x) + constant)
-      end do
-      call expect(norm2(matmul(matrix, x) + constant - x) < 1e-8_wp*norm2(x), 'fixed point')
-   end subroutine acceleration
 end program test_film_energy

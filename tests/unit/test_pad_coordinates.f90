@@ -113,7 +113,8 @@ program test_pad_coordinates
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces, force_derivatives, masses
    use mode_names, only: mode_name, position_names, position_lengths
-   use static_model, only: equilibrium_type, make_static
+   use equilibrium_record, only: equilibrium_type
+   use static_model, only: make_static
    use linear_bearing, only: bearing_coefficients_type, find_coefficients
    use bearing_samples, only: bearing_sample, take_sample
    use march_results, only: add_sample

@@ -6,7 +6,8 @@ program test_small_vibrations
    use sampled_march, only: march_samples
    use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium, only: find_equilibrium
-   use static_model, only: equilibrium_type, make_static
+   use equilibrium_record, only: equilibrium_type
+   use static_model, only: make_static
    use force_balance, only: stability_type, stability_of, find_vibrations
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)

@@ -26,8 +26,6 @@ module film_network
       real(wp), allocatable :: to_shaft(:), to_pad(:)
       !> Part of each pad's arc over which the flow, over width and height, is against the rotation.
       real(wp), allocatable :: reversed(:)
-      !> Pads that keep their temperatures.
-      logical, allocatable :: kept(:)
    end type warm_films_type
 
 contains
@@ -41,7 +39,6 @@ contains
       call set_heat(bearing, thermal%layers, films)
       allocate (films%fields(solid_layers + thermal%layers, thermal%stations, size(temperature)))
       allocate (films%surfaces(thermal%stations, size(temperature)))
-      allocate (films%kept(size(temperature)), source=.false.)
       allocate (films%reversed(size(temperature)), source=0.0_wp)
       do i = 1, size(temperature)
          films%fields(:, :, i) = temperature(i)

@@ -1,15 +1,13 @@
-!> The equilibrium of bearings whose pads bend, or whose shaft, pads and housing expand: the rotor comes to equilibrium
-!> in bearings of some shapes, pressures and temperatures there lead to others, until they agree (docs/theory/heat.md,
-!> *Bent pads* and *Warm clearances*).
-module shape_equilibrium
+!> The shape of bearings as a coupled field: where pads bend, or shaft, pads and housing expand, pressures and
+!> temperatures want other lengths (docs/theory/heat.md, *Bent pads* and *Warm clearances*).
+module shape_field
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop
-   use anderson, only: anderson_type
+   use errors, only: error_type, raise, add_context, numerics_error
    use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
    use bearing_shape, only: bearing_shape_type, bending_type, part_temperatures_type, new_shape, cold_shapes, &
-      & apply_shapes, check_shapes, largest_change, all_lengths, set_all_lengths
+      & apply_shapes, check_shapes, all_lengths, set_all_lengths
    use tilting_pad_bearing, only: tilting_pad_bearing_type
    use pad_bending, only: points_along, points_across, bending_points, bent_by_pressure, bent_by_heat
    use film_conduction, only: solid_layers
@@ -18,101 +16,89 @@ module shape_equilibrium
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: state_balance_type, find_temperatures
    use equations_of_motion, only: machine_model
-   use force_balance, only: stability_at
-   use static_model, only: equilibrium_type, describe, make_static
-   use thermal_equilibrium, only: solve_thermal_equilibrium
-   use film_equilibrium, only: solve_warm_films
+   use fixed_point, only: coupled_field, most_rounds
+   use film_field, only: film_field_type
    implicit none (type, external)
    private
-   public :: settle_shape
+   public :: shape_field_type
 
-   !> Largest change of a length at the end, over the clearance; most rounds; largest change that a round makes.
-   real(wp), parameter :: agreement = 1e-7_wp, longest_step = 0.25_wp
-   integer, parameter :: most_rounds = 40
+   !> Its values are the lengths of the shapes, over the least clearance that the case gives the bearing.
+   type, extends(coupled_field) :: shape_field_type
+      !> The case with the shapes that it gives, and the shapes that are wanted; the largest change to these.
+      type(case_type), private :: cold
+      type(bearing_shape_type), allocatable :: wanted(:)
+      real(wp), private :: change = 0
+      !> The temperatures of the films, where they have some.
+      type(film_field_type), pointer, private :: films => null()
+   contains
+      procedure :: begin
+      procedure :: apply
+      procedure :: find_wanted
+      procedure :: check
+      procedure :: explain
+   end type shape_field_type
 
 contains
 
-   !> Brings an equilibrium of a model in the shapes of its case to one in the shapes that it leads to, of each bearing,
-   !> which the record has then; an error where there is none.
-   subroutine settle_shape(model, found, error, give_up)
-      type(machine_model), intent(in) :: model
-      type(equilibrium_type), intent(inout) :: found
-      type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      type(machine_model) :: static
-      type(bearing_shape_type), allocatable :: shapes(:), wanted(:)
-      type(anderson_type) :: acceleration
-      real(wp), allocatable :: y(:), x(:)
-      real(wp) :: change
-      integer :: round
-      logical :: ok
-      call make_static(model, model%point%cavitation, static)
-      y = static%static_state(found%rotor, found%pads)
-      static%oil = found%oil
-      call static%evaluate(0.0_wp, y, .false., ok)
-      associate (cold => model%inputs)
-         shapes = cold_shapes(cold)
-         do round = 1, most_rounds
-            call find_shapes(cold, static, y, found%films, wanted)
-            change = largest_change(wanted, shapes)
-            if (change <= agreement) exit
-            x = all_lengths(shapes)
-            if (change > longest_step) then
-               call acceleration%forget()
-               x = x + longest_step/change*(all_lengths(wanted) - x)
-            else
-               call acceleration%advance(x, all_lengths(wanted))
-            end if
-            call set_all_lengths(shapes, x)
-            call find_equilibrium_in(static, shapes, cold, y, found, error, give_up)
-            if (allocated(error)) exit
-         end do
-         if (allocated(error)) then
-            if (error%status /= stopped) call explain(wanted, cold, error)
-            return
-         end if
-         call check_shapes(wanted, cold, error)
-         if (.not. (allocated(error) .or. change <= agreement)) call raise(error, numerics_error, 'the shape of the ' &
-            & //'bearing does not settle: after '//to_text(most_rounds)//' rounds its clearances still change by ' &
-            & //to_text(100*change)//' %')
-         if (allocated(error)) return
-      end associate
-      call move_alloc(wanted, found%shapes)
-      call describe(static, y, found)
-      call stability_at(static, y, found%stability, ok)
-      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
-   end subroutine settle_shape
-
-   !> Equilibrium of the model in these shapes, from the last state, oil and temperatures.
-   subroutine find_equilibrium_in(static, shapes, cold, y, found, error, give_up)
-      type(machine_model), intent(inout) :: static
-      type(bearing_shape_type), intent(in) :: shapes(:)
+   !> Begins with the shapes of a case, whose films may have temperatures.
+   subroutine begin(self, cold, films)
+      class(shape_field_type), intent(inout) :: self
       type(case_type), intent(in) :: cold
-      real(wp), intent(inout) :: y(:)
-      type(equilibrium_type), intent(inout) :: found
-      type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
+      type(film_field_type), intent(in), target :: films
+      self%agreement = 1e-7_wp
+      self%longest = 0.25_wp
+      self%cold = cold
+      self%values = all_lengths(cold_shapes(cold), cold)
+      self%films => films
+   end subroutine begin
+
+   subroutine apply(self, model)
+      class(shape_field_type), intent(inout) :: self
+      type(machine_model), intent(inout) :: model
+      type(bearing_shape_type), allocatable :: shapes(:)
       type(case_type) :: inputs
-      type(film_oil) :: oil(size(static%oil))
-      inputs = cold
+      type(film_oil) :: oil(size(model%oil))
+      shapes = cold_shapes(self%cold)
+      call set_all_lengths(shapes, self%values, self%cold)
+      inputs = self%cold
       call apply_shapes(shapes, inputs)
-      oil = static%oil
-      call static%adopt(inputs, .true.)
-      static%oil = oil
-      if (allocated(found%films)) then
-         call solve_warm_films(static, y, found%films, found%residual, error, give_up)
-      else
-         call solve_thermal_equilibrium(static, y, found%residual, error, give_up)
-      end if
-   end subroutine find_equilibrium_in
+      oil = model%oil
+      call model%adopt(inputs, .true.)
+      model%oil = oil
+   end subroutine apply
+
+   subroutine find_wanted(self, model, y, wanted, error)
+      class(shape_field_type), intent(inout) :: self
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(out) :: wanted(:)
+      type(error_type), allocatable, intent(out) :: error
+      call find_shapes(self%cold, model, y, self%films%films, self%wanted)
+      wanted = all_lengths(self%wanted, self%cold)
+      self%change = maxval(abs(wanted - self%values))
+   end subroutine find_wanted
+
+   !> Refuses shapes in which a bearing cannot run, and those that do not settle.
+   subroutine check(self, model, agrees, error)
+      class(shape_field_type), intent(in) :: self
+      type(machine_model), intent(in) :: model
+      logical, intent(in) :: agrees
+      type(error_type), allocatable, intent(out) :: error
+      call check_shapes(self%wanted, self%cold, error)
+      if (.not. (allocated(error) .or. agrees)) call raise(error, numerics_error, 'the shape of the bearing does not ' &
+         & //'settle: after '//to_text(most_rounds)//' rounds its clearances still change by ' &
+         & //to_text(100*self%change)//' %')
+   end subroutine check
 
    !> The reason of a shape, where a search in one on the way to it has failed.
-   subroutine explain(wanted, cold, error)
-      type(bearing_shape_type), intent(in) :: wanted(:)
-      type(case_type), intent(in) :: cold
+   subroutine explain(self, model, y, first, error)
+      class(shape_field_type), intent(in) :: self
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      logical, intent(in) :: first
       type(error_type), allocatable, intent(inout) :: error
       type(error_type), allocatable :: reason
-      call check_shapes(wanted, cold, reason)
+      if (allocated(self%wanted)) call check_shapes(self%wanted, self%cold, reason)
       if (allocated(reason)) then
          call move_alloc(reason, error)
       else
@@ -212,4 +198,4 @@ contains
          end associate
       end do
    end subroutine find_part_temperatures
-end module shape_equilibrium
+end module shape_field

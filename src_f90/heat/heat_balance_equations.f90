@@ -1,40 +1,20 @@
-!> The heat balance as equations beside the balance of forces: what the viscosities of a state lack to those that its
-!> losses and flows lead to, how this changes with positions and viscosities, and which balances are refused; with
-!> what a bearing engineer asks of an equilibrium beside its state. Derivatives are differences.
+!> The heat balance as equations beside the balance of forces: the residual of the viscosities of a state, to those that
+!> its losses and flows lead to, how this changes with positions and viscosities, and which balances are refused.
+!> Derivatives are differences.
 module heat_balance_equations
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
    use kinds, only: wp
    use errors, only: error_type, raise, numerics_error
-   use bearing_numbers, only: eccentricity_ratio, attitude_angle
    use pad_gap, only: pad_gap_type
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance, check_boiling
    use equations_of_motion, only: machine_model
    use bearing_samples, only: bearing_sample, take_sample
    use force_balance, only: forces
-   use static_model, only: equilibrium_type, name_bearing
+   use static_model, only: name_bearing
    implicit none (type, external)
    private
-   public :: state_balance_type, has_warm_oil, find_losses, find_lack, find_lack_slopes, find_force_slopes, &
-      & find_temperatures, check_heat, check_oil, static_figures_type, find_static_figures
-
-   type :: static_figures_type
-      !> Distance of the journal from the middle over the bearing clearance; angle from the load to the journal in the
-      !> sense of rotation, rad.
-      real(wp) :: eccentricity_ratio = 0, attitude_angle = 0
-      type(pad_loss), allocatable :: pads(:)
-      !> Of each film.
-      real(wp), allocatable :: reynolds_number(:)
-      !> K: of the oil of each film from the leading to the trailing edge; of all oil where the pads draw fresh oil
-      !> alone, and where fresh oil replaces only what leaves at the sides. All heat stays in the oil.
-      real(wp), allocatable :: temperature_rise(:)
-      real(wp) :: rise_fresh = 0, rise_side = 0
-      !> Of warm oil; by these losses and flows.
-      type(oil_temperatures_type), allocatable :: oil
-   end type static_figures_type
-
-   !> K: no oil becomes as warm; where it would, hardly any flows.
-   real(wp), parameter :: largest_rise = 1e4_wp
+   public :: state_balance_type, has_warm_oil, find_losses, find_residual, find_residual_slopes, find_force_slopes, &
+      & find_temperatures, check_heat, check_oil
 
    !> The difference of positions over the thinnest film, and of the logarithms of viscosities. Losses and flows are
    !> known to 1e-5; what they miss changes slowly.
@@ -53,7 +33,7 @@ module heat_balance_equations
       type(pad_loss), allocatable :: losses(:)
       !> The logarithms of the viscosities that the state leads to, over those that it has; 0 where neither flow nor
       !> shaft carries the heat off, which is then not balanced.
-      real(wp), allocatable :: lack(:)
+      real(wp), allocatable :: residual(:)
       logical :: balanced = .false.
    end type state_balance_type
 
@@ -84,7 +64,8 @@ contains
             of%heat = new_heat_balance(own, model%inputs%sense())
          end associate
       end do
-      if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), balance%lack(model%layout%pads))
+      if (.not. allocated(balance%losses)) allocate (balance%losses(model%layout%pads), &
+         & balance%residual(model%layout%pads))
       call find_again(model, y, balance, balance%losses)
    end subroutine find_losses
 
@@ -105,29 +86,29 @@ contains
       end do
    end subroutine find_again
 
-   !> What the viscosities lack in a state y.
-   subroutine find_lack(model, y, balance, kept)
+   !> The residual of the viscosities in a state y.
+   subroutine find_residual(model, y, balance, kept)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(state_balance_type), intent(inout) :: balance
       !> Where grooves and shaft keep their temperatures: these, of each bearing.
       type(oil_temperatures_type), intent(in), optional :: kept(:)
       call find_losses(model, y, balance)
-      call set_lack(model, balance, balance%losses, model%oil%viscosity, balance%lack, balance%balanced, kept)
-   end subroutine find_lack
+      call set_residual(model, balance, balance%losses, model%oil%viscosity, balance%residual, balance%balanced, kept)
+   end subroutine find_residual
 
    !> The same with these losses of films of these viscosities.
-   subroutine set_lack(model, balance, losses, films, lack, ok, kept)
+   subroutine set_residual(model, balance, losses, films, residual, ok, kept)
       type(machine_model), intent(in) :: model
       type(state_balance_type), intent(in) :: balance
       type(pad_loss), intent(in) :: losses(:)
       real(wp), intent(in) :: films(:)
-      real(wp), intent(out) :: lack(:)
+      real(wp), intent(out) :: residual(:)
       logical, intent(out) :: ok
       type(oil_temperatures_type), intent(in), optional :: kept(:)
       real(wp) :: wanted(size(films))
       integer :: b
-      lack = 0
+      residual = 0
       do b = 1, size(model%bearings)
          associate (first => model%layout%elements(b)%other_pads + 1, &
             & last => model%layout%elements(b)%other_pads + model%layout%elements(b)%pads, &
@@ -140,13 +121,14 @@ contains
          end associate
          if (.not. ok) return
       end do
-      lack = log(wanted/films)
-   end subroutine set_lack
+      residual = log(wanted/films)
+   end subroutine set_residual
 
-   !> The derivatives of what lacks in the state y, whose balance was found, over positions and then over the logarithms
-   !> of the viscosities; positions over their sizes, which are such that a film that is an bearing clearance thick
-   !> changes by as much. Pads are moved together: the losses of each follow from the journal and from its own state.
-   subroutine find_lack_slopes(model, y, balance, sizes, slopes)
+   !> The derivatives of the residual in the state y, whose balance was found, over positions and then over the
+   !> logarithms of the viscosities; positions over their sizes, which are such that a film that is one bearing
+   !> clearance thick changes by as much. Pads are moved together: the losses of each follow from the journal and from
+   !> its own state.
+   subroutine find_residual_slopes(model, y, balance, sizes, slopes)
       type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:), sizes(:)
       type(state_balance_type), intent(inout) :: balance
@@ -216,10 +198,10 @@ contains
          real(wp), intent(in) :: viscosities(:), by
          real(wp) :: there(model%layout%pads)
          logical :: ok
-         call set_lack(model, balance, losses, viscosities, there, ok)
-         if (ok) slopes(:, column) = (there - balance%lack)/by
+         call set_residual(model, balance, losses, viscosities, there, ok)
+         if (ok) slopes(:, column) = (there - balance%residual)/by
       end subroutine set_slope
-   end subroutine find_lack_slopes
+   end subroutine find_residual_slopes
 
    !> The derivatives of the forces at the state y over the logarithms of the viscosities. The model is evaluated there
    !> with its viscosities at the end.
@@ -273,7 +255,7 @@ contains
       end do
    end subroutine take_temperatures
 
-   !> Refuses a state whose heat, found last by find_lack, has no balance, or at which oil boils.
+   !> Refuses a state whose heat, found last by find_residual, has no balance, or at which oil boils.
    subroutine check_heat(model, balance, error, kept)
       type(machine_model), intent(in) :: model
       type(state_balance_type), intent(in) :: balance
@@ -304,41 +286,4 @@ contains
          if (allocated(error)) return
       end do
    end subroutine check_oil
-
-   !> The figures of an equilibrium of a model of one bearing.
-   subroutine find_static_figures(model, static, figures)
-      type(machine_model), intent(in) :: model
-      type(equilibrium_type), intent(in) :: static
-      type(static_figures_type), intent(out) :: figures
-      type(state_balance_type) :: balance
-      logical :: balanced
-      figures%eccentricity_ratio = eccentricity_ratio(model%inputs%bearings(1), static%rotor)
-      figures%attitude_angle = attitude_angle(model%inputs, static%rotor)
-      call find_losses(model, model%static_state(static%rotor, static%pads), balance)
-      figures%pads = balance%losses
-      figures%reynolds_number = figures%pads%reynolds_number(model%point%speed(0.0_wp) &
-         & *model%inputs%bearings(1)%journal_radius, model%inputs%bearings(1)%oil%density, static%oil%viscosity)
-      associate (pads => figures%pads, heat => model%inputs%bearings(1)%oil%density &
-         & *model%inputs%bearings(1)%oil%specific_heat)
-         ! oil that leaves at the sides is warmed half of the way
-         figures%temperature_rise = rise(pads%power(), heat*(pads%inlet + pads%outlet)/2)
-         figures%rise_fresh = rise(sum(pads%power()), heat*sum(pads%inlet))
-         figures%rise_side = rise(sum(pads%power()), heat*sum(pads%side))
-      end associate
-      if (.not. has_warm_oil(model)) return
-      allocate (figures%oil)
-      if (allocated(static%films)) figures%oil = static%films(1)%oil
-      if (allocated(static%films)) return
-      call balance%bearings(1)%heat%temperatures(figures%pads, static%oil%viscosity, model%point%speed(0.0_wp), &
-         & figures%oil, balanced)
-      if (.not. balanced) deallocate (figures%oil)
-   end subroutine find_static_figures
-
-   !> Rise of temperature, K, by a power, W, in a flow of heat capacity, W/K; no number where next to nothing flows.
-   elemental real(wp) function rise(power, capacity)
-      real(wp), intent(in) :: power, capacity
-      rise = ieee_value(power, ieee_quiet_nan)
-      if (ieee_is_nan(capacity)) return
-      if (capacity*largest_rise > power) rise = power/capacity
-   end function rise
 end module heat_balance_equations

@@ -1,44 +1,18 @@
-!> What is common to searches of an equilibrium: the record of one, the model without unbalance and friction, and where
-!> the searches start.
+!> What is common to searches of an equilibrium: the model without unbalance and friction, its way to equilibrium from
+!> nearby, and where the searches start.
 module static_model
    use kinds, only: wp
-   use film_solver, only: film_oil
-   use film_network, only: warm_films_type
-   use bearing_shape, only: bearing_shape_type
    use operating_point, only: operating_point_type
    use factories, only: converged_films, quick_films
    use abstract_rotor, only: journal_motion
    use state_layout, only: pad_state, tilt, pivot_deflection
    use kinematics, only: pad_frame, frame_of, in_mirror
-   use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: machine_model, new_machine_model
    use errors, only: error_type, add_context, stopped, asked_to_stop
    use pseudo_transient, only: follow_motion, newtons
-   use force_balance, only: stability_type
    implicit none (type, external)
    private
-   public :: equilibrium_type, describe, make_static, make_quick, make_fine, solve_equilibrium, start, starts, &
-      & name_bearing
-
-   type :: equilibrium_type
-      !> Displacements of the rotor, those of its journals, m, first.
-      real(wp), allocatable :: rotor(:)
-      !> Of all bearings: states of the pads at rest; pivot loads, N.
-      type(pad_state), allocatable :: pads(:)
-      real(wp), allocatable :: pivot_load(:)
-      !> Per pad minimum film thickness, m, and maximum pressure, Pa.
-      real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
-      !> The oil of every pad's film; its temperatures in each bearing, where films have them along and across.
-      type(film_oil), allocatable :: oil(:)
-      type(warm_films_type), allocatable :: films(:)
-      !> Of all bearings, where it changes the shape of one.
-      type(bearing_shape_type), allocatable :: shapes(:)
-      !> Largest unbalanced force over the reference force (pseudo_transient).
-      real(wp) :: residual = huge(1.0_wp)
-      type(stability_type) :: stability
-      !> Which search found it.
-      character(len=:), allocatable :: search
-   end type equilibrium_type
+   public :: make_static, make_quick, make_fine, solve_equilibrium, start, starts, name_bearing
 
    !> Unbalanced force over the reference force that leaps of cavitated films may leave.
    real(wp), parameter :: largest_leap = 1e-5_wp
@@ -155,28 +129,6 @@ contains
          middle = in_mirror(pads(1)%position%mirrored, middle)
       end associate
    end function middle_of_bores
-
-   !> The record of the equilibrium y, where the model was evaluated last.
-   subroutine describe(model, y, found)
-      type(machine_model), intent(inout) :: model
-      real(wp), intent(in) :: y(:)
-      type(equilibrium_type), intent(inout) :: found
-      type(pad_state) :: pads(model%layout%pads)
-      type(pad_sample) :: samples(model%layout%pads)
-      integer :: b
-      do b = 1, size(model%bearings)
-         associate (of => model%layout%elements(b))
-            pads(of%all_pads()) = of%pad_states(y)
-            samples(of%all_pads()) = model%bearings(b)%sampled()
-         end associate
-      end do
-      found%rotor = y(:model%rotor%positions)
-      found%pads = pads
-      found%pivot_load = samples%pivot_load
-      found%min_film_thickness = samples%min_film_thickness
-      found%max_pressure = samples%max_pressure
-      found%oil = model%oil
-   end subroutine describe
 
    !> Puts the name of the bearing in front of the message of a set error, where it has one.
    subroutine name_bearing(model, b, error)

@@ -9,7 +9,7 @@ module bearing_shape
    implicit none (type, external)
    private
    public :: bearing_shape_type, bending_type, part_temperatures_type, new_shape
-   public :: cold_shapes, apply_shapes, check_shapes, largest_change, all_lengths, set_all_lengths
+   public :: cold_shapes, apply_shapes, check_shapes, all_lengths, set_all_lengths
 
    !> By how much bending changes the clearance of each pad, m.
    type :: bending_type
@@ -183,38 +183,38 @@ contains
       end do
    end subroutine check_shapes
 
-   !> The largest change of a length from shapes to others, over the smallest clearance of its bearing.
-   pure real(wp) function largest_change(others, shapes)
-      type(bearing_shape_type), intent(in) :: others(:), shapes(:)
-      integer :: b
-      largest_change = 0
-      do b = 1, size(shapes)
-         largest_change = max(largest_change, maxval(abs(others(b)%lengths() - shapes(b)%lengths())) &
-            & /minval([shapes(b)%machined_clearance, shapes(b)%assembled_clearance]))
-      end do
-   end function largest_change
-
-   !> The lengths of all shapes in a row, m.
-   pure function all_lengths(shapes)
+   !> The lengths of all shapes of a case in a row, over the least clearance that it gives each bearing.
+   pure function all_lengths(shapes, inputs)
       type(bearing_shape_type), intent(in) :: shapes(:)
+      type(case_type), intent(in) :: inputs
       real(wp), allocatable :: all_lengths(:)
       integer :: b
       allocate (all_lengths(0))
       do b = 1, size(shapes)
-         all_lengths = [all_lengths, shapes(b)%lengths()]
+         all_lengths = [all_lengths, shapes(b)%lengths()/least_clearance(inputs, b)]
       end do
    end function all_lengths
 
    !> Gives them lengths in this order.
-   pure subroutine set_all_lengths(shapes, lengths)
+   pure subroutine set_all_lengths(shapes, lengths, inputs)
       type(bearing_shape_type), intent(inout) :: shapes(:)
       real(wp), intent(in) :: lengths(:)
+      type(case_type), intent(in) :: inputs
       integer :: b, first, last
       last = 0
       do b = 1, size(shapes)
          first = last + 1
          last = last + size(shapes(b)%lengths())
-         call shapes(b)%set_lengths(lengths(first:last))
+         call shapes(b)%set_lengths(lengths(first:last)*least_clearance(inputs, b))
       end do
    end subroutine set_all_lengths
+
+   !> The least clearance that a case gives bearing b, m.
+   pure real(wp) function least_clearance(inputs, b)
+      type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
+      associate (own => inputs%bearings(b))
+         least_clearance = minval([own%machined_clearance, own%assembled_clearance])
+      end associate
+   end function least_clearance
 end module bearing_shape

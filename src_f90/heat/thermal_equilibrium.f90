@@ -1,0 +1,215 @@
+!> Thermal equilibrium: forces, heat and, where pads bend or parts expand, the shape of the bearing are in balance
+!> together. The bearing comes to equilibrium with the oil and in the shape that fields have, which says what they are
+!> to be, until they agree (fixed_point).
+module thermal_equilibrium
+   use kinds, only: wp
+   use errors, only: error_type, stopped, asked_to_stop
+   use film_oils, only: even_oil
+   use case_inputs, only: case_type
+   use heat_balance, only: oil_temperatures_type
+   use oil_properties, only: viscosity
+   use equations_of_motion, only: machine_model
+   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_temperatures
+   use pseudo_transient, only: follow_motion
+   use static_model, only: solve_equilibrium, start
+   use film_network, only: warm_films_type, new_warm_films
+   use bearing_shape, only: bearing_shape_type
+   use fixed_point, only: field_reference, balance_type, solve_fields
+   use oil_field, only: oil_field_type
+   use film_field, only: film_field_type
+   use shape_field, only: shape_field_type
+   implicit none (type, external)
+   private
+   public :: guess_oil, guesses, solve_thermal_equilibrium, solve_warm_films, solve_shape
+
+   !> A static model whose pads are in equilibrium or held where they are.
+   type, extends(balance_type) :: static_balance
+      real(wp) :: residual = 0
+      logical, allocatable :: held(:)
+      procedure(asked_to_stop), pointer, nopass :: give_up => never
+   contains
+      procedure :: settle
+   end type static_balance
+
+   !> Iterations of a search for another equilibrium: by Newton's method, which takes about five where it leads there;
+   !> from where it has led; by the motion.
+   integer, parameter :: most_iterations = 6, more_iterations = 50, most_motion = 60
+   !> Residual of the logarithms of viscosities; the same where temperatures along and across the films follow, which
+   !> are changed by ten times as much; where it jumps; longest step.
+   real(wp), parameter :: agreement = 1e-8_wp, rough = 1e-2_wp, jump = 1e-4_wp, longest_step = 1
+   !> Warming that is guessed where nothing better is known, K.
+   real(wp), parameter :: some_warming = 20
+   !> Guesses of viscosities; the start of a search at which the first is made.
+   integer, parameter :: guesses = 3, middle_start = 3
+
+contains
+
+   !> Gives the oil viscosities to search with: those that it would have at one of the starts of a search; those of some
+   !> warming; those of cold oil.
+   subroutine guess_oil(model, guess)
+      type(machine_model), intent(inout) :: model
+      integer, intent(in) :: guess
+      type(state_balance_type) :: balance
+      real(wp), dimension(model%layout%pads) :: wanted, balanced
+      logical :: ok
+      associate (oil => model%inputs%bearings(1)%oil)
+         wanted = viscosity(oil, oil%supply_temperature + (guesses - guess)*some_warming)
+      end associate
+      if (guess == 1) then
+         call find_losses(model, start(model, middle_start), balance)
+         call balance%bearings(1)%heat%viscosities(balance%losses, model%oil%viscosity, model%point%speed(0.0_wp), &
+            & balanced, ok)
+         if (ok) wanted = balanced
+      end if
+      model%oil = even_oil(wanted)
+   end subroutine guess_oil
+
+   !> A static model, with the reason to give up and pads that are held, where there are such.
+   type(static_balance) function new_balance(model, give_up, held) result(balance)
+      type(machine_model), intent(inout), target :: model
+      procedure(asked_to_stop), optional :: give_up
+      logical, intent(in), optional :: held(:)
+      balance%model => model
+      if (present(give_up)) balance%give_up => give_up
+      if (present(held)) balance%held = held
+   end function new_balance
+
+   !> The answer where nothing may ask to stop.
+   logical function never()
+      never = .false.
+   end function never
+
+   !> By Newton's method, which goes astray where an unloaded pad has lost its stiffness at the last place: then anew
+   !> from there, and in the end by the motion from the last place.
+   subroutine settle(self, last, y, first, final, error)
+      class(static_balance), intent(inout) :: self
+      real(wp), intent(in) :: last(:)
+      real(wp), intent(inout) :: y(:)
+      logical, intent(in) :: first, final
+      type(error_type), allocatable, intent(out) :: error
+      call solve_equilibrium(self%model, y, self%residual, error, self%give_up, self%held, &
+         & merge(huge(1), most_iterations, first))
+      if (first .or. .not. allocated(error)) return
+      if (error%status == stopped) return
+      call solve_equilibrium(self%model, y, self%residual, error, self%give_up, self%held, more_iterations)
+      if (.not. (final .and. allocated(error))) return
+      if (error%status == stopped) return
+      y = last
+      call follow_motion(self%model, y, self%residual, error, self%give_up, self%held, most=most_motion)
+   end subroutine settle
+
+   !> Brings a state that is near equilibrium to equilibrium, as solve_equilibrium does, and the oil, where it is warm,
+   !> to the temperatures of this equilibrium: the model then has its viscosities.
+   subroutine solve_thermal_equilibrium(model, y, residual, error, give_up, held, kept, films)
+      type(machine_model), intent(inout), target :: model
+      real(wp), intent(inout) :: y(:)
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      !> Pads that are held where they are.
+      logical, intent(in), optional :: held(:)
+      !> Where grooves and shaft keep their temperatures: these, of each bearing.
+      type(oil_temperatures_type), intent(in), optional :: kept(:)
+      !> The temperatures of the films of each bearing, where the case wants them along and across.
+      type(warm_films_type), allocatable, intent(out), optional :: films(:)
+      type(warm_films_type), allocatable :: found(:)
+      type(oil_field_type), target :: pads
+      type(static_balance) :: balance
+      type(field_reference) :: fields(1)
+      type(oil_temperatures_type) :: oil(size(model%bearings))
+      if (.not. has_warm_oil(model)) then
+         call solve_equilibrium(model, y, residual, error, give_up, held)
+         return
+      end if
+      ! one temperature for each pad leads to those along and across
+      model%oil = even_oil(model%oil%viscosity)
+      pads = new_oil_field(model, kept)
+      fields(1)%field => pads
+      balance = new_balance(model, give_up, held)
+      call solve_fields(balance, y, fields, error)
+      residual = balance%residual
+      if (allocated(error) .or. model%inputs%thermal%model /= 'film') return
+      call find_temperatures(model, y, pads%balance, oil)
+      call make_films(model%inputs, oil, found)
+      call solve_warm_films(model, y, found, residual, error, give_up, held)
+      if (present(films)) call move_alloc(found, films)
+   end subroutine solve_thermal_equilibrium
+
+   !> The same of a model whose films have temperatures already, and whose oil is theirs.
+   subroutine solve_warm_films(model, y, films, residual, error, give_up, held)
+      type(machine_model), intent(inout), target :: model
+      real(wp), intent(inout) :: y(:)
+      type(warm_films_type), allocatable, intent(inout) :: films(:)
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      logical, intent(in), optional :: held(:)
+      type(film_field_type), target :: field
+      type(static_balance) :: balance
+      type(field_reference) :: fields(1)
+      call field%begin(model, films)
+      fields(1)%field => field
+      balance = new_balance(model, give_up, held)
+      call solve_fields(balance, y, fields, error)
+      residual = balance%residual
+      call move_alloc(field%films, films)
+   end subroutine solve_warm_films
+
+   !> Brings the state y of a static model that is in equilibrium in the shapes of its case to equilibrium in the shapes
+   !> that this leads to, of each bearing, with their temperatures; an error where there is none.
+   subroutine solve_shape(model, y, films, shapes, residual, error, give_up)
+      type(machine_model), intent(inout), target :: model
+      real(wp), intent(inout) :: y(:)
+      !> Of each bearing, where films have temperatures.
+      type(warm_films_type), allocatable, intent(inout) :: films(:)
+      type(bearing_shape_type), allocatable, intent(out) :: shapes(:)
+      real(wp), intent(inout) :: residual
+      type(error_type), allocatable, intent(out) :: error
+      procedure(asked_to_stop), optional :: give_up
+      type(shape_field_type), target :: shape
+      type(film_field_type), target :: field
+      type(oil_field_type), target :: pads
+      type(field_reference) :: fields(2)
+      type(static_balance) :: balance
+      call shape%begin(model%inputs, field)
+      ! a shape needs the temperatures that its own values change
+      fields(2)%field => shape
+      if (allocated(films)) then
+         call field%begin(model, films, gaps_change=.true.)
+         fields(1)%field => field
+      else if (has_warm_oil(model)) then
+         pads = new_oil_field(model)
+         fields(1)%field => pads
+      end if
+      balance = new_balance(model, give_up)
+      call solve_fields(balance, y, fields(merge(1, 2, has_warm_oil(model)):), error)
+      residual = balance%residual
+      if (allocated(field%films)) call move_alloc(field%films, films)
+      if (.not. allocated(error)) call move_alloc(shape%wanted, shapes)
+   end subroutine solve_shape
+
+   !> The oil of the pads of a model.
+   type(oil_field_type) function new_oil_field(model, kept) result(field)
+      type(machine_model), intent(in) :: model
+      type(oil_temperatures_type), intent(in), optional :: kept(:)
+      field%agreement = merge(rough, agreement, model%inputs%thermal%model == 'film')
+      field%jump = jump
+      field%longest = longest_step
+      field%parts = model%layout%pads
+      field%first = model%oil%viscosity
+      field%values = 0*field%first
+      if (present(kept)) field%kept = kept
+   end function new_oil_field
+
+   !> Films of all bearings of a case that have the mean temperatures of this oil.
+   subroutine make_films(inputs, oil, films)
+      type(case_type), intent(in) :: inputs
+      type(oil_temperatures_type), intent(in) :: oil(:)
+      type(warm_films_type), allocatable, intent(out) :: films(:)
+      integer :: b
+      allocate (films(size(oil)))
+      do b = 1, size(oil)
+         films(b) = new_warm_films(inputs%bearings(b), inputs%thermal, oil(b)%mean)
+      end do
+   end subroutine make_films
+end module thermal_equilibrium
