@@ -96,22 +96,18 @@ module fixed_point
    !> next may be; least part of the longest step.
    real(wp), parameter :: shorter = 0.25_wp, longer = 2, shortest = 5e-3_wp
 
-   !> Of each value what its field says, and the number of its part among all.
-   type :: value_limits
-      real(wp) :: agreement = 0, jump = 0, longest = 0
-      integer :: part = 0
-   end type value_limits
-
    !> What leads from round to round. Values and residuals are over their agreements.
    type :: mixer_type
       integer :: rounds = 0
       logical :: agrees = .false.
-      type(value_limits), allocatable, private :: limits(:)
+      !> Of each value what its field says, and the number of its part among all.
+      real(wp), allocatable, private :: agreement(:), jump(:), longest(:)
+      integer, allocatable, private :: part(:)
       !> How long a step may be, over the longest.
       real(wp), private :: reach = 1
-      integer, private :: known = -1
+      integer, private :: known = -1, newest = 0
       real(wp), allocatable, private :: x(:), residual(:), y(:)
-      !> Differences between rounds of values, residuals and states, the newest first.
+      !> Differences between rounds of values, residuals and states, `known` columns of which one is the newest.
       real(wp), allocatable, private :: steps(:, :), differences(:, :), moves(:, :)
       !> Least residual, and rounds since then; the mean of what was wanted in these.
       real(wp), private :: least = huge(1.0_wp)
@@ -202,10 +198,10 @@ contains
       before = x
       last = y
       if (mixer%rounds > 0) then
-         before = mixer%x*mixer%limits%agreement
+         before = mixer%x*mixer%agreement
          last = mixer%y
       end if
-      length = maxval(abs(x - before)/mixer%limits%longest)
+      length = maxval(abs(x - before)/mixer%longest)
       do
          do f = 1, size(fields)
             fields(f)%field%values = x(first(f):first(f + 1) - 1)
@@ -227,20 +223,22 @@ contains
       class(mixer_type), intent(inout) :: self
       class(coupled_field), intent(in) :: field
       integer :: i, n, before
+      if (.not. allocated(self%part)) allocate (self%agreement(0), self%jump(0), self%longest(0), self%part(0))
       n = size(field%values)
-      before = 0
-      if (allocated(self%limits)) before = maxval(self%limits%part)
-      if (.not. allocated(self%limits)) allocate (self%limits(0))
-      self%limits = [self%limits, [(value_limits(field%agreement, field%jump, field%longest, &
-         & before + 1 + (i - 1)*field%parts/n), i=1, n)]]
-      self%kept = spread(.false., 1, size(self%limits))
-      self%mean = spread(0.0_wp, 1, size(self%limits))
+      before = max(0, maxval(self%part))
+      self%agreement = [self%agreement, spread(field%agreement, 1, n)]
+      self%jump = [self%jump, spread(field%jump, 1, n)]
+      self%longest = [self%longest, spread(field%longest, 1, n)]
+      self%part = [self%part, [(before + 1 + (i - 1)*field%parts/n, i=1, n)]]
+      self%kept = spread(.false., 1, size(self%part))
+      self%mean = spread(0.0_wp, 1, size(self%part))
    end subroutine begin
 
    !> Forgets the rounds before the last one.
    pure subroutine forget(self)
       class(mixer_type), intent(inout) :: self
       self%known = -1
+      self%newest = 0
    end subroutine forget
 
    !> The next values x after a round that wants others, unless they agree, and the state y in which the forces are then
@@ -251,9 +249,9 @@ contains
       real(wp), intent(in) :: wanted(:)
       real(wp), intent(inout) :: y(:)
       real(wp) :: residual(size(x)), step(size(x))
-      residual = (wanted - x)/self%limits%agreement
+      residual = (wanted - x)/self%agreement
       self%rounds = self%rounds + 1
-      self%kept = self%kept .and. abs(wanted - x) <= self%limits%jump
+      self%kept = self%kept .and. abs(wanted - x) <= self%jump
       where (self%kept) residual = 0
       associate (largest => maxval(abs(residual)))
          self%agrees = largest <= 1
@@ -264,12 +262,12 @@ contains
       end associate
       self%since = self%since + 1
       self%mean = self%mean + (wanted - self%mean)/self%since
-      call self%remember(x/self%limits%agreement, residual, y)
+      call self%remember(x/self%agreement, residual, y)
       if (self%agrees) return
       if (self%since > stalled_rounds) call self%keep(x, residual)
       call self%combine(residual, step, y)
-      step = step*self%limits%agreement
-      x = x + step/max(1.0_wp, maxval(abs(step)/(self%reach*self%limits%longest)))
+      step = step*self%agreement
+      x = x + step/max(1.0_wp, maxval(abs(step)/(self%reach*self%longest)))
    end subroutine next
 
    !> Lets the part of the values that jumps most keep the mean of what it wanted, if it jumps by no more than it may.
@@ -277,8 +275,8 @@ contains
       class(mixer_type), intent(inout) :: self
       real(wp), intent(inout) :: x(:), residual(:)
       logical :: jumps(size(x))
-      jumps = self%limits%part == self%limits(maxloc(abs(residual), 1))%part
-      if (any(jumps .and. abs(residual)*self%limits%agreement > self%limits%jump)) return
+      jumps = self%part == self%part(maxloc(abs(residual), 1))
+      if (any(jumps .and. abs(residual)*self%agreement > self%jump)) return
       self%kept = self%kept .or. jumps
       where (jumps) x = self%mean
       where (jumps) residual = 0
@@ -295,12 +293,10 @@ contains
          & self%moves(size(y), depth))
       self%known = min(self%known + 1, depth)
       if (self%known > 0) then
-         self%steps = eoshift(self%steps, -1, dim=2)
-         self%differences = eoshift(self%differences, -1, dim=2)
-         self%moves = eoshift(self%moves, -1, dim=2)
-         self%steps(:, 1) = x - self%x
-         self%differences(:, 1) = residual - self%residual
-         self%moves(:, 1) = y - self%y
+         self%newest = 1 + mod(self%newest, depth)
+         self%steps(:, self%newest) = x - self%x
+         self%differences(:, self%newest) = residual - self%residual
+         self%moves(:, self%newest) = y - self%y
       end if
       self%x = x
       self%residual = residual
@@ -313,18 +309,19 @@ contains
       real(wp), intent(in) :: residual(:)
       real(wp), intent(out) :: step(:)
       real(wp), intent(inout) :: y(:)
-      real(wp) :: matrix(depth, depth), part(depth)
+      real(wp) :: matrix(depth, depth), part(depth), largest
       integer :: i, pivots(depth), info
       step = residual
-      if (any(abs(residual)*self%limits%agreement > self%limits%longest)) call self%forget()
+      if (any(abs(residual)*self%agreement > self%longest)) call self%forget()
       associate (n => self%known)
          if (n < 1) return
          associate (d => self%differences(:, :n))
             matrix(:n, :n) = matmul(transpose(d), d)
             part(:n) = matmul(residual, d)
          end associate
+         largest = maxval([(matrix(i, i), i=1, n)])
          do i = 1, n
-            matrix(i, i) = matrix(i, i)*(1 + regularity) + regularity*matrix(1, 1)
+            matrix(i, i) = matrix(i, i) + regularity*largest
          end do
          call dgesv(n, 1, matrix, depth, pivots, part, depth, info)
          if (info == 0) then
