@@ -15,7 +15,8 @@ FORTRAN = (
     *("base", "system", "case", "input"),
     *("film/common", "film/fourier", "film/volumes", "film/tables", "film"),
     *("pivot", "rotor", "bearing", "integrate", "model"),
-    *("statics", "heat", "equilibrium", "linear", "orbits", "branches", "signals", "storage", "results", "app"),
+    *("statics", "heat", "equilibrium", "linear", "orbits", "branches", "signals"),
+    *("storage", "results", "app"),
 )
 #: How high the folders of the Python package are; those of one height do not use each other.
 PYTHON = {"files": 0, "calculate": 1, "draw": 2, "collect": 2}

@@ -217,13 +217,14 @@ def figures_of(case: Case, state: State) -> str:
         )
     )
     fixed, count = pads["motion"] == "fixed", len(arc)
+    motion = MOTIONS.get(pads["motion"], pads["motion"])
     # the surface is where 1 + CLEARANCE is, not 1 + the true ratio
     times = CLEARANCE * own["journal_radius"] / assembled.min()
     where = "the journal in the middle, pads without tilt"
     if state.time is not None or state.journal.any():
         where = "the equilibrium" if state.time is None else f"{state.time:g} s"
     lines = [
-        f"{count} pad{'s' * (count > 1)}, {MOTIONS.get(pads['motion'], pads['motion'])}, arc {different(arc)}°",
+        f"{count} pad{'s' * (count > 1)}, {motion}, arc {different(arc)}°",
         f"{'anchored' if fixed else 'pivot'} at {different(ratio)} of the arc from the leading edge",
         f"speed {first:g} rpm" if first == last else f"speed {first:g} to {last:g} rpm",
         f"journal radius {1e3 * own['journal_radius']:g} mm, length {different(1e3 * length)} mm",
