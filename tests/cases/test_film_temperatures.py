@@ -247,3 +247,28 @@ def test_steep_wedges_need_more_stations(run, tmp_path):
             highest[stations] = file["equilibrium/maximum_temperature"][()].max()
     assert 1 < highest[160] - highest[40] < 4
     assert 0 < highest[160] - highest[80] < highest[80] - highest[40]
+
+
+def test_a_grid_with_an_unloaded_pad_that_leaps(run, tmp_path):
+    """A turbine bearing of 200 mm, whose third pad bears nothing: the same on three grids."""
+    case = """&case task='equilibrium' /
+&rotor mass=6177.37 /
+&operation speed_rpm=6360 /
+&bearing journal_radius=0.1, axial_length=0.15, machined_clearance=0.0002, assembled_clearance=0.00015 /
+&pads pivot_angle_deg=-54,18,90,162,234, arc_deg=58, motion='tilting_only', mass=1e-3, inertia=1e-6,
+   pivot_distance=35e-3, thickness=35e-3, conductivity=50, centre_tangential=0, centre_radial=-0.01 /
+&pivot socket_radius=0.05, radius_difference=1e-4 /
+&asperity model='none' /
+&oil law='walther', kinematic_viscosity=32e-6,5.362e-6, at_temperature=40,100,
+   density=860, density_slope=-0.64, specific_heat=1950, conductivity=0.13,
+   supply_temperature=45, carry_over=0.8, widest_gap_deg=60, back_coefficient=100, back_temperature=45 /
+&thermal model='film', stations=40, layers=12 /
+"""
+    journal = []
+    for parts in (1, 2, 3):
+        run(case, f"thermal%stations={40 * parts}", f"thermal%layers={12 * parts}", name=f"grid{parts}")
+        with h5py.File(tmp_path / f"grid{parts}.h5") as file:
+            journal.append([file[f"equilibrium/journal_{axis}"][()] for axis in "yz"])
+            assert file["equilibrium/pivot_load"][2] == pytest.approx(0, abs=1)
+    coarse, fine = np.linalg.norm(np.diff(journal, axis=0), axis=1)
+    assert fine < coarse / 4 < 5e-8
