@@ -56,7 +56,8 @@ contains
 
       call results%clear()
       if (verified_states > 0) call check_verification(inputs, verified_states, error)
-      if (.not. allocated(error) .and. .not. can_have(int(memory_bytes(inputs), i8))) call raise(error, system_error, &
+      if (allocated(error)) return
+      if (.not. can_have(int(memory_bytes(inputs), i8))) call raise(error, system_error, &
          & 'out of memory: the run needs '//bytes_text(memory_bytes(inputs))//memory_advice(inputs))
       if (allocated(error)) return
       call begin_run(run, inputs, path, tag, verified_states, quiet)
