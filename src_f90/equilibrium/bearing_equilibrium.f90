@@ -11,9 +11,8 @@ module bearing_equilibrium
    use state_layout, only: tilt
    use equations_of_motion, only: machine_model
    use pseudo_transient, only: follow_motion, unbalanced, newtons, residual_limit
-   use force_balance, only: stability_at
    use pad_elimination, only: eliminate_pads, search_pads
-   use equilibrium_record, only: equilibrium_type, describe
+   use equilibrium_record, only: equilibrium_type, describe, describe_with_stability
    use static_model, only: make_static, make_quick, solve_equilibrium, start, starts
    use heat_balance_equations, only: has_warm_oil
    use thermal_equilibrium, only: guess_oil, guesses, solve_thermal_equilibrium
@@ -291,8 +290,9 @@ contains
       real(wp), intent(in) :: y(:)
       type(equilibrium_type), intent(inout) :: found
       type(search_traces), intent(inout) :: traces
-      call describe(model, y, found)
-      call stability_at(model, y, found%stability, is_usable)
+      type(error_type), allocatable :: error
+      call describe_with_stability(model, y, found, error)
+      is_usable = .not. allocated(error)
       if (.not. is_usable) return
       is_usable = found%stability%name /= 'static instability'
       if (.not. is_usable) call note_divergence(model, traces)
@@ -342,7 +342,6 @@ contains
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
       procedure(asked_to_stop), optional :: give_up
-      logical :: ok
       y = model%static_state(found%rotor, found%pads)
       model%oil = found%oil
       if (any(model%oil%varies)) then
@@ -351,9 +350,6 @@ contains
       else
          call solve_thermal_equilibrium(model, y, found%residual, error, give_up)
       end if
-      if (allocated(error)) return
-      call describe(model, y, found)
-      call stability_at(model, y, found%stability, ok)
-      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
+      if (.not. allocated(error)) call describe_with_stability(model, y, found, error)
    end subroutine settle
 end module bearing_equilibrium

@@ -1,11 +1,10 @@
 !> Static equilibrium of a rotor and the pads of its bearings at constant speed: no unbalance, no friction.
 module equilibrium
    use kinds, only: wp
-   use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop
+   use errors, only: error_type, stopped, asked_to_stop
    use equations_of_motion, only: machine_model
-   use equilibrium_record, only: equilibrium_type, describe
+   use equilibrium_record, only: equilibrium_type, describe_with_stability
    use static_model, only: make_static
-   use force_balance, only: stability_at
    use bearing_equilibrium, only: find_bearing_equilibrium, settle
    use branch_hint, only: offer_branch
    use thermal_equilibrium, only: solve_shape
@@ -48,15 +47,11 @@ contains
       procedure(asked_to_stop), optional :: give_up
       type(machine_model) :: static
       real(wp), allocatable :: y(:)
-      logical :: ok
       call make_static(model, model%point%cavitation, static)
       y = static%static_state(found%rotor, found%pads)
       static%oil = found%oil
       call solve_shape(static, y, found%films, found%shapes, found%residual, error, give_up)
-      if (allocated(error)) return
-      call describe(static, y, found)
-      call stability_at(static, y, found%stability, ok)
-      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
+      if (.not. allocated(error)) call describe_with_stability(static, y, found, error)
    end subroutine settle_shape
 
    !> Brings an equilibrium that another model has found to that of this static one, whose films differ a little; y is

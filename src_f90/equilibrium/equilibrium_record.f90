@@ -7,10 +7,11 @@ module equilibrium_record
    use state_layout, only: pad_state
    use tilting_pad_bearing, only: pad_sample
    use equations_of_motion, only: machine_model
-   use force_balance, only: stability_type
+   use errors, only: error_type, raise, numerics_error
+   use force_balance, only: stability_type, stability_at
    implicit none (type, external)
    private
-   public :: equilibrium_type, describe
+   public :: equilibrium_type, describe, describe_with_stability
 
    type :: equilibrium_type
       !> Displacements of the rotor, those of its journals, m, first.
@@ -55,4 +56,16 @@ contains
       found%max_pressure = samples%max_pressure
       found%oil = model%oil
    end subroutine describe
+
+   !> The same with its stability; an error where this is not found.
+   subroutine describe_with_stability(model, y, found, error)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      type(equilibrium_type), intent(inout) :: found
+      type(error_type), allocatable, intent(out) :: error
+      logical :: ok
+      call describe(model, y, found)
+      call stability_at(model, y, found%stability, ok)
+      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
+   end subroutine describe_with_stability
 end module equilibrium_record

@@ -9,8 +9,8 @@ module load_shares
    use linear_algebra, only: dgesv
    use state_layout, only: pad_state, of_journal
    use equations_of_motion, only: machine_model
-   use force_balance, only: bearing_derivatives, part_derivatives, stability_at
-   use equilibrium_record, only: equilibrium_type, describe
+   use force_balance, only: bearing_derivatives, part_derivatives
+   use equilibrium_record, only: equilibrium_type, describe_with_stability
    use static_model, only: solve_equilibrium
    use film_network, only: warm_films_type
    use thermal_equilibrium, only: solve_warm_films
@@ -306,7 +306,6 @@ contains
       type(pad_state), allocatable :: pads(:)
       real(wp), allocatable :: y(:)
       real(wp) :: journals(2*size(shares))
-      logical :: ok
       integer :: b
       allocate (pads(0))
       found%search = ''
@@ -329,9 +328,6 @@ contains
       else
          call solve_equilibrium(model, y, found%residual, error, give_up)
       end if
-      if (allocated(error)) return
-      call describe(model, y, found)
-      call stability_at(model, y, found%stability, ok)
-      if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
+      if (.not. allocated(error)) call describe_with_stability(model, y, found, error)
    end subroutine join
 end module load_shares
