@@ -271,6 +271,7 @@ contains
       balance%problem => problem
       balance%options = options
       if (present(normal)) balance%normal = normal
+      balance%any_balance = present(normal)
       y = problem%state()
       fields(1)%field => problem%films
       call solve_fields(balance, y, fields, error)
@@ -293,7 +294,8 @@ contains
       self%problem%parameter = self%parameter
       way = 0
       call newton_iterations(self%problem, self%options, self%point, way, error, self%normal)
-      self%refused = self%problem%refused
+      ! where Newton's method has gone on before, it has gone astray
+      self%refused = self%problem%refused .and. self%point%iterations == 1
       self%most = max(self%most, self%point%iterations)
       if (.not. allocated(error)) call self%problem%bearing%set_value(self%problem%parameter, .false., error)
       if (allocated(error)) return

@@ -3,10 +3,10 @@
 !> the last ones lacked, until all agree.
 !>
 !> The step is Anderson's: that combination of the last rounds whose residuals, wanted less present values, would cancel
-!> best (J. ACM 12 (1965) 547-560). Where this turns against the residual it is the plain one: values that
-!> would run away from their balance are none to look for. What a film wants that cavitates cell by cell may jump, by
-!> what a cell carries or fails to carry: where no round leads on, the part of the values that jumps most keeps the mean
-!> of what it wants on both sides (Filippov), and the others agree beside it.
+!> best (J. ACM 12 (1965) 547-560). Where this turns against the residual it is the plain one: values that would run
+!> away from their balance are none to look for, but behind the fold of a branch. What a film wants that cavitates cell
+!> by cell may jump, by what a cell carries or fails to carry: where no round leads on, the part of the values that jumps
+!> most keeps the mean of what it wants on both sides (Filippov), and the others agree beside it.
 module fixed_point
    use kinds, only: wp
    use errors, only: error_type, stopped
@@ -39,6 +39,8 @@ module fixed_point
       type(machine_model), pointer :: model => null()
       !> Whether the last error says that there can be no equilibrium: others than the last values would not help.
       logical :: refused = .false.
+      !> Whether a balance is looked for from which the values would run away, as behind the fold of a branch.
+      logical :: any_balance = .false.
    contains
       procedure(find_equilibrium), deferred :: settle
    end type balance_type
@@ -99,7 +101,7 @@ module fixed_point
    !> What leads from round to round. Values and residuals are over their agreements.
    type :: mixer_type
       integer :: rounds = 0
-      logical :: agrees = .false.
+      logical :: agrees = .false., any_balance = .false.
       !> Of each value what its field says, and the number of its part among all.
       real(wp), allocatable, private :: agreement(:), jump(:), longest(:)
       integer, allocatable, private :: part(:)
@@ -152,6 +154,7 @@ contains
          first(f + 1) = size(x) + 1
          call mixer%begin(fields(f)%field)
       end do
+      mixer%any_balance = balance%any_balance
       allocate (wanted(size(x)))
       do
          call take_step(balance, y, fields, first, x, mixer, error)
@@ -326,7 +329,7 @@ contains
          call dgesv(n, 1, matrix, depth, pivots, part, depth, info)
          if (info == 0) then
             step = residual - matmul(self%steps(:, :n) + self%differences(:, :n), part(:n))
-            if (dot_product(step, residual) > 0) then
+            if (self%any_balance .or. dot_product(step, residual) > 0) then
                if (any(abs(residual) > far)) y = y - matmul(self%moves(:, :n), part(:n))
                return
             end if
