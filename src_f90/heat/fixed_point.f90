@@ -5,8 +5,8 @@
 !> The step is Anderson's: that combination of the last rounds whose residuals, wanted less present values, would cancel
 !> best (J. ACM 12 (1965) 547-560). Where this turns against the residual it is the plain one: values that would run
 !> away from their balance are none to look for, but behind the fold of a branch. What a film wants that cavitates cell
-!> by cell may jump, by what a cell carries or fails to carry: where no round leads on, the part of the values that jumps
-!> most keeps the mean of what it wants on both sides (Filippov), and the others agree beside it.
+!> by cell may jump, by what a cell carries or fails to carry: where no round leads on, the part of the values that
+!> jumps most keeps the mean of what it wants on both sides (Filippov), and the others agree beside it.
 module fixed_point
    use kinds, only: wp
    use errors, only: error_type, stopped

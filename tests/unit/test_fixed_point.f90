@@ -111,6 +111,7 @@ program test_fixed_point
 
    if (runs('contraction')) call contraction()
    if (runs('repeated_map_diverges')) call repeated_map_diverges()
+   if (runs('behind_a_fold')) call behind_a_fold()
    if (runs('two_fields')) call two_fields()
    if (runs('jump')) call jump()
    if (runs('large_jump')) call large_jump()
@@ -198,6 +199,26 @@ contains
       call dgesv(4, 1, matrix, 4, pivots, x, 4, info)
       call expect(maxval(abs(field%values - x(:, 1))) <= 1e-8_wp, 'fixed point')
    end subroutine repeated_map_diverges
+
+   !> Values that run away from their balance, ever faster, come to it where any balance is looked for, and nowhere else.
+   subroutine behind_a_fold()
+      type(mapped_field) :: field
+      type(near_balance) :: balance
+      type(error_type), allocatable :: error
+      integer :: i, along
+      do along = 0, 1
+         field = new_field()
+         field%matrix = 0
+         do i = 1, 4
+            field%matrix(i, i) = 3
+         end do
+         balance%any_balance = along == 1
+         call solve(field, balance, error)
+         if (along == 0) call expect(allocated(error), 'values that run away are not followed back')
+      end do
+      call expect_no_error(error, 'along a branch they are')
+      call expect(maxval(abs(field%values + 0.5_wp*field%constant)) <= 1e-8_wp, 'fixed point')
+   end subroutine behind_a_fold
 
    !> Both are led to their values at a time, each as close as it says.
    subroutine two_fields()
