@@ -294,7 +294,7 @@ contains
       self%problem%parameter = self%parameter
       way = 0
       call newton_iterations(self%problem, self%options, self%point, way, error, self%normal)
-      ! where Newton's method has gone on before, it has gone astray
+      ! a film that closes in a later iteration closes on a way that was too long, and a shorter one may lead on
       self%refused = self%problem%refused .and. self%point%iterations == 1
       self%most = max(self%most, self%point%iterations)
       if (.not. allocated(error)) call self%problem%bearing%set_value(self%problem%parameter, .false., error)

@@ -45,6 +45,8 @@ module film_field
       procedure, private :: find_streams
    end type film_field_type
 
+   !> Largest change of a temperature at the end; that of a pad whose temperatures jump; longest step, K.
+   real(wp), parameter :: agreement = 1e-6_wp, jump = 1, longest = 20
    character(len=*), parameter :: remedy = '; try more preload or another pads%pivot_ratio'
 
 contains
@@ -57,9 +59,9 @@ contains
       !> Whether the gaps do not stay what they are.
       logical, intent(in), optional :: gaps_change
       integer :: b
-      self%agreement = 1e-6_wp
-      self%jump = 1
-      self%longest = 20
+      self%agreement = agreement
+      self%jump = jump
+      self%longest = longest
       self%parts = model%layout%pads
       if (present(gaps_change)) self%gaps_change = gaps_change
       self%films = films

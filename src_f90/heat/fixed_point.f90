@@ -101,7 +101,7 @@ module fixed_point
    !> What leads from round to round. Values and residuals are over their agreements.
    type :: mixer_type
       integer :: rounds = 0
-      logical :: agrees = .false., any_balance = .false.
+      logical :: agrees = .false.
       !> Of each value what its field says, and the number of its part among all.
       real(wp), allocatable, private :: agreement(:), jump(:), longest(:)
       integer, allocatable, private :: part(:)
@@ -154,7 +154,6 @@ contains
          first(f + 1) = size(x) + 1
          call mixer%begin(fields(f)%field)
       end do
-      mixer%any_balance = balance%any_balance
       allocate (wanted(size(x)))
       do
          call take_step(balance, y, fields, first, x, mixer, error)
@@ -169,7 +168,7 @@ contains
             call fields(f)%field%find_wanted(balance%model, y, wanted(first(f):first(f + 1) - 1), error)
             if (allocated(error)) return
          end do
-         call mixer%next(x, wanted, y)
+         call mixer%next(wanted, balance%any_balance, x, y)
          if (mixer%agrees .or. mixer%rounds == most_rounds) exit
       end do
       do f = 1, size(fields)
@@ -245,12 +244,12 @@ contains
    end subroutine forget
 
    !> The next values x after a round that wants others, unless they agree, and the state y in which the forces are then
-   !> nearly in equilibrium.
-   subroutine next(self, x, wanted, y)
+   !> nearly in equilibrium; `any_balance` as in balance_type.
+   subroutine next(self, wanted, any_balance, x, y)
       class(mixer_type), intent(inout) :: self
-      real(wp), intent(inout) :: x(:)
       real(wp), intent(in) :: wanted(:)
-      real(wp), intent(inout) :: y(:)
+      logical, intent(in) :: any_balance
+      real(wp), intent(inout) :: x(:), y(:)
       real(wp) :: residual(size(x)), step(size(x))
       residual = (wanted - x)/self%agreement
       self%rounds = self%rounds + 1
@@ -268,7 +267,7 @@ contains
       call self%remember(x/self%agreement, residual, y)
       if (self%agrees) return
       if (self%since > stalled_rounds) call self%keep(x, residual)
-      call self%combine(residual, step, y)
+      call self%combine(residual, any_balance, step, y)
       step = step*self%agreement
       x = x + step/max(1.0_wp, maxval(abs(step)/(self%reach*self%longest)))
    end subroutine next
@@ -307,9 +306,10 @@ contains
    end subroutine remember
 
    !> The step from the rounds in the memory; the plain one, without memory, where they are of no use.
-   subroutine combine(self, residual, step, y)
+   subroutine combine(self, residual, any_balance, step, y)
       class(mixer_type), intent(inout) :: self
       real(wp), intent(in) :: residual(:)
+      logical, intent(in) :: any_balance
       real(wp), intent(out) :: step(:)
       real(wp), intent(inout) :: y(:)
       real(wp) :: matrix(depth, depth), part(depth), largest
@@ -329,7 +329,7 @@ contains
          call dgesv(n, 1, matrix, depth, pivots, part, depth, info)
          if (info == 0) then
             step = residual - matmul(self%steps(:, :n) + self%differences(:, :n), part(:n))
-            if (self%any_balance .or. dot_product(step, residual) > 0) then
+            if (any_balance .or. dot_product(step, residual) > 0) then
                if (any(abs(residual) > far)) y = y - matmul(self%moves(:, :n), part(:n))
                return
             end if

@@ -20,12 +20,31 @@ module oil_field
       !> Of the last state.
       type(state_balance_type) :: balance
    contains
+      procedure :: begin
       procedure :: apply
       procedure :: find_wanted
       procedure :: check
    end type oil_field_type
 
+   !> Residual of the logarithms of viscosities; the same where temperatures along and across the films follow, which
+   !> are changed by ten times as much; where it jumps; longest step.
+   real(wp), parameter :: agreement = 1e-8_wp, rough = 1e-2_wp, jump = 1e-4_wp, longest = 1
+
 contains
+
+   !> Begins with the viscosities of a model, and with temperatures of grooves and shaft that are kept, if some are.
+   subroutine begin(self, model, kept)
+      class(oil_field_type), intent(inout) :: self
+      type(machine_model), intent(in) :: model
+      type(oil_temperatures_type), intent(in), optional :: kept(:)
+      self%agreement = merge(rough, agreement, model%inputs%thermal%model == 'film')
+      self%jump = jump
+      self%longest = longest
+      self%parts = model%layout%pads
+      self%first = model%oil%viscosity
+      self%values = 0*self%first
+      if (present(kept)) self%kept = kept
+   end subroutine begin
 
    subroutine apply(self, model)
       class(oil_field_type), intent(inout) :: self

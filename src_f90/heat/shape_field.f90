@@ -38,6 +38,9 @@ module shape_field
       procedure :: explain
    end type shape_field_type
 
+   !> Largest change of a length at the end, and longest step, over the clearance.
+   real(wp), parameter :: agreement = 1e-7_wp, longest = 0.25_wp
+
 contains
 
    !> Begins with the shapes of a case, whose films may have temperatures.
@@ -45,8 +48,8 @@ contains
       class(shape_field_type), intent(inout) :: self
       type(case_type), intent(in) :: cold
       type(film_field_type), intent(in), target :: films
-      self%agreement = 1e-7_wp
-      self%longest = 0.25_wp
+      self%agreement = agreement
+      self%longest = longest
       self%cold = cold
       self%values = all_lengths(cold_shapes(cold), cold)
       self%films => films

@@ -34,9 +34,6 @@ module thermal_equilibrium
    !> Iterations of a search for another equilibrium: by Newton's method, which takes about five where it leads there;
    !> from where it has led; by the motion.
    integer, parameter :: most_iterations = 6, more_iterations = 50, most_motion = 60
-   !> Residual of the logarithms of viscosities; the same where temperatures along and across the films follow, which
-   !> are changed by ten times as much; where it jumps; longest step.
-   real(wp), parameter :: agreement = 1e-8_wp, rough = 1e-2_wp, jump = 1e-4_wp, longest_step = 1
    !> Warming that is guessed where nothing better is known, K.
    real(wp), parameter :: some_warming = 20
    !> Guesses of viscosities; the start of a search at which the first is made.
@@ -123,7 +120,7 @@ contains
       end if
       ! one temperature for each pad leads to those along and across
       model%oil = even_oil(model%oil%viscosity)
-      pads = new_oil_field(model, kept)
+      call pads%begin(model, kept)
       fields(1)%field => pads
       balance = new_balance(model, give_up, held)
       call solve_fields(balance, y, fields, error)
@@ -178,7 +175,7 @@ contains
          call field%begin(model, films, gaps_change=.true.)
          fields(1)%field => field
       else if (has_warm_oil(model)) then
-         pads = new_oil_field(model)
+         call pads%begin(model)
          fields(1)%field => pads
       end if
       balance = new_balance(model, give_up)
@@ -187,19 +184,6 @@ contains
       if (allocated(field%films)) call move_alloc(field%films, films)
       if (.not. allocated(error)) call move_alloc(shape%wanted, shapes)
    end subroutine solve_shape
-
-   !> The oil of the pads of a model.
-   type(oil_field_type) function new_oil_field(model, kept) result(field)
-      type(machine_model), intent(in) :: model
-      type(oil_temperatures_type), intent(in), optional :: kept(:)
-      field%agreement = merge(rough, agreement, model%inputs%thermal%model == 'film')
-      field%jump = jump
-      field%longest = longest_step
-      field%parts = model%layout%pads
-      field%first = model%oil%viscosity
-      field%values = 0*field%first
-      if (present(kept)) field%kept = kept
-   end function new_oil_field
 
    !> Films of all bearings of a case that have the mean temperatures of this oil.
    subroutine make_films(inputs, oil, films)
