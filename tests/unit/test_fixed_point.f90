@@ -200,7 +200,7 @@ contains
       call expect(maxval(abs(field%values - x(:, 1))) <= 1e-8_wp, 'fixed point')
    end subroutine repeated_map_diverges
 
-   !> Values that run away from their balance, ever faster, come to it where any balance is looked for, and nowhere else.
+   !> Values that run away from their balance, ever faster, come to it where any balance is looked for, and only there.
    subroutine behind_a_fold()
       type(mapped_field) :: field
       type(near_balance) :: balance
