@@ -42,7 +42,7 @@ module small_ode
 contains
 
    subroutine rhs(self, t, y, dydt, ok)
-      class(small_ode_type), intent(inout) :: self
+      class(small_ode_type), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok

@@ -4,7 +4,7 @@ module kinematics
    use kinds, only: wp
    use film_solver, only: film_motion
    use abstract_rotor, only: journal_motion
-   use state_layout, only: pad_state, tilt, pivot_deflection, of_journal
+   use state_layout, only: pad_state, tilt, pivot_deflection, most_coordinates, of_journal
    implicit none (type, external)
    private
    public :: pad_position, pad_frame, frame_of, motion_of, motion_slopes, to_global, in_mirror
@@ -86,19 +86,19 @@ contains
    end subroutine journal_slopes
 
    !> Derivatives of (e_y', e_z', their rates) over the displacements of the journal and then those of the pad, of these
-   !> kinds, and over their rates.
+   !> kinds, and over their rates; 0 where there is none.
    pure subroutine motion_slopes(position, frame, motion, tilt_rate, kinds, over_positions, over_rates)
       type(pad_position), intent(in) :: position
       type(pad_frame), intent(in) :: frame
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: tilt_rate
-      integer, intent(in) :: kinds(:)
-      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      integer, intent(in) :: kinds(most_coordinates)
+      real(wp), intent(out), dimension(4, of_journal + most_coordinates) :: over_positions, over_rates
       !> The pivot's outward direction in the pad frame; velocity along y' and z' without the part from the tilt rate.
       real(wp) :: out_y, out_z, w_y, w_z
       integer :: k
       call journal_slopes(frame, tilt_rate, over_positions(:, :of_journal), over_rates(:, :of_journal))
-      do k = 1, size(kinds)
+      do k = 1, most_coordinates
          associate (x => over_positions(:, of_journal + k), v => over_rates(:, of_journal + k))
             select case (kinds(k))
             case (tilt)

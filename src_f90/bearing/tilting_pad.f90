@@ -169,7 +169,6 @@ contains
       class(friction_law), intent(in) :: friction
       type(pad_loads), intent(inout) :: answer
       real(wp) :: inertial, radial, moment, force(2)
-      integer :: k
       force = film_force
       if (asperities%touches) force = film_force + asperities%force
       answer%journal = to_global(frame, force)
@@ -185,16 +184,8 @@ contains
       moment = -force(1)*pad%position%centre_distance - pad%ball_radius*answer%friction%force &
          & - pad%weight*(pad%centre_tangential*frame%s - pad%centre_radial*frame%c)
       if (asperities%touches) moment = moment + asperities%moment
-      do k = 1, self%n
-         select case (self%kind(k))
-         case (tilt)
-            answer%own(k) = moment
-         case (pivot_deflection)
-            answer%own(k) = radial - answer%contact
-         case default
-            answer%own(k) = 0
-         end select
-      end do
+      answer%own(tilt) = moment
+      if (self%deflection > 0) answer%own(self%deflection) = radial - answer%contact
    end subroutine loads
 
    !> The derivatives of the loads of a pad in the state in which these, film and asperities were evaluated, film
@@ -209,20 +200,19 @@ contains
       type(asperity_load), intent(in) :: asperities
       type(pad_loads), intent(in) :: loads
       type(pad_derivatives), intent(inout) :: answer
-      real(wp), dimension(4, of_journal + self%n) :: of_positions, of_rates
-      real(wp), dimension(2, of_journal + self%n) :: over_positions, over_rates
-      real(wp), dimension(of_journal + self%n) :: radial, radial_rates, moment, moment_rates
+      real(wp), dimension(4, most) :: of_positions, of_rates
+      real(wp), dimension(2, most) :: over_positions, over_rates
+      real(wp), dimension(most) :: radial, radial_rates, moment, moment_rates
       real(wp) :: across(2)
       ! long: one list of the derivatives of all loads
       integer, parameter :: of_tilt = of_journal + tilt
-      integer :: k, m
-      m = of_journal + self%n
-      call motion_slopes(pad%position, frame, motion, state%v(tilt), self%kind(:self%n), of_positions, of_rates)
-      call add_film(of_positions, answer%film_over_positions(:, :m), over_positions)
-      call add_film(of_rates, answer%film_over_rates(:, :m), over_rates)
+      integer :: k
+      call motion_slopes(pad%position, frame, motion, state%v(tilt), self%kind, of_positions, of_rates)
+      call add_film(of_positions, answer%film_over_positions, over_positions)
+      call add_film(of_rates, answer%film_over_rates, over_rates)
       across = [-film%force(2), film%force(1)]
       if (asperities%touches) across = across + [-asperities%force(2), asperities%force(1)]
-      do k = 1, m
+      do k = 1, most
          answer%over_positions(:2, k) = to_global(frame, over_positions(:, k))
          answer%over_rates(:2, k) = to_global(frame, over_rates(:, k))
       end do
@@ -233,7 +223,8 @@ contains
       radial(of_tilt) = radial(of_tilt) + pad%weight*frame%c
       radial_rates = -over_rates(2, :)
       radial_rates(of_tilt) = radial_rates(of_tilt) + 2*pad%mass*pad%centre_radial*state%v(tilt)
-      associate (contact => answer%contact_over_positions(:m), contact_rates => answer%contact_over_rates(:m))
+      associate (contact => answer%contact_over_positions, contact_rates => answer%contact_over_rates, &
+         & of_deflection => of_journal + self%deflection)
          call take_contact(self, loads, radial, contact)
          contact_rates = merge(radial_rates, 0.0_wp, self%deflection == 0 .and. loads%contact > 0)
          moment = -over_positions(1, :)*pad%position%centre_distance
@@ -244,27 +235,20 @@ contains
             moment = moment + matmul(asperities%moment_slopes, of_positions(1:2, :))
             moment_rates = moment_rates + matmul(asperities%moment_slopes, of_rates(1:2, :))
          end if
-         do k = 1, self%n
-            select case (self%kind(k))
-            case (tilt)
-               answer%over_positions(of_journal + k, :m) = moment
-               answer%over_rates(of_journal + k, :m) = moment_rates
-            case (pivot_deflection)
-               answer%over_positions(of_journal + k, :m) = radial - contact
-               answer%over_rates(of_journal + k, :m) = radial_rates - contact_rates
-            case default
-               answer%over_positions(of_journal + k, :m) = 0
-               answer%over_rates(of_journal + k, :m) = 0
-            end select
-         end do
+         answer%over_positions(of_tilt, :) = moment
+         answer%over_rates(of_tilt, :) = moment_rates
+         if (self%deflection > 0) then
+            answer%over_positions(of_deflection, :) = radial - contact
+            answer%over_rates(of_deflection, :) = radial_rates - contact_rates
+         end if
       end associate
 
    contains
 
       !> What film and asperities add to derivatives of the force in the pad frame, by those of the film motion.
       pure subroutine add_film(of_motion, of_film, force)
-         real(wp), intent(in) :: of_motion(:, :)
-         real(wp), intent(out) :: of_film(:, :), force(:, :)
+         real(wp), intent(in) :: of_motion(4, most)
+         real(wp), intent(out) :: of_film(2, most), force(2, most)
          force = matmul(film%derivatives, of_motion)
          of_film = force
          if (asperities%touches) force = force + matmul(asperities%force_slopes, of_motion(1:2, :))
@@ -275,8 +259,8 @@ contains
    pure subroutine take_contact(self, loads, radial, contact)
       class(pad_coordinates_type), intent(in) :: self
       type(pad_loads), intent(in) :: loads
-      real(wp), intent(in) :: radial(:)
-      real(wp), intent(out) :: contact(:)
+      real(wp), intent(in) :: radial(most)
+      real(wp), intent(out) :: contact(most)
       if (self%deflection > 0) then
          contact = 0
          contact(of_journal + self%deflection) = loads%contact_stiffness

@@ -39,7 +39,7 @@ module tilting_pad_bearing
       !> What its pads do.
       class(pad_coordinates_type), allocatable :: coordinates
       type(pad_pivot), allocatable :: pivots(:)
-      !> Of each pad the inverse of its matrix of masses, (coordinate, coordinate, pad).
+      !> Of each pad the inverse of its matrix of masses, (coordinate, coordinate, pad); 0 of what is no coordinate.
       real(wp), allocatable, private :: per_mass(:, :, :)
       !> Of each pad the characteristic scales of its states that hang on no load.
       type(pad_state), allocatable, private :: natural(:)
@@ -98,6 +98,8 @@ module tilting_pad_bearing
    !> Film thickness over bearing clearance below which a failed march is put down to it.
    real(wp), parameter :: nearly_closed = 1e-2_wp
    type(friction_law), parameter :: no_friction = friction_law()
+   !> The forces along the coordinates of a pad of a unit moment.
+   real(wp), parameter :: moment_alone(most_coordinates) = [1.0_wp, spread(0.0_wp, 1, most_coordinates - 1)]
    !> Characteristic scale of the tilt rate over that at which Bengisu-Akay friction changes its direction: with a
    !> larger one the moment of friction would be no better than 1e-2.
    real(wp), parameter :: sticking_scale = 10
@@ -156,9 +158,11 @@ contains
    subroutine set_masses(self)
       class(tilting_pad_bearing_type), intent(inout) :: self
       integer :: i
-      associate (n => self%coordinates%n, pads => size(self%pads))
-         self%per_mass = reshape([(self%coordinates%inverse_masses(self%pads(i)), i=1, pads)], [n, n, pads])
-      end associate
+      if (allocated(self%per_mass)) deallocate (self%per_mass)
+      allocate (self%per_mass(most_coordinates, most_coordinates, size(self%pads)), source=0.0_wp)
+      do i = 1, size(self%pads)
+         self%per_mass(:self%coordinates%n, :self%coordinates%n, i) = self%coordinates%inverse_masses(self%pads(i))
+      end do
    end subroutine set_masses
 
    !> Clearance over pad length for tilts; a thousandth of the clearance for pivot deflections without load; the
@@ -328,22 +332,33 @@ contains
       integer, intent(in) :: part, m
       logical, intent(in) :: accelerations
       real(wp), intent(out) :: over_positions(m, m), over_rates(m, m)
-      real(wp), dimension(of_journal + 1:m) :: own, own_rates
-      integer :: i, k
-      over_positions = self%derivatives(part)%over_positions(:m, :m)
-      over_rates = self%derivatives(part)%over_rates(:m, :m)
-      if (.not. accelerations) return
-      do k = 1, m
-         own = 0
-         own_rates = 0
-         do i = m, of_journal + 1, -1
-            own = own + self%per_mass(:, i - of_journal, part)*over_positions(i, k)
-            own_rates = own_rates + self%per_mass(:, i - of_journal, part)*over_rates(i, k)
+      real(wp), dimension(most_coordinates) :: own, own_rates
+      integer :: k
+      associate (of => self%derivatives(part))
+         do k = 1, m
+            over_positions(:, k) = of%over_positions(:m, k)
+            over_rates(:, k) = of%over_rates(:m, k)
+            if (.not. accelerations) cycle
+            own = accelerations_of(self, part, of%over_positions(of_journal + 1:, k))
+            own_rates = accelerations_of(self, part, of%over_rates(of_journal + 1:, k))
+            over_positions(of_journal + 1:, k) = own(:m - of_journal)
+            over_rates(of_journal + 1:, k) = own_rates(:m - of_journal)
          end do
-         over_positions(of_journal + 1:, k) = own
-         over_rates(of_journal + 1:, k) = own_rates
-      end do
+      end associate
    end subroutine part_derivatives
+
+   !> Accelerations along the coordinates of a pad by forces along them.
+   pure function accelerations_of(self, pad, forces) result(accelerations)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: pad
+      real(wp), intent(in) :: forces(most_coordinates)
+      real(wp) :: accelerations(most_coordinates)
+      integer :: k
+      accelerations = 0
+      do k = most_coordinates, 1, -1
+         accelerations = accelerations + self%per_mass(:, k, pad)*forces(k)
+      end do
+   end function accelerations_of
 
    !> Friction of the pivot.
    pure subroutine add_late(self, part, m, accelerations, over_positions, over_rates, over_bristle)
@@ -352,17 +367,15 @@ contains
       logical, intent(in) :: accelerations
       real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
       real(wp), intent(out) :: over_bristle(m - of_journal)
-      real(wp) :: per_moment(m - of_journal)
-      over_bristle = 0
-      if (m == of_journal .or. self%is_smooth()) return
-      if (accelerations) then
-         per_moment = self%per_mass(:, tilt, part)
+      if (m == of_journal .or. is_smooth(self)) then
+         over_bristle = 0
+      else if (accelerations) then
+         call self%derivatives(part)%add_friction(self%pads(part), self%loads(part)%friction, m, &
+            & self%per_mass(:m - of_journal, tilt, part), over_positions, over_rates, over_bristle)
       else
-         per_moment = 0
-         per_moment(tilt) = 1
+         call self%derivatives(part)%add_friction(self%pads(part), self%loads(part)%friction, m, &
+            & moment_alone(:m - of_journal), over_positions, over_rates, over_bristle)
       end if
-      call self%derivatives(part)%add_friction(self%pads(part), self%loads(part)%friction, m, per_moment, &
-         & over_positions, over_rates, over_bristle)
    end subroutine add_late
 
    pure function bristle_slopes(self, part) result(slopes)
@@ -385,17 +398,14 @@ contains
       type(element_layout_type), intent(in) :: layout
       real(wp), intent(in) :: y(:)
       real(wp), intent(inout) :: dydt(:)
-      real(wp) :: rates(most_coordinates)
+      real(wp) :: accelerations(most_coordinates)
       integer :: i, k, o
       do i = 1, layout%pads
          o = layout%before(i)
-         rates = 0
-         do k = layout%coordinates, 1, -1
-            rates(:layout%coordinates) = rates(:layout%coordinates) + self%per_mass(:, k, i)*self%loads(i)%own(k)
-         end do
+         accelerations = accelerations_of(self, i, self%loads(i)%own)
          do k = 1, layout%coordinates
             dydt(o + 2*k - 1) = y(o + 2*k)
-            dydt(o + 2*k) = rates(k)
+            dydt(o + 2*k) = accelerations(k)
          end do
          if (layout%bristles) dydt(o + layout%per_pad) = self%loads(i)%friction%rate
       end do

@@ -45,7 +45,7 @@ module ode_model
       !> f(t, y). `ok = .false.` refuses the state (the step is then shortened) and sets `refusal`.
       subroutine right_hand_side(self, t, y, dydt, ok)
          import :: ode_model_type, wp
-         class(ode_model_type), intent(inout) :: self
+         class(ode_model_type), intent(inout), target :: self
          real(wp), intent(in) :: t, y(:)
          real(wp), intent(out) :: dydt(:)
          logical, intent(out) :: ok

@@ -213,10 +213,19 @@ contains
       logical, intent(in) :: want_derivatives
       logical, intent(out) :: ok
       logical, intent(in), optional :: chosen(:)
-      type(element_pointer) :: elements(size(self%layout%elements))
+      call evaluate_these(self, self%elements(), t, y, want_derivatives, ok, chosen)
+   end subroutine evaluate
+
+   !> The same with all elements given.
+   subroutine evaluate_these(self, elements, t, y, want_derivatives, ok, chosen)
+      class(machine_model), intent(inout), target :: self
+      type(element_pointer), intent(in) :: elements(:)
+      real(wp), intent(in) :: t, y(:)
+      logical, intent(in) :: want_derivatives
+      logical, intent(out) :: ok
+      logical, intent(in), optional :: chosen(:)
       integer :: e
       if (self%oil_history%runs()) call self%oil_history%at(t, self%oil%viscosity)
-      elements = self%elements()
       do e = 1, size(elements)
          associate (of => self%layout%elements(e), &
             & first => self%layout%elements(e)%other_pads + 1, &
@@ -231,27 +240,28 @@ contains
          end associate
          if (.not. ok) return
       end do
-   end subroutine evaluate
+   end subroutine evaluate_these
 
    !> Rates of all states at (t, y).
    subroutine rhs(self, t, y, dydt, ok)
-      class(machine_model), intent(inout) :: self
+      class(machine_model), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok
-      call self%evaluate(t, y, .false., ok)
-      if (ok) call set_rates(self, t, y, dydt)
+      associate (elements => self%elements())
+         call evaluate_these(self, elements, t, y, .false., ok)
+         if (ok) call set_rates(self, elements, t, y, dydt)
+      end associate
    end subroutine rhs
 
    !> Rates of all states at (t, y), where the elements were evaluated.
-   subroutine set_rates(self, t, y, dydt)
-      class(machine_model), intent(in), target :: self
+   subroutine set_rates(self, elements, t, y, dydt)
+      class(machine_model), intent(in) :: self
+      type(element_pointer), intent(in) :: elements(:)
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       real(wp) :: force(self%rotor%positions), on_pair(of_journal)
-      type(element_pointer) :: elements(size(self%layout%elements))
       integer :: e
-      elements = self%elements()
       force = self%rotor%force(y(:self%rotor%states), self%point, t)
       do e = 1, size(elements)
          associate (of => self%layout%elements(e))
@@ -270,8 +280,10 @@ contains
       class(machine_model), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       logical, intent(out) :: ok
-      call self%evaluate(t, y, .true., ok)
-      if (ok) call self%newton%linearize(self%rotor, self%elements(), self%point%speed(t))
+      associate (elements => self%elements())
+         call evaluate_these(self, elements, t, y, .true., ok)
+         if (ok) call self%newton%linearize(self%rotor, elements, self%point%speed(t))
+      end associate
    end subroutine linearize
 
    !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last: Newton's
@@ -331,8 +343,10 @@ contains
       logical, intent(out) :: ok
       call self%linearize(t, y, ok)
       if (.not. ok) return
-      call set_rates(self, t, y, dydt)
-      matrix = self%newton%jacobian(self%rotor, self%elements())
+      associate (elements => self%elements())
+         call set_rates(self, elements, t, y, dydt)
+         matrix = self%newton%jacobian(self%rotor, elements)
+      end associate
    end subroutine rhs_and_jacobian
 
    !> Displacements of rotor and pads, and their rates.

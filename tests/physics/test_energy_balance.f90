@@ -28,7 +28,7 @@ module energy_ledger
 contains
 
    subroutine ledger_rhs(self, t, y, dydt, ok)
-      class(ledger), intent(inout) :: self
+      class(ledger), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok

@@ -18,7 +18,7 @@ module forced_motion
 contains
 
    subroutine forced_rhs(self, t, y, dydt, ok)
-      class(forced_model), intent(inout) :: self
+      class(forced_model), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok

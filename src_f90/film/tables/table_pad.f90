@@ -326,17 +326,17 @@ contains
       logical, intent(out) :: found
       type(cavitated_part) :: part
       type(full_film_forces) :: film
+      real(wp) :: edges(2)
       logical :: good
       highest = 0
       call self%set_part(tables, seen, t, .false., counters, part)
       found = part%found
       if (.not. found) return
-      associate (edges => seen%edges)
-         ! where w_1 < 0 as in a mirror
-         call tables%full%look_up(merge(edges, edges([2, 1]), seen%w(1) > 0), .false., self%full_cell, counters, film, &
-            & good)
-         highest = abs(seen%w(1))*thickness_scale(edges(1), edges(2))*film%of_velocity(4)*part%pressure
-      end associate
+      ! where w_1 < 0 as in a mirror
+      edges = seen%edges
+      if (.not. seen%w(1) > 0) edges = [edges(2), edges(1)]
+      call tables%full%look_up(edges, .false., self%full_cell, counters, film, good)
+      highest = abs(seen%w(1))*thickness_scale(edges(1), edges(2))*film%of_velocity(4)*part%pressure
    end subroutine set_cavitated_pressure
 
    pure function vector_of(number) result(vector)
