@@ -203,7 +203,8 @@ contains
       is_there = has_name(self%descriptor, self%path)
    end function is_there
 
-   !> The line in the open lock file, and whether it is what a lock file says: one line or nothing.
+   !> The line in the open lock file, and whether it is what a lock file says: one line, which a fall of the machine may
+   !> have cut among the blanks at its end, or nothing.
    subroutine read_content(self, line, is_lock)
       class(file_lock_type), intent(in) :: self
       character(len=:), allocatable, intent(out) :: line
@@ -215,7 +216,8 @@ contains
       line = ''
       ! nothing, or zeros in its place
       is_lock = length <= longest .and. verify(content(:length), achar(0)//achar(10)) == 0
-      if (is_lock .or. length > longest .or. index(content(:length), achar(10)) /= length) return
+      if (is_lock .or. length > longest) return
+      if (verify(content(length:length), ' '//achar(10)) /= 0 .or. index(content(:length - 1), achar(10)) > 0) return
       line = trim(content(:length - 1))
       is_lock = is_whole(word(line, 2)) .and. is_whole(word(line, 3)) &
          & .and. verify(from_word(line, 4), '0123456789:. ') == 0

@@ -329,7 +329,13 @@ contains
       call expect_no_error(error, 'the place of a dead process is taken')
       call expect(lock%taken_from == 'process 999999 on '//host_name(), 'and it is told whose')
       call lock%release()
-      ! as the fall of a machine may leave it
+      ! as the fall of a machine may leave it: cut, or empty
+      call write_bytes(lock_file, host_name()//' 999999 7   ')
+      call lock%acquire(place, error)
+      call expect_no_error(error, 'the place of a lock that was cut is taken')
+      if (allocated(error)) return
+      call expect_ours('0', 'and is ours: '//bytes_of(lock_file))
+      call lock%release()
       call write_lock('')
       call lock%acquire(place, error)
       call expect_no_error(error, 'an empty lock file is nobody''s')
