@@ -98,8 +98,6 @@ module tilting_pad_bearing
    !> Film thickness over bearing clearance below which a failed march is put down to it.
    real(wp), parameter :: nearly_closed = 1e-2_wp
    type(friction_law), parameter :: no_friction = friction_law()
-   !> The forces along the coordinates of a pad of a unit moment.
-   real(wp), parameter :: moment_alone(most_coordinates) = [1.0_wp, spread(0.0_wp, 1, most_coordinates - 1)]
    !> Characteristic scale of the tilt rate over that at which Bengisu-Akay friction changes its direction: with a
    !> larger one the moment of friction would be no better than 1e-2.
    real(wp), parameter :: sticking_scale = 10
@@ -367,15 +365,16 @@ contains
       logical, intent(in) :: accelerations
       real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
       real(wp), intent(out) :: over_bristle(m - of_journal)
+      real(wp) :: per_moment(most_coordinates)
       if (m == of_journal .or. is_smooth(self)) then
          over_bristle = 0
-      else if (accelerations) then
-         call self%derivatives(part)%add_friction(self%pads(part), self%loads(part)%friction, m, &
-            & self%per_mass(:m - of_journal, tilt, part), over_positions, over_rates, over_bristle)
-      else
-         call self%derivatives(part)%add_friction(self%pads(part), self%loads(part)%friction, m, &
-            & moment_alone(:m - of_journal), over_positions, over_rates, over_bristle)
+         return
       end if
+      per_moment = 0
+      per_moment(tilt) = 1
+      if (accelerations) per_moment = self%per_mass(:, tilt, part)
+      call self%derivatives(part)%add_friction(self%pads(part), self%loads(part)%friction, m, &
+         & per_moment(:m - of_journal), over_positions, over_rates, over_bristle)
    end subroutine add_late
 
    pure function bristle_slopes(self, part) result(slopes)

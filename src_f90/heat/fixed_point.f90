@@ -3,10 +3,10 @@
 !> the last ones lacked, until all agree.
 !>
 !> The step is Anderson's: that combination of the last rounds whose residuals, wanted less present values, would cancel
-!> best (J. ACM 12 (1965) 547-560). Where this turns against the residual it is the plain one: values that would run
-!> away from their balance are none to look for, but behind the fold of a branch. What a film wants that cavitates cell
-!> by cell may jump, by what a cell carries or fails to carry: where no round leads on, the part of the values that
-!> jumps most keeps the mean of what it wants on both sides (Filippov), and the others agree beside it.
+!> best (J. ACM 12 (1965) 547-560). Where this turns against the residual it is the plain one: a balance from which
+!> the values run away is not accepted. Along a branch it is, as a branch goes on behind a fold. What a film wants that
+!> cavitates cell by cell may jump, by what a cell carries or fails to carry: where no round leads on, the part of the
+!> values that jumps most keeps the mean of what it wants on both sides (Filippov), and the others agree beside it.
 module fixed_point
    use kinds, only: wp
    use errors, only: error_type, stopped
@@ -39,7 +39,7 @@ module fixed_point
       type(machine_model), pointer :: model => null()
       !> Whether the last error says that there can be no equilibrium: others than the last values would not help.
       logical :: refused = .false.
-      !> Whether a balance is looked for from which the values would run away, as behind the fold of a branch.
+      !> Whether a balance is accepted from which the values run away, as behind the fold of a branch.
       logical :: any_balance = .false.
    contains
       procedure(find_equilibrium), deferred :: settle
