@@ -192,15 +192,21 @@ def test_oil_that_does_not_thin_is_even(run, tmp_path):
 
 
 def test_films_of_a_march_come_from_tables(run, tmp_path):
-    """Five pads, most of which cavitate: orbits are those of films that are solved."""
+    """Five pads, most of which cavitate: orbits are those of films that are solved.
+
+    Both march closely. The grid of `direct` is what differs: 9e-4 with its default, 6.6e-4, 1.5e-4 and 8e-5
+    with 80 by 16, 160 by 16 and 160 by 32 cells.
+    """
     case = (
         "&rotor mass=1500, balance_grade=2.5 /\n&operation speed_rpm=5000, duration=0.5 /\n"
         "&bearing journal_radius=63.5e-3, axial_length=63.5e-3, assembled_clearance=0.2e-3, preload=0.3 /\n"
         "&pads pivot_angle_deg=-54,18,90,162,234, arc_deg=60, density=7850,"
         " thickness=20e-3, pivot_distance=20e-3 /\n"
     )
-    run(case + FILM)
-    run(case + FILM, "film%solver='direct'", name="direct")
+    close = "integration%relative_tolerance=1e-6"
+    run(case + FILM, close)
+    grid = ("film%circumferential_cells=160", "film%axial_cells=16")
+    run(case + FILM, close, "film%solver='direct'", *grid, name="direct")
     with h5py.File(tmp_path / "case.h5") as tables, h5py.File(tmp_path / "direct.h5") as direct:
         counts = {name: tables[f"statistics/film_{name}"][()] for name in ("table", "volumes")}
         assert counts["table"] > 10 * counts["volumes"]
@@ -209,7 +215,7 @@ def test_films_of_a_march_come_from_tables(run, tmp_path):
         for name in ("journal_y", "journal_z"):
             both = [file[name][:][-200:] for file in (tables, direct)]
             assert np.ptp(both[1]) > 1e-6
-            assert np.abs(both[0] - both[1]).max() < 1e-3 * np.ptp(both[1]), name
+            assert np.abs(both[0] - both[1]).max() < 5e-4 * np.ptp(both[1]), name
 
 
 def test_oil_that_boils_names_its_pad(tiltpad, tmp_path):

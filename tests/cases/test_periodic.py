@@ -219,17 +219,19 @@ def test_what_belongs_to_another_task_is_a_remark(run, overrides, name):
 
 def test_a_march_that_repeats_is_an_orbit(run, tmp_path):
     """Where Newton's method may not go on, the march that settles on the orbit is taken, as the file says.
-    Its displacements change by `change` of their scales in a period, and half of this is left by the next.
+    Its displacements change by `change` of their scales in a period, less than the 1e-3 up to which it
+    repeats, and half of this is left by the next: together less than twice the change.
     """
-    run(LUGRE, PERIODIC)
-    done = run(LUGRE, PERIODIC, "periodic%max_iterations=1", name="march")
+    close = "integration%relative_tolerance=1e-6"
+    run(LUGRE, PERIODIC, close)
+    done = run(LUGRE, PERIODIC, close, "periodic%max_iterations=1", name="march")
     assert "a march repeats it" in done.stdout
     with h5py.File(tmp_path / "case.h5") as orbit, h5py.File(tmp_path / "march.h5") as march:
         assert (march["periodic/closed"][()], march["periodic/stable"][()]) == (0, 1)
         change = march["periodic/change"][()]
-        assert 0 < change < 1e-4
+        assert 0 < change < 1e-3
         for name in ("journal_y", "journal_z"):
-            np.testing.assert_allclose(march[name][:], orbit[name][:], atol=100e-6 * 1e-4)
+            np.testing.assert_allclose(march[name][:], orbit[name][:], rtol=0, atol=100e-6 * 2 * change)
         assert abs(leading_multiplier(march) - leading_multiplier(orbit)) < 1e-3
 
 
