@@ -209,12 +209,11 @@ contains
       exchanged = .false.
       reason = ''
       if (.not. sync_file(self%part)) reason = system_reason()
-      ! not before, as this may take long
-      call self%check_part(error)
+      ! a run that takes over takes the lock first and the name then: asked the other way round
+      call identify(self%path, found, error)
+      if (.not. allocated(error)) call self%check_part(error)
       if (.not. allocated(error) .and. reason /= '') call raise(error, system_error, 'cannot write '//self%path//': ' &
          & //reason)
-      if (allocated(error)) return
-      call identify(self%path, found, error)
       if (allocated(error)) return
       if (found /= '' .and. found /= self%there) then
          self%stranded = .true.
