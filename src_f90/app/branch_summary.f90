@@ -52,9 +52,9 @@ contains
       real(wp), allocatable, dimension(:, :) :: branch, stable, value
       character(len=:), allocatable :: ends
       integer :: k, b
-      call file%last_samples('branch', int(file%samples), branch)
-      call file%last_samples('stable', int(file%samples), stable)
-      call file%last_samples('parameter', int(file%samples), value)
+      call file%hdf5%last_samples('branch', int(file%hdf5%samples), branch)
+      call file%hdf5%last_samples('stable', int(file%hdf5%samples), stable)
+      call file%hdf5%last_samples('parameter', int(file%hdf5%samples), value)
       do k = 1, nint(maxval(branch))
          associate (own => nint(branch(1, :)) == k)
             print '(a)', 'branch '//to_text(k)//': '//to_text(count(own))//' points, '//parameter//' from ' &

@@ -43,8 +43,7 @@ contains
       logical :: more
       allocate (notes%special(0))
       notes%ends = ''
-      if (run%resumed) run%earlier = run%statistics()
-      call b%prepare(run%model, run%earlier%count('steps'), error)
+      call b%prepare(run%model, run%earlier_steps(), error)
       if (.not. allocated(error)) then
          if (run%resumed) then
             call go_on(run, b, notes, error)
@@ -114,7 +113,7 @@ contains
          if (allocated(error)) return
          call b%begin_oil(run%model, equilibrium_state)
       end if
-      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier%count('steps')), y, found, &
+      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier_steps()), y, found, &
          & error, stop_requested)
       run%counts = found%counts()
       if (.not. allocated(error)) call b%begin_with_orbit(found%orbit, run%inputs%periodic%revolutions)
@@ -145,7 +144,7 @@ contains
       type(error_type), allocatable :: damage
       real(wp) :: ignored
       logical :: ok
-      call run%file%resume(run%inputs, ignored, run%earlier, error)
+      call run%resume(ignored, error)
       if (allocated(error)) return
       run%computed = .true.
       call b%begin_anywhere(run%model)

@@ -9,12 +9,12 @@ module case_run
    use equations_of_motion, only: machine_model
    use bearing_shape, only: bearing_shape_type
    use shape_results, only: put_shape
+   use record, only: record_type
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
    use provenance, only: running
    use summary_group, only: run_extremes_type
    use march_figures, only: put_progress, put_march_figures, put_station_figures
-   use run_statistics, only: run_statistics_type
    use result_remarks, only: remarks_on_run, put_remarks, new_lines
    use run_summary, only: print_remarks
    use clock, only: wall_clock
@@ -50,10 +50,12 @@ module case_run
       real(wp) :: sampling = 0, checkpoints = 0
       !> Clock at the start and at the last checkpoint, s, and what the run cost before it was resumed.
       real(wp) :: started = 0, last_checkpoint = 0
-      type(run_statistics_type) :: earlier
+      type(record_type) :: earlier
    contains
       procedure :: bearing
-      procedure :: statistics
+      procedure :: resume
+      procedure :: earlier_steps
+      procedure :: note_costs
       procedure :: note_shapes
       procedure :: note_figures
       procedure :: note_remarks
@@ -61,6 +63,9 @@ module case_run
       procedure :: checkpoint
       procedure :: stop_here
    end type case_run_type
+
+   !> Group of what a run costs.
+   character(len=*), parameter :: costs = 'statistics'
 
 contains
 
@@ -108,10 +113,9 @@ contains
       class(case_run_type), intent(inout) :: self
       type(bearing_file_type) :: file
       integer :: b
-      if (self%inputs%about%task == 'branch' .or. self%file%samples == 0) return
-      file = self%bearing(1)
-      call put_progress(self%file, file)
-      if (self%model%rotor%stations > 0) call put_station_figures(self%file, file)
+      if (self%inputs%about%task == 'branch' .or. self%file%hdf5%samples == 0) return
+      call put_progress(self%file)
+      if (self%model%rotor%stations > 0) call put_station_figures(self%file)
       associate (loads => self%model%rotor%loads(self%model%point))
          do b = 1, size(self%inputs%bearings)
             file = self%bearing(b)
@@ -149,9 +153,8 @@ contains
       real(wp), intent(in), optional :: y(:)
       real(wp) :: started
       started = wall_clock()
-      call self%note_figures()
-      call self%note_remarks(shown=.false.)
-      call self%file%checkpoint(t, self%statistics(), running, '', error, y)
+      call note_all(self)
+      call self%file%checkpoint(t, running, '', error, y)
       self%last_checkpoint = wall_clock()
       self%checkpoints = self%checkpoints + self%last_checkpoint - started
    end subroutine checkpoint
@@ -163,45 +166,84 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       real(wp), intent(in), optional :: y(:)
       type(error_type), allocatable :: file_error
-      call self%note_figures()
-      call self%note_remarks(shown=.false.)
-      call self%file%checkpoint(t, self%statistics(), stopped, error%message, file_error, y)
+      call note_all(self)
+      call self%file%checkpoint(t, stopped, error%message, file_error, y)
       if (allocated(file_error)) call move_alloc(file_error, error)
    end subroutine stop_here
 
-   !> What the run has cost so far, over all its stretches: the list of all figures.
-   type(run_statistics_type) function statistics(self)
+   !> What the file has of a run at a checkpoint.
+   subroutine note_all(self)
+      class(case_run_type), intent(inout) :: self
+      call self%note_figures()
+      call self%note_remarks(shown=.false.)
+      call self%note_costs()
+   end subroutine note_all
+
+   !> Goes on from the checkpoint in the file: simulated time t, s, and of a march its state.
+   subroutine resume(self, t, error, state)
+      class(case_run_type), intent(inout) :: self
+      real(wp), intent(out) :: t
+      type(error_type), allocatable, intent(out) :: error
+      real(wp), intent(inout), optional :: state(:)
+      integer :: k
+      call self%file%resume(self%inputs, t, error, state)
+      if (allocated(error)) return
+      do k = 1, self%file%count
+         associate (own => self%file%datasets(k))
+            if (own%group() == costs) call self%earlier%put(own%path, own%values, own%units, own%long_name)
+         end associate
+      end do
+   end subroutine resume
+
+   !> Time steps before the run was resumed.
+   integer(i8) function earlier_steps(self)
       class(case_run_type), intent(in) :: self
+      earlier_steps = nint(self%earlier%get_real(costs//'/steps'), i8)
+   end function earlier_steps
+
+   !> Writes what the run has cost so far, over all its stretches: the list of all figures.
+   subroutine note_costs(self)
+      class(case_run_type), intent(inout) :: self
+      type(film_counters), allocatable :: films(:)
       integer :: b
       associate (counts => self%counts)
-         call statistics%put('steps', counts%steps, 'time steps')
-         call statistics%put('rhs_evaluations', counts%rhs_evaluations, 'right-hand sides')
-         call statistics%put('jacobian_evaluations', counts%jacobian_evaluations, 'Jacobians')
-         call statistics%put('error_test_failures', counts%error_test_failures, 'steps refused by the error test')
-         call statistics%put('convergence_failures', counts%convergence_failures, 'Newton iterations that failed')
+         call count('steps', counts%steps, 'time steps')
+         call count('rhs_evaluations', counts%rhs_evaluations, 'right-hand sides')
+         call count('jacobian_evaluations', counts%jacobian_evaluations, 'Jacobians')
+         call count('error_test_failures', counts%error_test_failures, 'steps refused by the error test')
+         call count('convergence_failures', counts%convergence_failures, 'Newton iterations that failed')
       end associate
-      call put_film_costs(statistics, [(self%model%bearings(b)%film%counters, b=1, size(self%model%bearings))])
-      call statistics%put('resumes', merge(1_i8, 0_i8, self%resumed), 'times that the run was resumed')
-      call statistics%put('output_seconds', self%sampling + self%file%hdf5%writing_seconds, 'wall time of sampling')
-      call statistics%put('checkpoint_seconds', self%checkpoints, 'wall time of the checkpoints before the last')
-      call statistics%put('wall_seconds', wall_clock() - self%started, 'wall time of the run')
-      call statistics%add(self%earlier)
-   end function statistics
-
-   !> What the films of the bearings cost.
-   subroutine put_film_costs(statistics, films)
-      type(run_statistics_type), intent(inout) :: statistics
-      type(film_counters), intent(in) :: films(:)
-      call statistics%put('film_fourier', sum(films%fourier), 'pads solved by axial modes in the march')
-      call statistics%put('film_volumes', sum(films%volumes), 'pads solved on finite volumes in the march')
-      call statistics%put('film_passes', sum(films%passes), &
+      films = [(self%model%bearings(b)%film%counters, b=1, size(self%model%bearings))]
+      call count('film_fourier', sum(films%fourier), 'pads solved by axial modes in the march')
+      call count('film_volumes', sum(films%volumes), 'pads solved on finite volumes in the march')
+      call count('film_passes', sum(films%passes), &
          & 'passes over the cells of these, sweeps of over-relaxation or eliminations, in the march')
-      call statistics%put('film_table', sum(films%looked_up), 'pads looked up in tables in the march')
-      call statistics%put('film_cells', sum(films%cells), 'cells of these tables that were built')
-      call statistics%put('film_nodes', sum(films%nodes), 'cavitated films that were solved for them')
-      call statistics%put('film_profiles', sum(films%profiles), &
+      call count('film_table', sum(films%looked_up), 'pads looked up in tables in the march')
+      call count('film_cells', sum(films%cells), 'cells of these tables that were built')
+      call count('film_nodes', sum(films%nodes), 'cavitated films that were solved for them')
+      call count('film_profiles', sum(films%profiles), &
          & 'profiles of the pressure that were built for highest pressures')
-      call statistics%put('film_building_seconds', sum(films%building), 'wall time of building these tables')
-      call statistics%put('film_seconds', sum(films%seconds + films%building), 'wall time of the film in the march')
-   end subroutine put_film_costs
+      call seconds('film_building_seconds', sum(films%building), 'wall time of building these tables')
+      call seconds('film_seconds', sum(films%seconds + films%building), 'wall time of the film in the march')
+      call count('resumes', merge(1_i8, 0_i8, self%resumed), 'times that the run was resumed')
+      call seconds('output_seconds', self%sampling + self%file%hdf5%writing_seconds, 'wall time of sampling')
+      call seconds('checkpoint_seconds', self%checkpoints, 'wall time of the checkpoints before the last')
+      call seconds('wall_seconds', wall_clock() - self%started, 'wall time of the run')
+   contains
+      subroutine count(name, value, long_name)
+         character(len=*), intent(in) :: name, long_name
+         integer(i8), intent(in) :: value
+         associate (path => costs//'/'//name)
+            call self%file%put(path, value + nint(self%earlier%get_real(path), i8), long_name)
+         end associate
+      end subroutine count
+
+      subroutine seconds(name, value, long_name)
+         character(len=*), intent(in) :: name, long_name
+         real(wp), intent(in) :: value
+         associate (path => costs//'/'//name)
+            call self%file%put(path, value + self%earlier%get_real(path), 's', long_name)
+         end associate
+      end subroutine seconds
+   end subroutine note_costs
 end module case_run

@@ -5,7 +5,6 @@ module march_task
    use marching, only: march, sample_plan
    use ode_model, only: integrator_counts_type
    use result_size, only: sample_interval, sample_count
-   use bearing_file, only: bearing_file_type
    use case_run, only: case_run_type
    use march_settings, only: march_settings_of
    use run_start, only: make_start, continue_from_checkpoint
@@ -20,7 +19,6 @@ contains
       type(case_run_type), intent(inout), target :: run
       type(error_type), allocatable, intent(out) :: error
       type(recorder_type) :: observer
-      type(bearing_file_type) :: file
       type(sample_plan) :: plan
       type(integrator_counts_type) :: counts
       real(wp), allocatable :: y(:)
@@ -35,17 +33,16 @@ contains
       if (allocated(error)) return
       call run%file%begin_series('time', sample_count(run%inputs))
       plan = sample_plan(run%inputs%output%start_time, sample_interval(run%inputs), sample_count(run%inputs), &
-         & run%file%samples)
+         & run%file%hdf5%samples)
       if (run%resumed) then
          do b = 1, size(run%extremes)
-            file = run%bearing(b)
-            call run%extremes(b)%read(file, plan%interval)
+            call run%extremes(b)%read(run%bearing(b), plan%interval)
          end do
          call check_samples(run, plan, t, error)
       end if
       if (allocated(error)) return
       call begin_recording(observer, run, t)
-      call march(run%model, march_settings_of(run%model, run%earlier%count('steps')), t, &
+      call march(run%model, march_settings_of(run%model, run%earlier_steps()), t, &
          & run%inputs%operation%duration, plan, y, observer, counts, error)
       run%counts = counts
       call observer%progress%clear()

@@ -30,7 +30,7 @@ contains
          call make_start(run, y, error)
       end if
       if (allocated(error)) return
-      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier%count('steps')), y, found, &
+      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier_steps()), y, found, &
          & error, stop_requested)
       run%counts = found%counts()
       if (allocated(error)) then

@@ -70,8 +70,8 @@ contains
       integer :: passed, n, b, i
       associate (samples => self%run%inputs%output%samples_per_revolution, model => self%run%model)
          ! the last whole revolution and what came after it; comparing begins with the revolution after
-         passed = max(0, int(self%run%file%samples/samples) - 1)
-         n = int(self%run%file%samples - int(passed, i8)*samples)
+         passed = max(0, int(self%run%file%hdf5%samples/samples) - 1)
+         n = int(self%run%file%hdf5%samples - int(passed, i8)*samples)
          self%orbit = new_periodicity(samples, 2*model%rotor%journals + size(model%layout%tilts()), passed)
          if (n == 0) return
          allocate (rotor(model%rotor%positions, n), source=0.0_wp)

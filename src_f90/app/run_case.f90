@@ -15,7 +15,6 @@ module run_case
    use files, only: is_regular
    use processes, only: can_have
    use working_file, only: clear_leftovers
-   use bearing_file, only: bearing_file_type
    use case_run, only: case_run_type, begin_run
    use factories, only: march_films, filled_films
    use run_start, only: start_at_equilibrium
@@ -196,14 +195,12 @@ contains
    !> Prints the figures of the march, or of the orbit, of all bearings.
    subroutine print_bearings(run)
       type(case_run_type), intent(inout) :: run
-      type(bearing_file_type) :: file
       character(len=:), allocatable :: title
       integer :: b
       if (run%model%rotor%stations > 0) call print_stations(run%file)
       do b = 1, size(run%inputs%bearings)
-         file = run%bearing(b)
          title = bearing_title(run%inputs%bearings(b))
-         call print_march('last revolution'//merge(': ', ', ', title == '')//title, file, &
+         call print_march('last revolution'//merge(': ', ', ', title == '')//title, run%bearing(b), &
             & run%inputs%bearings(b)%tilting())
       end do
    end subroutine print_bearings
@@ -217,16 +214,18 @@ contains
       ended = .not. allocated(error)
       if (.not. ended) ended = error%status == numerics_error .and. run%computed
       if (ended) call run%note_figures()
-      if (.not. allocated(error) .and. .not. run%quiet .and. run%file%samples > 0 &
+      if (.not. allocated(error) .and. .not. run%quiet .and. run%file%hdf5%samples > 0 &
          & .and. run%inputs%about%task /= 'branch') call print_bearings(run)
       if (ended) call run%note_remarks(shown=.true.)
       if (.not. allocated(error)) then
-         if (.not. run%quiet .and. run%file%samples > 0) call print_cost(run%statistics())
-         call run%file%finish(run%reached, run%statistics(), 0, '', file_error)
+         call run%note_costs()
+         if (.not. run%quiet .and. run%file%hdf5%samples > 0) call print_cost(run%file)
+         call run%file%finish(run%reached, 0, '', file_error)
          if (.not. allocated(file_error) .and. .not. run%quiet) print '(a)', 'written: '//run%path
       else if (error%status == numerics_error .and. (run%computed .or. run%tag%number > 0)) then
          ! of a run of a study the file says what happened; nothing else would be a result
-         call run%file%finish(run%reached, run%statistics(), error%status, error%message, file_error)
+         call run%note_costs()
+         call run%file%finish(run%reached, error%status, error%message, file_error)
          ! the row of a run of a study has its file beside this
          if (run%computed .and. run%tag%number == 0) error%message = error%message//computed_in//run%path
       else if (error%status == stopped .and. run%computed) then

@@ -20,7 +20,7 @@ module run_start
    use bearing_file, only: bearing_file_type, new_bearing_file
    use machine_results, only: put_machine
    use shape_results, only: read_shape
-   use march_results, only: put_excitations, put_viscosity_history
+   use march_results, only: put_viscosity_history
    use oil_results, only: put_oil, read_oil
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
@@ -44,7 +44,9 @@ contains
       files = file_marks(run%inputs)
       if (files /= '') call run%file%put_text(marks_name, files)
       call put_machine(run%file, run%inputs, run%model%rotor)
-      call put_excitations(run%file, size(run%inputs%excitations))
+      associate (excitations => size(run%inputs%excitations))
+         if (excitations > 0) call run%file%put_scale('excitation', excitations, 'excitation number')
+      end associate
       if (run%tag%number > 0) call run%file%put_tag(run%tag)
    end subroutine create_file
 
@@ -249,8 +251,7 @@ contains
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
       allocate (y(run%model%n))
-      run%earlier = run%statistics()
-      call run%file%resume(run%inputs, t, run%earlier, error, y)
+      call run%resume(t, error, y)
       if (.not. allocated(error)) call restore_shape(run, run%file, error)
       if (.not. allocated(error)) call restore_oil(run, run%file, error)
       if (allocated(error)) return

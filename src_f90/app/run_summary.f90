@@ -1,7 +1,7 @@
 !> What a run prints of its results.
 module run_summary
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use kinds, only: wp, pi, degree
+   use kinds, only: wp, i8, pi, degree
    use text, only: to_text, fixed_text, micro, list_text
    use case_groups, only: bearing_type
    use case_inputs, only: case_type
@@ -15,7 +15,6 @@ module run_summary
    use static_figures, only: static_figures_type
    use record, only: record_type
    use summary_group, only: figure, pad_figures, has_figure
-   use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
    public :: print_remarks, print_size, print_shaft, print_stations, print_start, print_equilibrium, stability_text, &
@@ -42,8 +41,7 @@ contains
       class(record_type), intent(in) :: file
       real(wp), allocatable :: frequencies(:)
       character(len=:), allocatable :: modes
-      allocate (frequencies(file%list_size('rotor/mode')))
-      call file%get_list('rotor/mode_frequency', frequencies)
+      frequencies = file%get_all('rotor/mode_frequency')
       modes = 'no modes besides'
       if (size(frequencies) > 0) modes = to_text(size(frequencies))//' modes up to ' &
          & //fixed_text(maxval(frequencies), 1)//' Hz'
@@ -55,10 +53,10 @@ contains
    !> The stations that move most in the last revolution.
    subroutine print_stations(file)
       class(record_type), intent(in) :: file
-      real(wp), dimension(file%list_size('station')) :: y, z
+      real(wp), allocatable :: y(:), z(:)
       integer :: of_y, of_z
-      call file%get_list('summary/station_y_size', y)
-      call file%get_list('summary/station_z_size', z)
+      y = file%get_all('summary/station_y_size')
+      z = file%get_all('summary/station_z_size')
       of_y = maxloc(y, dim=1)
       of_z = maxloc(z, dim=1)
       print '(a)', 'last revolution, shaft: moves most at station '//to_text(of_y)//' along y, ' &
@@ -198,7 +196,7 @@ contains
    !> Figures of a bearing in the last revolution (or in what there is), behind this title; of pivots where pads tilt.
    subroutine print_march(title, file, tilting)
       character(len=*), intent(in) :: title
-      class(record_type), intent(inout) :: file
+      class(record_type), intent(in) :: file
       logical, intent(in) :: tilting
       character(len=:), allocatable :: before, after
       integer :: i
@@ -235,8 +233,8 @@ contains
    end function depth_text
 
    !> What a run cost.
-   subroutine print_cost(statistics)
-      type(run_statistics_type), intent(in) :: statistics
+   subroutine print_cost(file)
+      class(record_type), intent(in) :: file
       print '(a)', 'cost: '//number('steps')//' steps, '//number('rhs_evaluations')//' right-hand sides, ' &
          & //number('jacobian_evaluations')//' Jacobians, films '//number('film_table')//' from tables (' &
          & //number('film_cells')//' cells, '//number('film_nodes')//' cavitated nodes), '//number('film_fourier') &
@@ -248,13 +246,13 @@ contains
       function number(name)
          character(len=*), intent(in) :: name
          character(len=:), allocatable :: number
-         number = to_text(statistics%count(name))
+         number = to_text(nint(file%get_real('statistics/'//name), i8))
       end function number
 
       function duration(name)
          character(len=*), intent(in) :: name
          character(len=:), allocatable :: duration
-         duration = fixed_text(statistics%seconds(name), 2)
+         duration = fixed_text(file%get_real('statistics/'//name), 2)
       end function duration
    end subroutine print_cost
 

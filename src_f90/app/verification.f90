@@ -72,9 +72,9 @@ contains
       call file%reopen(run%inputs, error)
       if (.not. allocated(error)) call file%begin_series('time', 0_i8)
       if (.not. allocated(error) .and. remade) call restore_shape(run, file, error)
-      if (.not. allocated(error) .and. remade .and. file%samples > 0) call restore_oil(run, file, error)
+      if (.not. allocated(error) .and. remade .and. file%hdf5%samples > 0) call restore_oil(run, file, error)
       if (.not. allocated(error)) then
-         if (file%samples > 0) then
+         if (file%hdf5%samples > 0) then
             call verify_samples(run, file, time, found, error)
          else
             call verify_equilibrium(run, file, time, found, error)
@@ -107,12 +107,12 @@ contains
       real(wp), allocatable :: at(:, :)
       integer(i8) :: sample
       integer :: n, k
-      n = int(min(int(run%verified_states, i8), file%samples))
+      n = int(min(int(run%verified_states, i8), file%hdf5%samples))
       allocate (time(n), found(size(pads), n))
       comparison = new_film_comparison(run%model%inputs)
       do k = 1, n
-         sample = sample_of(k, n, file%samples, run%inputs%output%samples_per_revolution)
-         call file%part_of_samples('time', sample, 1, at)
+         sample = sample_of(k, n, file%hdf5%samples, run%inputs%output%samples_per_revolution)
+         call file%hdf5%part_of_samples('time', sample, 1, at)
          time(k) = at(1, 1)
          call read_states(file%hdf5, '', run%model%bearings(1)%coordinates, &
             & run%model%layout%elements(1)%bristles, sample, journal, pads)

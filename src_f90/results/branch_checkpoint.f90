@@ -20,15 +20,19 @@ contains
       class(record_type), intent(inout) :: file
       type(branch_progress_type), intent(in) :: branches
       type(noted_point_type), intent(in) :: special(:)
+      type(branch_point_type) :: point
+      logical :: ok
       integer :: k
-      call file%put_count('checkpoint/branch', int(branches%branch, i8), 'number of the branch that is followed')
-      call file%put_count('checkpoint/points', int(branches%points, i8), 'its points so far')
-      call file%put_real('checkpoint/step', branches%length, '1', 'length of its next step')
-      if (size(special) > 0) call file%put_list('checkpoint/special_kinds', real(special%kind, wp), '1', &
-         & 'kind of each bifurcation point: number in the list of all kinds', '')
-      call put_point(file, 'checkpoint/point', branches, branches%here)
+      call file%put('checkpoint/branch', int(branches%branch, i8), 'number of the branch that is followed')
+      call file%put('checkpoint/points', int(branches%points, i8), 'its points so far')
+      call file%put('checkpoint/step', branches%length, '1', 'length of its next step')
+      if (size(special) > 0) call file%put('checkpoint/special_kinds', real(special%kind, wp), '1', &
+         & 'kind of each bifurcation point: number in the list of all kinds')
+      point = branches%here
+      call pass_point(file, 'checkpoint/point', branches, point, .false., ok)
       do k = 1, size(branches%period_doublings)
-         call put_point(file, doubling_name(k), branches, branches%period_doublings(k))
+         point = branches%period_doublings(k)
+         call pass_point(file, doubling_name(k), branches, point, .false., ok)
       end do
    end subroutine put_branches
 
@@ -39,33 +43,54 @@ contains
       name = 'checkpoint/flip_'//to_text(k)
    end function doubling_name
 
-   subroutine put_point(file, group, branches, point)
+   !> A point, into a group or, with `reading`, out of it: the one list of what is kept of it. `ok` becomes false where
+   !> a number that was read is none.
+   subroutine pass_point(file, group, branches, point, reading, ok)
       class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: group
       type(branch_progress_type), intent(in) :: branches
-      type(branch_point_type), intent(in) :: point
+      type(branch_point_type), intent(inout) :: point
+      logical, intent(in) :: reading
+      logical, intent(inout) :: ok
       character(len=:), allocatable :: units
       integer :: k
-      call file%put_real(group//'/value', point%parameter, branches%parameter%unit, branches%parameter%meaning)
-      call file%put_real(group//'/arc_length', point%arc_length, '1', 'length of the branch up to the point')
-      call file%put_real(group//'/along', point%along, '1', 'length of the step to it')
-      call put('change', point%change, '1', 'correction from where the equations were linearised')
-      call put('tangent', point%tangent, '1', 'unit tangent of the branch')
-      call put('growth', point%growth, '1', 'how far each eigenvalue or multiplier is on the unstable side')
+      call number('value', point%parameter, branches%parameter%unit, branches%parameter%meaning)
+      call number('arc_length', point%arc_length, '1', 'length of the branch up to the point')
+      call number('along', point%along, '1', 'length of the step to it')
+      call numbers('change', point%change, '1', 'correction from where the equations were linearised')
+      call numbers('tangent', point%tangent, '1', 'unit tangent of the branch')
+      call numbers('growth', point%growth, '1', 'how far each eigenvalue or multiplier is on the unstable side')
+      if (reading) call branches%problem%get_place(point%place)
       do k = 1, size(point%place)
          associate (part => point%place(k))
             units = trim(part%units)
             if (units == '') units = branches%parameter%unit
-            call put(trim(part%name), part%values, units, trim(part%long_name))
+            call numbers(trim(part%name), part%values, units, trim(part%long_name))
          end associate
       end do
    contains
-      subroutine put(name, values, units, long_name)
+      subroutine number(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
-         real(wp), intent(in) :: values(:)
-         if (size(values) > 0) call file%put_list(group//'/'//name, values, units, long_name, '')
-      end subroutine put
-   end subroutine put_point
+         real(wp), intent(inout) :: value
+         if (reading) then
+            value = file%get_real(group//'/'//name)
+            ok = ok .and. ieee_is_finite(value)
+         else
+            call file%put(group//'/'//name, value, units, long_name)
+         end if
+      end subroutine number
+
+      subroutine numbers(name, values, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), allocatable, intent(inout) :: values(:)
+         if (reading) then
+            values = file%get_all(group//'/'//name)
+            ok = ok .and. all(ieee_is_finite(values))
+         else if (size(values) > 0) then
+            call file%put(group//'/'//name, values, units, long_name)
+         end if
+      end subroutine numbers
+   end subroutine pass_point
 
    !> The same of branches that are ready to go on. An error where the file holds none of these numbers; `ok` is false
    !> where they cannot be a checkpoint.
@@ -76,7 +101,8 @@ contains
       type(noted_point_type), allocatable, intent(out) :: special(:)
       logical, intent(out) :: ok
       type(error_type), allocatable, intent(out) :: error
-      type(branch_point_type) :: period_doubling
+      type(branch_point_type) :: point
+      character(len=:), allocatable :: group
       ok = .false.
       if (.not. file%has('checkpoint/point')) then
          call raise(error, system_error, path//': its checkpoint is of another version of tiltpad; start the run anew')
@@ -88,12 +114,15 @@ contains
       call get_special(file, special, ok)
       if (.not. file%has('checkpoint/step')) ok = .false.
       ok = ok .and. branches%branch > 0 .and. branches%points >= 0 .and. ieee_is_finite(branches%length)
-      if (ok) call get_point(file, 'checkpoint/point', branches, branches%here, ok)
+      if (ok) call pass_point(file, 'checkpoint/point', branches, point, .true., ok)
       if (.not. ok) return
-      do while (file%has(doubling_name(size(branches%period_doublings) + 1)))
-         call get_point(file, doubling_name(size(branches%period_doublings) + 1), branches, period_doubling, ok)
+      branches%here = point
+      do
+         group = doubling_name(size(branches%period_doublings) + 1)
+         if (.not. file%has(group)) exit
+         call pass_point(file, group, branches, point, .true., ok)
          if (.not. ok) return
-         branches%period_doublings = [branches%period_doublings, period_doubling]
+         branches%period_doublings = [branches%period_doublings, point]
       end do
    end subroutine get_branches
 
@@ -106,49 +135,15 @@ contains
       ok = .true.
       allocate (special(0))
       if (.not. file%has('checkpoint/special_kinds')) return
-      kind = list(file, 'checkpoint/special_kinds')
-      point = list(file, 'bifurcations/point')
-      branch = list(file, 'bifurcations/branch')
-      parameter = list(file, 'bifurcations/parameter')
-      re = list(file, 'bifurcations/value_real')
-      im = list(file, 'bifurcations/value_imag')
+      kind = file%get_all('checkpoint/special_kinds')
+      point = file%get_all('bifurcations/point')
+      branch = file%get_all('bifurcations/branch')
+      parameter = file%get_all('bifurcations/parameter')
+      re = file%get_all('bifurcations/value_real')
+      im = file%get_all('bifurcations/value_imag')
       ok = all([size(point), size(branch), size(parameter), size(re), size(im)] == size(kind))
       if (ok) ok = all(kind >= 1 .and. kind <= size(kinds_of_points)) .and. all(abs([point, branch]) < huge(1))
       if (ok) special = [(noted_point_type(nint(point(k)), nint(kind(k)), nint(branch(k)), parameter(k), &
          & cmplx(re(k), im(k), wp)), k=1, size(kind))]
    end subroutine get_special
-
-   subroutine get_point(file, group, branches, point, ok)
-      class(record_type), intent(inout) :: file
-      character(len=*), intent(in) :: group
-      type(branch_progress_type), intent(in) :: branches
-      type(branch_point_type), intent(out) :: point
-      logical, intent(out) :: ok
-      integer :: k
-      point%parameter = file%get_real(group//'/value')
-      point%arc_length = file%get_real(group//'/arc_length')
-      point%along = file%get_real(group//'/along')
-      point%change = list(file, group//'/change')
-      point%tangent = list(file, group//'/tangent')
-      point%growth = list(file, group//'/growth')
-      call branches%problem%get_place(point%place)
-      ok = all(ieee_is_finite([point%parameter, point%arc_length, point%along, point%change, point%tangent, &
-         & point%growth]))
-      do k = 1, size(point%place)
-         point%place(k)%values = list(file, group//'/'//trim(point%place(k)%name))
-         ok = ok .and. all(ieee_is_finite(point%place(k)%values))
-      end do
-   end subroutine get_point
-
-   !> A list of a file; empty where it has none of this name, as lists of no numbers are not written.
-   function list(file, path)
-      class(record_type), intent(inout) :: file
-      character(len=*), intent(in) :: path
-      real(wp), allocatable :: list(:)
-      list = [real(wp) ::]
-      if (.not. file%has(path)) return
-      deallocate (list)
-      allocate (list(file%list_size(path)))
-      call file%get_list(path, list)
-   end function list
 end module branch_checkpoint

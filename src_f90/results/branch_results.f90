@@ -9,9 +9,9 @@ module branch_results
    use state_layout, only: tilt
    use equations_of_motion, only: machine_model
    use orbit_figures, only: orbit_figures_type, whirl_figures_type, bearing_figures_type
-   use machine_results, only: bearing_group
    use record, only: record_type
    use run_file, only: run_file_type
+   use bearing_file, only: bearing_file_type, new_bearing_file
    implicit none (type, external)
    private
    public :: noted_point_type, begin_branches, add_point, put_bifurcations, noted
@@ -33,15 +33,14 @@ contains
       type(run_file_type), intent(inout) :: file
       logical, intent(in) :: orbits
       integer, intent(in) :: modes
-      integer :: i
-      if (.not. file%has('mode')) call file%put_list('mode', [(real(i, wp), i=1, modes)], '1', &
-         & merge('multiplier number', 'eigenvalue number', orbits), 'mode')
+      if (.not. file%has('mode')) call file%put_scale('mode', modes, merge('multiplier number', 'eigenvalue number', &
+         & orbits))
       call file%begin_series('point', usual_points)
    end subroutine begin_branches
 
    !> Adds a point of a branch of a model; of oil that has no temperatures without `oil`.
    subroutine add_point(file, model, branch, parameter, point, figures, error, oil, viscosity)
-      type(run_file_type), intent(inout) :: file
+      type(run_file_type), intent(inout), target :: file
       type(machine_model), intent(in) :: model
       integer, intent(in) :: branch
       type(case_parameter_type), intent(in) :: parameter
@@ -52,16 +51,17 @@ contains
       type(oil_temperatures_type), intent(in), optional :: oil(:)
       !> Of warm oil on every pad, Pa s.
       real(wp), intent(in), optional :: viscosity(:)
-      character(len=:), allocatable :: frozen, group
-      real(wp), allocatable :: values(:)
+      type(bearing_file_type) :: part
+      character(len=:), allocatable :: frozen
+      real(wp), allocatable :: all_values(:)
       logical :: first
       integer :: b
-      first = .not. file%declared
-      values = [real(wp) ::]
+      first = .not. file%hdf5%declared
+      all_values = [real(wp) ::]
       frozen = ''
-      group = ''
       if (present(oil)) frozen = ', at frozen viscosity'
-      call one('point', real(file%samples + 1, wp), '1', 'point number')
+      part = new_bearing_file(file)
+      call one('point', real(file%hdf5%samples + 1, wp), '1', 'point number')
       call one('branch', real(branch, wp), '1', 'branch number: 1 the first, then those of double period')
       call one('parameter', point%parameter, parameter%unit, parameter%meaning)
       call one('arc_length', point%arc_length, '1', 'length of the branch')
@@ -78,22 +78,20 @@ contains
          call each('eigenvalue_real', real(point%values, wp), '1/s', 'eigenvalue, real part'//frozen, 'mode')
          call each('eigenvalue_imag', aimag(point%values), '1/s', 'eigenvalue, imaginary part'//frozen, 'mode')
       end if
-      if (size(figures%stations) > 0) call put_stations()
+      call put_whirls('station_', figures%stations, 'displacement of the station', 'vibration of the station', &
+         & 'station')
       do b = 1, size(figures%bearings)
-         group = bearing_group(model%inputs%bearings(b))
+         part = new_bearing_file(file, model%inputs%bearings(b))
          call put_bearing(figures%bearings(b), model%layout%elements(b)%has(tilt))
          if (present(oil)) call put_oil(oil(b), viscosity(model%layout%elements(b)%all_pads()))
       end do
-      call file%add(values)
+      call file%hdf5%add(all_values)
       call file%error_of(error)
    contains
       subroutine put_bearing(of, tilting)
          type(bearing_figures_type), intent(in) :: of
          logical, intent(in) :: tilting
-         call put_axis('journal_y', of%journal, 1, 'journal displacement, vertical', &
-            & 'vertical journal vibration with the shaft, amplitude')
-         call put_axis('journal_z', of%journal, 2, 'journal displacement, horizontal', &
-            & 'horizontal journal vibration with the shaft, amplitude')
+         call put_whirls('journal_', [of%journal], 'journal displacement', 'journal vibration', '')
          if (tilting) then
             call each('pad_tilt_max', of%highest_tilt, 'rad', 'highest pad tilt', 'pad')
             call each('pad_tilt_min', of%lowest_tilt, 'rad', 'lowest pad tilt', 'pad')
@@ -101,35 +99,27 @@ contains
          call each('min_film_thickness', of%film, 'm', 'minimum film thickness', 'pad')
       end subroutine put_bearing
 
-      subroutine put_axis(name, whirl, axis, displacement, vibration)
-         character(len=*), intent(in) :: name, displacement, vibration
-         type(whirl_figures_type), intent(in) :: whirl
-         integer, intent(in) :: axis
-         call one(name//'_max', whirl%highest(axis), 'm', 'highest '//displacement)
-         call one(name//'_min', whirl%lowest(axis), 'm', 'lowest '//displacement)
-         if (figures%revolutions == 0) return
-         call one(name//'_amplitude', whirl%amplitude(axis), 'm', vibration)
-         call one(name//'_phase', whirl%phase(axis), 'rad', 'angle by which it comes after the unbalance')
-      end subroutine put_axis
-
-      subroutine put_stations()
+      !> How far stations or a journal go along y and z, and in an orbit their vibration.
+      subroutine put_whirls(name, whirls, displacement, vibration, across)
+         character(len=*), intent(in) :: name, displacement, vibration, across
+         type(whirl_figures_type), intent(in) :: whirls(:)
+         character(len=*), parameter :: directions(2) = [character(len=10) :: 'vertical', 'horizontal']
+         character(len=:), allocatable :: series, direction
          integer :: axis, i
-         character(len=*), parameter :: name(2) = ['station_y', 'station_z']
-         character(len=*), parameter :: direction(2) = [character(len=10) :: 'vertical', 'horizontal']
-         associate (all => figures%stations)
-            do axis = 1, 2
-               call each(name(axis)//'_max', [(all(i)%highest(axis), i=1, size(all))], 'm', &
-                  & 'highest displacement of the station, '//trim(direction(axis)), 'station')
-               call each(name(axis)//'_min', [(all(i)%lowest(axis), i=1, size(all))], 'm', &
-                  & 'lowest displacement of the station, '//trim(direction(axis)), 'station')
-               if (figures%revolutions == 0) cycle
-               call each(name(axis)//'_amplitude', [(all(i)%amplitude(axis), i=1, size(all))], 'm', &
-                  & trim(direction(axis))//' vibration of the station with the shaft, amplitude', 'station')
-               call each(name(axis)//'_phase', [(all(i)%phase(axis), i=1, size(all))], 'rad', &
-                  & 'angle by which it comes after the unbalance', 'station')
-            end do
-         end associate
-      end subroutine put_stations
+         do axis = 1, 2
+            series = name//'yz'(axis:axis)
+            direction = trim(directions(axis))
+            call each(series//'_max', [(whirls(i)%highest(axis), i=1, size(whirls))], 'm', &
+               & 'highest '//displacement//', '//direction, across)
+            call each(series//'_min', [(whirls(i)%lowest(axis), i=1, size(whirls))], 'm', &
+               & 'lowest '//displacement//', '//direction, across)
+            if (figures%revolutions == 0) cycle
+            call each(series//'_amplitude', [(whirls(i)%amplitude(axis), i=1, size(whirls))], 'm', &
+               & direction//' '//vibration//' with the shaft, amplitude', across)
+            call each(series//'_phase', [(whirls(i)%phase(axis), i=1, size(whirls))], 'rad', &
+               & 'angle by which it comes after the unbalance', across)
+         end do
+      end subroutine put_whirls
 
       subroutine put_oil(oil, viscosity)
          type(oil_temperatures_type), intent(in) :: oil
@@ -146,16 +136,16 @@ contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (first) call file%declare(group//name, 1, '', units, long_name)
-         values = [values, value]
+         call each(name, [value], units, long_name, '')
       end subroutine one
 
-      subroutine each(name, several, units, long_name, across)
+      !> Of the run or of a bearing.
+      subroutine each(name, values, units, long_name, across)
          character(len=*), intent(in) :: name, units, long_name, across
-         real(wp), intent(in) :: several(:)
-         if (first .and. across == 'pad') call file%declare(group//name, size(several), group//across, units, long_name)
-         if (first .and. across /= 'pad') call file%declare(name, size(several), across, units, long_name)
-         values = [values, several]
+         real(wp), intent(in) :: values(:)
+         if (size(values) == 0) return
+         if (first) call part%declare(name, size(values), units, long_name, across)
+         all_values = [all_values, values]
       end subroutine each
    end subroutine add_point
 
@@ -164,7 +154,7 @@ contains
       type(run_file_type), intent(in) :: file
       integer, intent(in) :: branch
       type(bifurcation_type), intent(in) :: special
-      noted = noted_point_type(int(file%samples), findloc(kinds_of_points, special%kind, dim=1), branch, &
+      noted = noted_point_type(int(file%hdf5%samples), findloc(kinds_of_points, special%kind, dim=1), branch, &
          & special%point%parameter, special%value)
    end function noted
 
@@ -178,13 +168,13 @@ contains
       call file%delete('bifurcations')
       if (size(special) == 0) return
       kinds = kinds_of_points(special%kind)
-      call file%put_list(over, real(special%point, wp), '1', 'number of the point', over)
-      call file%put_labels('bifurcations/kind', kinds, 'kind of bifurcation point')
-      call file%put_list('bifurcations/parameter', special%parameter, parameter%unit, parameter%meaning, over)
-      call file%put_list('bifurcations/branch', real(special%branch, wp), '1', 'branch number', over)
-      call file%put_list('bifurcations/value_real', special%value%re, '1', &
+      call file%put(over, real(special%point, wp), '1', 'number of the point', over)
+      call file%put('bifurcations/kind', kinds, 'kind of bifurcation point')
+      call file%put('bifurcations/parameter', special%parameter, parameter%unit, parameter%meaning, over)
+      call file%put('bifurcations/branch', real(special%branch, wp), '1', 'branch number', over)
+      call file%put('bifurcations/value_real', real(special%value, wp), '1', &
          & 'multiplier or eigenvalue (1/s) that crosses, real part', over)
-      call file%put_list('bifurcations/value_imag', special%value%im, '1', &
+      call file%put('bifurcations/value_imag', aimag(special%value), '1', &
          & 'multiplier or eigenvalue (1/s) that crosses, imaginary part', over)
    end subroutine put_bifurcations
 end module branch_results

@@ -26,22 +26,17 @@ contains
       character(len=*), intent(in) :: positions(:)
       integer, intent(in) :: b
       real(wp), intent(in) :: ratios(:)
-      integer :: i, modes
-      call file%put_labels('pivot', found%bearings%pivot, 'how the pivots behave')
-      call file%put_list('frequency_ratio', ratios, '1', 'whirl frequency over the speed of the shaft', &
-         & 'frequency_ratio')
-      call file%put_labels('row', ['y', 'z'], 'direction of the force on the journal')
-      call file%put_labels('column', ['y', 'z'], 'direction of the displacement of the journal')
-      call file%put_labels('position_row', positions, 'position whose force or moment it is')
-      call file%put_labels('position_column', positions, 'position that is displaced')
-      modes = 2*size(found%bearings(1)%moves)
-      call file%put_list('mode', [(real(i, wp), i=1, modes)], '1', 'mode number', 'mode')
-      associate (counts => shape(found%stiffness(:, :, :, :, b)))
-         call file%put_array('coefficients/stiffness', [across(found%stiffness(:, :, :, :, b))], counts, 'N/m', &
-            & 'stiffness of the bearing at the journal, the pads condensed', of_journal)
-         call file%put_array('coefficients/damping', [across(found%damping(:, :, :, :, b))], counts, 'N s/m', &
-            & 'damping of the bearing at the journal, the pads condensed', of_journal)
-      end associate
+      call file%put('pivot', found%bearings%pivot, 'how the pivots behave')
+      call file%put('frequency_ratio', ratios, '1', 'whirl frequency over the speed of the shaft', 'frequency_ratio')
+      call file%put('row', ['y', 'z'], 'direction of the force on the journal')
+      call file%put('column', ['y', 'z'], 'direction of the displacement of the journal')
+      call file%put('position_row', positions, 'position whose force or moment it is')
+      call file%put('position_column', positions, 'position that is displaced')
+      call file%put_scale('mode', 2*size(found%bearings(1)%moves), 'mode number')
+      call file%put('coefficients/stiffness', across(found%stiffness(:, :, :, :, b)), 'N/m', &
+         & 'stiffness of the bearing at the journal, the pads condensed', of_journal)
+      call file%put('coefficients/damping', across(found%damping(:, :, :, :, b)), 'N s/m', &
+         & 'damping of the bearing at the journal, the pads condensed', of_journal)
       call put_full(file, found, layout%all_positions())
    end subroutine put_coefficients
 
@@ -74,11 +69,11 @@ contains
          end associate
       end do
       ! their units are those of force or moment over those of displacement or tilt
-      call file%put_array('coefficients/full_stiffness', [stiffness], [n, n, pivots], 'SI', &
+      call file%put('coefficients/full_stiffness', stiffness, 'SI', &
          & 'derivatives of the negative forces (N) and moments (N m) over positions (m, rad)', 'pivot '//of_positions)
-      call file%put_array('coefficients/full_damping', [damping], [n, n, pivots], 'SI', &
+      call file%put('coefficients/full_damping', damping, 'SI', &
          & 'derivatives of the negative forces (N) and moments (N m) over rates (m/s, rad/s)', 'pivot '//of_positions)
-      call file%put_array('coefficients/full_mass', [transpose(found%bearings(1)%mass(places, places))], [n, n], 'SI', &
+      call file%put('coefficients/full_mass', transpose(found%bearings(1)%mass(places, places)), 'SI', &
          & 'masses of the pads: forces (N) and moments (N m) over accelerations (m/s^2, rad/s^2)', of_positions)
    end subroutine put_full
 
@@ -94,7 +89,7 @@ contains
       do i = 1, size(found%modes)
          names(:size(found%modes(i)%name), i) = found%modes(i)%name
       end do
-      call file%put_labels('modes/name', [names], 'what moves in the mode', shape(names), of_modes)
+      call file%put('modes/name', [names], 'what moves in the mode', shape(names), of_modes)
       ! those in vibration stand in the order of their damping
       call put_figure(file, 'least_damping_ratio', [(found%modes(i)%damping_ratio(1), i=1, size(found%modes))], '1', &
          & 'least damping ratio of all modes', 'pivot')
@@ -106,27 +101,23 @@ contains
       character(len=*), intent(in) :: group, scales
       type(vibration_modes_type), intent(in) :: all_modes(:)
       integer, intent(in) :: n
-      real(wp), dimension(n, size(all_modes)) :: re, im, frequency, ratio, decrement
+      real(wp) :: values(n, size(all_modes), 5)
       integer :: i
-      re = no_number()
-      im = no_number()
-      frequency = no_number()
-      ratio = no_number()
-      decrement = no_number()
+      values = no_number()
       do i = 1, size(all_modes)
          associate (modes => all_modes(i), last => size(all_modes(i)%eigenvalue))
-            re(:last, i) = modes%eigenvalue%re
-            im(:last, i) = modes%eigenvalue%im
-            frequency(:last, i) = modes%eigenvalue%im/(2*pi)
-            ratio(:last, i) = modes%damping_ratio
-            decrement(:last, i) = modes%log_decrement
+            values(:last, i, 1) = modes%eigenvalue%re
+            values(:last, i, 2) = modes%eigenvalue%im
+            values(:last, i, 3) = modes%eigenvalue%im/(2*pi)
+            values(:last, i, 4) = modes%damping_ratio
+            values(:last, i, 5) = modes%log_decrement
          end associate
       end do
-      call file%put_table(group//'/eigenvalue_real', re, '1/s', 'growth of the mode', scales)
-      call file%put_table(group//'/eigenvalue_imag', im, '1/s', 'angular frequency of the mode', scales)
-      call file%put_table(group//'/frequency', frequency, 'Hz', 'frequency of the mode', scales)
-      call file%put_table(group//'/damping_ratio', ratio, '1', 'damping ratio of the mode', scales)
-      call file%put_table(group//'/log_decrement', decrement, '1', 'logarithmic decrement of the mode', scales)
+      call file%put(group//'/eigenvalue_real', values(:, :, 1), '1/s', 'growth of the mode', scales)
+      call file%put(group//'/eigenvalue_imag', values(:, :, 2), '1/s', 'angular frequency of the mode', scales)
+      call file%put(group//'/frequency', values(:, :, 3), 'Hz', 'frequency of the mode', scales)
+      call file%put(group//'/damping_ratio', values(:, :, 4), '1', 'damping ratio of the mode', scales)
+      call file%put(group//'/log_decrement', values(:, :, 5), '1', 'logarithmic decrement of the mode', scales)
    end subroutine put_mode_values
 
    !> The shapes of the modes at the places of a bearing's journal and pads.
@@ -147,9 +138,8 @@ contains
             im(:, :last, i) = shapes(places, :)%im
          end associate
       end do
-      call file%put_array('modes/shape_real', [re], shape(re), 'SI', 'shape of the mode (m, rad), real part', &
-         & of_modes//' position_row')
-      call file%put_array('modes/shape_imag', [im], shape(im), 'SI', 'shape of the mode (m, rad), imaginary part', &
+      call file%put('modes/shape_real', re, 'SI', 'shape of the mode (m, rad), real part', of_modes//' position_row')
+      call file%put('modes/shape_imag', im, 'SI', 'shape of the mode (m, rad), imaginary part', &
          & of_modes//' position_row')
    end subroutine put_shapes
 
@@ -158,8 +148,8 @@ contains
       class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
       if (.not. allocated(found%thresholds)) return
-      call file%put_list('modes/threshold_rpm', found%thresholds, 'rpm', 'speed at which stability changes', 'pivot')
-      call file%put_real('modes/threshold_sought_rpm', found%sought_up_to, 'rpm', 'speed up to which it was sought')
+      call file%put('modes/threshold_rpm', found%thresholds, 'rpm', 'speed at which stability changes', 'pivot')
+      call file%put('modes/threshold_sought_rpm', found%sought_up_to, 'rpm', 'speed up to which it was sought')
    end subroutine put_thresholds
 
    real(wp) function no_number()

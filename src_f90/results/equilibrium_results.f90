@@ -23,19 +23,17 @@ contains
       type(equilibrium_type), intent(in) :: found
       class(pad_coordinates_type), intent(in) :: coordinates
       integer :: k
-      call file%put_real('equilibrium/journal_y', found%rotor(1), 'm', 'journal displacement, vertical')
-      call file%put_real('equilibrium/journal_z', found%rotor(2), 'm', 'journal displacement, horizontal')
+      call file%put('equilibrium/journal_y', found%rotor(1), 'm', 'journal displacement, vertical')
+      call file%put('equilibrium/journal_z', found%rotor(2), 'm', 'journal displacement, horizontal')
       do k = 1, coordinates%n
          associate (of => coordinates%words(k))
-            call file%put_list('equilibrium/'//trim(of%series), found%pads%x(coordinates%kind(k)), trim(of%units), &
+            call file%put('equilibrium/'//trim(of%series), found%pads%x(coordinates%kind(k)), trim(of%units), &
                & trim(of%label), 'pad')
          end associate
       end do
-      if (coordinates%n > 0) call file%put_list('equilibrium/pivot_load', found%pivot_load, 'N', 'pivot load', &
-         & 'pad')
-      call file%put_list('equilibrium/min_film_thickness', found%min_film_thickness, 'm', &
-         & 'minimum film thickness', 'pad')
-      call file%put_list('equilibrium/max_pressure', found%max_pressure, 'Pa', 'maximum film pressure', 'pad')
+      if (coordinates%n > 0) call file%put('equilibrium/pivot_load', found%pivot_load, 'N', 'pivot load', 'pad')
+      call file%put('equilibrium/min_film_thickness', found%min_film_thickness, 'm', 'minimum film thickness', 'pad')
+      call file%put('equilibrium/max_pressure', found%max_pressure, 'Pa', 'maximum film pressure', 'pad')
       call put_figure(file, 'equilibrium_min_film_thickness', minval(found%min_film_thickness), 'm', &
          & 'minimum film thickness at the equilibrium')
       call put_figure(file, 'equilibrium_max_pressure', maxval(found%max_pressure), 'Pa', &
@@ -54,10 +52,10 @@ contains
    subroutine put_stability(file, found)
       class(record_type), intent(inout) :: file
       type(equilibrium_type), intent(in) :: found
-      call file%put_real('equilibrium/residual', found%residual, '1', 'unbalanced force over load')
-      call file%put_real('equilibrium/eigenvalue_real', found%stability%eigenvalue%re, '1/s', &
+      call file%put('equilibrium/residual', found%residual, '1', 'unbalanced force over load')
+      call file%put('equilibrium/eigenvalue_real', found%stability%eigenvalue%re, '1/s', &
          & 'growth of the small motion that grows most')
-      call file%put_real('equilibrium/eigenvalue_imag', found%stability%eigenvalue%im, '1/s', &
+      call file%put('equilibrium/eigenvalue_imag', found%stability%eigenvalue%im, '1/s', &
          & 'angular frequency of the small motion that grows most')
       call file%put_text('equilibrium_stability', found%stability%name)
       call file%put_text('equilibrium_search', found%search)
@@ -71,77 +69,66 @@ contains
       class(record_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       type(static_figures_type), intent(in) :: figures
-      call number('eccentricity_ratio', figures%eccentricity_ratio, '1', &
-         & 'journal displacement over bearing clearance')
-      call number('specific_load', specific_load(inputs), 'Pa', 'load over diameter and axial length')
+      call put('eccentricity_ratio', figures%eccentricity_ratio, '1', 'journal displacement over bearing clearance')
+      call put('specific_load', specific_load(inputs), 'Pa', 'load over diameter and axial length')
       if (load(inputs) > 0) then
-         call number('attitude_angle', figures%attitude_angle, 'rad', &
+         call put('attitude_angle', figures%attitude_angle, 'rad', &
             & 'angle from the load to the journal displacement, in the sense of rotation')
-         call number('sommerfeld_number', sommerfeld_number(inputs), '1', &
+         call put('sommerfeld_number', sommerfeld_number(inputs), '1', &
             & 'mu N L D/W (R_J/c_r)^2, mu of the oil as supplied')
       end if
       associate (pads => figures%pads)
-         call list('load', pads%load, 'N', 'force of film and asperities on the journal')
-         call list('power_loss', pads%power(), 'W', 'power loss')
-         call list('couette_loss', pads%couette, 'W', 'Couette loss: power loss by the shear of sliding')
-         call list('poiseuille_loss', pads%pressure, 'W', &
+         call put('load', pads%load, 'N', 'force of film and asperities on the journal')
+         call put('power_loss', pads%power(), 'W', 'power loss')
+         call put('couette_loss', pads%couette, 'W', 'Couette loss: power loss by the shear of sliding')
+         call put('poiseuille_loss', pads%pressure, 'W', &
             & 'Poiseuille loss: power loss by the shear of the flow that pressure drives')
-         if (inputs%bearings(1)%asperity%model /= 'none') call list('boundary_loss', pads%boundary, 'W', &
+         if (inputs%bearings(1)%asperity%model /= 'none') call put('boundary_loss', pads%boundary, 'W', &
             & 'power loss by boundary friction of asperities')
-         call list('journal_drag', pads%journal_drag, 'N m', &
+         call put('journal_drag', pads%journal_drag, 'N m', &
             & 'moment of the film''s shear against the journal''s rotation')
-         call list('pad_drag', pads%pad_drag, 'N m', &
+         call put('pad_drag', pads%pad_drag, 'N m', &
             & 'moment of the film''s shear on the pad about the centre of its arc')
-         call list('inlet_flow', pads%inlet, 'm^3/s', 'flow in at the leading edge')
-         call list('outlet_flow', pads%outlet, 'm^3/s', 'flow out at the trailing edge')
-         call list('side_flow', pads%side, 'm^3/s', 'flow out at both sides')
-         call list('reformation_flow', pads%reformation, 'm^3/s', &
+         call put('inlet_flow', pads%inlet, 'm^3/s', 'flow in at the leading edge')
+         call put('outlet_flow', pads%outlet, 'm^3/s', 'flow out at the trailing edge')
+         call put('side_flow', pads%side, 'm^3/s', 'flow out at both sides')
+         call put('reformation_flow', pads%reformation, 'm^3/s', &
             & 'flow that the film takes up at the reformation boundary beyond what reaches it')
-         call list('temperature_rise', figures%temperature_rise, 'K', &
-            & 'warming of the oil from leading to trailing edge')
-         call list('reynolds_number', figures%reynolds_number, '1', 'rho U h/mu with the mean film thickness')
-         call number('total_power_loss', sum(pads%power()), 'W', 'power loss of all pads')
-         call number('total_inlet_flow', sum(pads%inlet), 'm^3/s', 'flow in at all leading edges')
-         call number('total_outlet_flow', sum(pads%outlet), 'm^3/s', 'flow out at all trailing edges')
-         call number('total_side_flow', sum(pads%side), 'm^3/s', 'flow out at the sides of all pads')
+         call put('temperature_rise', figures%temperature_rise, 'K', 'warming of the oil from leading to trailing edge')
+         call put('reynolds_number', figures%reynolds_number, '1', 'rho U h/mu with the mean film thickness')
+         call put('total_power_loss', sum(pads%power()), 'W', 'power loss of all pads')
+         call put('total_inlet_flow', sum(pads%inlet), 'm^3/s', 'flow in at all leading edges')
+         call put('total_outlet_flow', sum(pads%outlet), 'm^3/s', 'flow out at all trailing edges')
+         call put('total_side_flow', sum(pads%side), 'm^3/s', 'flow out at the sides of all pads')
       end associate
-      call number('temperature_rise_fresh', figures%rise_fresh, 'K', &
+      call put('temperature_rise_fresh', figures%rise_fresh, 'K', &
          & 'warming of the oil if every pad draws fresh oil alone')
-      call number('temperature_rise_side', figures%rise_side, 'K', &
+      call put('temperature_rise_side', figures%rise_side, 'K', &
          & 'warming of the oil if fresh oil replaces only what leaves at the sides')
    contains
-      subroutine number(name, value, units, long_name)
+      !> A number, or one of each pad.
+      subroutine put(name, values, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
-         real(wp), intent(in) :: value
-         call file%put_real('equilibrium/'//name, value, units, long_name)
-      end subroutine number
-
-      subroutine list(name, values, units, long_name)
-         character(len=*), intent(in) :: name, units, long_name
-         real(wp), intent(in) :: values(:)
-         call file%put_list('equilibrium/'//name, values, units, long_name, 'pad')
-      end subroutine list
+         real(wp), intent(in) :: values(..)
+         call file%put('equilibrium/'//name, values, units, long_name, 'pad')
+      end subroutine put
    end subroutine put_figures
 
    !> Writes the temperatures of warm oil, C.
    subroutine put_temperatures(file, oil)
       class(record_type), intent(inout) :: file
       type(oil_temperatures_type), intent(in) :: oil
-      call temperature('inlet', oil%inlet, 'temperature of the oil at the leading edge')
-      call temperature('mean', oil%mean, 'mean temperature of the film')
-      call temperature('outlet', oil%outlet, 'temperature of the oil at the trailing edge')
-      call temperature('maximum', oil%maximum, 'maximum temperature of the pad')
+      call file%put('equilibrium/inlet_temperature', oil%inlet, 'degC', 'temperature of the oil at the leading edge', &
+         & 'pad')
+      call file%put('equilibrium/mean_temperature', oil%mean, 'degC', 'mean temperature of the film', 'pad')
+      call file%put('equilibrium/outlet_temperature', oil%outlet, 'degC', &
+         & 'temperature of the oil at the trailing edge', 'pad')
+      call file%put('equilibrium/maximum_temperature', oil%maximum, 'degC', 'maximum temperature of the pad', 'pad')
       call put_figure(file, 'equilibrium_maximum_temperature', maxval(oil%maximum), 'degC', &
          & 'maximum temperature of all pads')
-      call file%put_real('equilibrium/shaft_temperature', oil%shaft, 'degC', 'temperature of the shaft')
-      call file%put_real('equilibrium/drain_temperature', oil%drain, 'degC', &
+      call file%put('equilibrium/shaft_temperature', oil%shaft, 'degC', 'temperature of the shaft')
+      call file%put('equilibrium/drain_temperature', oil%drain, 'degC', &
          & 'temperature of the oil that leaves the bearing')
-   contains
-      subroutine temperature(name, values, long_name)
-         character(len=*), intent(in) :: name, long_name
-         real(wp), intent(in) :: values(:)
-         call file%put_list('equilibrium/'//name//'_temperature', values, 'degC', long_name, 'pad')
-      end subroutine temperature
    end subroutine put_temperatures
 
    !> Writes the temperatures along and across the films, and of the pads' surfaces, C.
@@ -151,16 +138,16 @@ contains
       integer :: i
       associate (n => size(films%surfaces, 1), zeta => films%heat(1)%zeta, &
          & film => films%fields(solid_layers + 1:, :, :))
-         call file%put_list('film_arc', [((i - 0.5_wp)/n, i=1, n)], '1', &
+         call file%put('film_arc', [((i - 0.5_wp)/n, i=1, n)], '1', &
             & 'place on the arc, from the leading edge (0) to the trailing edge (1)', 'film_arc')
-         call file%put_list('film_height', (zeta(:size(zeta) - 1) + zeta(2:))/2, '1', &
+         call file%put('film_height', (zeta(:size(zeta) - 1) + zeta(2:))/2, '1', &
             & 'height in the film, from the pad (0) to the journal (1)', 'film_height')
-         call file%put_array('equilibrium/film_temperature', [film], shape(film), 'degC', 'temperature of the oil', &
+         call file%put('equilibrium/film_temperature', film, 'degC', 'temperature of the oil', &
             & 'pad film_arc film_height')
-         call file%put_table('equilibrium/surface_temperature', films%surfaces, 'degC', &
+         call file%put('equilibrium/surface_temperature', films%surfaces, 'degC', &
             & 'temperature of the pad where it meets the film', 'pad film_arc')
-         call file%put_list('equilibrium/heat_to_shaft', films%to_shaft, 'W', 'heat from the film to the shaft', 'pad')
-         call file%put_list('equilibrium/heat_to_pad', films%to_pad, 'W', &
+         call file%put('equilibrium/heat_to_shaft', films%to_shaft, 'W', 'heat from the film to the shaft', 'pad')
+         call file%put('equilibrium/heat_to_pad', films%to_pad, 'W', &
             & 'heat from the film to the pad, which goes out at its back and ends', 'pad')
       end associate
    end subroutine put_film_temperatures

@@ -4,8 +4,7 @@ module last_state
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use errors, only: error_type, raise, system_error
-   use hdf5_file, only: hdf5_type
-   use hdf5_series, only: hdf5_series_type
+   use growing_file, only: growing_file_type
    use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use abstract_rotor, only: journal_motion
@@ -35,7 +34,7 @@ contains
       type(pad_state), intent(inout) :: pads(:)
       type(error_type), allocatable, intent(out) :: error
       type(restart_type) :: found
-      type(hdf5_type) :: file
+      type(growing_file_type) :: file
       type(journal_motion) :: journal
       integer(i8) :: at
       integer :: b
@@ -48,7 +47,9 @@ contains
          if (.not. allocated(error)) call refuse_other_pads(path, found%inputs%bearings(b), model%layout%elements(b), &
             & error)
       end do
-      if (.not. allocated(error)) call refuse_no_samples(path, file, error)
+      call file%begin_series('time', 0_i8)
+      if (.not. allocated(error) .and. file%samples == 0) call raise(error, system_error, path//': has no samples of ' &
+         & //'a motion to start from')
       if (.not. allocated(error)) then
          at = last_whole_turn(file, found%inputs%output%samples_per_revolution)
          do b = 1, size(model%bearings)
@@ -130,41 +131,24 @@ contains
       end if
    end subroutine refuse_other_pads
 
-   !> Refuses a result without samples.
-   subroutine refuse_no_samples(path, file, error)
-      character(len=*), intent(in) :: path
-      class(hdf5_type), intent(inout) :: file
-      type(error_type), allocatable, intent(out) :: error
-      type(hdf5_series_type) :: time
-      if (file%has('time')) then
-         call time%open(file, 'time')
-         call time%close(file)
-      end if
-      if (time%length == 0) call raise(error, system_error, path//': has no samples of a motion to start from')
-   end subroutine refuse_no_samples
-
    !> The states of the rotor of a machine, kept where the shaft had turned whole revolutions, and the number, from 0,
    !> of this sample. Behind the first displacements, `fixed` in number and those of supports, stand the modes: those
    !> that are not in the file stay 0, and those that the case does not have are left out.
    subroutine read_turned_rotor(file, fixed, at, rotor)
-      class(hdf5_type), intent(inout) :: file
+      class(growing_file_type), intent(inout) :: file
       integer, intent(in) :: fixed
       integer(i8), intent(out) :: at
       real(wp), intent(inout) :: rotor(:)
-      type(hdf5_series_type) :: series
       real(wp), allocatable :: time(:, :), found(:)
       real(wp) :: turned
       integer :: own, other, both
       at = 0
-      other = file%list_size(turned_state)/2
+      call file%get_list(turned_state, found)
+      other = size(found)/2
       if (other < fixed) call file%check_read(-1, 'read '//turned_state)
       if (allocated(file%failure)) return
-      allocate (found(2*other))
-      call file%get_list(turned_state, found)
       turned = file%get_real(turned_time)
-      call series%open(file, 'time')
-      call series%read(file, 0_i8, int(series%length), time)
-      call series%close(file)
+      call file%part_of_samples('time', 0_i8, int(file%samples), time)
       if (allocated(file%failure)) return
       at = minloc(abs(time(1, :) - turned), dim=1) - 1
       own = size(rotor)/2
@@ -175,16 +159,13 @@ contains
 
    !> Number of the sample, from 0, in which the shaft has turned whole revolutions, of the last revolution.
    integer(i8) function last_whole_turn(file, samples_per_revolution) result(at)
-      class(hdf5_type), intent(inout) :: file
+      class(growing_file_type), intent(inout) :: file
       integer, intent(in) :: samples_per_revolution
-      type(hdf5_series_type) :: series
       real(wp), allocatable :: angle(:, :), revolutions(:), beside(:)
       integer :: n
       at = 0
-      call series%open(file, 'shaft_angle')
-      n = int(min(int(samples_per_revolution, i8), series%length))
-      call series%read(file, series%length - n, n, angle)
-      call series%close(file)
+      n = int(min(int(samples_per_revolution, i8), file%samples))
+      call file%last_samples('shaft_angle', n, angle)
       if (allocated(file%failure)) return
       if (n == 0 .or. .not. all(ieee_is_finite(angle))) then
          call file%check_read(-1, 'read shaft_angle')
@@ -192,12 +173,12 @@ contains
       end if
       revolutions = angle(1, :)/(2*pi)
       beside = abs(revolutions - anint(revolutions))
-      at = series%length - n + findloc(beside <= minval(beside) + same_angle, .true., dim=1, back=.true.) - 1
+      at = file%samples - n + findloc(beside <= minval(beside) + same_angle, .true., dim=1, back=.true.) - 1
    end function last_whole_turn
 
    !> The states in a sample of the bearing of a group; the file keeps a failure where one is not there.
    subroutine read_states(file, group, coordinates, bristles, at, journal, pads)
-      class(hdf5_type), intent(inout) :: file
+      class(growing_file_type), intent(inout) :: file
       character(len=*), intent(in) :: group
       !> What its pads do, and whether they have bristles.
       class(pad_coordinates_type), intent(in) :: coordinates
@@ -205,16 +186,11 @@ contains
       integer(i8), intent(in) :: at
       type(journal_motion), intent(inout) :: journal
       type(pad_state), intent(inout) :: pads(:)
-      real(wp) :: one(1)
       integer :: k
-      call read_one('journal_y', one)
-      journal%position(1) = one(1)
-      call read_one('journal_z', one)
-      journal%position(2) = one(1)
-      call read_one('journal_vy', one)
-      journal%velocity(1) = one(1)
-      call read_one('journal_vz', one)
-      journal%velocity(2) = one(1)
+      call read_one('journal_y', journal%position(1:1))
+      call read_one('journal_z', journal%position(2:2))
+      call read_one('journal_vy', journal%velocity(1:1))
+      call read_one('journal_vz', journal%velocity(2:2))
       do k = 1, coordinates%n
          associate (of => coordinates%words(k), kind => coordinates%kind(k))
             call read_one(trim(of%series), pads%x(kind))
@@ -227,14 +203,9 @@ contains
       subroutine read_one(name, values)
          character(len=*), intent(in) :: name
          real(wp), intent(inout) :: values(:)
-         type(hdf5_series_type) :: series
          real(wp), allocatable :: found(:, :)
-         call series%open(file, group//name)
-         if (.not. allocated(file%failure)) then
-            if (series%width /= size(values) .or. series%length <= at) call file%check_read(-1, 'find '//name)
-         end if
-         call series%read(file, at, 1, found)
-         call series%close(file)
+         call file%part_of_samples(group//name, at, 1, found)
+         if (size(found, 1) /= size(values)) call file%check_read(-1, 'find '//name)
          if (.not. allocated(file%failure)) values = found(:, 1)
       end subroutine read_one
    end subroutine read_states

@@ -7,7 +7,7 @@ module march_figures
    use case_inputs, only: case_type
    use loops, only: path_integral, harmonic, slow_share, integral_over_way
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
-   use record, only: record_type
+   use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type
    use summary_group, only: put_figure, run_extremes_type
    use contact_law, only: contact_law_type, contact_point
@@ -26,16 +26,15 @@ module march_figures
 
 contains
 
-   !> Writes how far the samples so far go; `bearing` is any of the bearings.
-   subroutine put_progress(file, bearing)
-      class(record_type), intent(inout) :: file
-      type(bearing_file_type), intent(in) :: bearing
+   !> Writes how far the samples so far go.
+   subroutine put_progress(file)
+      class(run_file_type), intent(inout) :: file
       real(wp), allocatable :: time(:, :), speed(:, :)
-      call bearing%last_samples('time', 1, time)
-      call bearing%last_samples('speed', 1, speed)
+      call file%hdf5%last_samples('time', 1, time)
+      call file%hdf5%last_samples('speed', 1, speed)
       call put_figure(file, 'time_reached', time(1, 1), 's', 'time reached')
       call put_figure(file, 'speed', speed(1, 1), 'rad/s', 'shaft speed at the end')
-      call put_figure(file, 'revolutions', bearing%sampled_revolutions(), '1', 'shaft revolutions sampled')
+      call put_figure(file, 'revolutions', file%sampled_revolutions(), '1', 'shaft revolutions sampled')
    end subroutine put_progress
 
    !> Writes all figures of the samples of bearing b of a case so far, with this load on its journal, N.
@@ -48,8 +47,8 @@ contains
       real(wp), allocatable :: time(:, :), angle(:, :)
       real(wp) :: revolutions
       integer :: n
-      revolutions = file%sampled_revolutions()
-      n = file%last_revolutions(1)
+      revolutions = file%run%sampled_revolutions()
+      n = file%run%last_revolutions(1)
       call file%last_samples('shaft_angle', n, angle)
       call file%last_samples('time', n, time)
       call extremes%write(file, load, (time(1, n) - time(1, 1))/max(1, n - 1))
@@ -63,7 +62,7 @@ contains
          if (tilting .and. bearing%friction%model /= 'none') call put_friction(file, bearing, time(1, :), &
             & (angle(1, n) - angle(1, 1))/(2*pi))
          if (tilting .and. bearing%pivot%wear_coefficient > 0) call put_wear(file, bearing%pivot, time(1, :))
-         n = file%last_revolutions(inputs%output%spectrum_revolutions)
+         n = file%run%last_revolutions(inputs%output%spectrum_revolutions)
          call put_revolutions(file, tilting, n, inputs%output%spectrum_revolutions)
       end associate
    end subroutine put_march_figures
@@ -122,8 +121,7 @@ contains
          call put_figure(file, 'pad_tilt_min', lowest, 'rad', 'lowest tilt')
          call put_figure(file, 'pad_tilt_size', highest - lowest, 'rad', 'tilt, peak to peak')
       end associate
-      call put_figure(file, 'pad_contact_force', [(mean(contact(i, :)), i=1, size(contact, 1))], 'N', &
-         & 'mean pivot load')
+      call put_figure(file, 'pad_contact_force', [(mean(contact(i, :)), i=1, size(contact, 1))], 'N', 'mean pivot load')
    end subroutine put_tilt
 
    !> Vibrations with the shaft, and at half its speed, over the last revolution and the last two; of a `periodic` orbit
@@ -132,35 +130,35 @@ contains
       type(bearing_file_type), intent(inout) :: file
       logical, intent(in) :: tilting, periodic
       integer, intent(in) :: revolutions
-      complex(wp), allocatable :: y(:), z(:), tilt(:)
       integer :: n, whole
       whole = merge(revolutions, 1, periodic)
-      n = file%last_revolutions(whole)
-      y = parts('journal_y', 1.0_wp)
-      z = parts('journal_z', 1.0_wp)
-      call put_figure(file, 'journal_y_amplitude', abs(y(1)), 'm', &
-         & 'vertical journal vibration with the shaft, amplitude')
-      call put_figure(file, 'journal_z_amplitude', abs(z(1)), 'm', &
-         & 'horizontal journal vibration with the shaft, amplitude')
-      call put_figure(file, 'journal_y_phase', lag(y(1)), 'rad', 'angle by which it comes after the unbalance')
-      call put_figure(file, 'journal_z_phase', lag(z(1)), 'rad', 'angle by which it comes after the unbalance')
-      if (tilting) then
-         tilt = parts('pad_tilt', 1.0_wp)
-         call put_figure(file, 'pad_tilt_amplitude', abs(tilt), 'rad', 'tilt with the shaft, amplitude')
-      end if
+      n = file%run%last_revolutions(whole)
+      call put_order(1.0_wp, '_', 'with the shaft')
       if (revolutions < 2) return
-      n = file%last_revolutions(max(2, whole - mod(whole, 2)))
-      y = parts('journal_y', 0.5_wp)
-      z = parts('journal_z', 0.5_wp)
-      call put_figure(file, 'journal_y_half_amplitude', abs(y(1)), 'm', &
-         & 'vertical journal vibration at half the shaft speed, amplitude')
-      call put_figure(file, 'journal_z_half_amplitude', abs(z(1)), 'm', &
-         & 'horizontal journal vibration at half the shaft speed, amplitude')
-      if (.not. tilting) return
-      tilt = parts('pad_tilt', 0.5_wp)
-      call put_figure(file, 'pad_tilt_half_amplitude', abs(tilt), 'rad', &
-         & 'tilt at half the shaft speed, amplitude')
+      n = file%run%last_revolutions(max(2, whole - mod(whole, 2)))
+      call put_order(0.5_wp, '_half_', 'at half the shaft speed')
    contains
+      !> Of an order, which names and meanings call so.
+      subroutine put_order(order, name, words)
+         real(wp), intent(in) :: order
+         character(len=*), intent(in) :: name, words
+         character(len=*), parameter :: directions(2) = [character(len=10) :: 'vertical', 'horizontal']
+         complex(wp), allocatable :: part(:)
+         integer :: k
+         do k = 1, 2
+            associate (journal => 'journal_'//'yz'(k:k))
+               part = parts(journal, order)
+               call put_figure(file, journal//name//'amplitude', abs(part(1)), 'm', &
+                  & trim(directions(k))//' journal vibration '//words//', amplitude')
+               if (order < 1) cycle
+               call put_figure(file, journal//name//'phase', -atan2(part(1)%im, part(1)%re), 'rad', &
+                  & 'angle by which it comes after the unbalance')
+            end associate
+         end do
+         if (tilting) call put_figure(file, 'pad_tilt'//name//'amplitude', abs(parts('pad_tilt', order)), 'rad', &
+            & 'tilt '//words//', amplitude')
+      end subroutine put_order
+
       !> The part of this order of each row of a series.
       function parts(name, order)
          character(len=*), intent(in) :: name
@@ -172,11 +170,6 @@ contains
          call file%last_samples(name, n, values)
          parts = [(harmonic(angle(1, :), values(i, :), order), i=1, size(values, 1))]
       end function parts
-
-      pure real(wp) function lag(part)
-         complex(wp), intent(in) :: part
-         lag = -atan2(part%im, part%re)
-      end function lag
    end subroutine put_harmonics
 
    !> What friction in the pivots does in the last samples, at these times, s, in this many revolutions.
@@ -204,8 +197,7 @@ contains
             stuck(i) = slow_share(time, (pivot%socket_radius(i) - pivot%radius_difference(i))*rate(i, :), slow)
          end do
       end associate
-      call put_figure(file, 'friction_work', sum(work)/revolutions, 'J', &
-         & 'friction work a revolution, all pads')
+      call put_figure(file, 'friction_work', sum(work)/revolutions, 'J', 'friction work a revolution, all pads')
       call put_figure(file, 'pad_friction_work', work/revolutions, 'J', 'friction work a revolution')
       call put_figure(file, 'pad_friction_power', work/(time(n) - time(1)), 'W', 'mean friction power')
       call put_figure(file, 'pad_friction_moment', maxval(abs(moment), dim=2), 'N m', 'maximum friction moment')
@@ -228,11 +220,11 @@ contains
       real(wp) :: revolutions, order, amplitude
       logical :: whirls, steady
       integer :: n
-      n = file%last_revolutions(max(1, min(inputs%output%spectrum_revolutions, whole)))
+      n = file%run%last_revolutions(max(1, min(inputs%output%spectrum_revolutions, whole)))
       steady = inputs%is_steady()
       call file%last_samples('shaft_angle', n, angle)
       revolutions = (angle(1, n) - angle(1, 1))/(2*pi)
-      if (file%has('asperity_force')) then
+      if (file%has_series('asperity_force')) then
          call file%last_samples('asperity_force', n, asperity)
          found%rubbing = count(asperity > 0, dim=2)/real(n, wp)
          call put_figure(file, 'pad_rubbing', found%rubbing, '1', 'share of the time in which the surfaces touch')
@@ -243,7 +235,12 @@ contains
          call take('pad_tilt', tilt)
          call behaviour_of(found, contact, tilt, revolutions, bearing%assembled_clearance &
             & /(0.5_wp*bearing%pads%arc_deg*degree*bearing%journal_radius))
-         call put_behaviour(file, found)
+         call put_figure(file, 'pad_load', found%load, 'N', 'mean pivot load, last revolutions')
+         call put_figure(file, 'pad_unloaded', merge(1.0_wp, 0.0_wp, found%unloaded), '1', '1 where it carries no load')
+         call put_figure(file, 'pad_lifted', found%lifted, '1', 'share of the time lifted off its pivot')
+         call put_figure(file, 'pad_order', known(found%order), '1', 'dominant order of the tilt')
+         call put_figure(file, 'pad_order_amplitude', found%amplitude, 'rad', 'amplitude at this order')
+         call put_figure(file, 'pad_flutters', merge(1.0_wp, 0.0_wp, found%flutters), '1', '1 where it flutters')
       end if
       call take('journal_y', y)
       call take('journal_z', z)
@@ -253,8 +250,7 @@ contains
       call put_figure(file, 'whirl_order', known(order), '1', &
          & 'order of the largest journal motion that is no multiple of 1x')
       call put_figure(file, 'whirl_amplitude', amplitude, 'm', 'its amplitude')
-      call put_figure(file, 'whirls', merge(1.0_wp, 0.0_wp, whirls), '1', &
-         & '1 where the journal whirls at this order')
+      call put_figure(file, 'whirls', merge(1.0_wp, 0.0_wp, whirls), '1', '1 where the journal whirls at this order')
    contains
       !> A series but its last sample, which begins the next revolution, at equal steps of the shaft angle.
       subroutine take(name, values)
@@ -278,18 +274,6 @@ contains
       if (order < 0) known = ieee_value(order, ieee_quiet_nan)
    end function known
 
-   subroutine put_behaviour(file, found)
-      type(bearing_file_type), intent(inout) :: file
-      type(pad_behaviour_type), intent(in) :: found(:)
-      call put_figure(file, 'pad_load', found%load, 'N', 'mean pivot load, last revolutions')
-      call put_figure(file, 'pad_unloaded', merge(1.0_wp, 0.0_wp, found%unloaded), '1', &
-         & '1 where it carries no load')
-      call put_figure(file, 'pad_lifted', found%lifted, '1', 'share of the time lifted off its pivot')
-      call put_figure(file, 'pad_order', known(found%order), '1', 'dominant order of the tilt')
-      call put_figure(file, 'pad_order_amplitude', found%amplitude, 'rad', 'amplitude at this order')
-      call put_figure(file, 'pad_flutters', merge(1.0_wp, 0.0_wp, found%flutters), '1', '1 where it flutters')
-   end subroutine put_behaviour
-
    ! Figures of each of the last revolutions of a run, as many as the spectra may have, group `by_revolution`: the
    ! states of journal and pads once a revolution (Poincare points), and their extremes in it. A motion that repeats
    ! after k revolutions is k points.
@@ -306,8 +290,7 @@ contains
       last = floor(angle(1, n)/(2*pi) + rounding)
       first = max(ceiling(angle(1, 1)/(2*pi) - rounding), last + 1 - most)
       if (last < first) return
-      call file%put_list(over, [(real(k, wp), k=first - last, 0)], '1', &
-         & 'revolutions before the last Poincare point', over)
+      call file%put(over, [(real(k, wp), k=first - last, 0)], '1', 'revolutions before the last Poincare point', over)
       call put('journal_y', 'y', 'm', 'journal y')
       call put('journal_z', 'z', 'm', 'journal z')
       if (tilting) call put('pad_tilt', 'tilt', 'rad', 'tilt')
@@ -334,9 +317,9 @@ contains
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: values(:, :)
          if (index(name, 'tilt') > 0) then
-            call file%put_table(group//name, values, units, long_name, over//' pad')
+            call file%put(group//name, values, units, long_name, over//' pad')
          else
-            call file%put_list(group//name, values(1, :), units, long_name, over)
+            call file%put(group//name, values(1, :), units, long_name, over)
          end if
       end subroutine put_values
    end subroutine put_revolutions
@@ -381,36 +364,29 @@ contains
 
    ! Figures of the stations of a shaft in a march or a periodic orbit, from its samples: of the last revolution.
 
-   !> Writes how far each station moves, and how much of it with the shaft; `bearing` is any of the bearings.
-   subroutine put_station_figures(file, bearing)
-      class(record_type), intent(inout) :: file
-      type(bearing_file_type), intent(in) :: bearing
+   !> Writes how far each station moves, and how much of it with the shaft.
+   subroutine put_station_figures(file)
+      class(run_file_type), intent(inout) :: file
       real(wp), allocatable :: angle(:, :), values(:, :)
-      integer :: n, i
-      n = bearing%last_revolutions(1)
-      call bearing%last_samples('shaft_angle', n, angle)
+      complex(wp), allocatable :: parts(:)
+      integer :: n, i, k
+      n = file%last_revolutions(1)
+      call file%hdf5%last_samples('shaft_angle', n, angle)
       do i = 1, 2
          associate (name => 'station_'//'yz'(i:i))
-            call bearing%last_samples(name, n, values)
+            call file%hdf5%last_samples(name, n, values)
             call put(name//'_max', maxval(values, dim=2), 'm', 'highest displacement of the shaft')
             call put(name//'_min', minval(values, dim=2), 'm', 'lowest displacement of the shaft')
             call put(name//'_size', maxval(values, dim=2) - minval(values, dim=2), 'm', &
                & 'orbit of the shaft, peak to peak')
-            if (bearing%sampled_revolutions() >= 1 - rounding) call put_vibration(name)
+            if (file%sampled_revolutions() < 1 - rounding) cycle
+            parts = [(harmonic(angle(1, :), values(k, :), 1.0_wp), k=1, size(values, 1))]
+            call put(name//'_amplitude', abs(parts), 'm', 'vibration of the shaft with its turning, amplitude')
+            call put(name//'_phase', -atan2(parts%im, parts%re), 'rad', &
+               & 'angle of the shaft by which its maximum comes after zero')
          end associate
       end do
    contains
-      !> The vibration with the shaft.
-      subroutine put_vibration(name)
-         character(len=*), intent(in) :: name
-         complex(wp) :: parts(size(values, 1))
-         integer :: k
-         parts = [(harmonic(angle(1, :), values(k, :), 1.0_wp), k=1, size(parts))]
-         call put(name//'_amplitude', abs(parts), 'm', 'vibration of the shaft with its turning, amplitude')
-         call put(name//'_phase', -atan2(parts%im, parts%re), 'rad', &
-            & 'angle of the shaft by which its maximum comes after zero')
-      end subroutine put_vibration
-
       subroutine put(name, values, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: values(:)
@@ -435,7 +411,7 @@ contains
       call file%last_samples('pad_tilt', size(time), tilt)
       call file%last_samples('pivot_load', size(time), load)
       allocate (bristle, source=0*tilt)
-      if (file%has('bristle_deflection')) call file%last_samples('bristle_deflection', size(time), bristle)
+      if (file%has_series('bristle_deflection')) call file%last_samples('bristle_deflection', size(time), bristle)
       associate (lasted => time(size(time)) - time(1))
          do i = 1, size(volume)
             volume(i) = pivot%wear_coefficient*integral_over_way((pivot%socket_radius(i) &

@@ -9,14 +9,13 @@ module march_results
    use record, only: record_type
    use summary_group, only: put_figure
    use state_layout, only: most_coordinates
-   use tilting_pad, only: coordinate_type
    use viscosity_history, only: viscosity_history_type
    use bearing_samples, only: bearing_sample
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type
    implicit none (type, external)
    private
-   public :: add_sample, put_excitations, put_spectra, put_viscosity_history, put_periodic
+   public :: add_sample, put_spectra, put_viscosity_history, put_periodic
 
    !> Values of a sample: of the shaft, of a journal, and of a pad at most.
    integer, parameter :: of_shaft = 3, of_journal = 4, of_pad = 8 + 2*most_coordinates
@@ -36,7 +35,7 @@ contains
       logical :: first
       integer :: n, b
       ! its series are declared as the first sample is added
-      first = .not. file%declared
+      first = .not. file%hdf5%declared
       n = 0
       call along('', 'time', [samples(1)%time], 's', 'time')
       call along('', 'shaft_angle', [samples(1)%shaft_angle], 'rad', 'shaft angle')
@@ -56,27 +55,18 @@ contains
          call along('element', 'element_force_y', elements(1, :), 'N', 'force of the element on the rotor, vertical')
          call along('element', 'element_force_z', elements(2, :), 'N', 'force of the element on the rotor, horizontal')
       end if
-      call file%add(values(:n))
+      call file%hdf5%add(values(:n))
       call file%error_of(error)
    contains
       !> Of the shaft (''), at all its stations, or of all excitations or elements.
-      subroutine along(dimension, name, at, units, long_name)
-         character(len=*), intent(in) :: dimension, name, units, long_name
+      subroutine along(across, name, at, units, long_name)
+         character(len=*), intent(in) :: across, name, units, long_name
          real(wp), intent(in) :: at(:)
-         if (first) call file%declare(name, size(at), dimension, units, long_name)
+         if (first) call file%hdf5%declare(name, size(at), units, long_name, across)
          values(n + 1:n + size(at)) = at
          n = n + size(at)
       end subroutine along
    end subroutine add_sample
-
-   !> Numbers the excitations of a run.
-   subroutine put_excitations(file, number)
-      class(record_type), intent(inout) :: file
-      integer, intent(in) :: number
-      integer :: i
-      if (number > 0) call file%put_list('excitation', [(real(i, wp), i=1, number)], '1', 'excitation number', &
-         & 'excitation')
-   end subroutine put_excitations
 
    !> Most values of all bearings, and of the shaft without stations and excitations.
    pure integer function most_values(samples) result(n)
@@ -88,7 +78,7 @@ contains
       end do
    end function most_values
 
-   !> What is sampled of a bearing, behind the first n values.
+   !> What is sampled of a bearing, behind the first n values; its series are named in the `first` sample.
    subroutine take_bearing(file, sample, first, values, n)
       type(bearing_file_type), intent(in) :: file
       type(bearing_sample), intent(in) :: sample
@@ -114,10 +104,10 @@ contains
             call each('min_film_thickness', pad%min_film_thickness, 'm', 'minimum film thickness')
             call each('max_pressure', pad%max_pressure, 'Pa', 'maximum film pressure')
             do j = 1, sample%coordinates%n
-               associate (kind => sample%coordinates%kind(j))
+               associate (words => sample%coordinates%words(j), kind => sample%coordinates%kind(j))
                   if (first .and. i == 1) then
-                     call declare(sample%coordinates%words(j), '', '', '')
-                     call declare(sample%coordinates%words(j), '_rate', '/s', ' rate')
+                     call declare(trim(words%series), trim(words%units), trim(words%label))
+                     call declare(trim(words%series)//'_rate', trim(words%units)//'/s', trim(words%label)//' rate')
                   end if
                   values(n + k*size(sample%states) + i) = state%x(kind)
                   values(n + (k + 1)*size(sample%states) + i) = state%v(kind)
@@ -134,27 +124,24 @@ contains
       subroutine one(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (first) call file%declare(name, 1, '', units, long_name)
+         if (first) call file%declare(name, 1, units, long_name, '')
          n = n + 1
          values(n) = value
       end subroutine one
 
-      !> A coordinate of the pads, or its rate, with what stands behind its words then.
-      subroutine declare(words, to_series, to_units, to_label)
-         type(coordinate_type), intent(in) :: words
-         character(len=*), intent(in) :: to_series, to_units, to_label
-         call file%declare(trim(words%series)//to_series, size(sample%states), 'pad', trim(words%units)//to_units, &
-            & trim(words%label)//to_label)
-      end subroutine declare
-
-      !> Of pad i; the k-th series of the pads.
+      !> Of pad i; the series behind the first k of the pads.
       subroutine each(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: value
-         if (first .and. i == 1) call file%declare(name, size(sample%states), 'pad', units, long_name)
+         if (first .and. i == 1) call declare(name, units, long_name)
          values(n + k*size(sample%states) + i) = value
          k = k + 1
       end subroutine each
+
+      subroutine declare(name, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         call file%declare(name, size(sample%states), units, long_name, 'pad')
+      end subroutine declare
    end subroutine take_bearing
 
    !> Writes the history of the viscosities of these pads in a run-up.
@@ -170,9 +157,8 @@ contains
       do k = 1, size(time)
          call history%at(time(k), viscosity(:, k))
       end do
-      call file%put_list('oil/time', time, 's', 'time', 'oil/time')
-      call file%put_table('oil/viscosity', viscosity(pads, :), 'Pa s', 'viscosity of the oil on each pad', &
-         & 'oil/time pad')
+      call file%put('oil/time', time, 's', 'time', 'oil/time')
+      call file%put('oil/viscosity', viscosity(pads, :), 'Pa s', 'viscosity of the oil on each pad', 'oil/time pad')
    end subroutine put_viscosity_history
 
    !> Writes amplitude spectra of bearing b of a case over the last whole revolutions of a run at constant speed; none
@@ -188,7 +174,7 @@ contains
       integer :: revolutions, n, i, k
       if (.not. inputs%is_steady()) return
       associate (samples => inputs%output%samples_per_revolution)
-         revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%samples() - 1)/samples))
+         revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%run%hdf5%samples - 1)/samples))
          n = revolutions*samples
       end associate
       if (revolutions == 0 .or. n < 2) return
@@ -206,7 +192,7 @@ contains
          do i = 1, size(tilt, 1)
             amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
          end do
-         call file%put_table('spectrum/pad_tilt', amplitudes, 'rad', 'amplitude of pad_tilt', 'pad spectrum/frequency')
+         call file%put('spectrum/pad_tilt', amplitudes, 'rad', 'amplitude of pad_tilt', 'pad spectrum/frequency')
       end if
       ! at k/T with k = -((n-1)/2) .. n/2
       call put('full_frequency', [(k*step, k=-((n - 1)/2), n/2)], 'Hz', 'frequency, positive for forward whirl', &
@@ -214,12 +200,12 @@ contains
       call put('journal_full', full_amplitude(cmplx(y(1, :), inputs%sense()*z(1, :), wp)), 'm', &
          & 'amplitude of journal_y + i journal_z, or - i journal_z where the shaft turns anticlockwise', &
          & 'full_frequency')
-      call file%put_count('spectrum/revolutions', int(revolutions, i8), 'revolutions covered')
+      call file%put('spectrum/revolutions', int(revolutions, i8), 'revolutions covered')
    contains
       subroutine put(name, values, units, long_name, over)
          character(len=*), intent(in) :: name, units, long_name, over
          real(wp), intent(in) :: values(:)
-         call file%put_list('spectrum/'//name, values, units, long_name, 'spectrum/'//over)
+         call file%put('spectrum/'//name, values, units, long_name, 'spectrum/'//over)
       end subroutine put
    end subroutine put_spectra
 
@@ -228,30 +214,29 @@ contains
       class(record_type), intent(inout) :: file
       type(periodic_orbit_type), intent(in) :: found
       integer, intent(in) :: revolutions
-      integer :: k
       associate (values => found%multipliers)
-         call file%put_list('multiplier', [(real(k, wp), k=1, size(values))], '1', 'multiplier number', 'multiplier')
-         call file%put_real('periodic/period', found%period, 's', 'period of the orbit')
-         call file%put_count('periodic/revolutions', int(revolutions, i8), 'revolutions of the shaft in a period')
-         call file%put_real('periodic/residual', found%residual, '1', &
+         call file%put_scale('multiplier', size(values), 'multiplier number')
+         call file%put('periodic/period', found%period, 's', 'period of the orbit')
+         call file%put('periodic/revolutions', int(revolutions, i8), 'revolutions of the shaft in a period')
+         call file%put('periodic/residual', found%residual, '1', &
             & 'largest residual of the equations, over the size of the states')
-         call file%put_count('periodic/iterations', int(found%iterations, i8), 'iterations of Newton''s method')
-         call file%put_count('periodic/intervals', int(found%orbit%intervals(), i8), 'intervals of the collocation')
-         call file%put_count('periodic/evaluations', found%evaluations, &
+         call file%put('periodic/iterations', int(found%iterations, i8), 'iterations of Newton''s method')
+         call file%put('periodic/intervals', int(found%orbit%intervals(), i8), 'intervals of the collocation')
+         call file%put('periodic/evaluations', found%evaluations, &
             & 'evaluations of the equations with their derivatives in all iterations')
-         call file%put_count('periodic/marched_periods', int(found%marched, i8), 'periods of the march before them')
+         call file%put('periodic/marched_periods', int(found%marched, i8), 'periods of the march before them')
          call put_figure(file, 'leading_multiplier_real', values(1)%re, '1', 'leading multiplier, real part')
          call put_figure(file, 'leading_multiplier_imag', values(1)%im, '1', 'leading multiplier, imaginary part')
          call put_figure(file, 'leading_multiplier_modulus', abs(values(1)), '1', 'leading multiplier, modulus')
-         call file%put_list('periodic/multiplier_real', values%re, '1', 'multiplier, real part', 'multiplier')
-         call file%put_list('periodic/multiplier_imag', values%im, '1', 'multiplier, imaginary part', 'multiplier')
-         call file%put_list('periodic/multiplier_error', found%errors, '1', &
+         call file%put('periodic/multiplier_real', real(values, wp), '1', 'multiplier, real part', 'multiplier')
+         call file%put('periodic/multiplier_imag', aimag(values), '1', 'multiplier, imaginary part', 'multiplier')
+         call file%put('periodic/multiplier_error', found%errors, '1', &
             & 'by how much a mesh of shorter intervals changed the multiplier', 'multiplier')
-         call file%put_count('periodic/stable', merge(1_i8, 0_i8, found%is_stable()), &
+         call file%put('periodic/stable', merge(1_i8, 0_i8, found%is_stable()), &
             & '1 where all multipliers are inside the unit circle, or a march repeats the orbit')
-         call file%put_count('periodic/closed', merge(1_i8, 0_i8, found%closed), &
+         call file%put('periodic/closed', merge(1_i8, 0_i8, found%closed), &
             & '1 where Newton''s method closed the orbit; 0: it is a period of a march that repeats')
-         call file%put_real('periodic/change', found%change, '1', 'change of the displacements in a period of this ' &
+         call file%put('periodic/change', found%change, '1', 'change of the displacements in a period of this ' &
             & //'march, over their characteristic scales')
       end associate
    end subroutine put_periodic

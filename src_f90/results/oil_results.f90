@@ -23,15 +23,15 @@ contains
       type(film_oil), intent(in) :: oil(:)
       real(wp) :: c(0:weights_degree, polynomials, size(oil))
       integer :: i, k
-      call file%put_list(group//'viscosity', oil%viscosity, 'Pa s', 'viscosity of the film', 'pad')
+      call file%put(group//'viscosity', oil%viscosity, 'Pa s', 'viscosity of the film', 'pad')
       if (.not. any(oil%varies)) return
       do i = 1, size(oil)
          c(:, :, i) = oil(i)%coefficients()
       end do
-      call file%put_list('film_degree', [(real(k, wp), k=0, weights_degree)], '1', &
+      call file%put('film_degree', [(real(k, wp), k=0, weights_degree)], '1', &
          & 'power of the place on the arc, from the leading edge (-1) to the trailing edge (1)', 'film_degree')
       do k = 1, polynomials
-         call file%put_table(group//trim(names(k)), c(:, k, :), '1', 'coefficients of '//trim(meanings(k)) &
+         call file%put(group//trim(names(k)), c(:, k, :), '1', 'coefficients of '//trim(meanings(k)) &
             & //' along the arc', 'pad film_degree')
       end do
    end subroutine put_oil

@@ -9,8 +9,7 @@ module result_remarks
    use case_remarks, only: remarks_on_case, behind, newline, remarks_on_load, remark_on_unbalance
    use equilibrium_refusal, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
-   use record, only: record_type
-   use record_file, only: lines
+   use record, only: record_type, lines
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
    use summary_group, only: figure, pad_figures
@@ -96,7 +95,7 @@ contains
       class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: all
       if (all /= '') then
-         call file%put_labels(name, lines(all), 'remarks: what is unusual, or leaves the range of the model')
+         call file%put(name, lines(all), 'remarks: what is unusual, or leaves the range of the model')
       else if (file%has(name)) then
          call file%delete(name)
       end if

@@ -20,20 +20,18 @@ contains
       type(rotor_response_type), intent(in) :: found
       real(wp), intent(in) :: sense
       integer :: i, n
-      call file%put_labels('pivot', coefficients%bearings%pivot, 'how the pivots behave')
-      call file%put_list('mode', [(real(i, wp), i=1, 2*size(coefficients%bearings(1)%moves))], '1', 'mode number', &
-         & 'mode')
-      call file%put_list('station', [(real(i, wp), i=1, size(found%unbalance, 2))], '1', 'station of the shaft', &
-         & 'station')
+      call file%put('pivot', coefficients%bearings%pivot, 'how the pivots behave')
+      call file%put_scale('mode', 2*size(coefficients%bearings(1)%moves), 'mode number')
+      call file%put_scale('station', size(found%unbalance, 2), 'station of the shaft')
       call put_complex('response/y', found%unbalance(1, :, :), 'whirl of the station under the unbalance, y = ' &
          & //'Re(this times exp(i shaft angle))')
       call put_complex('response/z', found%unbalance(2, :, :), 'the same of z')
-      call file%put_table('response/amplitude', amplitude(found%unbalance), 'm', 'major semi-axis of the whirl of ' &
+      call file%put('response/amplitude', amplitude(found%unbalance), 'm', 'major semi-axis of the whirl of ' &
          & //'the station under the unbalance', 'pivot station')
       call put_parts(file, found%of_reduction, 2*size(coefficients%bearings(1)%moves))
       call put_station_shapes(file, found%shapes, 2*size(coefficients%bearings(1)%moves), sense)
       n = maxval([(size(found%synchronous(i)%eigenvalue), i=1, size(found%synchronous))])
-      call file%put_list('synchronous_mode', [(real(i, wp), i=1, n)], '1', 'mode number', 'synchronous_mode')
+      call file%put_scale('synchronous_mode', n, 'mode number')
       call put_mode_values(file, 'synchronous', 'pivot synchronous_mode', found%synchronous, n)
 
    contains
@@ -41,8 +39,8 @@ contains
       subroutine put_complex(name, values, meaning)
          character(len=*), intent(in) :: name, meaning
          complex(wp), intent(in) :: values(:, :)
-         call file%put_table(name//'_real', values%re, 'm', meaning//', real part', 'pivot station')
-         call file%put_table(name//'_imag', values%im, 'm', meaning//', imaginary part', 'pivot station')
+         call file%put(name//'_real', real(values, wp), 'm', meaning//', real part', 'pivot station')
+         call file%put(name//'_imag', aimag(values), 'm', meaning//', imaginary part', 'pivot station')
       end subroutine put_complex
    end subroutine put_rotor_response
 
@@ -54,7 +52,7 @@ contains
       real(wp) :: all_parts(n, size(parts, 2))
       all_parts = 0
       all_parts(:size(parts, 1), :) = parts
-      call file%put_table('modes/part_of_reduction', all_parts, '1', 'part of the damping of the mode that the ' &
+      call file%put('modes/part_of_reduction', all_parts, '1', 'part of the damping of the mode that the ' &
          & //'reduction gives to high modes of the shaft (reduction%damp_above)', 'pivot mode')
    end subroutine put_parts
 
@@ -78,16 +76,17 @@ contains
       all_shapes = 0
       all_shapes(:, :, :size(shapes, 3), :) = shapes
       do i = 1, 2
-         call file%put_array('modes/station_'//direction(i)//'_real', [all_shapes(i, :, :, :)%re], &
-            & shape(all_shapes(i, :, :, :)), 'm', 'displacement of the station in the mode along '//direction(i) &
-            & //', real part', 'pivot mode station')
-         call file%put_array('modes/station_'//direction(i)//'_imag', [all_shapes(i, :, :, :)%im], &
-            & shape(all_shapes(i, :, :, :)), 'm', 'displacement of the station in the mode along '//direction(i) &
-            & //', imaginary part', 'pivot mode station')
+         associate (name => 'modes/station_'//direction(i), along => 'displacement of the station in the mode along ' &
+            & //direction(i))
+            call file%put(name//'_real', real(all_shapes(i, :, :, :), wp), 'm', along//', real part', &
+               & 'pivot mode station')
+            call file%put(name//'_imag', aimag(all_shapes(i, :, :, :)), 'm', along//', imaginary part', &
+               & 'pivot mode station')
+         end associate
       end do
       forward = sum(abs(all_shapes(1, :, :, :) + (0, 1)*all_shapes(2, :, :, :))**2, 1)
       backward = sum(abs(all_shapes(1, :, :, :) - (0, 1)*all_shapes(2, :, :, :))**2, 1)
-      call file%put_table('modes/whirl', sense*(forward - backward)/max(forward + backward, tiny(1.0_wp)), '1', &
+      call file%put('modes/whirl', sense*(forward - backward)/max(forward + backward, tiny(1.0_wp)), '1', &
          & 'sense of the whirl of the stations: 1 forward, -1 backward', 'pivot mode')
    end subroutine put_station_shapes
 end module rotor_results

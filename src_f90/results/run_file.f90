@@ -11,12 +11,10 @@ module run_file
    use record, only: record_type
    use record_file, only: write_record, read_record
    use growing_file, only: growing_file_type
-   use recent_samples, only: recent_samples_type
    use result_size, only: figure_samples
    use summary_group, only: put_figure
    use machine_results, only: put_bearings
    use provenance, only: provenance_type, running
-   use run_statistics, only: run_statistics_type
    implicit none (type, external)
    private
    public :: run_file_type
@@ -26,27 +24,17 @@ module run_file
       logical :: filed = .true.
       character(len=:), allocatable, private :: keep
       integer(i8), private :: wanted = 0
-      character(len=:), allocatable, private :: axis
+      !> The samples, and the file.
       type(growing_file_type) :: hdf5
-      !> Whether the series have names.
-      logical :: declared = .false.
-      type(recent_samples_type), private :: recent
-      !> Samples added, also before the run was resumed.
-      integer(i8) :: samples = 0
       type(provenance_type), private :: provenance
    contains
       procedure :: start
       procedure :: reopen
       procedure :: resume
       procedure :: put_tag
-      !> Datasets, and series.
-      procedure :: has => has_result
       procedure :: begin_series
-      procedure :: declare
-      procedure :: add
-      procedure :: first_sample
-      procedure :: last_samples
-      procedure :: part_of_samples
+      procedure :: sampled_revolutions
+      procedure :: last_revolutions
       procedure :: begin_checkpoint
       procedure :: checkpoint
       procedure :: finish
@@ -102,12 +90,10 @@ contains
    end subroutine reopen
 
    !> Continues the file of the name claimed from its checkpoint: simulated time t, s, and state.
-   subroutine resume(self, inputs, t, statistics, error, state)
+   subroutine resume(self, inputs, t, error, state)
       class(run_file_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
       real(wp), intent(out) :: t
-      !> The list of figures, which get the values in the file.
-      type(run_statistics_type), intent(inout) :: statistics
       type(error_type), allocatable, intent(out) :: error
       !> Of a march; of the size that the case has.
       real(wp), intent(inout), optional :: state(:)
@@ -132,7 +118,6 @@ contains
          call self%abandon()
          return
       end if
-      call statistics%read(self%record_type)
       call self%provenance%resume(self%record_type, t)
    end subroutine resume
 
@@ -146,95 +131,56 @@ contains
       call self%put_text('study_marks', tag%marks)
    end subroutine put_tag
 
-   logical function has_result(self, path)
-      class(run_file_type), intent(in) :: self
-      character(len=*), intent(in) :: path
-      has_result = self%record_type%has(path)
-      if (has_result) return
-      if (self%keep == 'all') then
-         has_result = self%hdf5%has(path)
-      else
-         has_result = self%recent%has(path)
-      end if
-   end function has_result
-
-   !> Series over an axis, 'time' or another, follow; they start from the samples that are in the file, if any.
-   !> `expected`: how many there will be in the end, if this is known.
+   !> Series over an axis, 'time' or another, follow; they start from the samples that there are, if any. `expected`:
+   !> how many there will be in the end, if this is known.
    subroutine begin_series(self, axis, expected)
       class(run_file_type), intent(inout) :: self
       character(len=*), intent(in) :: axis
       integer(i8), intent(in) :: expected
-      logical :: ok
-      self%axis = axis
       if (self%keep == 'all') then
          ! the scales of the series
          call write_record(self, self%hdf5, .false.)
          call self%hdf5%begin_series(axis, expected)
-         self%samples = self%hdf5%samples
-         self%declared = .false.
       else
-         call self%recent%begin(int(min(self%wanted, expected)))
-         call self%recent%restore(self%record_type, ok)
-         if (.not. ok) call self%hdf5%check_read(-1, 'find all samples of the checkpoint')
-         self%samples = self%recent%count
-         self%declared = size(self%recent%series) > 0
+         call self%hdf5%begin_series(axis, expected, int(min(self%wanted, expected)))
+         call self%hdf5%restore(self%record_type)
       end if
    end subroutine begin_series
 
-   !> A series of this number of values over the axis, or, where `across` names another scale, over both.
-   subroutine declare(self, name, width, across, units, long_name)
+   !> Revolutions from the first sample to the last.
+   real(wp) function sampled_revolutions(self) result(revolutions)
       class(run_file_type), intent(inout) :: self
-      character(len=*), intent(in) :: name, across, units, long_name
-      integer, intent(in) :: width
-      if (self%keep == 'all') then
-         call self%hdf5%declare(name, width, across, units, long_name)
-      else
-         call self%recent%declare(name, width, across, units, long_name)
+      real(wp), allocatable :: first(:, :), last(:, :)
+      call self%hdf5%part_of_samples('shaft_angle', 0_i8, 1, first)
+      call self%hdf5%last_samples('shaft_angle', 1, last)
+      revolutions = (last(1, 1) - first(1, 1))/(2*pi)
+   end function sampled_revolutions
+
+   !> Samples of the last `count` revolutions, both ends included; all where there are fewer.
+   integer function last_revolutions(self, count) result(n)
+      class(run_file_type), intent(inout) :: self
+      integer, intent(in) :: count
+      real(wp), allocatable :: angle(:, :)
+      real(wp) :: start
+      integer(i8) :: low, high, middle
+      high = self%hdf5%samples - 1
+      low = self%hdf5%first()
+      if (high > low) then
+         call self%hdf5%last_samples('shaft_angle', 2, angle)
+         ! half a sample more, so that rounding loses none
+         start = angle(1, 2) - 2*pi*count - 0.5_wp*(angle(1, 2) - angle(1, 1))
+         do while (low < high)
+            middle = (low + high)/2
+            call self%hdf5%part_of_samples('shaft_angle', middle, 1, angle)
+            if (angle(1, 1) < start) then
+               low = middle + 1
+            else
+               high = middle
+            end if
+         end do
       end if
-      self%declared = .true.
-   end subroutine declare
-
-   !> A sample: the values of all series, in the order in which they were declared.
-   subroutine add(self, values)
-      class(run_file_type), intent(inout) :: self
-      real(wp), intent(in), contiguous :: values(:)
-      if (self%keep == 'all') then
-         call self%hdf5%add(values)
-      else
-         call self%recent%add(values)
-      end if
-      self%samples = self%samples + 1
-   end subroutine add
-
-   !> Number of the first sample, from 0, from which on all are kept.
-   pure integer(i8) function first_sample(self)
-      class(run_file_type), intent(in) :: self
-      first_sample = 0
-      if (self%keep /= 'all') first_sample = self%recent%first()
-   end function first_sample
-
-   !> The last n samples of a series, (width, n); n at most those that are kept.
-   subroutine last_samples(self, name, n, values)
-      class(run_file_type), intent(inout) :: self
-      character(len=*), intent(in) :: name
-      integer, intent(in) :: n
-      real(wp), allocatable, intent(out) :: values(:, :)
-      call self%part_of_samples(name, self%samples - n, n, values)
-   end subroutine last_samples
-
-   !> The n samples of a series behind the first `skip` ones, (width, n): all kept, or the first one alone.
-   subroutine part_of_samples(self, name, skip, n, values)
-      class(run_file_type), intent(inout) :: self
-      character(len=*), intent(in) :: name
-      integer(i8), intent(in) :: skip
-      integer, intent(in) :: n
-      real(wp), allocatable, intent(out) :: values(:, :)
-      if (self%keep == 'all') then
-         call self%hdf5%part_of_samples(name, skip, n, values)
-      else
-         call self%recent%part(name, skip, n, values)
-      end if
-   end subroutine part_of_samples
+      n = int(self%hdf5%samples - low)
+   end function last_revolutions
 
    !> Begins a new checkpoint, at time t, s: what the run goes on from belongs into its group.
    subroutine begin_checkpoint(self, t)
@@ -242,15 +188,14 @@ contains
       real(wp), intent(in) :: t
       ! what it holds may have another size than in the last
       call self%delete('checkpoint')
-      call self%put_real('checkpoint/time', t, 's', 'time from which the run can go on')
+      call self%put('checkpoint/time', t, 's', 'time from which the run can go on')
    end subroutine begin_checkpoint
 
    !> Publishes what there is, with the checkpoint that was begun or, of a march, with the state y. With an exit status
    !> other than `running`, which needs its reason, this is the end of the file's writing. What is not filed has none.
-   subroutine checkpoint(self, t, statistics, status, reason, error, y)
+   subroutine checkpoint(self, t, status, reason, error, y)
       class(run_file_type), intent(inout) :: self
       real(wp), intent(in) :: t
-      type(run_statistics_type), intent(in) :: statistics
       integer, intent(in) :: status
       character(len=*), intent(in) :: reason
       type(error_type), allocatable, intent(out) :: error
@@ -258,48 +203,32 @@ contains
       if (.not. self%filed) return
       if (present(y)) then
          call self%begin_checkpoint(t)
-         call self%put_list('checkpoint/state', y, '1', 'state of the march at that time', '')
-         if (self%keep /= 'all') call self%recent%save(self%record_type)
+         call self%put('checkpoint/state', y, '1', 'state of the march at that time')
+         call self%hdf5%save(self%record_type)
       end if
-      call statistics%write(self%record_type)
       call self%provenance%note(self%record_type, t, status, reason)
       call self%publish(status == running, error)
    end subroutine checkpoint
 
    !> Closes the file and publishes it. An exit status other than 0 needs its reason; t is the simulated time
    !> reached, s.
-   subroutine finish(self, t, statistics, status, reason, error)
+   subroutine finish(self, t, status, reason, error)
       class(run_file_type), intent(inout) :: self
       real(wp), intent(in) :: t
-      type(run_statistics_type), intent(in) :: statistics
       integer, intent(in) :: status
       character(len=*), intent(in) :: reason
       type(error_type), allocatable, intent(out) :: error
       call self%delete('checkpoint')
-      call statistics%write(self%record_type)
       call self%provenance%note(self%record_type, t, status, reason)
       if (status == 0) call self%put_flag('complete', 1)
       if (.not. self%filed) return
-      if (self%keep == 'last_revolutions') call write_recent(self)
+      if (self%keep == 'last_revolutions') then
+         ! the scales of the series
+         call write_record(self, self%hdf5, .false.)
+         call self%hdf5%write_kept()
+      end if
       call self%publish(.false., error)
    end subroutine finish
-
-   !> Writes the samples that were held in memory.
-   subroutine write_recent(self)
-      class(run_file_type), intent(inout) :: self
-      integer(i8) :: k
-      if (self%samples == 0) return
-      call write_record(self, self%hdf5, .false.)
-      call self%hdf5%begin_series(self%axis, self%samples - self%recent%first())
-      do k = 1, size(self%recent%series)
-         associate (own => self%recent%series(k))
-            call self%hdf5%declare(own%name, own%width, own%across, own%units, own%long_name)
-         end associate
-      end do
-      do k = self%recent%first(), self%samples - 1
-         call self%hdf5%add(self%recent%sample(k))
-      end do
-   end subroutine write_recent
 
    !> Writes all that is not in the file yet and publishes it. With `continued` the writing continues; otherwise the
    !> file is closed.

@@ -17,27 +17,28 @@ contains
    subroutine put_shape(file, shape)
       class(record_type), intent(inout) :: file
       type(bearing_shape_type), intent(in) :: shape
-      call file%put_real('shape/journal_radius', shape%journal_radius, 'm', 'radius of the journal in operation')
-      call list('machined_clearance', shape%machined_clearance, 'm', 'clearance between bore and journal in operation')
-      call list('assembled_clearance', shape%assembled_clearance, 'm', 'clearance at the pivots in operation')
-      call list('pivot_distance', shape%pivot_distance, 'm', 'distance from the bore to the pivot in operation')
-      call list('elastic_bending', shape%bending%elastic, 'm', &
+      call put('journal_radius', shape%journal_radius, 'm', 'radius of the journal in operation')
+      call put('machined_clearance', shape%machined_clearance, 'm', 'clearance between bore and journal in operation')
+      call put('assembled_clearance', shape%assembled_clearance, 'm', 'clearance at the pivots in operation')
+      call put('pivot_distance', shape%pivot_distance, 'm', 'distance from the bore to the pivot in operation')
+      call put('elastic_bending', shape%bending%elastic, 'm', &
          & 'change of the pad clearance as the pressure bends the pad')
-      call list('thermal_bending', shape%bending%thermal, 'm', 'change of the pad clearance as heat bends the pad')
+      call put('thermal_bending', shape%bending%thermal, 'm', 'change of the pad clearance as heat bends the pad')
       call put_figure(file, 'equilibrium_bearing_clearance', minval(shape%assembled_clearance), 'm', &
          & 'bearing clearance in operation')
       associate (t => shape%temperatures)
          if (.not. allocated(t%pads)) return
-         call file%put_real('shape/shaft_temperature', t%shaft, 'degC', 'temperature of the shaft that expands')
-         call file%put_real('shape/housing_temperature', t%housing, 'degC', 'temperature of the housing that expands')
-         call list('pad_temperature', t%pads, 'degC', 'temperature of the pad that expands')
+         call put('shaft_temperature', t%shaft, 'degC', 'temperature of the shaft that expands')
+         call put('housing_temperature', t%housing, 'degC', 'temperature of the housing that expands')
+         call put('pad_temperature', t%pads, 'degC', 'temperature of the pad that expands')
       end associate
    contains
-      subroutine list(name, values, units, long_name)
+      !> A number, or one of each pad.
+      subroutine put(name, values, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
-         real(wp), intent(in) :: values(:)
-         call file%put_list('shape/'//name, values, units, long_name, 'pad')
-      end subroutine list
+         real(wp), intent(in) :: values(..)
+         call file%put('shape/'//name, values, units, long_name, 'pad')
+      end subroutine put
    end subroutine put_shape
 
    !> Gives a shape the lengths that the file of its bearing has; an error where it has none.

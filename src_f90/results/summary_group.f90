@@ -8,17 +8,14 @@ module summary_group
    private
    public :: put_figure, figure, pad_figures, has_figure, run_extremes_type
 
-   interface put_figure
-      module procedure :: put_number
-      module procedure :: put_list
-   end interface put_figure
-
    !> The least film, the highest pressure and the contact of asperities in all samples of a run.
    type :: run_extremes_type
       private
       real(wp) :: film = huge(1.0_wp), pressure = -huge(1.0_wp)
       !> Of each pad: highest force between asperities, N, and samples with such a force.
       real(wp), allocatable :: force(:), touches(:)
+      !> Whether asperities may touch.
+      logical :: asperities = .false.
    contains
       procedure :: add
       procedure :: write => write_extremes
@@ -29,25 +26,17 @@ module summary_group
 
 contains
 
-   subroutine put_number(file, name, value, units, long_name)
+   !> A number, or one of each pad, or of what else the scale `across` counts.
+   subroutine put_figure(file, name, values, units, long_name, across)
       class(record_type), intent(inout) :: file
       character(len=*), intent(in) :: name, units, long_name
-      real(wp), intent(in) :: value
-      call file%put_real(group//'/'//name, value, units, long_name)
-   end subroutine put_number
-
-   !> Of each pad, or of what else the scale `across` counts.
-   subroutine put_list(file, name, values, units, long_name, across)
-      class(record_type), intent(inout) :: file
-      character(len=*), intent(in) :: name, units, long_name
-      real(wp), intent(in) :: values(:)
+      real(wp), intent(in) :: values(..)
       character(len=*), intent(in), optional :: across
-      if (present(across)) then
-         call file%put_list(group//'/'//name, values, units, long_name, across)
-      else
-         call file%put_list(group//'/'//name, values, units, long_name, 'pad')
-      end if
-   end subroutine put_list
+      character(len=:), allocatable :: scales
+      scales = 'pad'
+      if (present(across)) scales = across
+      call file%put(group//'/'//name, values, units, long_name, scales)
+   end subroutine put_figure
 
    !> Whether a run has a figure.
    logical function has_figure(file, name)
@@ -58,19 +47,18 @@ contains
 
    !> A number; 0 where there is none.
    real(wp) function figure(file, name)
-      class(record_type), intent(inout) :: file
+      class(record_type), intent(in) :: file
       character(len=*), intent(in) :: name
-      figure = 0
-      if (has_figure(file, name)) figure = file%get_real(group//'/'//name)
+      figure = file%get_real(group//'/'//name)
    end function figure
 
    !> A number for each pad; 0 where there are none.
    function pad_figures(file, name) result(values)
-      class(record_type), intent(inout) :: file
+      class(record_type), intent(in) :: file
       character(len=*), intent(in) :: name
       real(wp), allocatable :: values(:)
-      allocate (values(file%list_size('pad')), source=0.0_wp)
-      if (has_figure(file, name)) call file%get_list(group//'/'//name, values)
+      allocate (values(file%list_size('pad')))
+      call file%get_list(group//'/'//name, values)
    end function pad_figures
 
    subroutine add(self, sample)
@@ -82,6 +70,7 @@ contains
          self%force = 0
          self%touches = 0
       end if
+      self%asperities = sample%asperities
       do i = 1, size(sample%loads)
          associate (pad => sample%loads(i))
             self%film = min(self%film, pad%min_film_thickness)
@@ -99,7 +88,7 @@ contains
       real(wp), intent(in) :: load, interval
       call put_figure(file, 'run_min_film_thickness', self%film, 'm', 'minimum film thickness of the whole run')
       call put_figure(file, 'run_max_pressure', self%pressure, 'Pa', 'maximum pressure of the whole run')
-      if (.not. file%has('asperity_force')) return
+      if (.not. self%asperities) return
       call put_figure(file, 'pad_asperity_force', self%force, 'N', 'highest asperity force of the whole run')
       if (load > 0) call put_figure(file, 'pad_asperity_share', self%force/load, '1', &
          & 'highest asperity force of the whole run over the load')
@@ -110,11 +99,12 @@ contains
    !> Goes on from those of a file with samples at this interval, s.
    subroutine read_extremes(self, file, interval)
       class(run_extremes_type), intent(inout) :: self
-      class(record_type), intent(inout) :: file
+      class(record_type), intent(in) :: file
       real(wp), intent(in) :: interval
       if (.not. has_figure(file, 'run_min_film_thickness')) return
       self%film = figure(file, 'run_min_film_thickness')
       self%pressure = figure(file, 'run_max_pressure')
+      self%asperities = has_figure(file, 'pad_asperity_force')
       self%force = pad_figures(file, 'pad_asperity_force')
       self%touches = anint(pad_figures(file, 'pad_asperity_time')/interval)
    end subroutine read_extremes

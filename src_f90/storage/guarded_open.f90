@@ -5,7 +5,7 @@ module guarded_open
    use hdf5_base, only: start_hdf5
    use hdf5_file, only: hdf5_type
    use hdf5_scales, only: member_type, list_members
-   use hdf5_series, only: hdf5_series_type
+   use hdf5_rows, only: hdf5_rows_type
    use record, only: record_type
    use record_file, only: read_record
    use processes, only: new_process, end_child, limit_child, exit_status
@@ -84,7 +84,7 @@ contains
    recursive subroutine read_group(file, group)
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: group
-      type(hdf5_series_type) :: data
+      type(hdf5_rows_type) :: data
       real(wp), allocatable :: values(:, :)
       type(member_type), allocatable :: members(:)
       character(len=:), allocatable :: path
@@ -99,7 +99,7 @@ contains
             if (allocated(file%failure)) then
                deallocate (file%failure)
             else
-               if (data%length > 0) call data%read(file, data%length - 1, 1, values)
+               if (data%length > 0) call data%read_behind(file, data%length - 1, 1, values)
                if (allocated(file%failure)) call end_child(1)
             end if
             call data%close(file)

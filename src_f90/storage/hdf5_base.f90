@@ -214,25 +214,12 @@ contains
       character(len=*), intent(in) :: name
       character(len=:), allocatable, intent(out) :: text
       type(c_ptr), target :: pointer(1)
-      type(c_ptr) :: buffer
-      integer(hid_t) :: attribute, kind
-      integer :: status
       text = ''
-      if (allocated(self%failure)) return
-      call open_attribute(self, name, attribute, status)
-      if (status < 0) return
-      call h5aget_type_f(attribute, kind, status)
-      if (.not. is_of_texts(kind)) status = -1
       pointer(1) = c_null_ptr
-      buffer = c_loc(pointer)
-      if (status >= 0) call h5aread_f(attribute, kind, buffer, status)
-      call self%check_read(status, 'read attribute '//name)
-      if (c_associated(pointer(1))) then
-         text = fortran_text(pointer(1))
-         call c_free(pointer(1))
-      end if
-      call h5tclose_f(kind, status)
-      call h5aclose_f(attribute, status)
+      call read_value(self, name, .true., c_loc(pointer))
+      if (.not. c_associated(pointer(1))) return
+      text = fortran_text(pointer(1))
+      call c_free(pointer(1))
    end subroutine get_text
 
    !> Whether a type is that of texts of any length. A damaged one may claim letters of any size, and HDF5 would take
@@ -265,18 +252,10 @@ contains
       character(len=*), intent(in) :: name
       integer, intent(in) :: value
       integer, target :: buffer
-      integer(hid_t) :: space, attribute
       integer :: status
-      if (allocated(self%failure)) return
       buffer = value
       if (self%has_attribute(name)) call h5adelete_f(self%id, name, status)
-      call h5screate_f(h5s_scalar_f, space, status)
-      call h5acreate_f(self%id, name, h5t_native_integer, space, attribute, status)
-      call self%check(status, 'create attribute '//name)
-      call h5awrite_f(attribute, h5t_native_integer, c_loc(buffer), status)
-      call self%check(status, 'write attribute '//name)
-      call h5aclose_f(attribute, status)
-      call h5sclose_f(space, status)
+      call write_value(self, self%id, name, h5t_native_integer, c_loc(buffer))
    end subroutine put_flag
 
    !> Integer attribute; 0, and a failure, where there is none.
@@ -285,40 +264,41 @@ contains
       character(len=*), intent(in) :: name
       integer, intent(out) :: value
       integer, target :: buffer
-      type(c_ptr) :: pointer
-      integer(hid_t) :: attribute
-      integer :: status
-      value = 0
-      if (allocated(self%failure)) return
-      pointer = c_loc(buffer)
-      call open_attribute(self, name, attribute, status)
-      if (status < 0) return
-      call h5aread_f(attribute, h5t_native_integer, pointer, status)
-      call self%check_read(status, 'read attribute '//name)
-      if (status >= 0) value = buffer
-      call h5aclose_f(attribute, status)
+      buffer = 0
+      call read_value(self, name, .false., c_loc(buffer))
+      value = buffer
    end subroutine get_flag
 
-   !> Opens a root attribute of one value; a failure, and a negative status, where there is none.
-   subroutine open_attribute(self, name, attribute, status)
+   !> Reads a root attribute of one value, a text or a whole number; a failure where there is none.
+   subroutine read_value(self, name, is_text, buffer)
       class(hdf5_base_type), intent(inout) :: self
       character(len=*), intent(in) :: name
-      integer(hid_t), intent(out) :: attribute
-      integer, intent(out) :: status
-      integer(hid_t) :: space
+      logical, intent(in) :: is_text
+      type(c_ptr), intent(in) :: buffer
+      type(c_ptr) :: place
+      integer(hid_t) :: attribute, space, kind
       integer(hsize_t) :: values
-      integer :: ignored
+      integer :: status, ignored
+      if (allocated(self%failure)) return
       call h5aopen_f(self%id, name, attribute, status)
       call self%check_read(status, 'find attribute '//name)
       if (status < 0) return
       call h5aget_space_f(attribute, space, status)
       call h5sget_simple_extent_npoints_f(space, values, status)
       call h5sclose_f(space, ignored)
-      if (status >= 0 .and. values == 1) return
-      status = -1
+      if (values /= 1) status = -1
       call self%check_read(status, 'find one value in attribute '//name)
+      call h5aget_type_f(attribute, kind, status)
+      if (is_text) then
+         if (.not. is_of_texts(kind)) status = -1
+      end if
+      place = buffer
+      if (status >= 0 .and. .not. allocated(self%failure)) call h5aread_f(attribute, merge(kind, h5t_native_integer, &
+         & is_text), place, status)
+      call self%check_read(status, 'read attribute '//name)
+      call h5tclose_f(kind, ignored)
       call h5aclose_f(attribute, ignored)
-   end subroutine open_attribute
+   end subroutine read_value
 
    subroutine write_attribute(self, object, name, text)
       class(hdf5_base_type), intent(inout) :: self
@@ -326,21 +306,32 @@ contains
       character(len=*), intent(in) :: name, text
       character(kind=c_char, len=:), allocatable, target :: buffer
       type(c_ptr), target :: pointer(1)
-      integer(hid_t) :: space, attribute, kind
+      integer(hid_t) :: kind
       integer :: status
-      if (allocated(self%failure)) return
       buffer = text//c_null_char
       pointer(1) = c_loc(buffer)
       kind = kind_of_texts()
+      call write_value(self, object, name, kind, c_loc(pointer))
+      call h5tclose_f(kind, status)
+   end subroutine write_attribute
+
+   !> A new attribute of one value.
+   subroutine write_value(self, object, name, kind, buffer)
+      class(hdf5_base_type), intent(inout) :: self
+      integer(hid_t), intent(in) :: object, kind
+      character(len=*), intent(in) :: name
+      type(c_ptr), intent(in) :: buffer
+      integer(hid_t) :: space, attribute
+      integer :: status
+      if (allocated(self%failure)) return
       call h5screate_f(h5s_scalar_f, space, status)
       call h5acreate_f(object, name, kind, space, attribute, status)
       call self%check(status, 'create attribute '//name)
-      call h5awrite_f(attribute, kind, c_loc(pointer), status)
+      call h5awrite_f(attribute, kind, buffer, status)
       call self%check(status, 'write attribute '//name)
       call h5aclose_f(attribute, status)
       call h5sclose_f(space, status)
-      call h5tclose_f(kind, status)
-   end subroutine write_attribute
+   end subroutine write_value
 
    !> Keeps the first failure, in writing.
    subroutine check(self, status, action)

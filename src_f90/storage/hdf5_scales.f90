@@ -1,18 +1,17 @@
 !> Which dimension scales datasets have, and what a file contains.
 module hdf5_scales
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_funptr, c_int, c_int64_t, c_loc, c_null_ptr, c_ptr
-   use hdf5, only: hid_t, hsize_t, size_t, h5dopen_f, h5dclose_f, h5dget_space_f, h5sget_simple_extent_ndims_f, &
-      & h5sget_simple_extent_dims_f, h5sclose_f, h5s_unlimited_f, h5aexists_f, h5dget_type_f, h5tget_class_f, &
-      & h5tclose_f, h5t_string_f, h5gn_members_f, h5lget_name_by_idx_f, h5_index_name_f, h5_iter_native_f, &
-      & h5oget_info_by_name_f, h5o_info_t, h5o_type_group_f, h5o_type_dataset_f
+   use hdf5, only: hid_t, hsize_t, size_t, h5dopen_f, h5dclose_f, h5aexists_f, h5t_string_f, h5gn_members_f, &
+      & h5lget_name_by_idx_f, h5_index_name_f, h5_iter_native_f, h5oget_info_by_name_f, h5o_info_t, h5o_type_group_f, &
+      & h5o_type_dataset_f
    use h5ds, only: h5dsis_scale_f, h5dsget_scale_name_f
-   use hdf5_file, only: hdf5_type
+   use hdf5_file, only: hdf5_type, opened_type, scale_name, scale_count
    implicit none (type, external)
    private
    public :: item_type, list_items, scales_of, read_about, scale_name, scale_count, member_type, list_members
 
-   !> Only a damaged file has longer names, more members in a group, more dimensions, or groups in groups of groups.
-   integer, parameter :: longest_name = 200, most_members = 2000, most_dimensions = 32, deepest = 4
+   !> Only a damaged file has longer names, more members in a group, or groups in groups of groups.
+   integer, parameter :: longest_name = 200, most_members = 2000, deepest = 4
 
    !> A dataset, a group, or, where it is neither, a link that leads nowhere or a type.
    type :: member_type
@@ -107,30 +106,18 @@ contains
    subroutine measure(file, item)
       class(hdf5_type), intent(inout) :: file
       type(item_type), intent(inout) :: item
-      integer(hsize_t) :: dims(most_dimensions), most(most_dimensions)
-      integer(hid_t) :: dataset, space, kind
-      integer :: status, rank, class, ignored
+      type(opened_type) :: found
+      integer :: ignored
       logical :: there
-      call h5dopen_f(file%id, item%path, dataset, status)
-      call file%check_read(status, 'open '//item%path)
-      if (status < 0) return
-      call h5dget_space_f(dataset, space, status)
-      call h5sget_simple_extent_ndims_f(space, rank, status)
-      if (status >= 0 .and. rank > 0) call h5sget_simple_extent_dims_f(space, dims(:rank), most(:rank), status)
-      call file%check_read(status, 'read the size of '//item%path)
-      if (status >= 0 .and. rank > 0) then
-         item%extents = dims(:rank)
-         item%grows = any(most(:rank) == h5s_unlimited_f)
-      end if
-      call h5dget_type_f(dataset, kind, status)
-      call h5tget_class_f(kind, class, ignored)
-      item%of_texts = status >= 0 .and. class == h5t_string_f
-      if (status >= 0) call h5tclose_f(kind, ignored)
+      call file%open_dataset(item%path, found)
+      if (found%id < 0) return
+      item%extents = found%extents
+      item%grows = found%grows
+      item%of_texts = found%class == h5t_string_f
       ! asking for it is an error for a dataset without any
-      call h5aexists_f(dataset, 'CLASS', there, ignored)
-      if (there) call h5dsis_scale_f(dataset, item%is_scale, ignored)
-      call h5sclose_f(space, ignored)
-      call h5dclose_f(dataset, ignored)
+      call h5aexists_f(found%id, 'CLASS', there, ignored)
+      if (there) call h5dsis_scale_f(found%id, item%is_scale, ignored)
+      call h5dclose_f(found%id, ignored)
    end subroutine measure
 
    !> The scales of a dataset as hdf5_file names them: slowest dimension first, separated by blanks; its own path for a
@@ -177,28 +164,6 @@ contains
          if (all(i)%is_scale .and. all(i)%path == path) return
       end do
    end function place_of_scale
-
-   !> The k-th of scales whose names are separated by blanks; empty where there are fewer.
-   pure function scale_name(names, k) result(name)
-      character(len=*), intent(in) :: names
-      integer, intent(in) :: k
-      character(len=:), allocatable :: name
-      integer :: first, i
-      first = 1
-      do i = 2, k
-         first = min(first + index(names(first:)//' ', ' '), len(names) + 1)
-      end do
-      name = names(first:)
-      name = name(:index(name//' ', ' ') - 1)
-   end function scale_name
-
-   pure integer function scale_count(names) result(number)
-      character(len=*), intent(in) :: names
-      number = 0
-      do while (scale_name(names, number + 1) /= '')
-         number = number + 1
-      end do
-   end function scale_count
 
    !> Units and meaning of a dataset.
    subroutine read_about(file, path, units, long_name)

@@ -2,15 +2,13 @@
 !> routine does nothing.
 module hdf5_texts
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_loc, c_null_char, c_null_ptr, c_ptr
-   use hdf5, only: hid_t, hsize_t, h5s_unlimited_f, h5screate_simple_f, h5sclose_f, &
-      & h5sget_simple_extent_ndims_f, h5sget_simple_extent_dims_f, h5dcreate_f, h5dwrite_f, &
-      & h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_space_f, h5dget_type_f, h5pcreate_f, h5pclose_f, &
-      & h5pset_chunk_f, h5p_dataset_create_f, h5tclose_f
+   use hdf5, only: hid_t, hsize_t, h5s_unlimited_f, h5screate_simple_f, h5sclose_f, h5dcreate_f, h5dwrite_f, &
+      & h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_type_f, h5pcreate_f, h5pclose_f, h5pset_chunk_f, &
+      & h5p_dataset_create_f, h5tclose_f
    use hdf5_base, only: is_of_texts, kind_of_texts, c_free
    use kinds, only: i8
-   use hdf5_file, only: hdf5_type
-   use hdf5_series, only: select_part
-   use hdf5_rows, only: rows_a_chunk, small_transfers
+   use hdf5_file, only: hdf5_type, opened_type
+   use hdf5_rows, only: rows_a_chunk, small_transfers, select_part
    use system_texts, only: fortran_text
    implicit none (type, external)
    private
@@ -61,24 +59,18 @@ contains
       class(hdf5_texts_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: name
-      integer(hsize_t) :: dims(1), most(1)
-      integer(hid_t) :: space
-      integer :: status, rank
-      if (allocated(file%failure)) return
-      call file%open_dataset(name, self%id, status)
-      if (status < 0) self%id = -1
-      if (status < 0) return
+      type(opened_type) :: found
+      call file%open_dataset(name, found)
+      self%id = found%id
+      if (self%id < 0) return
       if (.not. are_texts(self%id)) call file%check_read(-1, 'find texts in '//name)
-      call h5dget_space_f(self%id, space, status)
-      call h5sget_simple_extent_ndims_f(space, rank, status)
-      if (rank /= 1) status = -1
-      dims = 0
-      if (status >= 0) call h5sget_simple_extent_dims_f(space, dims, most, status)
-      if (dims(1) > huge(1)) status = -1
-      call file%check_read(status, 'read the size of '//name)
-      call h5sclose_f(space, rank)
-      self%length = int(min(dims(1), int(huge(1), hsize_t)))
-      if (allocated(file%failure)) call self%close(file)
+      if (size(found%extents) /= 1 .or. any(found%extents > huge(1))) call file%check_read(-1, &
+         & 'read the size of '//name)
+      if (allocated(file%failure)) then
+         call self%close(file)
+      else
+         self%length = int(found%extents(1))
+      end if
    end subroutine open_texts
 
    !> Whether a dataset has texts of any length.

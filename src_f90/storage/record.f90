@@ -7,7 +7,7 @@ module record
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: record_type, dataset_type, move_record
+   public :: record_type, dataset_type, move_record, lines
 
    !> What a dataset holds: numbers, a whole number, or texts.
    integer, parameter, public :: of_reals = 1, of_counts = 2, of_texts = 3
@@ -47,21 +47,26 @@ module record
       !> Groups and datasets that were ever deleted, each followed by a new line: the file may still have them.
       character(len=:), allocatable :: deleted
    contains
-      !> Datasets by path; one of the name is replaced.
+      !> Datasets by path, of numbers, a whole number or texts; one of the name is replaced.
+      generic :: put => put_numbers, put_count, put_labels
+      procedure :: put_numbers
       procedure :: put_count
-      procedure :: put_real
-      procedure :: put_list
-      procedure :: put_table
-      procedure :: put_array
       procedure :: put_labels
+      !> A scale that counts n things.
+      procedure :: put_scale
+      !> The same of numbers.
+      procedure :: put_real => put_numbers
+      procedure :: put_list => put_numbers
+      procedure :: put_table => put_numbers
       !> A dataset with all that it has.
-      procedure :: put
+      procedure :: put_dataset
       !> Root attributes; one of the name is replaced.
       procedure :: put_text
       procedure :: put_flag
       !> Whether there is a dataset, or a group with one.
       procedure :: has
       !> What was put; 0 or empty where there is none.
+      procedure :: get_all
       procedure :: get_real
       procedure :: get_list
       procedure :: list_size
@@ -86,42 +91,48 @@ contains
       group = self%path(:index(self%path, '/', back=.true.) - 1)
    end function group
 
+   !> A number, or an array of numbers over these scales.
+   subroutine put_numbers(self, path, values, units, long_name, scales)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, units, long_name
+      real(wp), intent(in) :: values(..)
+      character(len=*), intent(in), optional :: scales
+      character(len=:), allocatable :: over
+      over = ''
+      if (present(scales)) over = scales
+      if (size(values) <= 0) then
+         ! gfortran 12 takes an expression without numbers for an array of unknown size
+         call self%put_dataset(path, of_reals, [real(wp) ::], max(shape(values), 0), units, long_name, over, '')
+         return
+      end if
+      select rank (values)
+      rank (0)
+         call self%put_dataset(path, of_reals, [values], [integer ::], units, long_name, '', '')
+      rank (1)
+         call self%put_dataset(path, of_reals, values, shape(values), units, long_name, over, '')
+      rank (2)
+         call self%put_dataset(path, of_reals, [values], shape(values), units, long_name, over, '')
+      rank (3)
+         call self%put_dataset(path, of_reals, [values], shape(values), units, long_name, over, '')
+      rank (4)
+         call self%put_dataset(path, of_reals, [values], shape(values), units, long_name, over, '')
+      end select
+   end subroutine put_numbers
+
+   subroutine put_scale(self, path, n, long_name)
+      class(record_type), intent(inout) :: self
+      character(len=*), intent(in) :: path, long_name
+      integer, intent(in) :: n
+      integer :: i
+      call self%put(path, [(real(i, wp), i=1, n)], '1', long_name, path)
+   end subroutine put_scale
+
    subroutine put_count(self, path, value, long_name)
       class(record_type), intent(inout) :: self
       character(len=*), intent(in) :: path, long_name
       integer(i8), intent(in) :: value
-      call self%put(path, of_counts, [real(value, wp)], [integer ::], '1', long_name, '', '')
+      call self%put_dataset(path, of_counts, [real(value, wp)], [integer ::], '1', long_name, '', '')
    end subroutine put_count
-
-   subroutine put_real(self, path, value, units, long_name)
-      class(record_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name
-      real(wp), intent(in) :: value
-      call self%put(path, of_reals, [value], [integer ::], units, long_name, '', '')
-   end subroutine put_real
-
-   subroutine put_list(self, path, values, units, long_name, scales)
-      class(record_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name, scales
-      real(wp), intent(in) :: values(:)
-      call self%put(path, of_reals, values, [size(values)], units, long_name, scales, '')
-   end subroutine put_list
-
-   subroutine put_table(self, path, values, units, long_name, scales)
-      class(record_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name, scales
-      real(wp), intent(in) :: values(:, :)
-      call self%put(path, of_reals, [values], shape(values), units, long_name, scales, '')
-   end subroutine put_table
-
-   !> Values in the order of Fortran, with this size in each dimension, the fastest first.
-   subroutine put_array(self, path, values, extents, units, long_name, scales)
-      class(record_type), intent(inout) :: self
-      character(len=*), intent(in) :: path, units, long_name, scales
-      real(wp), intent(in) :: values(:)
-      integer, intent(in) :: extents(:)
-      call self%put(path, of_reals, values, extents, units, long_name, scales, '')
-   end subroutine put_array
 
    !> A scale of texts, or texts over scales, in the order of Fortran and with this size in each dimension.
    subroutine put_labels(self, path, texts, long_name, extents, scales)
@@ -136,13 +147,13 @@ contains
          joined = joined//trim(texts(i))//newline
       end do
       if (present(scales)) then
-         call self%put(path, of_texts, [real(wp) ::], extents, '1', long_name, scales, joined)
+         call self%put_dataset(path, of_texts, [real(wp) ::], extents, '1', long_name, scales, joined)
       else
-         call self%put(path, of_texts, [real(wp) ::], [size(texts)], '1', long_name, path, joined)
+         call self%put_dataset(path, of_texts, [real(wp) ::], [size(texts)], '1', long_name, path, joined)
       end if
    end subroutine put_labels
 
-   subroutine put(self, path, kind, values, extents, units, long_name, scales, texts)
+   subroutine put_dataset(self, path, kind, values, extents, units, long_name, scales, texts)
       class(record_type), intent(inout) :: self
       character(len=*), intent(in) :: path, units, long_name, scales, texts
       integer, intent(in) :: kind, extents(:)
@@ -175,7 +186,7 @@ contains
          own%texts = texts
       end associate
       self%version = self%version + 1
-   end subroutine put
+   end subroutine put_dataset
 
    !> Room for one more dataset, behind the others.
    subroutine add_dataset(self)
@@ -255,14 +266,25 @@ contains
       end do
    end function has
 
+   !> All numbers of a dataset.
+   pure function get_all(self, path) result(values)
+      class(record_type), intent(in) :: self
+      character(len=*), intent(in) :: path
+      real(wp), allocatable :: values(:)
+      integer :: k
+      values = [real(wp) ::]
+      k = find(self, path)
+      if (k == 0) return
+      if (self%datasets(k)%there) values = self%datasets(k)%values
+   end function get_all
+
    pure real(wp) function get_real(self, path)
       class(record_type), intent(in) :: self
       character(len=*), intent(in) :: path
-      integer :: k
+      real(wp), allocatable :: values(:)
       get_real = 0
-      k = find(self, path)
-      if (k == 0) return
-      if (self%datasets(k)%there) get_real = self%datasets(k)%values(1)
+      values = self%get_all(path)
+      if (size(values) > 0) get_real = values(1)
    end function get_real
 
    !> A list of this size.
@@ -270,21 +292,16 @@ contains
       class(record_type), intent(in) :: self
       character(len=*), intent(in) :: path
       real(wp), intent(out) :: values(:)
-      integer :: k
+      real(wp), allocatable :: all_values(:)
       values = 0
-      k = find(self, path)
-      if (k == 0) return
-      if (self%datasets(k)%there .and. size(self%datasets(k)%values) == size(values)) values = self%datasets(k)%values
+      all_values = self%get_all(path)
+      if (size(all_values) == size(values)) values = all_values
    end subroutine get_list
 
    pure integer function list_size(self, path)
       class(record_type), intent(in) :: self
       character(len=*), intent(in) :: path
-      integer :: k
-      list_size = 0
-      k = find(self, path)
-      if (k == 0) return
-      if (self%datasets(k)%there) list_size = product(self%datasets(k)%extents)
+      list_size = size(self%get_all(path))
    end function list_size
 
    subroutine get_text(self, name, text)
@@ -345,4 +362,18 @@ contains
       if (allocated(self%deleted)) deallocate (self%deleted)
       self%next = 1
    end subroutine clear
+
+   !> The lines of a text, each of which ends with a new line, filled up with blanks.
+   pure function lines(text)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: lines(:)
+      integer, allocatable :: ends(:), starts(:)
+      integer :: k
+      ends = pack([(k, k=1, len(text))], [(text(k:k) == newline, k=1, len(text))])
+      starts = [1, ends + 1]
+      allocate (character(len=max(1, maxval(ends - starts(:size(ends))))) :: lines(size(ends)))
+      do k = 1, size(ends)
+         lines(k) = text(starts(k):ends(k) - 1)
+      end do
+   end function lines
 end module record

@@ -1,17 +1,15 @@
 !> The file of a record: its datasets and root attributes in HDF5.
 module record_file
    use, intrinsic :: iso_c_binding, only: c_char, c_loc, c_null_char, c_ptr
-   use kinds, only: i8, wp
-   use hdf5_file, only: hdf5_type
-   use record, only: record_type, dataset_type, of_counts, of_texts, of_reals
-   use hdf5, only: hid_t, size_t, h5dclose_f, h5dread_f, h5dget_type_f, h5tget_class_f, h5tget_size_f, &
-      & h5tis_variable_str_f, h5tclose_f, h5t_string_f, h5t_integer_f, h5t_float_f, h5t_native_double
+   use kinds, only: wp
+   use hdf5_file, only: hdf5_type, opened_type
+   use record, only: record_type, of_counts, of_texts, of_reals, lines
+   use hdf5, only: hid_t, h5dclose_f, h5dread_f, h5dget_type_f, h5tis_variable_str_f, h5tclose_f, h5t_string_f, &
+      & h5t_integer_f, h5t_float_f, h5t_native_double
    use hdf5_scales, only: item_type, list_items, scales_of, read_about
    implicit none (type, external)
    private
-   public :: write_record, lines, read_record
-
-   character(len=*), parameter :: newline = achar(10)
+   public :: write_record, read_record
 
    !> Most numbers of a dataset, and most bytes of a label; only a damaged file says more.
    integer, parameter :: most_numbers = 10000000, longest_label = 30000
@@ -39,80 +37,41 @@ contains
                if (own%scales == own%path .neqv. turn == 1) cycle
                if (own%group() /= last) call file%make_group(own%group())
                last = own%group()
-               call write_dataset(own, file)
+               call file%put(own)
             end associate
          end do
       end do
-      if (self%count > 0) self%datasets(:self%count)%unwritten = .false.
-      if (.not. allocated(self%attributes)) return
-      do k = 1, size(self%attributes)
-         associate (own => self%attributes(k))
-            if (.not. own%there .or. .not. (all .or. own%unwritten)) cycle
-            if (own%is_flag) then
-               call file%put_flag(own%name, own%flag)
-            else
-               call file%put_text(own%name, own%text)
-            end if
-            own%unwritten = .false.
-         end associate
-      end do
+      if (allocated(self%attributes)) then
+         do k = 1, size(self%attributes)
+            associate (own => self%attributes(k))
+               if (.not. own%there .or. .not. (all .or. own%unwritten)) cycle
+               if (own%is_flag) then
+                  call file%put_flag(own%name, own%flag)
+               else
+                  call file%put_text(own%name, own%text)
+               end if
+            end associate
+         end do
+      end if
+      call self%note_written()
    end subroutine write_record
 
    !> Deletes what was deleted here; what was put there again is to be written again, as it may have another size.
    subroutine delete_groups(self, file)
       class(record_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
-      integer :: first, length, k
+      character(len=:), allocatable :: names(:)
+      integer :: i, k
       if (.not. allocated(self%deleted)) return
-      first = 2
-      do while (first <= len(self%deleted))
-         length = index(self%deleted(first:), newline) - 1
-         associate (name => self%deleted(first:first + length - 1))
-            call file%delete(name)
-            do k = 1, self%count
-               if (index(self%datasets(k)%path//'/', name//'/') == 1) self%datasets(k)%unwritten = .true.
-            end do
-         end associate
-         first = first + length + 1
+      ! a new line stands before the first
+      names = lines(self%deleted(2:))
+      do i = 1, size(names)
+         call file%delete(trim(names(i)))
+         do k = 1, self%count
+            if (index(self%datasets(k)%path//'/', trim(names(i))//'/') == 1) self%datasets(k)%unwritten = .true.
+         end do
       end do
    end subroutine delete_groups
-
-   subroutine write_dataset(own, file)
-      type(dataset_type), intent(in) :: own
-      class(hdf5_type), intent(inout) :: file
-      select case (own%kind)
-      case (of_texts)
-         call file%put_labels(own%path, lines(own%texts), own%extents, own%long_name, own%scales)
-      case (of_counts)
-         call file%put_count(own%path, nint(own%values(1), i8), own%long_name)
-      case default
-         call file%put_array(own%path, own%values, own%extents, own%units, own%long_name, own%scales)
-      end select
-   end subroutine write_dataset
-
-   !> The lines of a text, each of which ends with a new line, filled up with blanks.
-   pure function lines(text)
-      character(len=*), intent(in) :: text
-      character(len=:), allocatable :: lines(:)
-      integer :: first, length, count, longest, k
-      count = 0
-      longest = 1
-      length = 0
-      do k = 1, len(text)
-         length = length + 1
-         if (text(k:k) /= newline) cycle
-         count = count + 1
-         longest = max(longest, length - 1)
-         length = 0
-      end do
-      allocate (character(len=longest) :: lines(count))
-      first = 1
-      do k = 1, count
-         length = index(text(first:), newline) - 1
-         lines(k) = text(first:first + length - 1)
-         first = first + length + 1
-      end do
-   end function lines
 
    ! Reads the results of a run from its file into a record: what `write_record` wrote, without the series over time
    ! and over the points of a branch, which may be very long.
@@ -150,63 +109,59 @@ contains
       type(record_type), intent(inout) :: record
       character(len=:), allocatable :: units, long_name, texts
       real(wp), allocatable, target :: values(:)
-      integer(hid_t) :: dataset, kind
+      type(opened_type) :: found
       type(c_ptr) :: buffer
-      integer :: status, class
+      integer :: status, kind
       if (allocated(file%failure)) return
       if (product(real(item%extents, wp)) > most_numbers) call file%check_read(-1, 'take memory for '//item%path)
       if (allocated(file%failure)) return
       call read_about(file, item%path, units, long_name)
-      call file%open_dataset(item%path, dataset, status)
-      if (status < 0) return
-      call h5dget_type_f(dataset, kind, status)
-      call h5tget_class_f(kind, class, status)
-      allocate (values(merge(0, int(product(item%extents)), class == h5t_string_f)))
+      call file%open_dataset(item%path, found)
+      if (found%id < 0) return
+      kind = merge(of_counts, of_reals, found%class == h5t_integer_f .and. size(found%extents) == 0)
       texts = ''
-      if (status >= 0 .and. class == h5t_string_f) then
-         call read_labels(file, dataset, kind, item, texts)
-      else if (status >= 0 .and. (class == h5t_integer_f .or. class == h5t_float_f)) then
+      allocate (values(merge(0, int(product(found%extents)), found%class == h5t_string_f)))
+      if (found%class == h5t_string_f) then
+         kind = of_texts
+         call read_labels(file, found, item%path, texts)
+      else if (found%class == h5t_integer_f .or. found%class == h5t_float_f) then
          buffer = c_loc(values)
-         if (size(values) > 0) call h5dread_f(dataset, h5t_native_double, buffer, status)
-         call file%check_read(status, 'read '//item%path)
+         if (size(values) > 0) call h5dread_f(found%id, h5t_native_double, buffer, status)
+         if (size(values) > 0) call file%check_read(status, 'read '//item%path)
       else
          call file%check_read(-1, 'find numbers in '//item%path)
       end if
-      call h5tclose_f(kind, status)
-      call h5dclose_f(dataset, status)
+      call h5dclose_f(found%id, status)
       if (allocated(file%failure)) return
-      kind = merge(of_texts, merge(of_counts, of_reals, class == h5t_integer_f .and. size(item%extents) == 0), &
-         & class == h5t_string_f)
-      call record%put(item%path, int(kind), values, int(item%extents), units, long_name, scales, texts)
+      call record%put_dataset(item%path, kind, values, int(found%extents), units, long_name, scales, texts)
    end subroutine read_dataset
 
    !> Texts of one length, filled up with zero bytes: each with a new line behind it.
-   subroutine read_labels(file, dataset, kind, item, texts)
+   subroutine read_labels(file, found, path, texts)
       class(hdf5_type), intent(inout) :: file
-      integer(hid_t), intent(in) :: dataset, kind
-      type(item_type), intent(in) :: item
+      type(opened_type), intent(in) :: found
+      character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(inout) :: texts
       character(kind=c_char, len=:), allocatable, target :: bytes
       type(c_ptr) :: buffer
-      integer(size_t) :: length
-      integer :: status, count, i, ends
+      integer(hid_t) :: kind
+      integer :: status, length, i, ends
       logical :: variable
+      call h5dget_type_f(found%id, kind, status)
       call h5tis_variable_str_f(kind, variable, status)
-      if (status >= 0) call h5tget_size_f(kind, length, status)
-      if (status >= 0 .and. (variable .or. length > longest_label)) status = -1
-      call file%check_read(status, 'find labels in '//item%path)
+      if (status >= 0 .and. (variable .or. found%bytes > longest_label)) status = -1
+      call file%check_read(status, 'find labels in '//path)
       if (status < 0) return
-      count = int(product(item%extents))
-      allocate (character(kind=c_char, len=count*int(length)) :: bytes)
+      length = int(found%bytes)
+      allocate (character(kind=c_char, len=int(product(found%extents))*length) :: bytes)
       buffer = c_loc(bytes)
-      call h5dread_f(dataset, kind, buffer, status)
-      call file%check_read(status, 'read '//item%path)
+      call h5dread_f(found%id, kind, buffer, status)
+      call file%check_read(status, 'read '//path)
       if (status < 0) return
-      do i = 1, count
-         associate (label => bytes((i - 1)*int(length) + 1:i*int(length)))
-            ends = index(label//c_null_char, c_null_char) - 1
-            texts = texts//trim(label(:ends))//achar(10)
-         end associate
+      do i = 1, len(bytes), length
+         ends = index(bytes(i:i + length - 1)//c_null_char, c_null_char) - 1
+         texts = texts//trim(bytes(i:i + ends - 1))//achar(10)
       end do
+      call h5tclose_f(kind, status)
    end subroutine read_labels
 end module record_file

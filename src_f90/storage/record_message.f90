@@ -51,8 +51,8 @@ contains
          long_name = word()
          scales = word()
          texts = word()
-         call self%put(path, kind, spread(0.0_wp, 1, merge(0, product(extents), kind == of_texts)), extents, units, &
-            & long_name, scales, texts)
+         call self%put_dataset(path, kind, spread(0.0_wp, 1, merge(0, product(extents), kind == of_texts)), extents, &
+            & units, long_name, scales, texts)
          deallocate (extents)
       end do
    contains

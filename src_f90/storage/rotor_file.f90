@@ -53,9 +53,12 @@ contains
       type(hdf5_type), intent(inout) :: file
       type(given_rotor_type), intent(inout) :: rotor
       type(error_type), allocatable, intent(inout) :: error
+      real(wp), allocatable :: station(:)
       integer :: n, rows
-      n = file%list_size('weighed')
-      rows = file%list_size('station')
+      call file%get_list('weighed', rotor%weighed)
+      call file%get_list('station', station)
+      n = size(rotor%weighed)
+      rows = size(station)
       if (allocated(file%failure)) return
       if (n < 1 .or. n > most_displacements) then
          call raise(error, input_error, 'weighed: has '//to_text(n)//' numbers: must be one for each displacement, ' &
@@ -65,8 +68,6 @@ contains
             & //' displacements, two for each station')
       end if
       if (allocated(error)) return
-      allocate (rotor%weighed(n))
-      call file%get_list('weighed', rotor%weighed)
       rotor%total_mass = file%get_real('total_mass')
       rows = rows/n
       call read_matrix(file, 'mass', n, n, rotor%mass, error)
@@ -85,17 +86,14 @@ contains
       real(wp), allocatable, intent(out) :: matrix(:, :)
       type(error_type), allocatable, intent(inout) :: error
       real(wp), allocatable :: numbers(:)
-      integer :: found
       if (allocated(error)) return
-      found = file%list_size(name)
+      call file%get_list(name, numbers)
       if (allocated(file%failure)) return
-      if (found /= rows*columns) then
-         call raise(error, input_error, name//': has '//to_text(found)//' numbers: must have '//to_text(rows)//' x ' &
-            & //to_text(columns))
+      if (size(numbers) /= rows*columns) then
+         call raise(error, input_error, name//': has '//to_text(size(numbers))//' numbers: must have '//to_text(rows) &
+            & //' x '//to_text(columns))
          return
       end if
-      allocate (numbers(found))
-      call file%get_list(name, numbers)
       ! HDF5 has the last index first
       matrix = transpose(reshape(numbers, [columns, rows]))
    end subroutine read_matrix

@@ -5,11 +5,13 @@ program test_growing_file
    use text, only: to_text
    use errors, only: error_type
    use files, only: delete_file
+   use record, only: record_type
+   use record_file, only: write_record
    use hdf5_file, only: hdf5_type
-   use hdf5_series, only: hdf5_series_type, chunk_samples
+   use hdf5_rows, only: hdf5_rows_type, chunk_samples
    use growing_file, only: growing_file_type
    use scratch, only: scratch_path, file_there
-   use hdf5_expectations, only: put_real, put_list, put_table, expect_damaged
+   use hdf5_expectations, only: put_real, put_list, expect_damaged
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)
    !> Samples of a long series.
@@ -58,17 +60,27 @@ contains
       end do
    end function samples
 
+   !> A new series of this many values a sample, or, for 0, of one.
+   subroutine create(series, file, name, width, expected)
+      type(hdf5_rows_type), intent(inout) :: series
+      type(hdf5_type), intent(inout) :: file
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: width
+      integer(i8), intent(in) :: expected
+      call series%create(file, name, pack([width], width > 0), 0, expected=expected)
+   end subroutine create
+
    subroutine expect_part(series, file, first, last)
-      type(hdf5_series_type), intent(inout) :: series
+      type(hdf5_rows_type), intent(inout) :: series
       type(hdf5_type), intent(inout) :: file
       integer, intent(in) :: first, last
       real(wp), allocatable :: found(:, :)
       character(len=:), allocatable :: what
       what = 'samples '//to_text(first)//' to '//to_text(last)
-      call series%read(file, int(first - 1, i8), last - first + 1, found)
-      call expect(all(shape(found) == [series%width, last - first + 1]), 'shape, '//what)
-      if (all(shape(found) == [series%width, last - first + 1])) call expect(all(.not. abs(found &
-         & - samples(series%width, first, last)) > 0), what)
+      call series%read_behind(file, int(first - 1, i8), last - first + 1, found)
+      call expect(all(shape(found) == [series%width(), last - first + 1]), 'shape, '//what)
+      if (all(shape(found) == [series%width(), last - first + 1])) call expect(all(.not. abs(found &
+         & - samples(series%width(), first, last)) > 0), what)
    end subroutine expect_part
 
    !> With any number of samples at a time, over the ends of chunks, also where there are more than expected.
@@ -77,19 +89,19 @@ contains
       integer(i8), intent(in) :: expected
       integer, parameter :: pieces(*) = [1, 1, 2, chunk_samples - 5, 3, chunk_samples, 2*chunk_samples + 1, 10]
       type(hdf5_type) :: file
-      type(hdf5_series_type) :: series
+      type(hdf5_rows_type) :: series
       integer :: i, length
       call file%create(path)
-      call series%create(file, 'x', width, 'm', 'numbers', '', expected)
-      call expect(series%width == max(1, width) .and. series%length == 0, 'a new one')
+      call create(series, file, 'x', width, expected)
+      call expect(series%width() == max(1, width) .and. series%length == 0, 'a new one')
       length = 0
       do i = 1, size(pieces)
-         call series%append(file, samples(series%width, length + 1, length + pieces(i)))
+         call series%append(file, samples(series%width(), length + 1, length + pieces(i)))
          length = length + pieces(i)
          call expect(series%length == length, 'length after '//to_text(i)//' pieces')
          call expect_part(series, file, 1, length)
       end do
-      call series%append(file, samples(series%width, 1, 0))
+      call series%append(file, samples(series%width(), 1, 0))
       call expect(series%length == length, 'nothing more')
       call series%close(file)
       call file%close()
@@ -98,9 +110,9 @@ contains
 
    subroutine parts()
       type(hdf5_type) :: file
-      type(hdf5_series_type) :: series
+      type(hdf5_rows_type) :: series
       call file%create(path)
-      call series%create(file, 'x', 2, 'm', 'numbers', '', long)
+      call create(series, file, 'x', 2, long)
       call series%append(file, samples(2, 1, chunk_samples + 100))
       call expect_part(series, file, 1, 1)
       call expect_part(series, file, chunk_samples - 1, chunk_samples + 2)
@@ -114,10 +126,12 @@ contains
    !> A width of 0 gives one number a sample, of one dimension; 1 gives lists of one.
    subroutine shape_in_the_file()
       type(hdf5_type) :: file
-      type(hdf5_series_type) :: flat, lists
+      type(hdf5_rows_type) :: flat, lists
       call file%create(path)
-      call flat%create(file, 'flat', 0, 'm', 'numbers', 'flat', long)
-      call lists%create(file, 'lists', 1, 'm', 'numbers', 'flat', long)
+      call create(flat, file, 'flat', 0, long)
+      call create(lists, file, 'lists', 1, long)
+      call file%describe(flat%id, 'm', 'numbers', 'flat', 'flat')
+      call file%describe(lists%id, 'm', 'numbers', 'flat', 'lists')
       call flat%append(file, samples(1, 1, 3))
       call lists%append(file, samples(1, 1, 3))
       call expect_part(flat, file, 1, 3)
@@ -129,55 +143,52 @@ contains
    end subroutine shape_in_the_file
 
    subroutine no_series()
+      type(record_type) :: record
       type(hdf5_type) :: file
-      type(hdf5_series_type) :: series
+      type(hdf5_rows_type) :: series
       call file%create(path)
-      call file%put_count('count', 1_i8, 'a count')
+      call record%put('texts', ['a', 'b'], 'texts')
+      call write_record(record, file, .true.)
       call put_real(file, 'number', 1.0_wp, 'm', 'a number')
-      call put_table(file, 'wide', spread(spread(0.0_wp, 1, 1001), 2, 2), 'm', 'a table', '')
       call series%open(file, 'missing')
       call expect_damaged(file, 'open missing')
       call file%open(path, writing=.false.)
-      call series%open(file, 'count')
+      call series%open(file, 'texts')
       call series%close(file)
-      call expect_damaged(file, 'find numbers of the right kind in count')
+      call expect_damaged(file, 'find numbers of the right kind in texts')
       call file%open(path, writing=.false.)
       call series%open(file, 'number')
       call series%close(file)
       call expect_damaged(file, 'read the size of number')
-      call file%open(path, writing=.false.)
-      call series%open(file, 'wide')
-      call series%close(file)
-      call expect_damaged(file, 'read the size of wide')
    end subroutine no_series
 
    subroutine beyond_the_end()
       type(hdf5_type) :: file
-      type(hdf5_series_type) :: series
+      type(hdf5_rows_type) :: series
       real(wp), allocatable :: found(:, :)
       call file%create(path)
-      call series%create(file, 'x', 0, 'm', 'numbers', '', long)
+      call create(series, file, 'x', 0, long)
       call series%append(file, samples(1, 1, 3))
-      call series%read(file, 2_i8, 2, found)
+      call series%read_behind(file, 2_i8, 2, found)
       call expect(all(shape(found) == [1, 2]), 'as many as were asked for')
       call expect_close(maxval(abs(found)), 0.0_wp, 0.0_wp, 'and all of them 0')
       call series%close(file)
-      call expect_damaged(file, 'read samples')
+      call expect_damaged(file, 'read rows')
    end subroutine beyond_the_end
 
    subroutine nothing_after_a_failure()
       type(hdf5_type) :: file
-      type(hdf5_series_type) :: series, other
+      type(hdf5_rows_type) :: series, other
       real(wp), allocatable :: found(:, :)
       call file%create(path)
-      call series%create(file, 'x', 0, 'm', 'numbers', '', long)
+      call create(series, file, 'x', 0, long)
       call series%append(file, samples(1, 1, 3))
       call file%check_read(-1, 'do something else')
       call series%append(file, samples(1, 4, 5))
       call expect(series%length == 3, 'nothing is appended')
-      call series%read(file, 0_i8, 3, found)
+      call series%read_behind(file, 0_i8, 3, found)
       call expect_close(maxval(abs(found)), 0.0_wp, 0.0_wp, 'nothing is read')
-      call other%create(file, 'y', 0, 'm', 'numbers', '', long)
+      call create(other, file, 'y', 0, long)
       call series%close(file)
       call expect_damaged(file, 'do something else')
       call file%open(path, writing=.false.)
@@ -216,8 +227,8 @@ contains
    subroutine begin_series(file)
       type(growing_file_type), intent(inout) :: file
       call file%begin_series('frequency', 5000_i8)
-      call file%declare('frequency', 1, '', 'Hz', 'frequency')
-      call file%declare('amplitude', 2, 'pad', 'm', 'amplitude')
+      call file%declare('frequency', 1, 'Hz', 'frequency', '')
+      call file%declare('amplitude', 2, 'm', 'amplitude', 'pad')
    end subroutine begin_series
 
    !> Adds samples first to last.
@@ -234,17 +245,17 @@ contains
    subroutine expect_samples(n)
       integer, intent(in) :: n
       type(hdf5_type) :: file
-      type(hdf5_series_type) :: series
+      type(hdf5_rows_type) :: series
       real(wp), allocatable :: axis(:, :), values(:, :)
       integer :: k
       call file%open(path, writing=.false.)
       call series%open(file, 'frequency')
-      call expect(series%length == n .and. series%width == 1, to_text(n)//' samples of the axis')
-      call series%read(file, 0_i8, int(series%length), axis)
+      call expect(series%length == n .and. series%width() == 1, to_text(n)//' samples of the axis')
+      call series%read(file, 1, series%rows, axis)
       call series%close(file)
       call series%open(file, 'amplitude')
-      call expect(series%length == n .and. series%width == 2, to_text(n)//' samples of two pads')
-      call series%read(file, 0_i8, int(series%length), values)
+      call expect(series%length == n .and. series%width() == 2, to_text(n)//' samples of two pads')
+      call series%read(file, 1, series%rows, values)
       call series%close(file)
       call expect(.not. allocated(file%failure), 'the file is whole')
       call file%close()
@@ -360,13 +371,13 @@ contains
    subroutine uneven_series()
       type(growing_file_type) :: file
       type(hdf5_type) :: bad
-      type(hdf5_series_type) :: series
+      type(hdf5_rows_type) :: series
       type(error_type), allocatable :: error
       call bad%create(path)
-      call series%create(bad, 'frequency', 0, 'Hz', 'frequency', 'frequency', 5000_i8)
+      call create(series, bad, 'frequency', 0, 5000_i8)
       call series%append(bad, reshape([1.0_wp, 2.0_wp, 3.0_wp], [1, 3]))
       call series%close(bad)
-      call series%create(bad, 'amplitude', 2, 'm', 'amplitude', 'frequency', 5000_i8)
+      call create(series, bad, 'amplitude', 2, 5000_i8)
       call series%append(bad, reshape([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], [2, 2]))
       call series%close(bad)
       call bad%close()

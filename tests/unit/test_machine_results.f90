@@ -8,7 +8,7 @@ program test_machine_results
    use record, only: record_type
    use record_file, only: read_record
    use hdf5_file, only: hdf5_type
-   use hdf5_series, only: hdf5_series_type
+   use hdf5_rows, only: hdf5_rows_type
    use run_case, only: run_task
    use machine_cases, only: symmetric_rotor, disc_station
    use scratch, only: scratch_path, for_shell
@@ -155,9 +155,9 @@ contains
       type(hdf5_type), intent(inout) :: file
       character(len=*), intent(in) :: name
       real(wp), allocatable :: values(:, :)
-      type(hdf5_series_type) :: data
+      type(hdf5_rows_type) :: data
       call data%open(file, name)
-      call data%read(file, data%length*0, int(data%length), values)
+      call data%read(file, 1, data%rows, values)
       call data%close(file)
    end function series
 end program test_machine_results

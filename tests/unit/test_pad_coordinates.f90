@@ -122,7 +122,6 @@ program test_pad_coordinates
    use record, only: record_type
    use provenance, only: running
    use run_file, only: run_file_type
-   use run_statistics, only: run_statistics_type
    use bearing_file, only: new_bearing_file
    use oscillating_pads, only: oscillating_pads_type, new_oscillating_pads, third
    use sampled_march, only: march_samples
@@ -418,7 +417,6 @@ contains
       type(machine_model) :: model
       type(oscillating_pads_type) :: coordinates
       type(run_file_type), target :: file
-      type(run_statistics_type) :: statistics
       type(bearing_sample) :: sample(1)
       type(error_type), allocatable :: error
       type(case_type) :: inputs
@@ -444,19 +442,19 @@ contains
          call expect_no_error(error, 'a sample, '//motion)
       end do
       associate (x => displaced(model))
-         call file%last_samples('third_coordinate', 2, values)
+         call file%hdf5%last_samples('third_coordinate', 2, values)
          call expect(all(abs(values - reshape([y(x), 2*y(x)], [2, 2])) <= 0), 'displacements, '//motion)
-         call file%last_samples('third_coordinate_rate', 2, values)
+         call file%hdf5%last_samples('third_coordinate_rate', 2, values)
          call expect(all(abs(values - reshape([y(x + 1), 2*y(x + 1)], [2, 2])) <= 0), 'rates, '//motion)
       end associate
-      call file%last_samples('pad_tilt', 2, values)
+      call file%hdf5%last_samples('pad_tilt', 2, values)
       call expect(all(abs(values(:, 1) - y(model%layout%elements(1)%before([1, 2]) + 1)) <= 0), 'tilts, '//motion)
-      call file%last_samples('bristle_deflection', 2, values)
+      call file%hdf5%last_samples('bristle_deflection', 2, values)
       call expect(all(abs(values(:, 1) - y(model%layout%elements(1)%bristle([1, 2]))) <= 0), 'bristles, '//motion)
-      call expect(file%has('pivot_deflection') .eqv. inputs%bearings(1)%tilting_radial(), 'pivot deflections, '//motion)
+      call expect(file%hdf5%has_series('pivot_deflection') .eqv. inputs%bearings(1)%tilting_radial(), &
+         & 'pivot deflections, '//motion)
       ! a checkpoint has the series in the record, with their units
-      call statistics%put('steps', 2_i8, 'time steps')
-      call file%checkpoint(2e-3_wp, statistics, running, '', error, y)
+      call file%checkpoint(2e-3_wp, running, '', error, y)
       call expect_no_error(error, 'a checkpoint, '//motion)
       call expect_described(file%record_type, 'third_coordinate', 'm', 'third coordinate')
       call expect_described(file%record_type, 'third_coordinate_rate', 'm/s', 'third coordinate rate')

@@ -14,6 +14,7 @@ program test_record
    implicit none (type, external)
 
    if (runs('put_and_get')) call put_and_get()
+   if (runs('ranks')) call ranks()
    if (runs('deleted')) call deleted()
    if (runs('filled_again')) call filled_again()
    if (runs('versions')) call versions()
@@ -83,6 +84,25 @@ contains
       call record%get_list('modes/frequency', three)
       call expect(all(abs(three) <= 0), 'nor is a list of another size')
    end subroutine put_and_get
+
+   !> Arrays of any rank, also without numbers, as expressions and as variables.
+   subroutine ranks()
+      type(record_type) :: record
+      real(wp), allocatable :: none(:), table(:, :)
+      integer :: i, n
+      n = 0
+      allocate (none(0), table(2, 0))
+      call record%put('mode', [(real(i, wp), i=1, n)], '1', 'modes', 'mode')
+      call record%put('frequency', none, 'Hz', 'frequencies', 'mode')
+      call record%put('shape', table, 'm', 'shapes', 'mode pad')
+      call record%put('twice', 2*table, 'm', 'shapes', 'mode pad')
+      call record%put('four', reshape([(real(i, wp), i=1, 24)], [1, 2, 3, 4]), 'm', 'of four dimensions', '')
+      call expect(record%count == 5, 'all are there')
+      call expect(all([(size(record%datasets(i)%values), i=1, 5)] == [0, 0, 0, 0, 24]), 'numbers')
+      call expect(all(record%datasets(1)%extents == [0]) .and. all(record%datasets(2)%extents == [0]), 'lists')
+      call expect(all(record%datasets(3)%extents == [2, 0]) .and. all(record%datasets(4)%extents == [2, 0]), 'tables')
+      call expect(all(record%datasets(5)%extents == [1, 2, 3, 4]), 'four dimensions')
+   end subroutine ranks
 
    !> What was deleted is gone until it is put again, in whatever order it comes.
    subroutine deleted()
@@ -210,7 +230,7 @@ contains
       type(record_type) :: record, found
       type(hdf5_type) :: file
       character(len=:), allocatable :: path
-      integer :: sizes(3)
+      real(wp), allocatable :: values(:)
       integer :: i, k
       path = scratch_path('record.h5')
       call file%create(path)
@@ -229,9 +249,12 @@ contains
          call write_record(record, file, .false.)
          call expect(.not. allocated(file%failure), 'written with another size')
       end do
-      sizes = [file%list_size('checkpoint/state'), file%list_size('revolution'), &
-         & file%list_size('by_revolution/lowest_y')]
-      call expect(all(sizes == 5), 'the last size')
+      call file%get_list('checkpoint/state', values)
+      call expect(size(values) == 5, 'the last size of a state')
+      call file%get_list('revolution', values)
+      call expect(size(values) == 5, 'of a scale')
+      call file%get_list('by_revolution/lowest_y', values)
+      call expect(size(values) == 5, 'and of what is over it')
       call record%delete('checkpoint')
       call write_record(record, file, .false.)
       call expect(.not. file%has('checkpoint'), 'what was deleted is not in the file')

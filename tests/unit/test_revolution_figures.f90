@@ -53,13 +53,13 @@ contains
       call file%start(inputs, error)
       call expect_no_error(error, 'a run')
       call file%begin_series('time', size(angle, kind=i8))
-      call file%declare('shaft_angle', 1, '', 'rad', 'angle')
-      call file%declare('journal_y', 1, '', 'm', 'y')
-      call file%declare('journal_z', 1, '', 'm', 'z')
-      if (inputs%bearings(1)%tilting()) call file%declare('pad_tilt', pads, 'pad', 'rad', 'tilt')
+      call file%hdf5%declare('shaft_angle', 1, 'rad', 'angle', '')
+      call file%hdf5%declare('journal_y', 1, 'm', 'y', '')
+      call file%hdf5%declare('journal_z', 1, 'm', 'z', '')
+      if (inputs%bearings(1)%tilting()) call file%hdf5%declare('pad_tilt', pads, 'rad', 'tilt', 'pad')
       do i = 1, size(angle)
          values = motion(angle(i))
-         call file%add([angle(i), values(:width)])
+         call file%hdf5%add([angle(i), values(:width)])
       end do
       bearing = new_bearing_file(file, inputs%bearings(1))
       call put_revolutions(bearing, inputs%bearings(1)%tilting(), size(angle), most)
@@ -69,8 +69,8 @@ contains
    function list(file, name) result(values)
       type(run_file_type), intent(in) :: file
       character(len=*), intent(in) :: name
-      real(wp) :: values(file%list_size(name))
-      call file%get_list(name, values)
+      real(wp), allocatable :: values(:)
+      values = file%get_all(name)
    end function list
 
    !> The points lie on the motion at the multiples of 2 pi from the first, within a tolerance.
