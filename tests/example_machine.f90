@@ -4,9 +4,9 @@ module example_machine
    use linear_algebra, only: dgesv, zgesv, find_eigenvalues
    use errors, only: error_type
    use case_inputs, only: case_type
-   use rotor_groups, only: disc_type, unbalance_type
+   use case_groups, only: disc_type, unbalance_type
    use rotor_matrices, only: rotor_matrices_type
-   use shaft_in_bearings, only: find_rotor
+   use rotor_factory, only: find_rotor
    use check, only: expect_no_error
    implicit none (type, external)
    private

@@ -2,8 +2,7 @@
 module machine_cases
    use kinds, only: wp
    use case_inputs, only: case_type
-   use case_groups, only: bearing_type
-   use rotor_groups, only: disc_type, unbalance_type
+   use case_groups, only: bearing_type, disc_type, unbalance_type
    implicit none (type, external)
    private
    public :: symmetric_rotor, add_bearing, disc_station

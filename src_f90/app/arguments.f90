@@ -67,10 +67,8 @@ contains
          case ('--yes')
             given%yes = .true.
          case ('--output', '-o', '--resume', '--set', '--verify', '--run', '--block', '--jobs')
-            if (i == command_argument_count()) then
-               call raise(error, input_error, word//': a value must follow; see tiltpad --help')
-               return
-            end if
+            call require(i < command_argument_count(), word//': a value must follow; see tiltpad --help', error)
+            if (allocated(error)) return
             i = i + 1
             value = argument(i)
             call take_option(given, word, value, error)
@@ -100,12 +98,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
       select case (word)
       case ('--set')
-         if (len(value) > longest) then
-            call raise(error, input_error, '--set '//shortened(value)//': the value is too long, ' &
-               & //to_text(len(value))//' characters; at most '//to_text(longest))
-         else if (size(given%overrides) == most) then
-            call raise(error, input_error, '--set '//shortened(value)//': given more than '//to_text(most)//' times')
-         end if
+         call require(len(value) <= longest, '--set '//shortened(value)//': the value is too long, ' &
+            & //to_text(len(value))//' characters; at most '//to_text(longest), error)
+         call require(size(given%overrides) < most, '--set '//shortened(value)//': given more than '//to_text(most) &
+            & //' times', error)
          if (.not. allocated(error)) given%overrides = [character(len=longest) :: given%overrides, value]
       case ('--verify')
          call read_whole(word, value, given%verify, error)
@@ -117,12 +113,10 @@ contains
       case ('--jobs')
          call read_whole(word, value, given%jobs, error)
       case default
-         if (value == '') then
-            call raise(error, input_error, word//': the file name is empty')
-         else if (len_trim(value) < len(value)) then
-            ! Fortran leaves blanks at the end of a name away
-            call raise(error, input_error, word//' '//value//': the name of a file must not end in a blank')
-         end if
+         call require(value /= '', word//': the file name is empty', error)
+         ! Fortran leaves blanks at the end of a name away
+         call require(len_trim(value) == len(value), word//' '//value//': the name of a file must not end in a blank', &
+            & error)
          if (word == '--resume') then
             given%resumed = value
          else

@@ -2,7 +2,7 @@
 !> changes, and the branches of double period that begin there.
 module branch_task
    use kinds, only: wp
-   use text, only: to_text
+   use text, only: to_text, filled, newline
    use errors, only: error_type, raise, add_context, system_error, stopped
    use clock, only: wall_clock
    use equilibrium_record, only: equilibrium_type
@@ -10,18 +10,20 @@ module branch_task
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of
    use newton_method, only: branch_point_type, return_to
-   use bifurcations, only: bifurcation_type
+   use continuation, only: bifurcation_type
    use branch_progress, only: branch_progress_type
    use orbit_figures, only: orbit_figures_type, find_orbit_figures
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: has_warm_oil
-   use branch_results, only: noted_point_type, begin_branches, add_point, put_bifurcations, noted
-   use branch_checkpoint, only: put_branches, get_branches
+   use branch_results, only: noted_point_type, begin_branches, add_point, put_bifurcations, noted, put_branches, &
+      & get_branches
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use run_start, only: seek_equilibrium, make_start, take_oil
    use equilibrium_notes, only: note_equilibrium
-   use branch_summary, only: print_bifurcation, print_branch, branch_end
+   use case_inputs, only: case_type
+   use run_file, only: run_file_type
+   use bearing_file, only: bearing_file_type, new_bearing_file
    implicit none (type, external)
    private
    public :: run_branch
@@ -209,8 +211,9 @@ contains
          if (allocated(error)) return
          if (at_end /= '') exit
       end do
-      if (notes%ends /= '') notes%ends = notes%ends//achar(10)
-      notes%ends = notes%ends//branch_end(b%branch, b%given%parameter, b%here%parameter, at_end)
+      if (notes%ends /= '') notes%ends = notes%ends//newline
+      notes%ends = notes%ends//'branch '//to_text(b%branch)//' ends at '//b%given%parameter//' = ' &
+         & //precise(b%here%parameter)//': '//at_end
    end subroutine follow
 
    !> Adds the point that was found to the file, and the bifurcation points before it.
@@ -262,4 +265,78 @@ contains
       call run%file%begin_checkpoint(0.0_wp)
       call put_branches(run%file, b, notes%special)
    end subroutine begin_checkpoint
+
+   ! What is printed of branches: bifurcation points as they are found, and at the end all of it.
+
+   !> A bifurcation point, found between two points.
+   subroutine print_bifurcation(special, parameter, warm)
+      type(bifurcation_type), intent(in) :: special
+      character(len=*), intent(in) :: parameter
+      !> Whether the oil has temperatures.
+      logical, intent(in) :: warm
+      associate (value => special%value)
+         print '(a)', '  '//trim(special%kind)//' at '//parameter//' = '//precise(special%point%parameter) &
+            & //filled(', {.4}'//merge(' + ', ' - ', value%im >= 0)//'{.4} i', [value%re, abs(value%im)])//frozen(warm)
+      end associate
+   end subroutine print_bifurcation
+
+   !> Ten significant digits.
+   function precise(x) result(digits)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: digits
+      character(len=24) :: buffer
+      write (buffer, '(ss,g0.10)') x
+      digits = trim(buffer)
+   end function precise
+
+   !> All branches: points, those that are stable, what warm oil does, and their ends.
+   subroutine print_branch(file, inputs, parameter, warm)
+      type(run_file_type), intent(inout), target :: file
+      type(case_type), intent(in) :: inputs
+      character(len=*), intent(in) :: parameter
+      logical, intent(in) :: warm
+      real(wp), allocatable, dimension(:, :) :: branch, stable, value
+      character(len=:), allocatable :: ends
+      integer :: k, b
+      call file%hdf5%last_samples('branch', int(file%hdf5%samples), branch)
+      call file%hdf5%last_samples('stable', int(file%hdf5%samples), stable)
+      call file%hdf5%last_samples('parameter', int(file%hdf5%samples), value)
+      do k = 1, nint(maxval(branch))
+         associate (own => nint(branch(1, :)) == k)
+            print '(a)', 'branch '//to_text(k)//': '//to_text(count(own))//' points, '//parameter//' from ' &
+               & //precise(minval(value(1, :), mask=own))//' to '//precise(maxval(value(1, :), mask=own))//', ' &
+               & //to_text(count(own .and. stable(1, :) > 0))//' of them stable'//frozen(warm)
+            do b = 1, merge(size(inputs%bearings), 0, warm)
+               call print_oil(new_bearing_file(file, inputs%bearings(b)), inputs%bearings(b)%label(', ')//'pad ', own)
+            end do
+         end associate
+      end do
+      call file%get_text('branch_ends', ends)
+      print '(a)', ends
+   end subroutine print_branch
+
+   !> What stability stands for where the oil has temperatures.
+   pure function frozen(warm) result(text)
+      logical, intent(in) :: warm
+      character(len=:), allocatable :: text
+      text = ''
+      if (warm) text = ' at frozen viscosity'
+   end function frozen
+
+   !> The range of the temperatures and viscosity of each pad of a bearing over the points of a branch.
+   subroutine print_oil(file, title, own)
+      type(bearing_file_type), intent(in) :: file
+      character(len=*), intent(in) :: title
+      logical, intent(in) :: own(:)
+      real(wp), allocatable, dimension(:, :) :: mean, highest, viscosity
+      integer :: i
+      call file%last_samples('mean_temperature', size(own), mean)
+      call file%last_samples('maximum_temperature', size(own), highest)
+      call file%last_samples('viscosity', size(own), viscosity)
+      do i = 1, size(mean, 1)
+         print '(a)', filled('  '//title//'{}: mean {.1} to {.1} C, {m.2} to {m.2} mPa s, pad at most {.1} C', &
+            & [real(wp) :: i, minval(mean(i, :), mask=own), maxval(mean(i, :), mask=own), &
+            & minval(viscosity(i, :), mask=own), maxval(viscosity(i, :), mask=own), maxval(highest(i, :), mask=own)])
+      end do
+   end subroutine print_oil
 end module branch_task

@@ -8,7 +8,7 @@ module case_run
    use film_solver, only: film_counters
    use equations_of_motion, only: machine_model
    use bearing_shape, only: bearing_shape_type
-   use shape_results, only: put_shape
+   use equilibrium_results, only: put_shape
    use record, only: record_type
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
@@ -16,11 +16,11 @@ module case_run
    use summary_group, only: run_extremes_type
    use march_figures, only: put_progress, put_march_figures, put_station_figures
    use result_remarks, only: remarks_on_run, put_remarks, new_lines
-   use run_summary, only: print_remarks
    use clock, only: wall_clock
+   use text, only: behind
    implicit none (type, external)
    private
-   public :: case_run_type, begin_run
+   public :: case_run_type, begin_run, print_remarks
 
    type :: case_run_type
       type(case_type) :: inputs
@@ -135,6 +135,12 @@ contains
       call print_remarks(new_lines(all, self%remarks))
       self%remarks = all
    end subroutine note_remarks
+
+   !> Remarks, a line each.
+   subroutine print_remarks(lines)
+      character(len=*), intent(in) :: lines
+      write (*, '(a)', advance='no') behind('remark: ', lines)
+   end subroutine print_remarks
 
    !> True where it is time for a checkpoint; `now` is the clock, s.
    pure logical function wants_checkpoint(self, now)

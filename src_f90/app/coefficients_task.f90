@@ -2,19 +2,18 @@
 module coefficients_task
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, pi
-   use text, only: to_text, fixed_text, list_text
+   use text, only: to_text, fixed_text, filled
    use errors, only: error_type, add_context, stopped
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model
    use equilibrium_record, only: equilibrium_type
    use static_model, only: make_fine
    use mode_names, only: is_of_rotor, position_names
-   use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type
+   use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type, &
+      & rotor_response_type, find_rotor_response
    use equilibrium, only: settle_equilibrium
    use stability_threshold, only: find_thresholds
-   use rotor_response, only: rotor_response_type, find_rotor_response
-   use coefficient_results, only: put_coefficients, put_modes, put_shapes, put_thresholds
-   use rotor_results, only: put_rotor_response
+   use coefficient_results, only: put_coefficients, put_modes, put_shapes, put_thresholds, put_rotor_response
    use bearing_file, only: bearing_file_type
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
@@ -112,17 +111,26 @@ contains
             do b = 1, size(found%stiffness, 5)
                if (inputs%bearings(b)%name /= '') print '(a)', '  '//inputs%bearings(b)%label(':')
                do k = 1, min(most, size(ratios))
-                  print '(a)', '  whirl at '//to_text(ratios(k))//' of the speed: K ' &
-                     & //of_journal(found%stiffness(:, :, k, i, b))//' MN/m, C ' &
-                     & //of_journal(found%damping(:, :, k, i, b))//' MN s/m (yy, yz, zy, zz)'
+                  print '(a)', filled('  whirl at {} of the speed: K {M.6}, {M.6}, {M.6}, {M.6} MN/m, C {M.6}, ' &
+                     & //'{M.6}, {M.6}, {M.6} MN s/m (yy, yz, zy, zz)', [real(wp) :: ratios(k), &
+                     & transpose(found%stiffness(:, :, k, i, b)), transpose(found%damping(:, :, k, i, b))])
                end do
             end do
             if (size(ratios) > most) print '(a)', '  and '//to_text(size(ratios) - most) &
                & //' whirl frequencies more, in the file'
             call print_modes(found%modes(i), of_reduction(:size(found%modes(i)%eigenvalue), i) &
                & .and. found%modes(i)%eigenvalue%re < 0)
-            if (allocated(found%thresholds)) call print_threshold(found%thresholds(i), found%sought_up_to, &
-               & inputs%operation%speed_rpm)
+            if (.not. allocated(found%thresholds)) cycle
+            ! where an eigenvalue crosses the axis next
+            associate (threshold => found%thresholds(i), speed => inputs%operation%speed_rpm)
+               if (ieee_is_nan(threshold)) then
+                  print '(a)', filled('  no eigenvalue crosses the axis from {} rpm up to {} rpm', [speed, &
+                     & found%sought_up_to])
+               else
+                  print '(a)', filled('  threshold speed: above {} rpm an eigenvalue crosses the axis at {.2} rpm', &
+                     & [speed, threshold])
+               end if
+            end associate
          end do
       end associate
    end subroutine print_coefficients
@@ -141,8 +149,8 @@ contains
          if (others /= '') print '(a)', pivots//'synchronously reduced coefficients would give other logarithmic ' &
             & //'decrements: '//others
          amplitude = maxval(abs(response%unbalance(:, :, i)), 1)
-         print '(a)', pivots//'linear response to the unbalance, largest at station ' &
-            & //to_text(maxloc(amplitude, dim=1))//': '//fixed_text(1e6_wp*maxval(amplitude), 3)//' um'
+         print '(a)', pivots//filled('linear response to the unbalance, largest at station {}: {u.3} um', &
+            & [real(wp) :: maxloc(amplitude), maxval(amplitude)])
       end do
    end subroutine print_response
 
@@ -204,29 +212,16 @@ contains
          i = shown(k)
          associate (value => modes%eigenvalue(i), title => '    mode '//to_text(i)//' ('//trim(modes%name(i))//'): ')
             if (value%im > 0) then
-               print '(a)', title//fixed_text(value%im/(2*pi), 4)//' Hz, damping ratio ' &
-                  & //fixed_text(modes%damping_ratio(i), 5)//', logarithmic decrement ' &
-                  & //fixed_text(modes%log_decrement(i), 4)
+               print '(a)', title//filled('{.4} Hz, damping ratio {.5}, logarithmic decrement {.4}', &
+                  & [value%im/(2*pi), modes%damping_ratio(i), modes%log_decrement(i)])
             else
-               print '(a)', title//'grows without vibration, '//fixed_text(value%re, 3)//' 1/s'
+               print '(a)', title//filled('grows without vibration, {.3} 1/s', [value%re])
             end if
          end associate
       end do
       if (any(of_kind .and. of_reduction)) print '(a)', '    not listed: '//to_text(count(of_kind .and. of_reduction)) &
          & //' with the damping that high modes of the shaft are given (reduction%damp_above)'
    end subroutine print_kind
-
-   !> Where an eigenvalue crosses the axis next.
-   subroutine print_threshold(threshold, sought_up_to, speed)
-      real(wp), intent(in) :: threshold, sought_up_to, speed
-      if (ieee_is_nan(threshold)) then
-         print '(a)', '  no eigenvalue crosses the axis from '//to_text(speed)//' rpm up to ' &
-            & //to_text(sought_up_to)//' rpm'
-      else
-         print '(a)', '  threshold speed: above '//to_text(speed)//' rpm an eigenvalue crosses the axis at ' &
-            & //fixed_text(threshold, 2)//' rpm'
-      end if
-   end subroutine print_threshold
 
    !> "pivots stuck"; "coefficients" where no bearing has pivots.
    function pivots_of(found, i, inputs) result(title)
@@ -237,11 +232,4 @@ contains
       title = 'coefficients'
       if (any(inputs%bearings%tilting())) title = 'pivots '//trim(found%bearings(i)%pivot)
    end function pivots_of
-
-   !> The four elements, in millions.
-   function of_journal(matrix) result(text)
-      real(wp), intent(in) :: matrix(:, :)
-      character(len=:), allocatable :: text
-      text = list_text(1e-6_wp*[transpose(matrix)], 6)
-   end function of_journal
 end module coefficients_task

@@ -1,21 +1,25 @@
 !> What a run writes and prints of its equilibrium: of each bearing the same, of a machine besides what is of the whole.
 module equilibrium_notes
-   use kinds, only: wp
-   use state_layout, only: tilt
-   use equilibrium_record, only: equilibrium_type
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use kinds, only: wp, pi, degree
+   use text, only: filled
+   use case_groups, only: bearing_type
+   use case_inputs, only: case_type
+   use bearing_numbers, only: load, specific_load, sommerfeld_number, of_supply
+   use state_layout, only: tilt, pivot_deflection
+   use force_balance, only: stability_type
+   use bearing_shape, only: bearing_shape_type
+   use heat_balance, only: oil_temperatures_type
+   use equilibrium_record, only: equilibrium_type, static_figures_type, find_static_figures
    use equations_of_motion, only: machine_model
-   use static_figures, only: static_figures_type, find_static_figures
-   use bearings_alone, only: bearing_alone, part_of, bearing_loads
+   use load_shares, only: bearing_alone, part_of, bearing_loads
    use bearing_file, only: bearing_file_type
    use checked_case, only: first_equal
    use equilibrium_results, only: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, &
-      & put_film_temperatures
-   use oil_results, only: put_oil
+      & put_film_temperatures, put_oil
    use machine_results, only: put_machine_equilibrium
-   use shape_results, only: print_shape
+   use record, only: record_type
    use case_run, only: case_run_type
-   use run_summary, only: print_shaft, print_equilibrium, stability_text, print_figures, print_temperatures, &
-      & print_misalignment, bearing_title
    implicit none (type, external)
    private
    public :: note_equilibrium
@@ -41,7 +45,8 @@ contains
       end if
       call put_stability(run%file, static)
       loads = bearing_loads(run%model, static)
-      slopes = bearing_slopes(run, static)
+      slopes = norm2(run%model%rotor%station_slopes(static%rotor), dim=1)
+      slopes = slopes(run%inputs%bearings%station)
       call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads)
       if (.not. run%quiet) call print_shaft(run%file)
       if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static%stability, 'shaft', &
@@ -49,7 +54,7 @@ contains
       do b = 1, size(loads, 2)
          as = b
          if (.not. run%quiet) as = same_equilibrium(run, static, loads, slopes, b)
-         title = bearing_title(run%inputs%bearings(b), loads(:, b))
+         title = run%inputs%bearings(b)%title()//filled('load y {.1}, z {.1} N, ', loads(:, b))
          call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, title, &
             & as == b .and. .not. run%quiet, '')
          call note_misalignment(run, static, slopes(b), b, as == b .and. .not. run%quiet)
@@ -84,15 +89,6 @@ contains
       agree = maxval(abs(one - other)) <= 1e-5_wp*maxval(abs(other))
    end function agree
 
-   !> Slope of the shaft in each bearing, rad.
-   function bearing_slopes(run, static) result(slopes)
-      type(case_run_type), intent(in) :: run
-      type(equilibrium_type), intent(in) :: static
-      real(wp) :: slopes(size(run%inputs%bearings)), at_stations(2, run%model%rotor%stations)
-      at_stations = run%model%rotor%station_slopes(static%rotor)
-      slopes = norm2(at_stations(:, run%inputs%bearings%station), dim=1)
-   end function bearing_slopes
-
    !> What the slope of the shaft in bearing b of a machine, rad, does to its films, which leave it out.
    subroutine note_misalignment(run, static, slope, b, shown)
       type(case_run_type), intent(inout) :: run
@@ -106,7 +102,8 @@ contains
       misalignment = maxval(slope*run%inputs%bearings(b)%axial_length/2 &
          & /static%min_film_thickness(run%model%layout%elements(b)%all_pads()))
       call put_misalignment(file, misalignment)
-      if (shown) call print_misalignment(slope, misalignment)
+      if (shown) print '(a)', filled('  shaft slope {m.4} mrad: from the middle to the end of the bearing the films ' &
+         & //'change by {c.1} % of the minimum thickness, which is left out', [slope, misalignment])
    end subroutine note_misalignment
 
    !> Bearing b, of this model of it alone. `shown`: it is printed, too; title and ending are those of its first line.
@@ -136,4 +133,115 @@ contains
          if (bearing%changes_shape()) call print_shape(bearing, run%shapes(b))
       end associate
    end subroutine note_bearing
+
+   !> The rotor of a machine: its mass, its kept modes and what those that are left out change.
+   subroutine print_shaft(file)
+      class(record_type), intent(in) :: file
+      real(wp), allocatable :: frequencies(:)
+      character(len=:), allocatable :: modes
+      frequencies = file%get_all('rotor/mode_frequency')
+      modes = 'no modes besides'
+      if (size(frequencies) > 0) modes = filled('{} modes up to {.1} Hz', [real(size(frequencies), wp), &
+         & maxval(frequencies)])
+      print '(a)', filled('rotor: {.1} kg, '//modes//'; amplitudes err by {} by modes left out and by {} by their ' &
+         & //'damping', [file%get_real('rotor/total_mass'), file%get_real('rotor/truncation_error'), &
+         & file%get_real('rotor/damping_error')])
+   end subroutine print_shaft
+
+   !> An equilibrium of a bearing, behind this title; `ending` ends its first line.
+   subroutine print_equilibrium(title, static, tilting, ending)
+      character(len=*), intent(in) :: title, ending
+      type(equilibrium_type), intent(in) :: static
+      logical, intent(in) :: tilting
+      character(len=:), allocatable :: pivot
+      integer :: i
+      print '(a)', title//filled('journal y {u.3}, z {u.3} um', static%rotor(:2))//ending
+      do i = 1, size(static%pads)
+         pivot = ''
+         if (tilting) pivot = filled('tilt {m.4} mrad, pivot deflection {u.3} um, contact {.1} N, ', &
+            & [static%pads(i)%x(tilt), static%pads(i)%x(pivot_deflection), static%pivot_load(i)])
+         print '(a)', filled('  pad {}: '//pivot//'minimum film thickness {u.3} um, maximum pressure {M.3} MPa', &
+            & [real(wp) :: i, static%min_film_thickness(i), static%max_pressure(i)])
+      end do
+   end subroutine print_equilibrium
+
+   !> "the journal is stable, the pads are unstable: oscillatory instability, eigenvalue 69.4 1/s at 37.0 Hz"; what is
+   !> told of the pads where they tilt.
+   function stability_text(found, rotor, tilting) result(text)
+      type(stability_type), intent(in) :: found
+      !> "journal" or "shaft".
+      character(len=*), intent(in) :: rotor
+      logical, intent(in) :: tilting
+      character(len=:), allocatable :: text
+      text = 'the '//rotor//' is'//trim(merge(' unstable', ' stable  ', found%rotor_grows))
+      if (tilting) text = text//', the pads are'//trim(merge(' unstable', ' stable  ', found%pads_grow))
+      text = text//': '
+      if (found%name /= 'stable') text = text//found%name//', '
+      text = text//filled('eigenvalue {.1} 1/s at {.1} Hz', [found%eigenvalue%re, found%eigenvalue%im/(2*pi)])
+   end function stability_text
+
+   !> Where the journal lies at the equilibrium, loads, losses and flows.
+   subroutine print_figures(inputs, figures)
+      type(case_type), intent(in) :: inputs
+      type(static_figures_type), intent(in) :: figures
+      character(len=:), allocatable :: of_load
+      integer :: i
+      of_load = ''
+      if (load(inputs) > 0) of_load = filled(', attitude angle {.2} deg, specific load {M.3} MPa, Sommerfeld number ' &
+         & //'{.4} (', [figures%attitude_angle/degree, specific_load(inputs), sommerfeld_number(inputs)]) &
+         & //of_supply(inputs%bearings(1))//')'
+      print '(a)', filled('  eccentricity ratio {.4}', [figures%eccentricity_ratio])//of_load
+      associate (pads => figures%pads)
+         do i = 1, size(pads)
+            print '(a)', filled('  pad {}: load {.1} N, loss {.1} W, oil in {u.3}, out {u.3} and at the sides {u.3} ' &
+               & //'ml/s, Reynolds number {.1}', [real(wp) :: i, pads(i)%load, pads(i)%power(), pads(i)%inlet, &
+               & pads(i)%outlet, pads(i)%side, figures%reynolds_number(i)])
+         end do
+         print '(a)', filled('  all pads: loss {.1} W, oil in {u.3}, at the sides {u.3} ml/s', [sum(pads%power()), &
+            & sum(pads%inlet), sum(pads%side)])//warmer(figures%rise_fresh, ', oil warmer by ', 'fresh at every pad') &
+            & //warmer(figures%rise_side, ' to ', 'fresh for the sides alone')
+      end associate
+   contains
+      !> By how many K, and where; nothing where next to no oil flows.
+      function warmer(rise, before, where_fresh)
+         real(wp), intent(in) :: rise
+         character(len=*), intent(in) :: before, where_fresh
+         character(len=:), allocatable :: warmer
+         warmer = ''
+         if (.not. ieee_is_nan(rise)) warmer = before//filled('{.1} K (', [rise])//where_fresh//')'
+      end function warmer
+   end subroutine print_figures
+
+   !> Temperatures of warm oil, C, and the viscosity of each pad's film, Pa s.
+   subroutine print_temperatures(oil, viscosity)
+      type(oil_temperatures_type), intent(in) :: oil
+      real(wp), intent(in) :: viscosity(:)
+      integer :: i
+      do i = 1, size(viscosity)
+         print '(a)', filled('  pad {}: oil comes in at {.1} C, leaves at {.1} C, mean {.1} C, {m.2} mPa s, pad at ' &
+            & //'most {.1} C', [real(wp) :: i, oil%inlet(i), oil%outlet(i), oil%mean(i), viscosity(i), oil%maximum(i)])
+      end do
+      print '(a)', filled('  all pads: oil drains at {.1} C, shaft at {.1} C', [oil%drain, oil%shaft])
+   end subroutine print_temperatures
+
+   !> The clearances of a bearing and those in operation.
+   subroutine print_shape(b, shape)
+      type(bearing_type), intent(in) :: b
+      type(bearing_shape_type), intent(in) :: shape
+      character(len=:), allocatable :: bends
+      integer :: i
+      associate (t => shape%temperatures)
+         do i = 1, size(shape%machined_clearance)
+            bends = ''
+            if (b%pads%bending /= 'none') bends = filled('; bends by {u.2} um by pressure and {u.2} um by heat', &
+               & [shape%bending%elastic(i), shape%bending%thermal(i)])
+            if (allocated(t%pads)) bends = bends//filled('; at {.1} C', [t%pads(i)])
+            print '(a)', filled('  pad {}: pad clearance {u.2} um, in operation {u.2}; at the pivot {u.2} um, in ' &
+               & //'operation {u.2}', [real(wp) :: i, b%machined_clearance(i), shape%machined_clearance(i), &
+               & b%assembled_clearance(i), shape%assembled_clearance(i)])//bends
+         end do
+         if (allocated(t%pads)) print '(a)', filled('  all pads: clearances of {.1} C, the shaft at {.1} C and the ' &
+            & //'housing at {.1} C', [b%clearance_temperature, t%shaft, t%housing])
+      end associate
+   end subroutine print_shape
 end module equilibrium_notes

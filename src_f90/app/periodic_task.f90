@@ -1,12 +1,13 @@
 !> The task 'periodic': the orbit that the motion repeats, its stability, and its samples over one period.
 module periodic_task
    use kinds, only: wp, i8
-   use text, only: to_text, fixed_text
+   use text, only: to_text, filled
    use errors, only: error_type, raise, stopped, numerics_error
    use marching, only: sample_plan
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit, are_stable, loss_of_stability
    use orbit_refinement, only: allowed_error
    use march_results, only: put_periodic
+   use result_remarks, only: not_closed
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use march_settings, only: march_settings_of
@@ -83,17 +84,15 @@ contains
       if (are_stable(found%multipliers)) what = 'stable'
       if (.not. found%closed) what = 'a march repeats it'
       associate (leading => found%multipliers(1), error => found%errors(1))
-         print '(a)', 'periodic orbit: period '//fixed_text(1e3_wp*found%period, 4)//' ms ('//to_text(revolutions) &
-            & //trim(merge(' revolution), ', ' revolutions),', revolutions == 1))//' '//what &
-            & //'; leading multiplier '//fixed_text(leading%re, 6)//merge(' + ', ' - ', leading%im >= 0) &
-            & //fixed_text(abs(leading%im), 6)//' i, modulus '//fixed_text(abs(leading), 6)
-         print '(a)', '  '//to_text(found%iterations)//' iterations on '//to_text(found%orbit%intervals()) &
-            & //' intervals, after '//to_text(found%marched)//' periods of a march; the multiplier errs by at most ' &
-            & //to_text(error)
+         print '(a)', filled('periodic orbit: period {m.4} ms ({} '//trim(merge('revolution), ', 'revolutions),', &
+            & revolutions == 1))//' '//what//'; leading multiplier {.6}'//merge(' + ', ' - ', leading%im >= 0) &
+            & //'{.6} i, modulus {.6}', [real(wp) :: found%period, revolutions, leading%re, abs(leading%im), &
+            & abs(leading)])
+         print '(a)', filled('  {i} iterations on {i} intervals, after {i} periods of a march; the multiplier errs ' &
+            & //'by at most {}', [real(wp) :: found%iterations, found%orbit%intervals(), found%marched, error])
          if (error > allowed_error(leading)) print '(a)', '  the leading multiplier is not known better: shorter ' &
             & //'intervals still change it'
       end associate
-      if (.not. found%closed) print '(a)', '  Newton''s method does not close the orbit: it is that of the march, ' &
-         & //'whose displacements change by '//to_text(found%change)//' of their characteristic scales in a period'
+      if (.not. found%closed) print '(a)', '  '//filled(not_closed, [found%change])
    end subroutine print_orbit
 end module periodic_task

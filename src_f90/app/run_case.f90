@@ -1,9 +1,11 @@
 !> A run from case to result file: opens the file, has the case's task done, closes the file.
 module run_case
-   use kinds, only: i8
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use kinds, only: wp, i8
+   use text, only: filled
    use errors, only: error_type, raise, input_error, numerics_error, system_error, stopped
    use case_inputs, only: case_type
-   use result_size, only: memory_bytes, memory_advice, bytes_text
+   use result_size, only: memory_bytes, memory_advice, bytes_text, size_note
    use parameter_study, only: run_tag
    use equations_of_motion, only: new_machine_model
    use record, only: record_type, move_record
@@ -15,7 +17,7 @@ module run_case
    use files, only: is_regular
    use processes, only: can_have
    use working_file, only: clear_leftovers
-   use case_run, only: case_run_type, begin_run
+   use case_run, only: case_run_type, begin_run, print_remarks
    use factories, only: march_films, filled_films
    use run_start, only: start_at_equilibrium
    use coefficients_task, only: run_coefficients
@@ -24,7 +26,7 @@ module run_case
    use march_task, only: run_march
    use verification, only: check_verification, verify_films
    use case_remarks, only: remarks_on_case
-   use run_summary, only: print_remarks, print_size, print_march, print_stations, print_cost, bearing_title
+   use summary_group, only: figure, pad_figures, has_figure
    implicit none (type, external)
    private
    public :: run_task, way_out, computed_in
@@ -33,6 +35,8 @@ module run_case
    character(len=*), parameter :: computed_in = '; what was computed is in '
    !> What can be done where the result of another case is in the way.
    character(len=*), parameter :: way_out = '; --overwrite replaces it, and --output names another place'
+   !> s.
+   real(wp), parameter :: thousand_hours = 3.6e6_wp
 
 contains
 
@@ -70,7 +74,7 @@ contains
          if (.not. quiet) then
             run%remarks = remarks_on_case(run%inputs)
             call print_remarks(run%remarks)
-            call print_size(inputs)
+            if (size_note(inputs, 1) /= '') print '(a)', size_note(inputs, 1)
          end if
          run%model = new_machine_model(run%inputs, merge(filled_films, march_films, complete))
       end if
@@ -199,11 +203,67 @@ contains
       integer :: b
       if (run%model%rotor%stations > 0) call print_stations(run%file)
       do b = 1, size(run%inputs%bearings)
-         title = bearing_title(run%inputs%bearings(b))
+         title = run%inputs%bearings(b)%title()
          call print_march('last revolution'//merge(': ', ', ', title == '')//title, run%bearing(b), &
             & run%inputs%bearings(b)%tilting())
       end do
    end subroutine print_bearings
+
+   !> The stations that move most in the last revolution.
+   subroutine print_stations(file)
+      class(record_type), intent(in) :: file
+      real(wp), allocatable :: y(:), z(:)
+      y = file%get_all('summary/station_y_size')
+      z = file%get_all('summary/station_z_size')
+      print '(a)', filled('last revolution, shaft: moves most at station {} along y, {u.3} um peak to peak, and at ' &
+         & //'station {} along z, {u.3} um', [real(wp) :: maxloc(y), maxval(y), maxloc(z), maxval(z)])
+   end subroutine print_stations
+
+   !> Figures of a bearing in the last revolution (or in what there is), behind this title; of pivots where pads tilt.
+   subroutine print_march(title, file, tilting)
+      character(len=*), intent(in) :: title
+      class(record_type), intent(in) :: file
+      logical, intent(in) :: tilting
+      character(len=:), allocatable :: before, after
+      integer :: i
+      print '(a)', title//filled('journal y {u.3} to {u.3}, z {u.3} to {u.3} um', [figure(file, 'journal_y_min'), &
+         & figure(file, 'journal_y_max'), figure(file, 'journal_z_min'), figure(file, 'journal_z_max')])
+      before = ''
+      after = ''
+      associate (lowest => pad_figures(file, 'pad_tilt_min'), highest => pad_figures(file, 'pad_tilt_max'), &
+            & contact => pad_figures(file, 'pad_contact_force'), work => pad_figures(file, 'pad_friction_work'), &
+            & worn => pad_figures(file, 'pad_wear_rate'), deep => pad_figures(file, 'pad_wear_depth_rate'), &
+            & film => pad_figures(file, 'pad_min_film_thickness'), pressure => pad_figures(file, 'pad_max_pressure'))
+         do i = 1, size(film)
+            if (tilting) then
+               before = filled('tilt {m.4} to {m.4} mrad, ', [lowest(i), highest(i)])
+               after = filled(', mean contact {.1} N', [contact(i)])
+               if (has_figure(file, 'pad_friction_work')) after = after//filled(', friction work {m.3} mJ', [work(i)])
+               if (has_figure(file, 'pad_wear_rate')) then
+                  after = after//filled(', wear {.2} mm^3', [1e9_wp*thousand_hours*worn(i)])
+                  if (.not. ieee_is_nan(deep(i))) after = after//filled(' and {.2} um', [1e6_wp*thousand_hours*deep(i)])
+                  after = after//' in 1000 h'
+               end if
+            end if
+            print '(a)', filled('  pad {}: '//before//'minimum film thickness {u.3} um, maximum pressure {M.3} MPa', &
+               & [real(wp) :: i, film(i), pressure(i)])//after
+         end do
+      end associate
+   end subroutine print_march
+
+   !> What a run cost.
+   subroutine print_cost(file)
+      class(record_type), intent(in) :: file
+      character(len=*), parameter :: counts(9) = [character(len=20) :: 'steps', 'rhs_evaluations', &
+         & 'jacobian_evaluations', 'film_table', 'film_cells', 'film_nodes', 'film_fourier', 'film_volumes', &
+         & 'film_passes']
+      integer :: k
+      print '(a)', filled('cost: {i} steps, {i} right-hand sides, {i} Jacobians, films {i} from tables ({i} cells, ' &
+         & //'{i} cavitated nodes), {i} by axial Fourier expansion and {i} on finite volumes ({i} passes over their ' &
+         & //'cells)', [(file%get_real('statistics/'//trim(counts(k))), k=1, size(counts))])
+      print '(a)', filled('  wall time {.2} s, of which film {.2} s and samples {.2} s', [file%get_real( &
+         & 'statistics/wall_seconds'), file%get_real('statistics/film_seconds'), file%get_real('statistics/output_seconds')])
+   end subroutine print_cost
 
    !> Closes the file of a run that is done, or that failed with this error.
    subroutine close_file(run, error)

@@ -1,7 +1,7 @@
 !> Where a run starts: at its equilibrium, in the state that the group &start describes, or at a checkpoint.
 module run_start
    use kinds, only: wp
-   use text, only: to_text
+   use text, only: to_text, filled, list_text
    use case_inputs, only: case_type
    use bearing_shape, only: bearing_shape_type, cold_shapes, apply_shapes
    use errors, only: error_type, raise, add_context, input_error, numerics_error, stopped
@@ -19,14 +19,12 @@ module run_start
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
    use machine_results, only: put_machine
-   use shape_results, only: read_shape
    use march_results, only: put_viscosity_history
-   use oil_results, only: put_oil, read_oil
+   use equilibrium_results, only: read_shape, put_oil, read_oil
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
    use viscosity_history, only: viscosity_history_type
    use groove_transient, only: find_groove_transient
-   use run_summary, only: print_start
    implicit none (type, external)
    private
    public :: start_at_equilibrium, seek_equilibrium, make_start, take_oil, restore_shape, restore_oil
@@ -156,6 +154,27 @@ contains
       run%computed = .true.
       if (.not. run%quiet) call print_start(run%inputs, rotor, pads)
    end subroutine make_start
+
+   !> Where a march starts that does not start at the equilibrium itself: displacements of the journals, which stand
+   !> first, m, and states of the pads of all bearings.
+   subroutine print_start(inputs, journals, pads)
+      type(case_type), intent(in) :: inputs
+      real(wp), intent(in) :: journals(:)
+      type(pad_state), intent(in) :: pads(:)
+      character(len=:), allocatable :: tilts
+      integer :: b, before
+      before = 0
+      do b = 1, size(inputs%bearings)
+         associate (own => inputs%bearings(b))
+            tilts = ''
+            if (own%tilting()) tilts = ', tilts ' &
+               & //list_text(1e3_wp*pads(before + 1:before + own%pad_count())%x(tilt), 4)//' mrad'
+            before = before + own%pad_count()
+            print '(a)', 'start from '''//inputs%start%from//''': '//own%title()//filled('journal y {u.3}, z {u.3} ' &
+               & //'um', journals(2*b - 1:2*b))//tilts
+         end associate
+      end do
+   end subroutine print_start
 
    !> Writes the viscosities of warm oil at the start of the march, and their course where they change. A branch has
    !> them for each of its points.

@@ -19,7 +19,7 @@ module verification
    use verification_results, only: put_verification
    use stop_signals, only: stop_requested, stop_reason
    use case_run, only: case_run_type
-   use oil_results, only: read_oil
+   use equilibrium_results, only: read_oil
    use run_start, only: restore_shape, restore_oil
    implicit none (type, external)
    private

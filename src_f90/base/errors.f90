@@ -3,6 +3,8 @@
 !> A routine that can fail has `type(error_type), allocatable, intent(out) :: error`;
 !> the caller tests `allocated(error)` and may put context in front of the message.
 module errors
+   use kinds, only: wp
+   use text, only: filled
    implicit none (type, external)
    private
    public :: error_type, raise, require, refuse, add_context, asked_to_stop, asked
@@ -16,6 +18,11 @@ module errors
 
    !> Exit statuses: usage or input; the numerics failed; file or system; stopped by a signal.
    integer, parameter :: input_error = 1, numerics_error = 2, system_error = 3, stopped = 4
+
+   !> Keeps the first requirement that an input does not meet.
+   interface require
+      module procedure require_text, require_numbers
+   end interface require
 
    abstract interface
       !> True once a search is to be given up; it then returns an error of status `stopped`.
@@ -33,16 +40,24 @@ contains
       error = error_type(status, message)
    end subroutine raise
 
-   !> Keeps the first requirement that an input does not meet.
-   pure subroutine require(met, message, error)
+   pure subroutine require_text(met, message, error)
       logical, intent(in) :: met
       character(len=*), intent(in) :: message
       type(error_type), allocatable, intent(inout) :: error
       if (.not. met) call refuse(message, error)
-   end subroutine require
+   end subroutine require_text
 
-   !> The same of one that is not met. A study checks very many cases, and a message with numbers takes much longer to
-   !> write than numbers to check: it is written only `if (...) call refuse(...)`.
+   !> The same with numbers in the places of a template (text, filled).
+   pure subroutine require_numbers(met, template, numbers, error)
+      logical, intent(in) :: met
+      character(len=*), intent(in) :: template
+      real(wp), intent(in) :: numbers(:)
+      type(error_type), allocatable, intent(inout) :: error
+      if (.not. met) call refuse(filled(template, numbers), error)
+   end subroutine require_numbers
+
+   !> The same of one that is not met. A study checks very many cases: what takes longer to write than to check is
+   !> written only `if (...) call refuse(...)`.
    pure subroutine refuse(message, error)
       character(len=*), intent(in) :: message
       type(error_type), allocatable, intent(inout) :: error

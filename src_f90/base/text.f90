@@ -3,8 +3,13 @@ module text
    use kinds, only: wp, i8
    implicit none (type, external)
    private
-   public :: to_text, list_text, exact_text, fixed_text, micro, whole_number, lower_case, printable, shortened, replaced
-   public :: is_utf8, checksum, find_similar, did_you_mean, unlike
+   public :: to_text, list_text, exact_text, fixed_text, whole_number, lower_case, printable, shortened, replaced
+   public :: filled, line_if, behind, newline, is_utf8, checksum, find_similar, did_you_mean, unlike
+
+   character(len=*), parameter :: newline = achar(10)
+   !> Letters before the numbers of a template, as before units, and by what they multiply.
+   character(len=*), parameter :: letters = 'umcM'
+   real(wp), parameter :: factors(0:4) = [1.0_wp, 1e6_wp, 1e3_wp, 100.0_wp, 1e-6_wp]
 
    !> The score of a word that no known one is like.
    integer, parameter :: unlike = huge(1)
@@ -71,6 +76,74 @@ contains
          end if
       end do
    end function list_text
+
+   !> A template with numbers in its places: {} a short number, {.2} one with two decimals, {i} a whole one, and
+   !> with a letter before that in other units, "{u.3} um", "{m} mrad", "{M} MPa", "{c.1} %". What a user wrote may have
+   !> braces itself and stands beside a template, not in it.
+   pure function filled(template, numbers) result(text)
+      character(len=*), intent(in) :: template
+      real(wp), intent(in), optional :: numbers(:)
+      character(len=:), allocatable :: text
+      integer :: at, from, to, i
+      text = template
+      if (.not. present(numbers)) return
+      text = ''
+      at = 1
+      do i = 1, size(numbers)
+         from = at + index(template(at:), '{') - 1
+         to = from + index(template(from:), '}') - 1
+         text = text//template(at:from - 1)//in_place(template(from + 1:to - 1), numbers(i))
+         at = to + 1
+      end do
+      text = text//template(at:)
+   end function filled
+
+   !> A number as the place in a template wants it, which stands in braces there.
+   pure function in_place(place, number) result(text)
+      character(len=*), intent(in) :: place
+      real(wp), intent(in) :: number
+      character(len=:), allocatable :: text
+      real(wp) :: x
+      integer :: letter
+      letter = index(letters, place(:min(1, len(place))))
+      if (place == '') letter = 0
+      x = factors(letter)*number
+      if (index(place, '.') > 0) then
+         text = fixed_text(x, whole_number(place(index(place, '.') + 1:)))
+      else if (index(place, 'i') > 0) then
+         text = to_text(nint(x, i8))
+      else
+         text = to_text(x)
+      end if
+   end function in_place
+
+   !> A line of a list: a text or template, and what stands behind it, where a condition holds; else nothing.
+   pure function line_if(holds, template, numbers, ending) result(line)
+      logical, intent(in) :: holds
+      character(len=*), intent(in) :: template
+      real(wp), intent(in), optional :: numbers(:)
+      character(len=*), intent(in), optional :: ending
+      character(len=:), allocatable :: line
+      line = ''
+      if (.not. holds) return
+      line = filled(template, numbers)
+      if (present(ending)) line = line//ending
+      line = line//newline
+   end function line_if
+
+   !> Lines, each behind a prefix.
+   pure function behind(prefix, lines) result(prefixed)
+      character(len=*), intent(in) :: prefix, lines
+      character(len=:), allocatable :: prefixed
+      integer :: first, length
+      prefixed = ''
+      first = 1
+      do while (first <= len(lines))
+         length = index(lines(first:), newline)
+         prefixed = prefixed//prefix//lines(first:first + length - 1)
+         first = first + length
+      end do
+   end function behind
 
    !> The whole number from 1 that a text of at most 9 digits is; 0 where it is none.
    pure integer function whole_number(text)
@@ -145,15 +218,6 @@ contains
       write (buffer, '(ss,f40.'//decimals_in_format(decimals)//')') x
       string = trim(adjustl(buffer))
    end function fixed_text
-
-   !> Metres as micrometres, with three decimals or this number of them.
-   pure function micro(x, decimals) result(string)
-      real(wp), intent(in) :: x
-      integer, intent(in), optional :: decimals
-      character(len=:), allocatable :: string
-      string = fixed_text(1e6_wp*x, 3)
-      if (present(decimals)) string = fixed_text(1e6_wp*x, decimals)
-   end function micro
 
    pure function lower_case(string) result(lower)
       character(len=*), intent(in) :: string

@@ -36,7 +36,7 @@ module factories
    !> Error of quick films.
    real(wp), parameter :: quick_error = 1e-2_wp
    !> Residual and sweeps of over-relaxation in statics: a tenth of the unbalanced force that an equilibrium may leave
-   !> (pseudo_transient).
+   !> (static_model).
    real(wp), parameter :: static_residual = 1e-9_wp
    integer, parameter :: static_sweeps = 100000
    !> This number of volumes serves an arc of this length, rad, and shorter ones.

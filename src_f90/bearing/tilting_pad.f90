@@ -4,7 +4,7 @@
 module tilting_pad
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use text, only: to_text
+   use text, only: filled
    use film_solver, only: film_motion, film_response, film_ok, film_closed, film_not_converged, film_not_resolved
    use pad_gap, only: pad_gap_type, pad_directions
    use asperity_contact, only: asperity_load
@@ -136,24 +136,26 @@ contains
       integer, intent(in) :: number
       type(pad_state), intent(in) :: state
       type(film_response), intent(in) :: film
-      character(len=:), allocatable :: reason, thickness
-      thickness = ': thickness '//to_text(film%min_film_thickness)//' m'
+      character(len=:), allocatable :: reason
+      character(len=*), parameter :: thickness = ': thickness {} m'
+      real(wp) :: pad
+      pad = number
       if (.not. abs(state%x(tilt)) < self%largest_tilt) then
-         reason = 'pad '//to_text(number)//' turned over: tilt '//to_text(state%x(tilt))//' rad'
+         reason = filled('pad {} turned over: tilt {} rad', [pad, state%x(tilt)])
       else if (film%status == film_closed) then
-         reason = 'the film of pad '//to_text(number)//' closed'//thickness
+         reason = filled('the film of pad {} closed'//thickness, [pad, film%min_film_thickness])
       else if (film%status == film_not_converged .and. .not. film%residual > 0) then
-         reason = 'the film of pad '//to_text(number)//' did not converge: where it cavitates does not settle; try ' &
-            & //'other volumes (film%circumferential_cells, film%axial_cells)'
+         reason = filled('the film of pad {} did not converge: where it cavitates does not settle; try other volumes ' &
+            & //'(film%circumferential_cells, film%axial_cells)', [pad])
       else if (film%status == film_not_resolved) then
-         reason = 'the film of pad '//to_text(number)//' is not resolved: on the finest volumes its force or slopes ' &
-            & //'err by '//to_text(film%residual)//thickness//'; volumes that are given (film%circumferential_cells, ' &
-            & //'film%axial_cells) are taken as they are'
+         reason = filled('the film of pad {} is not resolved: on the finest volumes its force or slopes err by {}' &
+            & //thickness//'; volumes that are given (film%circumferential_cells, film%axial_cells) are taken as ' &
+            & //'they are', [pad, film%residual, film%min_film_thickness])
       else if (film%status == film_not_converged) then
-         reason = 'the film of pad '//to_text(number)//' did not converge: residual '//to_text(film%residual) &
-            & //' after film%max_sweeps = '//to_text(film%max_sweeps)
+         reason = filled('the film of pad {} did not converge: residual {} after film%max_sweeps = {i}', [real(wp) :: &
+            & pad, film%residual, film%max_sweeps])
       else
-         reason = 'the film force of pad '//to_text(number)//' is not finite'//thickness
+         reason = filled('the film force of pad {} is not finite'//thickness, [pad, film%min_film_thickness])
       end if
    end function why_not
 

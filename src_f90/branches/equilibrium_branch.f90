@@ -13,7 +13,7 @@ module equilibrium_branch
    use newton_method, only: branch_problem_type, place_part_type, branch_point_type, newton_options, return_to, &
       & newton_iterations
    use force_balance, only: forces, force_derivatives
-   use pseudo_transient, only: clearances, reference_force
+   use static_model, only: clearances, reference_force
    use linear_bearing, only: linear_bearing_of, pivot_name, rotor_eigenvalues
    use film_network, only: warm_films_type, new_warm_films
    use fixed_point, only: field_reference, balance_type, solve_fields

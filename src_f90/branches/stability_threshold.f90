@@ -9,8 +9,7 @@ module stability_threshold
    use case_parameter, only: case_parameter_type, find_parameter
    use linear_bearing, only: pivot_name, bearing_coefficients_type
    use newton_method, only: branch_point_type, return_to
-   use continuation, only: branch_options, start_branch, advance
-   use bifurcations, only: bifurcation_type, find_bifurcations
+   use continuation, only: branch_options, start_branch, advance, bifurcation_type, find_bifurcations
    use varied_bearing, only: varied_bearing_type
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
    implicit none (type, external)

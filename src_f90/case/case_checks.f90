@@ -1,14 +1,12 @@
 !> Checks of a case: what no single value can tell. A message names the variables, their values and what is allowed.
 module case_checks
    use kinds, only: wp, degree
-   use text, only: to_text
+   use text, only: to_text, filled
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: bearing_type, pivot_type, clearance_range, is_set
+   use case_groups, only: bearing_type, clearance_range, in_range, is_set, elastic_type, most_stations
    use other_units, only: in_other_units
    use case_inputs, only: case_type
-   use excitation_checks, only: check_excitations
    use excitations, only: excitation_type
-   use rotor_groups, only: elastic_type, most_stations
    implicit none (type, external)
    private
    public :: check_case
@@ -20,6 +18,10 @@ module case_checks
    real(wp), parameter :: most_in_blocks = 2e8_wp
    !> Longest arc of a pad that tilts, deg.
    real(wp), parameter :: longest_arc = 350
+   !> Axial length over the radius of the journal that is allowed.
+   real(wp), parameter :: length_range(2) = [0.02_wp, 50.0_wp]
+   !> Behind messages on lengths of a pad.
+   character(len=*), parameter :: in_metres = ' (both in m; pad {})'
 
 contains
 
@@ -37,8 +39,7 @@ contains
          call check_groups(inputs, inputs%bearings(b), error)
          call add_context(error, inputs%bearings(b)%label())
       end do
-      call check_output(inputs, error)
-      call check_tasks(inputs, error)
+      call check_run(inputs, error)
       call check_shape(inputs, error)
       call check_branch(inputs, error)
       call check_excitations(inputs, error)
@@ -49,71 +50,58 @@ contains
       type(case_type), intent(in) :: inputs
       type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(inout) :: error
-      call check_film(bearing, error)
       call check_bearing(bearing, error)
-      call check_thermal(inputs, bearing, error)
-      call check_friction(bearing, error)
-      call check_pivot(bearing%pivot, error)
+      call check_laws(inputs, bearing, error)
       call check_start(inputs, bearing, error)
       call check_pads(bearing, error)
    end subroutine check_groups
 
-   subroutine check_film(bearing, error)
+   !> Solver of the films, and sizes of a bearing.
+   subroutine check_bearing(bearing, error)
       type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(inout) :: error
-      integer :: most
+      integer :: most, i
       associate (f => bearing%film, cells => bearing%film%circumferential_cells)
-         if (mod(cells, 2) /= 0 .or. cells /= 0 .and. cells < 8) call refuse( &
-            & 'film%circumferential_cells = '//to_text(cells)//': must be even, and 0 or at least 8', error)
+         call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = {}: must ' &
+            & //'be even, and 0 or at least 8', [real(cells, wp)], error)
          call require(f%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough', error)
          call require(f%solver /= 'fourier' .or. f%cavitation /= 'reynolds', 'film%solver = ''fourier''' &
             & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''', error)
          ! where films cavitate, elimination keeps a block of (axial cells/2)**2 values a column and pad;
          ! 0 stands for some 100 columns
          most = int(sqrt(most_in_blocks/(max(cells, 100)*bearing%pad_count())))
-         if (.not. (f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most)) call refuse( &
-            & 'film%axial_cells = '//to_text(f%axial_cells)//': must be at most '//to_text(most) &
-            & //' with film%circumferential_cells = '//to_text(cells)//' and '//to_text(bearing%pad_count()) &
-            & //' pads, or film%solver = ''sor''', error)
+         call require(f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most, &
+            & 'film%axial_cells = {}: must be at most {} with film%circumferential_cells = {} and {} pads, or ' &
+            & //'film%solver = ''sor''', [real(wp) :: f%axial_cells, most, cells, bearing%pad_count()], error)
       end associate
-   end subroutine check_film
-
-   subroutine check_bearing(b, error)
-      type(bearing_type), intent(in) :: b
-      type(error_type), allocatable, intent(inout) :: error
-      character(len=:), allocatable :: pad
-      real(wp) :: ratio
-      integer :: i
-      do i = 1, b%pad_count()
-         pad = ' (both in m; pad '//to_text(i)//')'
-         ratio = b%machined_clearance(i)/b%journal_radius
-         if (.not. (ratio >= clearance_range(1) .and. ratio <= clearance_range(2))) call refuse( &
-            & 'bearing%machined_clearance = '//to_text(b%machined_clearance(i))//': must be ' &
-            & //to_text(clearance_range(1))//' to '//to_text(clearance_range(2))//' of bearing%journal_radius = ' &
-            & //to_text(b%journal_radius)//pad//in_other_units(b%machined_clearance(i), &
-            & 'bearing%machined_clearance', 'm', &
-            & clearance_range(1)*b%journal_radius, clearance_range(2)*b%journal_radius), error)
-         if (.not. (b%assembled_clearance(i) <= 2*b%machined_clearance(i))) call refuse( &
-            & 'bearing%assembled_clearance = '//to_text(b%assembled_clearance(i)) &
-            & //': must be at most twice bearing%machined_clearance = '//to_text(b%machined_clearance(i)) &
-            & //pad, error)
-         ratio = b%axial_length(i)/b%journal_radius
-         if (.not. (ratio >= 0.02_wp .and. ratio <= 50)) call refuse('bearing%axial_length = ' &
-            & //to_text(b%axial_length(i))//': must be 0.02 to 50 times bearing%journal_radius = ' &
-            & //to_text(b%journal_radius)//pad//in_other_units(b%axial_length(i), &
-            & 'bearing%axial_length', 'm', &
-            & 0.02_wp*b%journal_radius, 50*b%journal_radius), error)
-      end do
-      if (.not. (b%cavitation_pressure <= min(b%supply_pressure, b%ambient_pressure) &
-         & .or. b%film%cavitation == 'none')) call refuse('bearing%cavitation_pressure = ' &
-         & //to_text(b%cavitation_pressure)//': must not exceed bearing%supply_pressure = ' &
-         & //to_text(b%supply_pressure)//' and bearing%ambient_pressure = '//to_text(b%ambient_pressure), error)
+      associate (machined => bearing%machined_clearance, assembled => bearing%assembled_clearance, &
+            & radius => bearing%journal_radius)
+         do i = 1, bearing%pad_count()
+            if (.not. in_range(machined(i)/radius, clearance_range)) call refuse(filled( &
+               & 'bearing%machined_clearance = {}: must be {} to {} of bearing%journal_radius = {}'//in_metres, &
+               & [real(wp) :: machined(i), clearance_range, radius, i])//in_other_units(machined(i), &
+               & 'bearing%machined_clearance', 'm', clearance_range(1)*radius, clearance_range(2)*radius), error)
+            call require(assembled(i) <= 2*machined(i), 'bearing%assembled_clearance = {}: must be at most twice ' &
+               & //'bearing%machined_clearance = {}'//in_metres, [real(wp) :: assembled(i), machined(i), i], error)
+            if (.not. in_range(bearing%axial_length(i)/radius, length_range)) call refuse(filled( &
+               & 'bearing%axial_length = {}: must be {} to {} times bearing%journal_radius = {}'//in_metres, &
+               & [real(wp) :: bearing%axial_length(i), length_range, radius, i])//in_other_units( &
+               & bearing%axial_length(i), 'bearing%axial_length', 'm', length_range(1)*radius, &
+               & length_range(2)*radius), error)
+         end do
+      end associate
+      call require(bearing%cavitation_pressure <= min(bearing%supply_pressure, bearing%ambient_pressure) &
+         & .or. bearing%film%cavitation == 'none', 'bearing%cavitation_pressure = {}: must not exceed ' &
+         & //'bearing%supply_pressure = {} and bearing%ambient_pressure = {}', &
+         & [bearing%cavitation_pressure, bearing%supply_pressure, bearing%ambient_pressure], error)
    end subroutine check_bearing
 
-   subroutine check_thermal(inputs, bearing, error)
+   !> Heat, friction and pivots of a bearing.
+   subroutine check_laws(inputs, bearing, error)
       type(case_type), intent(in) :: inputs
       type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(inout) :: error
+      integer :: i
       associate (t => inputs%thermal, oil => bearing%oil)
          call require(t%model == 'pad' .or. t%march == 'frozen', 'thermal%march = '''//t%march//''': has no effect ' &
             & //'but with thermal%model = ''pad''', error)
@@ -125,43 +113,31 @@ contains
          call require(t%march == 'frozen' .or. inputs%start%from /= 'partial', 'start%from = ''partial'': is not for ' &
             & //'thermal%march = ''groove'', which begins at the equilibrium', error)
       end associate
-   end subroutine check_thermal
-
-   subroutine check_friction(bearing, error)
-      type(bearing_type), intent(in) :: bearing
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: i
-      associate (f => bearing%friction)
+      associate (f => bearing%friction, static => bearing%friction%static_coefficient, &
+            & dynamic => bearing%friction%dynamic_coefficient)
          do i = 1, bearing%pad_count()
-            if (.not. (f%dynamic_coefficient(i) <= f%static_coefficient(i))) call refuse( &
-               & 'friction%dynamic_coefficient = '//to_text(f%dynamic_coefficient(i)) &
-               & //': must not exceed friction%static_coefficient = '//to_text(f%static_coefficient(i)) &
-               & //' (pad '//to_text(i)//')', error)
-            call require(f%model /= 'lugre' .or. f%dynamic_coefficient(i) > 0, 'friction%dynamic_coefficient = 0: ' &
-               & //'must be > 0 for model = ''lugre'' (pad '//to_text(i)//')', error)
+            call require(dynamic(i) <= static(i), 'friction%dynamic_coefficient = {}: must not exceed ' &
+               & //'friction%static_coefficient = {} (pad {})', [real(wp) :: dynamic(i), static(i), i], error)
+            call require(f%model /= 'lugre' .or. dynamic(i) > 0, 'friction%dynamic_coefficient = 0: must be > 0 for ' &
+               & //'model = ''lugre'' (pad {})', [real(i, wp)], error)
          end do
          call require(bearing%tilting() .or. f%model == 'none', 'friction%model = '''//f%model//''': must be ' &
             & //'''none'' for pads%motion = ''fixed'', whose pads have no pivots', error)
       end associate
-   end subroutine check_friction
-
-   subroutine check_pivot(v, error)
-      type(pivot_type), intent(in) :: v
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: i
-      call require(v%law /= 'table' .or. v%file /= '', 'pivot%file = '''': must name a CSV file for ' &
-         & //'law = ''table''', error)
-      call require(v%law == 'table' .or. v%file == '', 'pivot%file = '''//v%file &
-         & //''': needs pivot%law = ''table''', error)
-      do i = 1, size(v%socket_radius)
-         if (.not. (v%radius_difference(i) <= 0.5_wp*v%socket_radius(i))) call refuse( &
-            & 'pivot%radius_difference = '//to_text(v%radius_difference(i)) &
-            & //': must be at most half of pivot%socket_radius = '//to_text(v%socket_radius(i)) &
-            & //' (pad '//to_text(i)//')', error)
-         call require(v%law /= 'hertz' .or. v%radius_difference(i) > 0, 'pivot%radius_difference = 0: must be > 0 ' &
-            & //'for law = ''hertz'' (pad '//to_text(i)//')', error)
-      end do
-   end subroutine check_pivot
+      associate (v => bearing%pivot)
+         call require(v%law /= 'table' .or. v%file /= '', 'pivot%file = '''': must name a CSV file for ' &
+            & //'law = ''table''', error)
+         call require(v%law == 'table' .or. v%file == '', 'pivot%file = '''//v%file &
+            & //''': needs pivot%law = ''table''', error)
+         do i = 1, size(v%socket_radius)
+            call require(v%radius_difference(i) <= 0.5_wp*v%socket_radius(i), 'pivot%radius_difference = {}: must be ' &
+               & //'at most half of pivot%socket_radius = {} (pad {})', &
+               & [real(wp) :: v%radius_difference(i), v%socket_radius(i), i], error)
+            call require(v%law /= 'hertz' .or. v%radius_difference(i) > 0, 'pivot%radius_difference = 0: must be > 0 ' &
+               & //'for law = ''hertz'' (pad {})', [real(i, wp)], error)
+         end do
+      end associate
+   end subroutine check_laws
 
    subroutine check_start(inputs, bearing, error)
       type(case_type), intent(in) :: inputs
@@ -172,37 +148,13 @@ contains
             & //'''file''', error)
          call require(s%from == 'file' .or. s%file == '', 'start%file = '''//s%file//''': needs start%from = ' &
             & //'''file'', not '''//s%from//'''', error)
-         if (.not. (bearing%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0))) call refuse( &
-            & 'start%pad_tilt = '//to_text(s%pad_tilt(1))//', pad_tilt_rate = '//to_text(s%pad_tilt_rate(1)) &
-            & //': must be 0 for pads%motion = ''fixed''', error)
-         if (.not. (bearing%tilting_radial() &
-            & .or. all(abs([s%pivot_deflection, s%pivot_deflection_rate]) <= 0))) call refuse( &
-            & 'start%pivot_deflection = '//to_text(s%pivot_deflection(1))//', pivot_deflection_rate = ' &
-            & //to_text(s%pivot_deflection_rate(1))//': must be 0 for pads%motion = '''//bearing%pads%motion &
-            & //'''', error)
+         call require(bearing%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0), 'start%pad_tilt = {}, ' &
+            & //'pad_tilt_rate = {}: must be 0 for pads%motion = ''fixed''', [s%pad_tilt(1), s%pad_tilt_rate(1)], error)
+         call require(bearing%tilting_radial() .or. all(abs([s%pivot_deflection, s%pivot_deflection_rate]) <= 0), &
+            & 'start%pivot_deflection = {}, pivot_deflection_rate = {}: must be 0 for pads%motion = ''' &
+            & //bearing%pads%motion//'''', [s%pivot_deflection(1), s%pivot_deflection_rate(1)], error)
       end associate
    end subroutine check_start
-
-   !> When a march ends, and what it samples.
-   subroutine check_output(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      associate (periodic => inputs%integration%stop_when_periodic)
-         if (.not. (periodic <= 0 .or. inputs%is_steady())) call refuse('integration%stop_when_periodic = ' &
-            & //to_text(periodic) &
-            & //': must be 0 where operation%final_speed_rpm differs from operation%speed_rpm', error)
-      end associate
-      associate (output => inputs%output, duration => inputs%operation%duration)
-         if (.not. (output%start_time <= duration)) call refuse('output%start_time = '//to_text(output%start_time) &
-            & //': must not exceed operation%duration = '//to_text(duration), error)
-         if (.not. (duration*inputs%highest_speed()/360/degree*output%samples_per_revolution < 1e9_wp)) call refuse( &
-            & 'operation%duration = '//to_text(duration) &
-            & //': more than 1e9 samples at output%samples_per_revolution = ' &
-            & //to_text(output%samples_per_revolution), error)
-         call require(inputs%about%task /= 'branch' .or. output%keep == 'all', 'output%keep = '''//output%keep &
-            & //''': must be ''all'' with case%task = ''branch'', whose results are its points', error)
-      end associate
-   end subroutine check_output
 
    subroutine check_pads(bearing, error)
       type(bearing_type), intent(in) :: bearing
@@ -213,13 +165,13 @@ contains
          do i = 1, bearing%pad_count()
             call require_room(bearing, i, error)
             if (.not. bearing%tilting()) cycle
-            if (.not. (p%arc_deg(i) <= longest_arc)) call refuse('pads%arc_deg = '//to_text(p%arc_deg(i)) &
-               & //': must be at most '//to_text(longest_arc)//' for pads that tilt', error)
+            call require(p%arc_deg(i) <= longest_arc, 'pads%arc_deg = {}: must be at most {} for pads that tilt', &
+               & [p%arc_deg(i), longest_arc], error)
             smallest = p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2)
-            if (.not. (p%inertia(i) > smallest)) call refuse('pads%inertia = '//to_text(p%inertia(i)) &
-               & //': must exceed pads%mass = '//to_text(p%mass(i))//' times the squared distance of the centre of ' &
-               & //'gravity from the pivot, '//to_text(smallest)//' (pad '//to_text(i)//')' &
-               & //in_other_units(p%mass(i), 'pads%mass', 'kg', 0.0_wp, p%mass(i)*p%inertia(i)/smallest), error)
+            if (.not. (p%inertia(i) > smallest)) call refuse(filled('pads%inertia = {}: must exceed pads%mass = {} ' &
+               & //'times the squared distance of the centre of gravity from the pivot, {} (pad {})', &
+               & [real(wp) :: p%inertia(i), p%mass(i), smallest, i])//in_other_units(p%mass(i), 'pads%mass', 'kg', &
+               & 0.0_wp, p%mass(i)*p%inertia(i)/smallest), error)
          end do
       end associate
    end subroutine check_pads
@@ -231,38 +183,44 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       real(wp) :: distance
       integer :: j
-      associate (p => bearing%pads)
+      associate (p => bearing%pads, at => bearing%pads%pivot_angle_deg)
          do j = 1, bearing%pad_count()
             if (i == j) cycle
             ! from pivot i on to pivot j, going up
-            distance = modulo(p%pivot_angle_deg(j) - p%pivot_angle_deg(i), 360.0_wp)
-            if (.not. (distance > p%pivot_ratio(i)*p%arc_deg(i) + (1 - p%pivot_ratio(j))*p%arc_deg(j))) call refuse( &
-               & 'pads%pivot_angle_deg = '//to_text(p%pivot_angle_deg(i))//', '//to_text(p%pivot_angle_deg(j)) &
-               & //': pads '//to_text(i)//' and '//to_text(j) &
-               & //' overlap; the pivots must be further apart or pads%arc_deg smaller', error)
+            distance = modulo(at(j) - at(i), 360.0_wp)
+            call require(distance > p%pivot_ratio(i)*p%arc_deg(i) + (1 - p%pivot_ratio(j))*p%arc_deg(j), &
+               & 'pads%pivot_angle_deg = {}, {}: pads {} and {} overlap; the pivots must be further apart or ' &
+               & //'pads%arc_deg smaller', [real(wp) :: at(i), at(j), i, j], error)
          end do
       end associate
    end subroutine require_room
 
-   !> What some tasks cannot do: but for a march and an equilibrium the speed is constant.
-   subroutine check_tasks(inputs, error)
+   !> When a march ends and what it samples; but for a march and an equilibrium the speed is constant.
+   subroutine check_run(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: also
-      associate (c => inputs%coefficients, o => inputs%operation, task => inputs%about%task)
-         if (task == 'march' .or. task == 'equilibrium') return
+      associate (periodic => inputs%integration%stop_when_periodic, output => inputs%output, o => inputs%operation, &
+            & task => inputs%about%task, limit => inputs%coefficients%threshold_up_to_rpm)
+         call require(periodic <= 0 .or. inputs%is_steady(), 'integration%stop_when_periodic = {}: must be 0 where ' &
+            & //'operation%final_speed_rpm differs from operation%speed_rpm', [periodic], error)
+         call require(output%start_time <= o%duration, 'output%start_time = {}: must not exceed operation%duration ' &
+            & //'= {}', [output%start_time, o%duration], error)
+         call require(o%duration*inputs%highest_speed()/360/degree*output%samples_per_revolution < 1e9_wp, &
+            & 'operation%duration = {}: more than 1e9 samples at output%samples_per_revolution = {i}', &
+            & [real(wp) :: o%duration, output%samples_per_revolution], error)
+         call require(task /= 'branch' .or. output%keep == 'all', 'output%keep = '''//output%keep//''': must be ' &
+            & //'''all'' with case%task = ''branch'', whose results are its points', error)
          also = ''
          if (task == 'coefficients') also = '; a study varies the speed'
-         if (.not. inputs%is_steady()) call refuse('operation%final_speed_rpm = '//to_text(o%final_speed_rpm) &
-            & //': must be operation%speed_rpm = '//to_text(o%speed_rpm)//' with case%task = '''//task//'''' &
-            & //also, error)
-         if (task /= 'coefficients') return
-         if (c%threshold_up_to_rpm > 0 .and. c%threshold_up_to_rpm <= o%speed_rpm) call refuse( &
-            & 'coefficients%threshold_up_to_rpm = '//to_text(c%threshold_up_to_rpm) &
-            & //': must be 0 or above operation%speed_rpm = '//to_text(o%speed_rpm) &
-            & //', where the search starts', error)
+         call require(task == 'march' .or. task == 'equilibrium' .or. inputs%is_steady(), 'operation%final_speed_rpm ' &
+            & //'= {}: must be operation%speed_rpm = {} with case%task = '''//task//''''//also, [o%final_speed_rpm, &
+            & o%speed_rpm], error)
+         call require(task /= 'coefficients' .or. limit <= 0 .or. limit > o%speed_rpm, &
+            & 'coefficients%threshold_up_to_rpm = {}: must be 0 or above operation%speed_rpm = {}, where the search ' &
+            & //'starts', [limit, o%speed_rpm], error)
       end associate
-   end subroutine check_tasks
+   end subroutine check_run
 
    !> A branch needs a parameter; `case_parameter` checks what it, its last value and its step mean.
    subroutine check_branch(inputs, error)
@@ -272,8 +230,8 @@ contains
       associate (b => inputs%branch)
          call require(b%parameter /= '', 'branch%parameter = '''': must name a number of the input, such as ' &
             & //'''operation%speed_rpm''', error)
-         if (is_set(b%step) .and. b%max_step > 0 .and. b%max_step < abs(b%step)) call refuse('branch%max_step = ' &
-            & //to_text(b%max_step)//': must be 0 or at least the size of branch%step = '//to_text(b%step), error)
+         if (is_set(b%step) .and. b%max_step > 0) call require(b%max_step >= abs(b%step), 'branch%max_step = {}: ' &
+            & //'must be 0 or at least the size of branch%step = {}', [b%max_step, b%step], error)
          call require(b%switch .or. b%of == 'periodic', 'branch%switch = .false.: has no effect on a branch of ' &
             & //'equilibria', error)
       end associate
@@ -289,11 +247,10 @@ contains
       associate (s => inputs%start, q => inputs%coefficients%cross_stiffness)
          call check_shaft(inputs%rotor%elastic, error)
          call check_bearings(inputs%bearings, inputs%rotor%station_count(), error)
-         call check_parts(inputs%rotor%elastic, inputs%excitations, inputs%rotor%station_count(), error)
-         call check_supports(inputs%bearings, error)
+         call check_parts(inputs, inputs%rotor%station_count(), error)
          call require(any(s%from == ['equilibrium', 'file       ']), 'start%from = '''//s%from//''': must be ' &
             & //'''equilibrium'' or ''file'' for a machine', error)
-         if (abs(q) > 0) call refuse('coefficients%cross_stiffness = '//to_text(q)//': must be 0 for a machine', error)
+         call require(.not. abs(q) > 0, 'coefficients%cross_stiffness = {}: must be 0 for a machine', [q], error)
       end associate
    end subroutine check_machine
 
@@ -311,12 +268,11 @@ contains
          call require(elastic%rotor_file == '', 'rotor%file = '''//elastic%rotor_file//''': shaft%length is given ' &
             & //'too; give one of them', error)
          call require(all(is_set(shaft%length)), 'shaft%length: every section needs one', error)
-         call require(all(is_set(shaft%diameter)), 'shaft%diameter: must be given, of each of the '// &
-            & to_text(size(shaft%length))//' sections', error)
+         call require(all(is_set(shaft%diameter)), 'shaft%diameter: must be given, of each of the {} sections', &
+            & [real(size(shaft%length), wp)], error)
          do i = 1, size(shaft%length)
-            if (.not. shaft%bore(i) < shaft%diameter(i)) call refuse('shaft%bore = '//to_text(shaft%bore(i)) &
-               & //': must be below shaft%diameter = '//to_text(shaft%diameter(i))//' (section '//to_text(i)//')', &
-               & error)
+            call require(shaft%bore(i) < shaft%diameter(i), 'shaft%bore = {}: must be below shaft%diameter = {} ' &
+               & //'(section {})', [real(wp) :: shaft%bore(i), shaft%diameter(i), i], error)
          end do
       end associate
    end subroutine check_shaft
@@ -338,66 +294,53 @@ contains
       end do
    end subroutine check_bearings
 
-   !> What is on the shaft is at its stations.
-   subroutine check_parts(elastic, excitations, stations, error)
-      type(elastic_type), intent(in) :: elastic
-      type(excitation_type), intent(in) :: excitations(:)
+   !> What is on the shaft is at its stations, and a support holds its bearing.
+   subroutine check_parts(inputs, stations, error)
+      type(case_type), intent(in) :: inputs
       integer, intent(in) :: stations
       type(error_type), allocatable, intent(inout) :: error
       integer :: i
-      do i = 1, size(elastic%discs)
-         associate (disc => elastic%discs(i))
-            call check_station('disc('//to_text(i)//')', disc%station, stations, error)
-            ! the moments of inertia of any body
-            if (.not. disc%polar_inertia <= 2*disc%diametral_inertia) call refuse('disc('//to_text(i) &
-               & //')%polar_inertia = '//to_text(disc%polar_inertia)//': must be at most twice diametral_inertia = ' &
-               & //to_text(disc%diametral_inertia), error)
-         end associate
-      end do
-      do i = 1, size(elastic%unbalances)
-         call check_station('unbalance('//to_text(i)//')', elastic%unbalances(i)%station, stations, error)
-      end do
-      do i = 1, size(elastic%loads)
-         call check_station('load('//to_text(i)//')', elastic%loads(i)%station, stations, error)
-      end do
-      do i = 1, size(excitations)
-         call check_station('excitation('//to_text(i)//')', excitations(i)%station, stations, error)
-      end do
+      associate (elastic => inputs%rotor%elastic, bearings => inputs%bearings)
+         do i = 1, size(elastic%discs)
+            associate (disc => elastic%discs(i))
+               call check_station('disc('//to_text(i)//')', disc%station, stations, error)
+               ! the moments of inertia of any body
+               call require(disc%polar_inertia <= 2*disc%diametral_inertia, 'disc({})%polar_inertia = {}: must be at ' &
+                  & //'most twice diametral_inertia = {}', [real(wp) :: i, disc%polar_inertia, &
+                  & disc%diametral_inertia], error)
+            end associate
+         end do
+         do i = 1, size(elastic%unbalances)
+            call check_station('unbalance('//to_text(i)//')', elastic%unbalances(i)%station, stations, error)
+         end do
+         do i = 1, size(elastic%loads)
+            call check_station('load('//to_text(i)//')', elastic%loads(i)%station, stations, error)
+         end do
+         do i = 1, size(inputs%excitations)
+            call check_station('excitation('//to_text(i)//')', inputs%excitations(i)%station, stations, error)
+         end do
+         do i = 1, size(bearings)
+            if (.not. allocated(bearings(i)%support)) cycle
+            associate (k => bearings(i)%support%stiffness, mass => bearings(i)%support%mass, &
+               & group => 'support'//bearings(i)%suffix())
+               call require(mass > 0, group//'%mass = {}: must be above 0, kg', [mass], error)
+               call require(all(is_set(k)), group//'%stiffness: must be given, along y and z', error)
+               call require(all(k > 0), group//'%stiffness = {}: must be above 0 along y and z', [minval(k)], error)
+            end associate
+         end do
+      end associate
    end subroutine check_parts
-
-   !> A support holds the bearing.
-   subroutine check_supports(bearings, error)
-      type(bearing_type), intent(in) :: bearings(:)
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: b
-      do b = 1, size(bearings)
-         if (.not. allocated(bearings(b)%support)) cycle
-         associate (k => bearings(b)%support%stiffness, mass => bearings(b)%support%mass, &
-            & group => 'support'//bearings(b)%suffix())
-            if (.not. mass > 0) call refuse(group//'%mass = '//to_text(mass)//': must be above 0, kg', error)
-            if (.not. all(is_set(k))) then
-               call refuse(group//'%stiffness: must be given, along y and z', error)
-            else if (.not. all(k > 0)) then
-               call refuse(group//'%stiffness = '//to_text(minval(k))//': must be above 0 along y and z', error)
-            end if
-         end associate
-      end do
-   end subroutine check_supports
 
    !> Refuses a station that is left out or that the shaft, of this number of stations, does not have.
    subroutine check_station(group, station, stations, error)
       character(len=*), intent(in) :: group
       integer, intent(in) :: station, stations
       type(error_type), allocatable, intent(inout) :: error
-      integer :: last
-      last = stations
-      if (last == 0) last = most_stations
-      if (station == 0) then
-         call refuse(group//'%station: must be given, 1 to '//to_text(last), error)
-      else if (station > last) then
-         call refuse(group//'%station = '//to_text(station)//': must be 1 to '//to_text(last)//', the stations of ' &
-            & //'the shaft, of which there is one more than sections', error)
-      end if
+      real(wp) :: last
+      last = merge(stations, most_stations, stations > 0)
+      call require(station > 0, group//'%station: must be given, 1 to {}', [last], error)
+      call require(station <= last, group//'%station = {}: must be 1 to {}, the stations of the shaft, of which ' &
+         & //'there is one more than sections', [real(station, wp), last], error)
    end subroutine check_station
 
    ! Checks of bent pads and of clearances that heat changes: which cases have them, and what they need.
@@ -408,72 +351,122 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       integer :: b
       do b = 1, size(inputs%bearings)
-         associate (bearing => inputs%bearings(b))
-            if (.not. bearing%changes_shape()) cycle
-            if (allocated(error)) return
-            call check_shape_tasks(inputs, what(bearing), error)
-            if (bearing%pads%bending /= 'none') call check_bending(bearing, inputs%thermal%model, error)
-            if (is_set(bearing%clearance_temperature)) call check_expansion(bearing, inputs%thermal%model, error)
-            call add_context(error, bearing%label())
-         end associate
+         if (.not. inputs%bearings(b)%changes_shape()) cycle
+         if (allocated(error)) return
+         call check_shape_of(inputs%bearings(b), inputs, error)
+         call add_context(error, inputs%bearings(b)%label())
       end do
    end subroutine check_shape
 
-   !> The variable that changes the shape, with its value.
-   function what(bearing)
+   !> Shapes are those of one equilibrium; bent pads and warm clearances need temperatures.
+   subroutine check_shape_of(bearing, inputs, error)
       type(bearing_type), intent(in) :: bearing
-      character(len=:), allocatable :: what
-      if (bearing%pads%bending /= 'none') then
-         what = 'pads%bending = '''//bearing%pads%bending//''''
-      else
-         what = 'bearing%clearance_temperature = '//to_text(bearing%clearance_temperature)
-      end if
-   end function what
-
-   !> Shapes are those of one equilibrium; `what` changes them.
-   subroutine check_shape_tasks(inputs, what, error)
       type(case_type), intent(in) :: inputs
-      character(len=*), intent(in) :: what
       type(error_type), allocatable, intent(inout) :: error
-      call require(inputs%about%task /= 'branch', what//': is not for case%task = ''branch''; a study of ' &
-         & //'equilibria finds the shape of each', error)
-      call require(.not. inputs%coefficients%threshold_up_to_rpm > 0, 'coefficients%threshold_up_to_rpm = ' &
-         & //to_text(inputs%coefficients%threshold_up_to_rpm)//': is not for '//what//'; a study of ' &
-         & //'coefficients over the speed finds the shape at each', error)
-      call require(inputs%start%from /= 'partial', 'start%from = ''partial'': is not for '//what &
-         & //', which starts at the equilibrium', error)
-      call require(inputs%thermal%march == 'frozen', 'thermal%march = '''//inputs%thermal%march//''': is not for ' &
-         & //what//'; ''frozen'' keeps oil and shape of the start', error)
-   end subroutine check_shape_tasks
-
-   subroutine check_bending(bearing, thermal_model, error)
-      type(bearing_type), intent(in) :: bearing
-      character(len=*), intent(in) :: thermal_model
-      type(error_type), allocatable, intent(inout) :: error
+      !> The variable that changes the shape, with its value.
+      character(len=:), allocatable :: what
       integer :: i
-      associate (p => bearing%pads)
-         call require(bearing%tilting(), what(bearing)//': is for pads that tilt on a pivot; pads%motion = ''fixed'' ' &
-            & //'has none', error)
-         call require(p%bending == 'elastic' .or. thermal_model == 'film', what(bearing)//': needs the ' &
-            & //'temperatures in the pads, thermal%model = ''film''; ''elastic'' does not', error)
+      what = 'pads%bending = '''//bearing%pads%bending//''''
+      if (bearing%pads%bending == 'none') what = 'bearing%clearance_temperature = ' &
+         & //to_text(bearing%clearance_temperature)
+      associate (p => bearing%pads, heat => inputs%thermal, limit => inputs%coefficients%threshold_up_to_rpm)
+         call require(inputs%about%task /= 'branch', what//': is not for case%task = ''branch''; a study of ' &
+            & //'equilibria finds the shape of each', error)
+         call require(.not. limit > 0, 'coefficients%threshold_up_to_rpm = {}: is not for '//what//'; a study of ' &
+            & //'coefficients over the speed finds the shape at each', [limit], error)
+         call require(inputs%start%from /= 'partial', 'start%from = ''partial'': is not for '//what//', which starts ' &
+            & //'at the equilibrium', error)
+         call require(heat%march == 'frozen', 'thermal%march = '''//heat%march//''': is not for '//what &
+            & //'; ''frozen'' keeps oil and shape of the start', error)
+         if (p%bending /= 'none') then
+            call require(bearing%tilting(), what//': is for pads that tilt on a pivot; pads%motion = ''fixed'' has ' &
+               & //'none', error)
+            call require(p%bending == 'elastic' .or. heat%model == 'film', what//': needs the temperatures in the ' &
+               & //'pads, thermal%model = ''film''; ''elastic'' does not', error)
+            do i = 1, bearing%pad_count()
+               call require(p%arc_deg(i)*max(p%pivot_ratio(i), 1 - p%pivot_ratio(i)) <= farthest, 'pads%arc_deg = ' &
+                  & //'{}: a pad that bends may reach at most {} deg from its pivot (pad {})', &
+                  & [real(wp) :: p%arc_deg(i), farthest, i], error)
+            end do
+         end if
+         if (.not. is_set(bearing%clearance_temperature)) return
+         call require(heat%model /= 'none' .or. is_set(bearing%oil%shaft_temperature), what//': needs ' &
+            & //'oil%shaft_temperature, or thermal%model = ''pad'' or ''film'', which give the shaft''s', error)
          do i = 1, bearing%pad_count()
-            if (.not. p%arc_deg(i)*max(p%pivot_ratio(i), 1 - p%pivot_ratio(i)) <= farthest) call refuse( &
-               & 'pads%arc_deg = '//to_text(p%arc_deg(i))//': a pad that bends may reach at most ' &
-               & //to_text(farthest)//' deg from its pivot (pad '//to_text(i)//')', error)
+            call require(heat%model == 'film' .or. is_set(p%temperature(i)), what//': needs pads%temperature, or ' &
+               & //'thermal%model = ''film'', which gives it (pad {})', [real(i, wp)], error)
          end do
       end associate
-   end subroutine check_bending
+   end subroutine check_shape_of
 
-   subroutine check_expansion(bearing, thermal_model, error)
-      type(bearing_type), intent(in) :: bearing
-      character(len=*), intent(in) :: thermal_model
+   ! Checks of excitations.
+
+   !> Raises an error for the first requirement that the excitations of a case do not meet.
+   subroutine check_excitations(inputs, error)
+      type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       integer :: i
-      call require(thermal_model /= 'none' .or. is_set(bearing%oil%shaft_temperature), what(bearing)//': needs ' &
-         & //'oil%shaft_temperature, or thermal%model = ''pad'' or ''film'', which give the shaft''s', error)
-      do i = 1, bearing%pad_count()
-         call require(thermal_model == 'film' .or. is_set(bearing%pads%temperature(i)), what(bearing)//': needs ' &
-            & //'pads%temperature, or thermal%model = ''film'', which gives it (pad '//to_text(i)//')', error)
+      if (size(inputs%excitations) == 0) return
+      call require(inputs%about%task /= 'branch', 'excitation: has no effect with case%task = ''branch''; a study ' &
+         & //'varies a number of the input', error)
+      associate (periodic => inputs%integration%stop_when_periodic)
+         call require(inputs%about%task /= 'march' .or. periodic <= 0, 'integration%stop_when_periodic = {}: must be ' &
+            & //'0 with excitations; the task periodic finds the orbit under them', [periodic], error)
+      end associate
+      do i = 1, size(inputs%excitations)
+         call check_values(inputs%excitations(i), 'excitation('//to_text(i)//')%', error)
+         call check_times(inputs, inputs%excitations(i), 'excitation('//to_text(i)//')%', error)
+         if (allocated(error)) return
       end do
-   end subroutine check_expansion
+   end subroutine check_excitations
+
+   !> What each kind needs, and what it has no use for.
+   subroutine check_values(x, name, error)
+      type(excitation_type), intent(in) :: x
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: with
+      logical :: vibrates
+      with = ' with kind = '''//x%kind//''''
+      vibrates = x%kind == 'harmonic' .or. x%kind == 'chirp'
+      call need(x%kind == 'table', x%file /= '', 'file = '''//x%file//'''')
+      call need(x%kind /= 'table', is_set(x%amplitude), 'amplitude')
+      call need(x%kind == 'chirp', is_set(x%final_frequency_hz), 'final_frequency_hz')
+      if (x%kind == 'chirp') call need(.true., is_set(x%frequency_hz), 'frequency_hz')
+      if (x%kind /= 'harmonic') call need(.false., is_set(x%frequency_ratio), 'frequency_ratio')
+      if (.not. vibrates) call need(.false., is_set(x%frequency_hz), 'frequency_hz')
+      if (.not. vibrates) call need(.false., x%rotating /= 'no', 'rotating = '''//x%rotating//'''')
+      if (.not. vibrates) call need(.false., abs(x%phase_deg) > 0, 'phase_deg')
+      if (x%kind == 'table') call need(.false., abs(x%direction_deg) > 0, 'direction_deg')
+      if (x%kind /= 'harmonic') return
+      call require(is_set(x%frequency_hz) .or. is_set(x%frequency_ratio), name//'frequency_hz: must be given, or ' &
+         & //'frequency_ratio', error)
+      call require(.not. (is_set(x%frequency_hz) .and. is_set(x%frequency_ratio)), name//'frequency_ratio = {}: ' &
+         & //'frequency_hz is given too; give one of them', [x%frequency_ratio], error)
+   contains
+      subroutine need(is_needed, is_given, variable)
+         logical, intent(in) :: is_needed, is_given
+         character(len=*), intent(in) :: variable
+         call require(is_given .or. .not. is_needed, name//variable//': must be given'//with, error)
+         call require(is_needed .or. .not. is_given, name//variable//': has no effect'//with, error)
+      end subroutine need
+   end subroutine check_values
+
+   !> It acts before the run ends, and one of a periodic orbit always.
+   subroutine check_times(inputs, x, name, error)
+      type(case_type), intent(in) :: inputs
+      type(excitation_type), intent(in) :: x
+      character(len=*), intent(in) :: name
+      type(error_type), allocatable, intent(inout) :: error
+      call require(x%end > x%start .or. .not. is_set(x%end), name//'end = {}: must be above '//name//'start = {} ' &
+         & //'(both in s)', [x%end, x%start], error)
+      call require(inputs%about%task /= 'march' .or. x%start < inputs%operation%duration, name//'start = {}: must be ' &
+         & //'below operation%duration = {}, when the run ends (both in s)', [x%start, inputs%operation%duration], &
+         & error)
+      if (.not. inputs%seeks_orbits()) return
+      call require(x%kind == 'harmonic', name//'kind = '''//x%kind//''': must be ''harmonic'' for a periodic orbit', &
+         & error)
+      call require(x%start <= 0 .and. .not. is_set(x%end), name//'start = {}: must be 0 for a periodic orbit, and ' &
+         & //'there is no end', [x%start], error)
+   end subroutine check_times
 end module case_checks

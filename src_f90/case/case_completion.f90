@@ -1,13 +1,13 @@
 !> What a case may leave out, because it follows from other variables: final speed, pad clearance, law of the oil, which
 !> samples are kept, and mass, inertia and centre of gravity of the pads.
 module case_completion
-   use kinds, only: wp, degree
-   use text, only: to_text, list_text
-   use errors, only: error_type, raise, require, refuse, add_context, input_error
-   use case_groups, only: bearing_type, oil_type, pads_type, unset, is_set, mass_range, inertia_range, centre_range, &
-      & clearance_range, temperature_range, viscosity_range
+   use kinds, only: wp, degree, rpm, pi
+   use text, only: to_text, list_text, filled
+   use errors, only: error_type, require, refuse, add_context
+   use case_groups, only: bearing_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
+      & clearance_range, temperature_range, viscosity_range, in_range
    use case_inputs, only: case_type
-   use excitation_checks, only: complete_excitations
+   use excitations, only: excitation_type
    use other_units, only: in_other_units
    use oil_properties, only: reference_viscosity, density, grades
    implicit none (type, external)
@@ -16,6 +16,10 @@ module case_completion
 
    !> Density of steel, kg/m^3.
    real(wp), parameter :: steel = 7850
+   !> Most revolutions in the period of an orbit that an excitation leads to, and how closely a number of its periods
+   !> must be that of revolutions.
+   integer, parameter :: most_revolutions = 100
+   real(wp), parameter :: closeness = 1e-9_wp
 
    !> The body of a pad: an annular sector of uniform density, as long as the bearing.
    type :: annular_sector_type
@@ -90,28 +94,22 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(bearing_type) :: paper
       paper = bearing_type()
-      associate (machined => b%machined_clearance(i))
-         if (b%assembled_clearance(i) > 2*clearance_range(2)*b%journal_radius) then
-            call raise(error, input_error, 'bearing%assembled_clearance = '//to_text(b%assembled_clearance(i)) &
-               & //': must be at most '//to_text(2*clearance_range(2))//' of bearing%journal_radius = ' &
-               & //to_text(b%journal_radius)//' (both in m; pad '//to_text(i)//')' &
-               & //in_other_units(b%assembled_clearance(i), 'bearing%assembled_clearance', 'm', 0.0_wp, &
-               & 2*clearance_range(2)*b%journal_radius))
+      associate (machined => b%machined_clearance(i), assembled => b%assembled_clearance(i), radius => b%journal_radius)
+         if (assembled > 2*clearance_range(2)*radius) then
+            call refuse(filled('bearing%assembled_clearance = {}: must be at most {} of bearing%journal_radius = {} ' &
+               & //'(both in m; pad {})', [real(wp) :: assembled, 2*clearance_range(2), radius, i]) &
+               & //in_other_units(assembled, 'bearing%assembled_clearance', 'm', 0.0_wp, 2*clearance_range(2)*radius), &
+               & error)
          else if (is_set(b%preload(i)) .and. is_set(machined)) then
-            call raise(error, input_error, 'bearing%preload = '//to_text(b%preload(i)) &
-               & //': bearing%machined_clearance = '//to_text(machined)//' is given too; give one of them (pad ' &
-               & //to_text(i)//')')
+            call refuse(filled('bearing%preload = {}: bearing%machined_clearance = {} is given too; give one of them ' &
+               & //'(pad {})', [real(wp) :: b%preload(i), machined, i]), error)
          else if (is_set(b%preload(i))) then
-            machined = b%assembled_clearance(i)/(1 - b%preload(i))
-            associate (ratio => machined/b%journal_radius)
-               if (ratio < clearance_range(1) .or. ratio > clearance_range(2)) call raise(error, input_error, &
-                  & 'bearing%preload = '//to_text(b%preload(i))//': gives bearing%machined_clearance = ' &
-                  & //to_text(machined)//' with bearing%assembled_clearance = ' &
-                  & //to_text(b%assembled_clearance(i))//'; it must be '//to_text(clearance_range(1))//' to ' &
-                  & //to_text(clearance_range(2))//' of bearing%journal_radius = '//to_text(b%journal_radius) &
-                  & //' (all in m; pad '//to_text(i)//')'//in_other_units(b%assembled_clearance(i), &
-                  & 'bearing%assembled_clearance', 'm', 0.0_wp, clearance_range(2)*b%journal_radius/5))
-            end associate
+            machined = assembled/(1 - b%preload(i))
+            if (.not. in_range(machined/radius, clearance_range)) call refuse(filled('bearing%preload = {}: gives ' &
+               & //'bearing%machined_clearance = {} with bearing%assembled_clearance = {}; it must be {} to {} of ' &
+               & //'bearing%journal_radius = {} (all in m; pad {})', [real(wp) :: b%preload(i), machined, assembled, &
+               & clearance_range, radius, i])//in_other_units(assembled, 'bearing%assembled_clearance', 'm', 0.0_wp, &
+               & clearance_range(2)*radius/5), error)
          else
             call fill(machined, paper%machined_clearance(1))
          end if
@@ -130,7 +128,13 @@ contains
       type(bearing_type) :: paper
       paper = bearing_type()
       associate (p => bearing%pads, q => paper%pads, needs_thickness => heated .or. bearing%pads%bending /= 'none')
-         call refuse_surplus(p, i, needs_thickness, error)
+         ! a density or thickness that nothing would follow from
+         call require(.not. all(is_set([p%density(i), p%mass(i)])), 'pads%density = {}: pads%mass = {} is given too; ' &
+            & //'give one of them (pad {})', [real(wp) :: p%density(i), p%mass(i), i], error)
+         call require(needs_thickness .or. .not. all(is_set([p%thickness(i), p%mass(i), p%inertia(i), &
+            & p%centre_tangential(i), p%centre_radial(i)])), 'pads%thickness = {}: has no effect where mass, ' &
+            & //'inertia, centre_tangential and centre_radial are given (pad {})', [real(wp) :: p%thickness(i), i], &
+            & error)
          if (allocated(error)) return
          if (.not. bearing%tilting()) then
             ! fixed pads need no masses
@@ -164,22 +168,6 @@ contains
       end associate
    end subroutine set_pad
 
-   !> Refuses a density or thickness that nothing would follow from.
-   subroutine refuse_surplus(p, i, needs_thickness, error)
-      type(pads_type), intent(in) :: p
-      integer, intent(in) :: i
-      logical, intent(in) :: needs_thickness
-      type(error_type), allocatable, intent(out) :: error
-      if (is_set(p%density(i)) .and. is_set(p%mass(i))) then
-         call raise(error, input_error, 'pads%density = '//to_text(p%density(i))//': pads%mass = ' &
-            & //to_text(p%mass(i))//' is given too; give one of them (pad '//to_text(i)//')')
-      else if (is_set(p%thickness(i)) .and. is_set(p%mass(i)) .and. is_set(p%inertia(i)) &
-         & .and. is_set(p%centre_tangential(i)) .and. is_set(p%centre_radial(i)) .and. .not. needs_thickness) then
-         call raise(error, input_error, 'pads%thickness = '//to_text(p%thickness(i))//': has no effect where ' &
-            & //'mass, inertia, centre_tangential and centre_radial are given (pad '//to_text(i)//')')
-      end if
-   end subroutine refuse_surplus
-
    !> The size of a pad, clearances apart.
    pure function size_of(b, i)
       type(bearing_type), intent(in) :: b
@@ -201,8 +189,8 @@ contains
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: value, range(2)
       type(error_type), allocatable, intent(inout) :: error
-      if (.not. (value >= range(1) .and. value <= range(2))) call refuse('pads%'//name//' = '//to_text(value) &
-         & //', from the size of the pad: must be '//to_text(range(1))//' to '//to_text(range(2)), error)
+      call require(in_range(value, range), 'pads%'//name//' = {}, from the size of the pad: must be {} to {}', &
+         & [value, range], error)
    end subroutine require_range
 
    !> Closed forms of the sector between the bore and a back that lies `thickness` behind it, from `trailing` before to
@@ -245,10 +233,8 @@ contains
          end select
          if (allocated(error)) return
          associate (mu => reference_viscosity(b))
-            if (.not. (mu >= viscosity_range(1) .and. mu <= viscosity_range(2))) call refuse( &
-               & 'oil%supply_temperature = '//to_text(oil%supply_temperature)//': the oil''s viscosity there is ' &
-               & //to_text(mu)//' Pa s; must be '//to_text(viscosity_range(1))//' to ' &
-               & //to_text(viscosity_range(2)), error)
+            call require(in_range(mu, viscosity_range), 'oil%supply_temperature = {}: the oil''s viscosity there is ' &
+               & //'{} Pa s; must be {} to {}', [oil%supply_temperature, mu, viscosity_range], error)
          end associate
       end associate
    end subroutine complete_oil
@@ -281,9 +267,8 @@ contains
       subroutine only_of(law, name, value)
          character(len=*), intent(in) :: law, name
          real(wp), intent(in) :: value
-         if (is_set(value) .and. bearing%oil%law /= law) call refuse(name//' = '//to_text(value) &
-            & //': belongs to oil%law = '''//law//''', but this case has oil%law = '''//bearing%oil%law &
-            & //'''; take it out of the case', error)
+         call require(.not. is_set(value) .or. bearing%oil%law == law, name//' = {}: belongs to oil%law = '''//law &
+            & //''', but this case has oil%law = '''//bearing%oil%law//'''; take it out of the case', [value], error)
       end subroutine only_of
    end subroutine refuse_other_law
 
@@ -295,8 +280,8 @@ contains
          if (is_set(oil%grade)) then
             if (.not. any(abs(grades - oil%grade) <= 0)) call refuse('oil%grade = '//to_text(oil%grade) &
                & //': must be one of the ISO viscosity grades '//list_text(real(grades, wp)), error)
-            if (any(is_set(nu))) call refuse('oil%grade = '//to_text(oil%grade) &
-               & //': oil%kinematic_viscosity = '//to_text(maxval(nu))//' is given too; give one of them', error)
+            call require(.not. any(is_set(nu)), 'oil%grade = {}: oil%kinematic_viscosity = {} is given too; give one ' &
+               & //'of them', [oil%grade, maxval(nu)], error)
             if (.not. all(abs(t - default%at_temperature) <= 0)) call refuse('oil%at_temperature = '//list_text(t) &
                & //': a grade has its two points at 40 and 100 C; leave it out', error)
          else
@@ -308,8 +293,65 @@ contains
                & //': must not rise with the temperature', error)
          end if
       end associate
-      if (.not. (density(oil, temperature_range(2)) > 0)) call refuse('oil%density_slope = ' &
-         & //to_text(oil%density_slope)//': the density must be above 0 up to '//to_text(temperature_range(2)) &
-         & //' C', error)
+      call require(density(oil, temperature_range(2)) > 0, 'oil%density_slope = {}: the density must be above 0 up ' &
+         & //'to {} C', [oil%density_slope, temperature_range(2)], error)
    end subroutine check_walther
+
+   !> Finds the ends that are left out and needed, and makes the period of an orbit one of all excitations.
+   subroutine complete_excitations(inputs, error)
+      type(case_type), intent(inout) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=15) :: given
+      integer :: i
+      do i = 1, size(inputs%excitations)
+         associate (x => inputs%excitations(i), revolutions => inputs%periodic%revolutions)
+            if (any(x%kind == ['chirp', 'ramp ']) .and. .not. is_set(x%end)) x%end = inputs%operation%duration
+            if (.not. inputs%seeks_orbits() .or. x%kind /= 'harmonic') cycle
+            if (is_set(x%frequency_hz) .eqv. is_set(x%frequency_ratio)) cycle
+            revolutions = common_multiple(revolutions, revolutions_of(x, inputs%operation%speed_rpm*rpm))
+            given = merge('frequency_hz   ', 'frequency_ratio', is_set(x%frequency_hz))
+            call require(revolutions >= 1 .and. revolutions <= most_revolutions, 'excitation({})%'//trim(given) &
+               & //' = {}: must be a fraction of the speed of the shaft whose period is at most {} revolutions for ' &
+               & //'case%task = '''//inputs%about%task//''', with periodic%revolutions and the other excitations; ' &
+               & //'its frequency over the speed is {}', [real(wp) :: i, merge(x%frequency_hz, x%frequency_ratio, &
+               & is_set(x%frequency_hz)), most_revolutions, ratio(x, inputs%operation%speed_rpm*rpm)], error)
+         end associate
+         if (allocated(error)) return
+      end do
+   end subroutine complete_excitations
+
+   !> Frequency over that of the shaft, which has this speed, rad/s.
+   pure real(wp) function ratio(x, speed)
+      type(excitation_type), intent(in) :: x
+      real(wp), intent(in) :: speed
+      ratio = x%frequency_ratio
+      if (is_set(x%frequency_hz)) ratio = 2*pi*x%frequency_hz/speed
+   end function ratio
+
+   !> The fewest revolutions that are a number of periods of an excitation; 0 where there are none.
+   pure integer function revolutions_of(x, speed) result(revolutions)
+      type(excitation_type), intent(in) :: x
+      real(wp), intent(in) :: speed
+      real(wp) :: periods
+      do revolutions = 1, most_revolutions
+         periods = revolutions*ratio(x, speed)
+         if (periods > 0.5_wp .and. abs(periods - anint(periods)) <= closeness*periods) return
+      end do
+      revolutions = 0
+   end function revolutions_of
+
+   pure integer function common_multiple(a, b)
+      integer, intent(in) :: a, b
+      integer :: large, small, rest
+      common_multiple = 0
+      if (min(a, b) < 1) return
+      large = a
+      small = b
+      do while (small > 0)
+         rest = mod(large, small)
+         large = small
+         small = rest
+      end do
+      common_multiple = a/large*b
+   end function common_multiple
 end module case_completion

@@ -2,8 +2,7 @@
 module case_inputs
    use kinds, only: wp, rpm
    use case_groups, only: about_type, operation_type, bearing_type, thermal_type, start_type, integration_type, &
-      & output_type, coefficients_type, periodic_type, branch_type, is_set
-   use rotor_groups, only: rotor_type
+      & output_type, coefficients_type, periodic_type, branch_type, is_set, rotor_type
    use excitations, only: excitation_type
    implicit none (type, external)
    private

@@ -1,5 +1,7 @@
-!> The record of an equilibrium.
+!> The record of an equilibrium, and what a bearing engineer asks of it beside its state: where the journal lies,
+!> losses, flows and temperatures.
 module equilibrium_record
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
    use kinds, only: wp
    use film_solver, only: film_oil
    use film_network, only: warm_films_type
@@ -9,9 +11,13 @@ module equilibrium_record
    use equations_of_motion, only: machine_model
    use errors, only: error_type, raise, numerics_error
    use force_balance, only: stability_type, stability_at
+   use bearing_numbers, only: eccentricity_ratio, attitude_angle
+   use bearing_losses, only: pad_loss
+   use heat_balance, only: oil_temperatures_type
+   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses
    implicit none (type, external)
    private
-   public :: equilibrium_type, describe, describe_with_stability
+   public :: equilibrium_type, describe, describe_with_stability, static_figures_type, find_static_figures
 
    type :: equilibrium_type
       !> Displacements of the rotor, those of its journals, m, first.
@@ -26,12 +32,30 @@ module equilibrium_record
       type(warm_films_type), allocatable :: films(:)
       !> Of all bearings, where it changes the shape of one.
       type(bearing_shape_type), allocatable :: shapes(:)
-      !> Largest unbalanced force over the reference force (pseudo_transient).
+      !> Largest unbalanced force over the reference force (static_model).
       real(wp) :: residual = huge(1.0_wp)
       type(stability_type) :: stability
       !> Which search found it.
       character(len=:), allocatable :: search
    end type equilibrium_type
+
+   type :: static_figures_type
+      !> Distance of the journal from the middle over the bearing clearance; angle from the load to the journal in the
+      !> sense of rotation, rad.
+      real(wp) :: eccentricity_ratio = 0, attitude_angle = 0
+      type(pad_loss), allocatable :: pads(:)
+      !> Of each film.
+      real(wp), allocatable :: reynolds_number(:)
+      !> K: of the oil of each film from the leading to the trailing edge; of all oil where the pads draw fresh oil
+      !> alone, and where fresh oil replaces only what leaves at the sides. All heat stays in the oil.
+      real(wp), allocatable :: temperature_rise(:)
+      real(wp) :: rise_fresh = 0, rise_side = 0
+      !> Of warm oil; by these losses and flows.
+      type(oil_temperatures_type), allocatable :: oil
+   end type static_figures_type
+
+   !> K: no oil becomes as warm; where it would, hardly any flows.
+   real(wp), parameter :: largest_rise = 1e4_wp
 
 contains
 
@@ -68,4 +92,43 @@ contains
       call stability_at(model, y, found%stability, ok)
       if (.not. ok) call raise(error, numerics_error, 'the eigenvalues of the equilibrium are not found')
    end subroutine describe_with_stability
+
+   ! Figures of an equilibrium.
+
+   !> The figures of an equilibrium of a model of one bearing.
+   subroutine find_static_figures(model, static, figures)
+      type(machine_model), intent(in) :: model
+      type(equilibrium_type), intent(in) :: static
+      type(static_figures_type), intent(out) :: figures
+      type(state_balance_type) :: balance
+      logical :: balanced
+      figures%eccentricity_ratio = eccentricity_ratio(model%inputs%bearings(1), static%rotor)
+      figures%attitude_angle = attitude_angle(model%inputs, static%rotor)
+      call find_losses(model, model%static_state(static%rotor, static%pads), balance)
+      figures%pads = balance%losses
+      figures%reynolds_number = figures%pads%reynolds_number(model%point%speed(0.0_wp) &
+         & *model%inputs%bearings(1)%journal_radius, model%inputs%bearings(1)%oil%density, static%oil%viscosity)
+      associate (pads => figures%pads, heat => model%inputs%bearings(1)%oil%density &
+         & *model%inputs%bearings(1)%oil%specific_heat)
+         ! oil that leaves at the sides is warmed half of the way
+         figures%temperature_rise = rise(pads%power(), heat*(pads%inlet + pads%outlet)/2)
+         figures%rise_fresh = rise(sum(pads%power()), heat*sum(pads%inlet))
+         figures%rise_side = rise(sum(pads%power()), heat*sum(pads%side))
+      end associate
+      if (.not. has_warm_oil(model)) return
+      allocate (figures%oil)
+      if (allocated(static%films)) figures%oil = static%films(1)%oil
+      if (allocated(static%films)) return
+      call balance%bearings(1)%heat%temperatures(figures%pads, static%oil%viscosity, model%point%speed(0.0_wp), &
+         & figures%oil, balanced)
+      if (.not. balanced) deallocate (figures%oil)
+   end subroutine find_static_figures
+
+   !> Rise of temperature, K, by a power, W, in a flow of heat capacity, W/K; no number where next to nothing flows.
+   elemental real(wp) function rise(power, capacity)
+      real(wp), intent(in) :: power, capacity
+      rise = ieee_value(power, ieee_quiet_nan)
+      if (ieee_is_nan(capacity)) return
+      if (capacity*largest_rise > power) rise = power/capacity
+   end function rise
 end module equilibrium_record

@@ -10,7 +10,7 @@ module pad_elimination
    use kinematics, only: pad_frame, frame_of, motion_of
    use equations_of_motion, only: machine_model
    use force_balance, only: forces, part_derivatives
-   use pseudo_transient, only: reference_force, next_time_step, longest_move, shortest_move, trace, set_free, &
+   use static_model, only: reference_force, next_time_step, longest_move, shortest_move, trace, set_free, &
       & static_derivatives, newton_step
    implicit none (type, external)
    private

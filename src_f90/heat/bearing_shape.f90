@@ -2,7 +2,7 @@
 !> expanded (docs/theory/heat.md, *Bent pads* and *Warm clearances*).
 module bearing_shape
    use kinds, only: wp
-   use text, only: to_text, fixed_text, micro
+   use text, only: filled
    use errors, only: error_type, raise, add_context, numerics_error
    use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
@@ -104,9 +104,9 @@ contains
          associate (bent => self%bending%elastic(i) + self%bending%thermal(i), &
             & c => bearing%machined_clearance(i))
             if (abs(bent) > c) then
-               call raise(error, numerics_error, 'pad '//to_text(i)//' bends by '//micro(bent, 1)//' um, more than ' &
-                  & //'its clearance of '//micro(c, 1)//' um: '//micro(self%bending%elastic(i), 1) &
-                  & //' um by pressure, '//micro(self%bending%thermal(i), 1)//' um by heat; ' &
+               call raise(error, numerics_error, filled('pad {} bends by {u.1} um, more than its clearance of {u.1} ' &
+                  & //'um: {u.1} um by pressure, {u.1} um by heat; ', [real(wp) :: i, bent, c, &
+                  & self%bending%elastic(i), self%bending%thermal(i)]) &
                   & //reason(i, self%bending%thermal(i) > self%bending%elastic(i)))
             else if (.not. self%machined_clearance(i) > 0) then
                call raise(error, numerics_error, gone('bearing%machined_clearance', c, self%machined_clearance(i)))
@@ -123,26 +123,22 @@ contains
          integer, intent(in) :: i
          logical, intent(in) :: by_heat
          character(len=:), allocatable :: reason
-         reason = 'pads%thickness = '//to_text(bearing%pads%thickness(i))//' m'
-         if (by_heat) then
-            reason = 'too much heat goes through it ('//reason//', pads%conductivity = ' &
-               & //to_text(bearing%pads%conductivity(i))//' W/(m K), oil%back_coefficient = ' &
-               & //to_text(bearing%oil%back_coefficient)//' W/(m^2 K))'
-         else
-            reason = 'it is too thin ('//reason//')'
-         end if
+         reason = filled('it is too thin (pads%thickness = {} m)', [bearing%pads%thickness(i)])
+         if (by_heat) reason = filled('too much heat goes through it (pads%thickness = {} m, pads%conductivity = {} ' &
+            & //'W/(m K), oil%back_coefficient = {} W/(m^2 K))', [bearing%pads%thickness(i), &
+            & bearing%pads%conductivity(i), bearing%oil%back_coefficient])
       end function reason
 
       function gone(name, cold, warm) result(message)
          character(len=*), intent(in) :: name
          real(wp), intent(in) :: cold, warm
          character(len=:), allocatable :: message
-         message = 'the clearance of pad '//to_text(i)//' is gone: '//name//' = '//micro(cold, 1)//' um becomes ' &
-            & //micro(warm, 1)//' um'
+         message = filled('the clearance of pad {} is gone: '//name//' = {u.1} um becomes {u.1} um', [real(wp) :: i, &
+            & cold, warm])
          if (.not. is_set(bearing%clearance_temperature)) return
          associate (t => self%temperatures)
-            message = message//' with the shaft at '//fixed_text(t%shaft, 1)//' C, the pad at ' &
-               & //fixed_text(t%pads(i), 1)//' C and the housing at '//fixed_text(t%housing, 1)//' C'
+            message = message//filled(' with the shaft at {.1} C, the pad at {.1} C and the housing at {.1} C', &
+               & [t%shaft, t%pads(i), t%housing])
          end associate
       end function gone
    end subroutine check

@@ -17,8 +17,7 @@ module film_field
    use equations_of_motion, only: machine_model
    use force_balance, only: forces
    use heat_balance_equations, only: check_oil
-   use pseudo_transient, only: set_free, newton_step, clearances, static_derivatives, newtons
-   use static_model, only: name_bearing
+   use static_model, only: name_bearing, set_free, newton_step, clearances, static_derivatives, newtons
    use fixed_point, only: coupled_field, most_rounds
    implicit none (type, external)
    private

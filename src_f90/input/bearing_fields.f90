@@ -7,7 +7,7 @@ module bearing_fields
       & max_pads, mass_range, inertia_range, centre_range, temperature_range, viscosity_range
    implicit none (type, external)
    private
-   public :: list_bearing, list_oil, list_pads, list_pivot, list_friction, list_asperity, list_film
+   public :: list_bearing, list_oil, list_contacts, list_film
 
 contains
 
@@ -92,6 +92,16 @@ contains
       call v%number(oil%back_temperature, 'back_temperature', low, high, 'C', &
          & 'likewise: temperature of the oil there; if left out, supply_temperature')
    end subroutine list_oil
+
+   !> Its pads, their pivots and what rubs.
+   subroutine list_contacts(bearing, v)
+      type(bearing_type), intent(inout) :: bearing
+      type(variable_table_type), intent(inout) :: v
+      call list_pads(bearing%pads, v)
+      call list_pivot(bearing%pivot, v)
+      call list_friction(bearing%friction, v)
+      call list_asperity(bearing%asperity, v)
+   end subroutine list_contacts
 
    !> The pads of a bearing.
    subroutine list_pads(pads, v)

@@ -1,14 +1,15 @@
 !> The list of all input variables: each with its component of the case, name, allowed values, unit and meaning. The
-!> groups of a bearing are in bearing_fields, those of a machine in machine_fields.
+!> groups of a bearing are in bearing_fields. Groups that a machine has several times have their number or the name of
+!> their bearing behind them: disc(2), pads:drive_end (see assignments).
 module case_fields
    use kinds, only: wp
    use variable_table, only: variable_table_type
-   use case_groups, only: start_type, most_ratios
+   use case_groups, only: bearing_type, support_type, start_type, most_ratios, unset, is_set, rotor_type, &
+      & elastic_type, shaft_type, reduction_type, most_sections, most_stations
    use case_inputs, only: case_type
-   use rotor_groups, only: rotor_type, elastic_type
    use excitations, only: excitation_type, make_excitations
-   use machine_fields, only: list_excitations, list_rotor_file, list_parts, list_bearings, list_place
-   use bearing_fields, only: list_bearing, list_oil, list_pads, list_pivot, list_friction, list_asperity, list_film
+   use assignments, only: counted
+   use bearing_fields, only: list_bearing, list_oil, list_contacts, list_film
    implicit none (type, external)
    private
    public :: list_variables, put_variables, list_all_variables
@@ -30,7 +31,7 @@ contains
       type(case_type) :: copy
       copy = inputs
       call table%begin(filled=.false.)
-      call go_along(copy, table)
+      call go_along(copy, table, all=.false.)
    end subroutine list_variables
 
    !> Gives a case the values of the table.
@@ -38,7 +39,7 @@ contains
       type(variable_table_type), intent(inout) :: table
       type(case_type), intent(inout) :: inputs
       call table%begin(filled=.true.)
-      call go_along(inputs, table)
+      call go_along(inputs, table, all=.false.)
    end subroutine put_variables
 
    !> The variables of all groups that any case has, each group once, with their defaults: those of a rigid journal in
@@ -47,43 +48,32 @@ contains
       type(case_type), intent(in) :: inputs
       type(variable_table_type), intent(out) :: table
       type(case_type) :: copy
-      type(elastic_type) :: elastic
       copy = inputs
-      call elastic%begin(discs=1, unbalances=1, loads=1)
-      allocate (copy%bearings(1)%support)
+      allocate (copy%rotor%elastic, copy%bearings(1)%support)
+      call copy%rotor%elastic%begin(discs=1, unbalances=1, loads=1)
+      call make_excitations(1, copy%excitations)
       call table%begin(filled=.false.)
-      call go_along(copy, table, elastic)
+      call go_along(copy, table, all=.true.)
    end subroutine list_all_variables
 
    !> All variables of a case, in the order of the input reference; with an elastic rotor those of the bearings come
-   !> last, with the name of each behind that of the group. With `also`, those of this rotor and of a bearing's place
-   !> and support beside those of a rigid journal.
-   subroutine go_along(inputs, v, also)
+   !> last, with the name of each behind that of the group. With `all`, those of a rigid journal and of a machine.
+   subroutine go_along(inputs, v, all)
       type(case_type), intent(inout) :: inputs
       type(variable_table_type), intent(inout) :: v
-      type(elastic_type), intent(inout), optional :: also
-      type(excitation_type), allocatable :: one(:)
-      logical :: rigid
-      rigid = inputs%rotor%is_rigid()
+      logical, intent(in) :: all
+      logical :: rigid, machine
+      machine = .not. inputs%rotor%is_rigid()
+      rigid = all .or. .not. machine
       call list_case(inputs, v)
       call list_rotor(inputs%rotor, rigid, v)
-      if (present(also)) call list_rotor_file(also, v)
-      if (.not. rigid) call list_rotor_file(inputs%rotor%elastic, v)
       call list_operation(inputs, v)
-      if (present(also)) then
-         call make_excitations(1, one)
-         call list_excitations(one, v, numbered=.false., stations=.true.)
-      else
-         call list_excitations(inputs%excitations, v, numbered=.true., stations=.not. rigid)
-      end if
+      call list_excitations(inputs%excitations, v, numbered=.not. all, stations=machine)
       if (rigid) call list_bearing(inputs%bearings(1), v)
-      if (present(also)) call list_place(inputs%bearings(1), v)
+      if (all) call list_place(inputs%bearings(1), v)
       if (rigid) call list_oil(inputs%bearings(1)%oil, v)
       call list_thermal(inputs, v)
-      if (rigid) call list_pads(inputs%bearings(1)%pads, v)
-      if (rigid) call list_pivot(inputs%bearings(1)%pivot, v)
-      if (rigid) call list_friction(inputs%bearings(1)%friction, v)
-      if (rigid) call list_asperity(inputs%bearings(1)%asperity, v)
+      if (rigid) call list_contacts(inputs%bearings(1), v)
       call list_start(inputs%start, rigid, v)
       if (rigid) call list_film(inputs%bearings(1)%film, v)
       call list_integration(inputs, v)
@@ -91,10 +81,11 @@ contains
       call list_coefficients(inputs, v)
       call list_periodic(inputs, v)
       call list_branch(inputs, v)
-      if (present(also)) call list_parts(also, v, inputs%bearings(1)%support)
-      if (rigid) return
-      call list_parts(inputs%rotor%elastic, v)
-      call list_bearings(inputs%bearings, v)
+      if (.not. machine) return
+      call list_parts(inputs%rotor%elastic, v, numbered=.not. all)
+      if (all) call list_support(inputs%bearings(1)%support, v)
+      call list_reduction(inputs%rotor%elastic%reduction, v)
+      if (.not. all) call list_bearings(inputs%bearings, v)
    end subroutine go_along
 
    subroutine list_case(inputs, v)
@@ -125,6 +116,8 @@ contains
       call v%number(rotor%gravity, 'gravity', 0.0_wp, 1e3_wp, 'm/s^2', 'acceleration towards -y')
       if (rigid) call v%numbers(rotor%static_load, 'static_load', -1e12_wp, 1e12_wp, 'N', &
          & 'extra force on the journal along y and z')
+      if (.not. rotor%is_rigid()) call v%word(rotor%elastic%rotor_file, 'file', '', 'instead of the group shaft: the ' &
+         & //'HDF5 file with the matrices of a rotor from another program')
    end subroutine list_rotor
 
    subroutine list_operation(inputs, v)
@@ -256,4 +249,162 @@ contains
       call v%flag(inputs%branch%switch, 'switch', &
          & 'periodic: whether the orbits of double period are followed, too, where the period doubles')
    end subroutine list_branch
+
+   ! The variables of a machine, and of excitations.
+
+   !> Shaft and what it carries; `numbered`: of what there are several, each with its number.
+   subroutine list_parts(rotor, v, numbered)
+      type(elastic_type), intent(inout) :: rotor
+      type(variable_table_type), intent(inout) :: v
+      logical, intent(in) :: numbered
+      integer :: i
+      call list_shaft(rotor%shaft, v)
+      do i = 1, size(rotor%discs)
+         associate (disc => rotor%discs(i))
+            call begin_part('disc', 'a rigid disc on its shaft', disc%station)
+            call v%number(disc%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', 'mass')
+            call v%number(disc%polar_inertia, 'polar_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
+               & 'moment of inertia about the axis of the shaft')
+            call v%number(disc%diametral_inertia, 'diametral_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
+               & 'moment of inertia about a diameter')
+         end associate
+      end do
+      do i = 1, size(rotor%unbalances)
+         call begin_part('unbalance', 'an unbalance', rotor%unbalances(i)%station)
+         call v%number(rotor%unbalances(i)%moment, 'moment', 0.0_wp, 1e6_wp, 'kg m', 'mass times eccentricity')
+         call v%number(rotor%unbalances(i)%angle_deg, 'angle_deg', -360.0_wp, 360.0_wp, 'deg', &
+            & 'its angle on the shaft, in the sense of rotation')
+      end do
+      do i = 1, size(rotor%loads)
+         call begin_part('load', 'a steady force on its shaft, beside the weight', rotor%loads(i)%station)
+         call v%numbers(rotor%loads(i)%force, 'force', -1e12_wp, 1e12_wp, 'N', 'along y and z')
+      end do
+      call v%behind_group('')
+   contains
+      !> The group of the i-th part of a kind, and its station.
+      subroutine begin_part(name, meaning, station)
+         character(len=*), intent(in) :: name, meaning
+         integer, intent(inout) :: station
+         if (numbered) call v%behind_group(counted(i))
+         call v%group(name, 'A machine: '//meaning//'; one group for each')
+         call list_station(station, v)
+      end subroutine begin_part
+   end subroutine list_parts
+
+   !> Each bearing with its own groups.
+   subroutine list_bearings(bearings, v)
+      type(bearing_type), intent(inout) :: bearings(:)
+      type(variable_table_type), intent(inout) :: v
+      integer :: b
+      do b = 1, size(bearings)
+         associate (own => bearings(b))
+            call v%behind_group(own%suffix())
+            call list_bearing(own, v)
+            call list_place(own, v)
+            if (allocated(own%support)) call list_support(own%support, v)
+            call list_oil(own%oil, v)
+            call list_contacts(own, v)
+            call list_film(own%film, v)
+         end associate
+      end do
+      call v%behind_group('')
+   end subroutine list_bearings
+
+   subroutine list_shaft(shaft, v)
+      type(shaft_type), intent(inout) :: shaft
+      type(variable_table_type), intent(inout) :: v
+      call v%group('shaft', 'A machine: the sections of its shaft, from station 1 to station 2, from there to ' &
+         & //'station 3, ...; *Machines* above')
+      call v%list(shaft%length, most_sections, 'length', 1e-6_wp, 1e3_wp, 'm', 'length of each section', &
+         & counts='sections')
+      call v%each(shaft%diameter, 'sections', 'diameter', 1e-4_wp, 100.0_wp, 'm', 'outer diameter')
+      call v%each(shaft%bore, 'sections', 'bore', 0.0_wp, 100.0_wp, 'm', 'inner diameter; 0: solid')
+      call v%number(shaft%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'of its material')
+      call v%number(shaft%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'of its material')
+      call v%number(shaft%density, 'density', 1.0_wp, 1e5_wp, 'kg/m^3', 'of its material')
+   end subroutine list_shaft
+
+   subroutine list_support(support, v)
+      type(support_type), intent(inout) :: support
+      type(variable_table_type), intent(inout) :: v
+      call v%group('support', 'A machine: what a bearing stands on; without this group it stands on the ground')
+      call v%number(support%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', &
+         & 'mass that moves with the housing of the bearing, that of the pads with it; must be above 0')
+      call v%numbers(support%stiffness, 'stiffness', 0.0_wp, 1e15_wp, 'N/m', 'along y and z')
+      call v%numbers(support%damping, 'damping', 0.0_wp, 1e12_wp, 'N s/m', 'along y and z')
+   end subroutine list_support
+
+   subroutine list_reduction(reduction, v)
+      type(reduction_type), intent(inout) :: reduction
+      type(variable_table_type), intent(inout) :: v
+      call v%group('reduction', 'A machine: which modes of the shaft are kept')
+      call v%number(reduction%frequency, 'frequency', 1e-3_wp, 1e7_wp, 'Hz', &
+         & 'modes of the shaft on fixed bearings up to this frequency are kept; if left out, as many as the run needs')
+      call v%number(reduction%damp_above, 'damp_above', 0.0_wp, 1e7_wp, 'Hz', &
+         & 'modes above this frequency are damped')
+      call v%number(reduction%damping_ratio, 'damping_ratio', 0.0_wp, 1.0_wp, '1', 'their damping ratio')
+   end subroutine list_reduction
+
+   !> Where a bearing stands.
+   subroutine list_place(bearing, v)
+      type(bearing_type), intent(inout) :: bearing
+      type(variable_table_type), intent(inout) :: v
+      call list_station(bearing%station, v)
+      call v%numbers(bearing%offset, 'offset', -0.1_wp, 0.1_wp, 'm', &
+         & 'of a machine: how far the bearing stands from the line of the others, along y and z')
+   end subroutine list_place
+
+   !> A station; none is given where it is 0.
+   subroutine list_station(station, v)
+      integer, intent(inout) :: station
+      type(variable_table_type), intent(inout) :: v
+      real(wp) :: x
+      x = unset
+      if (station > 0) x = station
+      call v%number(x, 'station', 1.0_wp, real(most_stations, wp), '1', 'of a machine: station of its shaft', .true.)
+      station = 0
+      if (is_set(x)) station = nint(x)
+   end subroutine list_station
+
+   ! The input variables of the groups excitation.
+
+   !> Those of all excitations; `numbered`, each with its number, and with their stations.
+   subroutine list_excitations(excitations, v, numbered, stations)
+      type(excitation_type), intent(inout) :: excitations(:)
+      type(variable_table_type), intent(inout) :: v
+      logical, intent(in) :: numbered, stations
+      integer :: i
+      do i = 1, size(excitations)
+         if (numbered) call v%behind_group(counted(i))
+         call v%group('excitation', 'A force over time on the rotor, for the tasks march and periodic; one group for ' &
+            & //'each; *Excitation* above')
+         if (stations) call list_station(excitations(i)%station, v)
+         call list_excitation(excitations(i), v)
+      end do
+      call v%behind_group('')
+   end subroutine list_excitations
+
+   subroutine list_excitation(x, v)
+      type(excitation_type), intent(inout) :: x
+      type(variable_table_type), intent(inout) :: v
+      call v%word(x%kind, 'kind', 'harmonic chirp step ramp table', &
+         & 'harmonic: a vibration; chirp: one whose frequency changes linearly; step: constant from start to end; ' &
+         & //'ramp: from 0 at start to amplitude at end, which it keeps; table: forces from a file')
+      call v%number(x%amplitude, 'amplitude', 0.0_wp, 1e12_wp, 'N', 'amplitude of the force; not of a table')
+      call v%number(x%direction_deg, 'direction_deg', -360.0_wp, 360.0_wp, 'deg', &
+         & 'direction, from +y towards +z; of a rotating force at phase 0')
+      call v%word(x%rotating, 'rotating', 'no forward backward', &
+         & 'harmonic, chirp: whether the force turns, with the shaft or against it; no: it keeps its direction')
+      call v%number(x%frequency_hz, 'frequency_hz', 1e-6_wp, 1e7_wp, 'Hz', &
+         & 'harmonic: frequency; chirp: frequency at start')
+      call v%number(x%frequency_ratio, 'frequency_ratio', 1e-6_wp, 1e6_wp, '1', &
+         & 'harmonic: frequency over the speed of the shaft, instead of frequency_hz')
+      call v%number(x%final_frequency_hz, 'final_frequency_hz', 1e-6_wp, 1e7_wp, 'Hz', 'chirp: frequency at end')
+      call v%number(x%phase_deg, 'phase_deg', -360.0_wp, 360.0_wp, 'deg', &
+         & 'harmonic, chirp: phase at start, where 0 is the whole amplitude')
+      call v%number(x%start, 'start', 0.0_wp, 1e6_wp, 's', 'when it begins; of a table the time 0')
+      call v%number(x%end, 'end', 0.0_wp, 1e6_wp, 's', 'when it ends; if left out, not before the run (chirp, ramp: ' &
+         & //'with operation%duration)')
+      call v%word(x%file, 'file', '', 'table: CSV file of the columns time, force_y, force_z, in s and N')
+   end subroutine list_excitation
 end module case_fields

@@ -4,8 +4,7 @@ module case_namelist
    use kinds, only: wp
    use text, only: to_text, lower_case, shortened, replaced, whole_number, is_utf8
    use errors, only: error_type, raise, add_context, input_error
-   use case_groups, only: max_pads, unset
-   use rotor_groups, only: most_sections
+   use case_groups, only: max_pads, unset, most_sections
    use case_inputs, only: case_type
    use case_checks, only: check_case
    use case_completion, only: leave_out, complete_case
@@ -13,12 +12,11 @@ module case_namelist
    use case_fields, only: list_variables, list_all_variables, put_variables
    use case_parameter, only: complete_branch, check_branch_parameter
    use assignments, only: namelist_type, assignment_type, study_group, token_type, assignment_text, is_special, &
-      & read_number
-   use machine_names, only: kind_of, bearing_of, may_have_bearing
+      & read_number, kind_of, bearing_of, may_have_bearing
    use machine_structure, only: make_several, give_to_bearings
    use variable_names, only: group_names, names_in, meant_variable, meant_group, meant_word
    use namelist_text, only: parse_namelist
-   use paper_values, only: note_values_of_paper
+   use case_remarks, only: note_values_of_paper
    use other_units, only: in_other_units
    implicit none (type, external)
    private

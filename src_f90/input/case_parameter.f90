@@ -2,16 +2,15 @@
 !> cases with other values of it. What a branch runs over.
 module case_parameter
    use kinds, only: wp
-   use text, only: to_text, lower_case
-   use errors, only: error_type, raise, require, input_error
-   use case_groups, only: is_set
+   use text, only: lower_case, filled
+   use errors, only: error_type, raise, require, refuse, input_error
+   use case_groups, only: is_set, in_range
    use case_inputs, only: case_type
    use case_checks, only: check_case
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables, put_variables
    use variable_names, only: meant_variable
-   use assignments, only: split_subscript
-   use machine_names, only: kind_of
+   use assignments, only: split_subscript, kind_of
    implicit none (type, external)
    private
    public :: case_parameter_type, find_parameter, complete_branch, check_branch_parameter
@@ -29,9 +28,8 @@ module case_parameter
       integer, private :: element = 0
       !> Unit, and what it is, for the file.
       character(len=:), allocatable :: unit, meaning
-      !> Allowed values, and as text.
+      !> Allowed values.
       real(wp) :: low = 0, high = 0
-      character(len=:), allocatable :: range
    contains
       procedure :: value
       procedure :: set
@@ -65,23 +63,19 @@ contains
          parameter%meaning = v%meaning
          parameter%low = v%low
          parameter%high = v%high
-         if (v%is_text .or. v%whole) then
-            call raise(error, input_error, 'must be a real number, no text and no whole number')
-         else if (index(groups, ' '//kind_of(parameter%group)//' ') == 0 .or. parameter%group == 'operation' &
-            & .and. parameter%variable /= speed) then
-            call raise(error, input_error, 'must be operation%'//speed//' or a number of rotor, bearing, oil, pads, ' &
-               & //'pivot, friction, asperity, shaft, disc, unbalance, load or support')
-         else if (parameter%element > size(v%values)) then
-            call raise(error, input_error, 'has '//to_text(size(v%values))//trim(merge(' element ', ' elements', &
-               & size(v%values) == 1)))
-         else if (parameter%element == 0 .and. size(v%values) > 1 .and. v%each == '') then
-            call raise(error, input_error, 'needs the number of an element, '//parameter%group//'%' &
-               & //parameter%variable//'(1) to ('//to_text(size(v%values))//')')
-         else if (.not. is_set(v%values(max(1, parameter%element)))) then
-            call raise(error, input_error, 'has no value of its own here (tiltpad --check prints those that have)')
-         else
-            parameter%range = v%range_text()
-         end if
+         call require(.not. (v%is_text .or. v%whole), 'must be a real number, no text and no whole number', error)
+         call require(index(groups, ' '//kind_of(parameter%group)//' ') > 0 .and. (parameter%group /= 'operation' &
+            & .or. parameter%variable == speed), 'must be operation%'//speed//' or a number of rotor, bearing, oil, ' &
+            & //'pads, pivot, friction, asperity, shaft, disc, unbalance, load or support', error)
+         if (allocated(error)) return
+         associate (n => size(v%values))
+            call require(parameter%element <= n, 'has {} element'//trim(merge('s', ' ', n /= 1)), [real(n, wp)], error)
+            call require(parameter%element > 0 .or. n <= 1 .or. v%each /= '', 'needs the number of an element, ' &
+               & //parameter%group//'%'//parameter%variable//'(1) to ({})', [real(n, wp)], error)
+            if (allocated(error)) return
+            call require(is_set(v%values(max(1, parameter%element))), 'has no value of its own here (tiltpad --check ' &
+               & //'prints those that have)', error)
+         end associate
       end associate
    end subroutine find_parameter
 
@@ -127,7 +121,8 @@ contains
       ! a run-up has no orbit
       inputs%operation%final_speed_rpm = inputs%operation%speed_rpm
       if (value < self%low .or. value > self%high) then
-         call raise(error, input_error, self%group//'%'//self%variable//' = '//to_text(value)//': must be '//self%range)
+         call refuse(filled(self%group//'%'//self%variable//' = {}: must be {} to {}', [value, self%low, self%high]), &
+            & error)
       else
          call check_case(inputs, error)
       end if
@@ -165,24 +160,21 @@ contains
             return
          end if
          first = parameter%value(inputs)
-         if (b%of == 'equilibrium' .and. (any(kind_of(parameter%group) == [character(len=9) :: 'friction', &
-            & 'unbalance']) .or. parameter%variable == 'unbalance' &
-            & .or. index(parameter%variable, 'balance_') == 1)) then
-            call raise(error, input_error, 'branch%parameter = '''//b%parameter &
-               & //''': has no effect on equilibria, which are without friction and unbalance')
-         end if
-         call require(is_set(b%last), 'branch%last: must be given, as twice '//b%parameter//' = '//to_text(first) &
-            & //' is no other value', error)
+         call require(b%of /= 'equilibrium' .or. .not. (any(kind_of(parameter%group) == [character(len=9) :: &
+            & 'friction', 'unbalance']) .or. parameter%variable == 'unbalance' .or. index(parameter%variable, &
+            & 'balance_') == 1), 'branch%parameter = '''//b%parameter//''': has no effect on equilibria, which are ' &
+            & //'without friction and unbalance', error)
+         call require(is_set(b%last), 'branch%last: must be given, as twice '//b%parameter//' = {} is no other value', &
+            & [first], error)
          if (allocated(error)) return
-         call require(b%last >= parameter%low .and. b%last <= parameter%high, 'branch%last = '//to_text(b%last) &
-            & //': must be '//parameter%range//', as '//b%parameter, error)
-         call require(abs(b%last - first) > 0, 'branch%last = '//to_text(b%last)//': is the value of '//b%parameter &
-            & //' already, where the branch starts', error)
-         call require(b%step*(b%last - first) > 0, 'branch%step = '//to_text(b%step)//': must be ' &
-            & //merge('> 0', '< 0', b%last > first)//', from '//b%parameter//' = '//to_text(first) &
-            & //' towards branch%last = '//to_text(b%last), error)
-         call require(abs(b%step) <= abs(b%last - first), 'branch%step = '//to_text(b%step)//': must be smaller than ' &
-            & //'the way from '//b%parameter//' = '//to_text(first)//' to branch%last = '//to_text(b%last), error)
+         call require(in_range(b%last, [parameter%low, parameter%high]), 'branch%last = {}: must be {} ' &
+            & //'to {}, as '//b%parameter, [b%last, parameter%low, parameter%high], error)
+         call require(abs(b%last - first) > 0, 'branch%last = {}: is the value of '//b%parameter//' already, where ' &
+            & //'the branch starts', [b%last], error)
+         call require(b%step*(b%last - first) > 0, 'branch%step = {}: must be '//merge('> 0', '< 0', b%last > first) &
+            & //', from '//b%parameter//' = {} towards branch%last = {}', [b%step, first, b%last], error)
+         call require(abs(b%step) <= abs(b%last - first), 'branch%step = {}: must be smaller than the way from ' &
+            & //b%parameter//' = {} to branch%last = {}', [b%step, first, b%last], error)
       end associate
    end subroutine check_branch_parameter
 end module case_parameter

@@ -2,20 +2,19 @@
 !> each; --check shows them, and a run puts them on its list.
 module case_remarks
    use kinds, only: wp, degree, pi, rpm
-   use text, only: to_text, fixed_text
+   use text, only: to_text, filled, line_if, behind, newline
    use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
    use bearing_numbers, only: preload, load, specific_load
    use variable_table, only: variable_table_type, variable_type
    use case_fields, only: list_variables
    use namelist_writer, only: lines_of
+   use assignments, only: assignment_type, kind_of, bearing_of
    use operating_point, only: operating_point_type
    use other_units, only: in_other_units, usual_size, usual_type
    implicit none (type, external)
    private
-   public :: remarks_on_case, behind, newline, remarks_on_load, remark_on_unbalance
-
-   character(len=*), parameter :: newline = achar(10)
+   public :: remarks_on_case, remarks_on_load, remark_on_unbalance, note_values_of_paper
 
    !> Density, kg/m^3, that no pad has; its radius of gyration about the pivot over the radius of the journal.
    real(wp), parameter :: densest = 1e5_wp, widest = 5
@@ -38,6 +37,12 @@ module case_remarks
    !> Surface speed, m/s, up to which a temperature for each pad is close to those along and across the films.
    real(wp), parameter :: compared_up_to = 35
 
+   !> Variables that make a bearing another one, and those that are then to be given.
+   character(len=*), parameter :: own_size = ' bearing%journal_radius bearing%axial_length '
+   character(len=*), parameter :: to_be_given = ' rotor%mass rotor%unbalance operation%speed_rpm ' &
+      & //'bearing%journal_radius bearing%machined_clearance bearing%assembled_clearance bearing%axial_length ' &
+      & //'bearing%viscosity pads%pivot_angle_deg pads%arc_deg '
+
 contains
 
    !> All of a case; of a machine those of each of its bearings, whose loads are not known yet.
@@ -57,37 +62,28 @@ contains
       lines = lines//on_idle_groups(inputs, table)
    end function remarks_on_case
 
-   !> Lines, each behind a prefix.
-   pure function behind(prefix, lines) result(prefixed)
-      character(len=*), intent(in) :: prefix, lines
-      character(len=:), allocatable :: prefixed
-      integer :: first, length
-      prefixed = ''
-      first = 1
-      do while (first <= len(lines))
-         length = index(lines(first:), newline)
-         prefixed = prefixed//prefix//lines(first:first + length - 1)
-         first = first + length
-      end do
-   end function behind
-
    !> What does not depend on the load of a bearing.
    function on_bearing(inputs, bearing) result(lines)
       type(case_type), intent(in) :: inputs
       type(bearing_type), intent(in) :: bearing
       character(len=:), allocatable :: lines
-      lines = remark_on_speed(inputs%highest_speed(), bearing%journal_radius)//remark_on_clearance(bearing) &
-         & //remarks_on_pads(bearing)
-      if (any(preload(bearing) < 0)) lines = lines//'negative preload '//to_text(minval(preload(bearing))) &
-         & //': the bore of the pads ' &
-         & //'is tighter than the clearance at the pivots; such a pad touches the journal at its edges first'//newline
-      if (.not. bearing%tilting() .and. any(abs(preload(bearing)) > 0)) lines = lines//'each lobe has a centre of ' &
-         & //'its own: eccentricity ratio and attitude angle are about the centre of the bearing and over its ' &
-         & //'clearance, so that they differ from those of a cylindrical bore'//newline
-      associate (surface => inputs%highest_speed()*bearing%journal_radius)
-         if (inputs%thermal%model == 'pad' .and. surface > compared_up_to) lines = lines//'surface speed ' &
-            & //fixed_text(surface, 1)//' m/s: above '//to_text(compared_up_to)//' m/s a temperature for each pad ' &
-            & //'shows trends, and stiffness may be off by more than 10 % (docs/warm_oil.md)'//newline
+      associate (radius => bearing%journal_radius, c => bearing%clearance(), turns => inputs%highest_speed()/rpm, &
+            & surface => inputs%highest_speed()*bearing%journal_radius)
+         lines = line_if(surface < usual_speeds(1), 'surface speed {} m/s at {} rpm: seldom so low', [surface, turns], &
+            & in_other_units(turns, 'operation%speed_rpm', 'rpm', usual_speeds(1)/radius/rpm, &
+            & usual_speeds(2)/radius/rpm))
+         lines = lines//line_if(c > widest_clearance*radius, 'bearing%assembled_clearance = {}: {} of the radius of ' &
+            & //'the journal; usual are 0.001 to 0.003', [c, c/radius], in_other_units(c, &
+            & 'bearing%assembled_clearance', 'm', 0.0_wp, widest_clearance*radius))//remarks_on_pads(bearing)
+         lines = lines//line_if(any(preload(bearing) < 0), 'negative preload {}: the bore of the pads is tighter ' &
+            & //'than the clearance at the pivots; such a pad touches the journal at its edges first', &
+            & [minval(preload(bearing))])
+         lines = lines//line_if(.not. bearing%tilting() .and. any(abs(preload(bearing)) > 0), 'each lobe has a ' &
+            & //'centre of its own: eccentricity ratio and attitude angle are about the centre of the bearing and ' &
+            & //'over its clearance, so that they differ from those of a cylindrical bore')
+         lines = lines//line_if(inputs%thermal%model == 'pad' .and. surface > compared_up_to, 'surface speed {.1} ' &
+            & //'m/s: above {} m/s a temperature for each pad shows trends, and stiffness may be off by more than ' &
+            & //'10 % (docs/warm_oil.md)', [surface, compared_up_to])
       end associate
    end function on_bearing
 
@@ -99,9 +95,8 @@ contains
       type(variable_table_type) :: defaults
       character(len=:), allocatable :: group, names
       integer :: i
-      lines = ''
-      if (size(inputs%excitations) > 0 .and. .not. inputs%moves()) lines = 'excitation: has no effect with ' &
-         & //'case%task = '''//inputs%about%task//''', where no force changes with time'//newline
+      lines = line_if(size(inputs%excitations) > 0 .and. .not. inputs%moves(), 'excitation: has no effect with ' &
+         & //'case%task = '''//inputs%about%task//''', where no force changes with time')
       call list_variables(case_type(), defaults)
       group = ''
       names = ''
@@ -182,10 +177,8 @@ contains
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: force, weight
       character(len=:), allocatable :: line
-      line = ''
-      if (.not. force > 0 .or. force >= negligible*weight) return
-      line = name//': '//to_text(force)//' N are nothing beside the weight of '//to_text(weight)//' N' &
-         & //in_other_units(force, name, 'N', 10*negligible*weight, huge(1.0_wp))//newline
+      line = line_if(force > 0 .and. force < negligible*weight, name//': {} N are nothing beside the weight of {} N', &
+         & [force, weight], in_other_units(force, name, 'N', 10*negligible*weight, huge(1.0_wp)))
    end function on_force
 
    !> A load that is low for the size of the bearing, where its size is usual.
@@ -196,9 +189,8 @@ contains
       usual = usual_size('bearing%journal_radius', 'm')
       line = ''
       if (inputs%bearings(1)%journal_radius > usual%high .or. .not. load(inputs) > 0) return
-      if (specific_load(inputs) < lowest_usual_load) line = 'specific load ' &
-         & //to_text(1e-6_wp*specific_load(inputs))//' MPa: seldom so low; most bearings carry 1 to 3 MPa' &
-         & //in_usual_unit(inputs)//newline
+      line = line_if(specific_load(inputs) < lowest_usual_load, 'specific load {M} MPa: seldom so low; most bearings ' &
+         & //'carry 1 to 3 MPa', [specific_load(inputs)], in_usual_unit(inputs))
    end function on_low_load
 
    !> What weight or static load of a case, whichever is larger, is in units in which its specific load is usual.
@@ -217,20 +209,19 @@ contains
    end function in_usual_unit
 
    !> The measured law of the pivots of a bearing, where it ends far below the load or far beyond the clearance.
-   function on_table(bearing, carried) result(line)
+   function on_table(bearing, carried) result(lines)
       type(bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: carried
-      character(len=:), allocatable :: line, group
-      line = ''
+      character(len=:), allocatable :: lines, file
+      lines = ''
       if (.not. allocated(bearing%pivot%points)) return
-      group = 'pivot'//bearing%suffix()
+      file = 'pivot'//bearing%suffix()//'%file'
       associate (last => bearing%pivot%points(:, size(bearing%pivot%points, 2)), clearance => bearing%clearance())
-         if (last(2) < beyond_table*carried) line = line//group//'%file: its largest force is '//to_text(last(2)) &
-            & //' N, and the bearing carries '//to_text(carried)//' N'//in_other_units(last(2), 'force', 'N', &
-            & beyond_table*carried, huge(1.0_wp))//newline
-         if (last(1) > deepest*clearance) line = line//group//'%file: its largest deflection is '//to_text(last(1)) &
-            & //' m, and the clearance of the bearing is '//to_text(clearance)//' m'//in_other_units(last(1), &
-            & 'deflection', 'm', 0.0_wp, deepest*clearance)//newline
+         lines = line_if(last(2) < beyond_table*carried, file//': its largest force is {} N, and the bearing carries ' &
+            & //'{} N', [last(2), carried], in_other_units(last(2), 'force', 'N', beyond_table*carried, huge(1.0_wp)))
+         lines = lines//line_if(last(1) > deepest*clearance, file//': its largest deflection is {} m, and the ' &
+            & //'clearance of the bearing is {} m', [last(1), clearance], in_other_units(last(1), 'deflection', 'm', &
+            & 0.0_wp, deepest*clearance))
       end associate
    end function on_table
 
@@ -241,19 +232,16 @@ contains
       type(operating_point_type) :: point
       lines = ''
       if (.not. load(inputs) > 0) return
-      if (specific_load(inputs) > highest_usual_load) then
-         lines = lines//'specific load '//fixed_text(1e-6_wp*specific_load(inputs), 2)//' MPa: above ' &
-            & //to_text(1e-6_wp*highest_usual_load)//' MPa, where pads bend under their pressure (pads%bending); ' &
-            & //'most bearings carry 1 to 3 MPa'//in_usual_unit(inputs)//newline
-      end if
+      lines = line_if(specific_load(inputs) > highest_usual_load, 'specific load {M.2} MPa: above {M} MPa, where ' &
+         & //'pads bend under their pressure (pads%bending); most bearings carry 1 to 3 MPa', &
+         & [specific_load(inputs), highest_usual_load], in_usual_unit(inputs))
       if (inputs%bearings(1)%tilting()) return
       point = operating_point_type(inputs)
       ! the angle to which the load points, counted as that of a pivot
       associate (at => atan2(point%load(1), point%load(2))/degree)
-         if (carries_at(inputs%bearings(1), inputs%sense(), at)) return
-         lines = lines//'the load points to '//fixed_text(at, 1)//' deg, to the end of a fixed pad or between two, ' &
-            & //'where little oil film carries; turn the pads (pads%pivot_angle_deg) for a groove out of the load' &
-            & //newline
+         lines = lines//line_if(.not. carries_at(inputs%bearings(1), inputs%sense(), at), 'the load points to {.1} ' &
+            & //'deg, to the end of a fixed pad or between two, where little oil film carries; turn the pads ' &
+            & //'(pads%pivot_angle_deg) for a groove out of the load', [at])
       end associate
    end function remarks_on_load
 
@@ -275,12 +263,24 @@ contains
       type(case_type), intent(in) :: inputs
       type(variable_table_type), intent(in) :: table
       character(len=:), allocatable :: lines
+      real(wp) :: largest
       integer :: i
       lines = ''
       do i = 1, table%count
          lines = lines//remark_on_number(table%variables(i))
       end do
-      lines = lines//on_discs(inputs)//on_frequencies(inputs)
+      if (inputs%rotor%station_count() > 0) then
+         do i = 1, size(inputs%rotor%elastic%discs)
+            associate (disc => inputs%rotor%elastic%discs(i))
+               ! a radius of gyration as long as the shaft
+               largest = disc%mass*sum(inputs%rotor%elastic%shaft%length)**2
+               lines = lines//line_if(disc%diametral_inertia > largest, 'disc({})%diametral_inertia = {}: more than ' &
+                  & //'a disc of its mass has that is not larger than the shaft is long', [real(wp) :: i, &
+                  & disc%diametral_inertia], in_other_units(disc%diametral_inertia, 'disc%', 'kg m^2', 0.0_wp, largest))
+            end associate
+         end do
+      end if
+      lines = lines//on_frequencies(inputs)
    end function remarks_on_units
 
    !> On the first value of a variable that is not of usual size; empty where there is none.
@@ -304,122 +304,57 @@ contains
       end do
    end function remark_on_number
 
-   !> On a clearance that no pad has, beside the radius of the journal.
-   function remark_on_clearance(b) result(line)
+   !> On the first mass or moment of inertia of a bearing that no pad of its size has.
+   function remarks_on_pads(b) result(line)
       type(bearing_type), intent(in) :: b
       character(len=:), allocatable :: line
-      line = ''
-      associate (c => minval(b%assembled_clearance), largest => widest_clearance*b%journal_radius)
-         if (c > largest) line = 'bearing%assembled_clearance = '//to_text(c)//': '//to_text(c/b%journal_radius) &
-            & //' of the radius of the journal; usual are 0.001 to 0.003' &
-            & //in_other_units(c, 'bearing%assembled_clearance', 'm', 0.0_wp, largest)//newline
-      end associate
-   end function remark_on_clearance
-
-   !> On masses and moments of inertia of a bearing that no pad of its size has.
-   function remarks_on_pads(b) result(lines)
-      type(bearing_type), intent(in) :: b
-      character(len=:), allocatable :: lines
       real(wp) :: heaviest, largest
       integer :: i
-      lines = ''
+      line = ''
       if (.not. b%tilting()) return
       associate (p => b%pads)
          do i = 1, b%pad_count()
             heaviest = densest*p%arc_deg(i)*degree*b%journal_radius*b%axial_length(i)*p%pivot_distance(i)
             largest = p%mass(i)*(widest*b%journal_radius)**2
-            if (p%mass(i) > heaviest) then
-               lines = 'pads%mass = '//to_text(p%mass(i))//': more than a pad of this size weighs' &
-                  & //in_other_units(p%mass(i), 'pads%mass', 'kg', 0.0_wp, heaviest)//newline
-            else if (p%inertia(i) > largest) then
-               lines = 'pads%inertia = '//to_text(p%inertia(i))//': more than a pad of this size and mass has' &
-                  & //in_other_units(p%inertia(i), 'pads%inertia', 'kg m^2', 0.0_wp, largest)//newline
-            end if
-            if (lines /= '') return
+            line = line_if(p%mass(i) > heaviest, 'pads%mass = {}: more than a pad of this size weighs', [p%mass(i)], &
+               & in_other_units(p%mass(i), 'pads%mass', 'kg', 0.0_wp, heaviest))
+            if (line == '') line = line_if(p%inertia(i) > largest, 'pads%inertia = {}: more than a pad of this size ' &
+               & //'and mass has', [p%inertia(i)], in_other_units(p%inertia(i), 'pads%inertia', 'kg m^2', 0.0_wp, &
+               & largest))
+            if (line /= '') return
          end do
       end associate
    end function remarks_on_pads
 
-   !> Discs whose radius of gyration is longer than the shaft.
-   function on_discs(inputs) result(lines)
-      type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: lines
-      real(wp) :: largest
-      integer :: i
-      lines = ''
-      if (inputs%rotor%station_count() == 0) return
-      do i = 1, size(inputs%rotor%elastic%discs)
-         associate (disc => inputs%rotor%elastic%discs(i))
-            largest = disc%mass*sum(inputs%rotor%elastic%shaft%length)**2
-            if (disc%diametral_inertia > largest) lines = lines//'disc('//to_text(i)//')%diametral_inertia = ' &
-               & //to_text(disc%diametral_inertia)//': more than a disc of its mass has that is not larger than the ' &
-               & //'shaft is long'//in_other_units(disc%diametral_inertia, 'disc%', 'kg m^2', 0.0_wp, largest)//newline
-         end associate
-      end do
-   end function on_discs
-
-   !> Frequencies and speeds beside the speed of the shaft.
+   !> Frequencies, Hz or over the speed of the shaft, far above it or in another unit, and the speed of balancing.
    function on_frequencies(inputs) result(lines)
       type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: lines, name
+      character(len=:), allocatable :: lines, name, ending
+      character(len=*), parameter :: too_high = ' = {}: this many times the speed of the shaft; is it in Hz or rpm?'
       integer :: i
-      lines = ''
-      associate (balance => inputs%rotor%balance_speed_rpm)
-         if (is_set(balance) .and. is_near(balance, inputs%highest_speed())) lines = 'rotor%balance_speed_rpm = ' &
-            & //to_text(balance)//': the speed of the shaft in rad/s; it is in rpm'//newline
+      associate (balance => inputs%rotor%balance_speed_rpm, speed => inputs%highest_speed(), &
+            & turns => inputs%highest_speed()/(2*pi), x => inputs%excitations)
+         lines = line_if(is_set(balance) .and. is_near(balance, speed), 'rotor%balance_speed_rpm = {}: the speed of ' &
+            & //'the shaft in rad/s; it is in rpm', [balance])
+         ending = filled('; the shaft turns at {} Hz', [turns])
+         do i = 1, size(x)
+            name = 'excitation('//to_text(i)//')%'
+            if (is_set(x(i)%frequency_hz)) then
+               associate (f => x(i)%frequency_hz, near => is_near(x(i)%frequency_hz, speed))
+                  lines = lines//line_if(near, name//'frequency_hz = {}: the speed of the shaft in rad/s', [f], &
+                     & ending)//line_if(f > highest_order*turns .and. .not. near, name//'frequency_hz = {}: {} times ' &
+                     & //'the speed of the shaft; {} rpm are {}', [f, f/turns, f, f/60], ending)
+               end associate
+            end if
+            lines = lines//line_if(x(i)%frequency_ratio > highest_order, name//'frequency_ratio'//too_high, &
+               & [x(i)%frequency_ratio])
+         end do
       end associate
-      do i = 1, size(inputs%excitations)
-         name = 'excitation('//to_text(i)//')%'
-         associate (x => inputs%excitations(i))
-            if (is_set(x%frequency_hz)) lines = lines//on_frequency(name//'frequency_hz', x%frequency_hz, &
-               & inputs%highest_speed())
-            if (is_set(x%frequency_ratio)) lines = lines//on_ratio(name//'frequency_ratio', x%frequency_ratio)
-         end associate
-      end do
-      if (inputs%about%task == 'coefficients') lines = lines//on_ratio('coefficients%frequency_ratio', &
-         & maxval([0.0_wp, inputs%coefficients%frequency_ratio]))
+      associate (ratio => maxval([0.0_wp, inputs%coefficients%frequency_ratio]))
+         lines = lines//line_if(inputs%about%task == 'coefficients' .and. ratio > highest_order, &
+            & 'coefficients%frequency_ratio'//too_high, [ratio])
+      end associate
    end function on_frequencies
-
-   !> The highest speed of a run, rad/s, where the surface of a journal of this radius, m, is seldom so slow.
-   function remark_on_speed(speed, radius) result(line)
-      real(wp), intent(in) :: speed, radius
-      character(len=:), allocatable :: line
-      line = ''
-      associate (turns => speed/rpm)
-         if (speed*radius < usual_speeds(1)) line = 'surface speed ' &
-            & //to_text(speed*radius)//' m/s at '//to_text(turns)//' rpm: seldom so low' &
-            & //in_other_units(turns, 'operation%speed_rpm', 'rpm', usual_speeds(1)/radius/rpm, &
-            & usual_speeds(2)/radius/rpm)//newline
-      end associate
-   end function remark_on_speed
-
-   !> A frequency, Hz, far above that of the shaft, or its speed, rad/s, in another unit.
-   function on_frequency(name, frequency, speed) result(line)
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: frequency, speed
-      character(len=:), allocatable :: line
-      line = ''
-      associate (turns => speed/(2*pi))
-         if (is_near(frequency, speed)) then
-            line = ': the speed of the shaft in rad/s'
-         else if (frequency > highest_order*turns) then
-            line = ': '//to_text(frequency/turns)//' times the speed of the shaft; '//to_text(frequency)//' rpm are ' &
-               & //to_text(frequency/60)
-         end if
-         if (line /= '') line = name//' = '//to_text(frequency)//line//'; the shaft turns at '//to_text(turns)//' Hz' &
-            & //newline
-      end associate
-   end function on_frequency
-
-   !> A frequency over the speed of the shaft.
-   function on_ratio(name, ratio) result(line)
-      character(len=*), intent(in) :: name
-      real(wp), intent(in) :: ratio
-      character(len=:), allocatable :: line
-      line = ''
-      if (ratio > highest_order) line = name//' = '//to_text(ratio)//': this many times the speed of the shaft; is ' &
-         & //'it in Hz or rpm?'//newline
-   end function on_ratio
 
    !> Whether two numbers are the same but for rounding in a data sheet.
    pure logical function is_near(x, y)
@@ -433,9 +368,67 @@ contains
       real(wp), intent(in) :: unbalance, mass, clearance
       character(len=:), allocatable :: line
       line = ''
-      if (unbalance > mass*clearance) line = 'mass eccentricity '//to_text(1e6_wp*unbalance/mass) &
-         & //' um (unbalance over the mass of the rotor): more than the bearing clearance of ' &
-         & //to_text(1e6_wp*clearance)//' um; the unbalance is in kg m' &
-         & //in_other_units(unbalance, 'rotor%unbalance', 'kg m', 0.0_wp, mass*clearance)//newline
+      if (unbalance > mass*clearance) line = line_if(.true., 'mass eccentricity {} um (unbalance over the mass of ' &
+         & //'the rotor): more than the bearing clearance of {u} um; the unbalance is in kg m', &
+         & [1e6_wp*unbalance/mass, clearance], in_other_units(unbalance, 'rotor%unbalance', 'kg m', 0.0_wp, &
+         & mass*clearance))
    end function remark_on_unbalance
+
+   ! What a case of another bearing leaves to the paper's: values that no designer would leave out knowingly.
+
+   !> Notes in a complete case "rotor%mass = 2000 kg, bearing%viscosity = 0.019 Pa s" where its assignments give a
+   !> bearing the size of another than the paper's and leave these out.
+   subroutine note_values_of_paper(given, inputs)
+      type(assignment_type), intent(in) :: given(:)
+      type(case_type), intent(inout) :: inputs
+      character(len=:), allocatable :: text, line
+      character(len=len(own_size)) :: names(size(given))
+      type(variable_table_type) :: table
+      type(variable_type) :: shown
+      integer :: i
+      text = ''
+      do i = 1, size(given)
+         names(i) = kind_of(given(i)%group)//'%'//given(i)%name
+      end do
+      if (.not. any([(index(own_size, ' '//trim(names(i))//' ') > 0, i=1, size(given))])) return
+      call list_variables(inputs, table)
+      do i = 1, table%count
+         associate (v => table%variables(i))
+            if (index(to_be_given, ' '//kind_of(v%group)//'%'//v%name//' ') == 0) cycle
+            if (has_own(v) .or. .not. matters(v)) cycle
+            shown = v
+            if (all(abs(v%values - v%values(1)) <= 0)) shown%values = v%values(:1)
+            line = lines_of(shown, '')
+            text = text//', '//v%group//'%'//line(3:len(line) - 1)
+            if (v%unit /= '1') text = text//' '//v%unit
+         end associate
+      end do
+      if (text /= '') inputs%about%of_paper = text(3:)
+   contains
+      !> Whether the case gives it, or what it follows from.
+      logical function has_own(v)
+         type(variable_type), intent(in) :: v
+         integer :: k
+         has_own = any([(given(k)%group == v%group .and. (given(k)%name == v%name .or. is_source(given(k)%name, &
+            & v%name)), k=1, size(given))])
+      end function has_own
+
+      !> Whether a variable that is left out has an effect; of a bearing, whether the case gives it a size.
+      logical function matters(v)
+         type(variable_type), intent(in) :: v
+         integer :: k
+         matters = all(is_set(v%values))
+         if (v%name == 'unbalance') matters = inputs%moves()
+         if (bearing_of(v%group) == '') return
+         matters = matters .and. any([(index(own_size, ' '//trim(names(k))//' ') > 0 &
+            & .and. bearing_of(given(k)%group) == bearing_of(v%group), k=1, size(given))])
+      end function matters
+   end subroutine note_values_of_paper
+
+   !> Whether a variable follows from this one.
+   pure logical function is_source(source, name)
+      character(len=*), intent(in) :: source, name
+      is_source = source == 'preload' .and. name == 'machined_clearance' .or. source == 'balance_grade' &
+         & .and. name == 'unbalance'
+   end function is_source
 end module case_remarks

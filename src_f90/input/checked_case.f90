@@ -1,7 +1,7 @@
 !> What --check prints: the resolved case, where each value comes from, and what follows from the values.
 module checked_case
    use kinds, only: wp
-   use text, only: to_text
+   use text, only: to_text, behind, newline
    use errors, only: error_type
    use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
@@ -12,11 +12,10 @@ module checked_case
    use case_completion, only: complete_case
    use variable_table, only: variable_table_type
    use case_fields, only: list_variables, counting_variables
-   use machine_names, only: kind_of
-   use assignments, only: namelist_type
+   use assignments, only: namelist_type, kind_of
    use case_namelist, only: fill_case
    use namelist_writer, only: lines_of, group_start, namelist_of
-   use case_remarks, only: remarks_on_case, behind, newline
+   use case_remarks, only: remarks_on_case
    implicit none (type, external)
    private
    public :: marked_text, derived_text, first_equal

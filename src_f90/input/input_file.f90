@@ -1,12 +1,14 @@
-!> Reads the text of an input file whole.
+!> Reads the text of an input file whole, and tells what is no text.
 module input_file
    use kinds, only: i8
-   use text, only: to_text
+   use text, only: to_text, newline
    use errors, only: error_type, raise, require, input_error, system_error
    use files, only: is_regular
    implicit none (type, external)
    private
-   public :: read_input
+   public :: read_input, require_text, control_character, tab, carriage
+
+   character(len=*), parameter :: tab = achar(9), carriage = achar(13)
 
 contains
 
@@ -63,4 +65,30 @@ contains
       read (unit, pos=1, iostat=status) first
       if (status == 0) starts_as_result = first == signature
    end function starts_as_result
+
+   !> Refuses text with a control character.
+   pure subroutine require_text(text, file, error)
+      character(len=*), intent(in) :: text, file
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: at
+      at = control_character(text)
+      if (at > 0) call raise(error, input_error, file//': not a text file (byte '//to_text(at)//' is a control ' &
+         & //'character)')
+   end subroutine require_text
+
+   !> Position of the first character that is no text; 0 if there is none. A carriage return that ends no line is such a
+   !> character: it would neither end a comment nor count as a line.
+   pure integer function control_character(text) result(at)
+      character(len=*), intent(in) :: text
+      character :: c
+      do at = 1, len(text)
+         c = text(at:at)
+         if (c == carriage .and. at < len(text)) then
+            if (text(at + 1:at + 1) /= newline) return
+         else if (c == achar(127) .or. c < ' ' .and. c /= newline .and. c /= tab) then
+            return
+         end if
+      end do
+      at = 0
+   end function control_character
 end module input_file

@@ -5,10 +5,9 @@ module machine_structure
    use errors, only: error_type, raise, refuse, input_error
    use case_inputs, only: case_type
    use excitations, only: make_excitations
-   use case_groups, only: bearing_type
-   use rotor_groups, only: most_bearings
-   use assignments, only: namelist_type, assignment_type, undoes
-   use machine_names, only: counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable
+   use case_groups, only: bearing_type, most_bearings
+   use assignments, only: namelist_type, assignment_type, undoes, counted, of_bearing, kind_of, bearing_of, &
+      & is_counted, may_have_bearing, naming_variable
    implicit none (type, external)
    private
    public :: make_several, give_to_bearings

@@ -1,14 +1,12 @@
 !> Splits namelist text into assignments, each with its origin. Values are not interpreted.
 module namelist_text
-   use text, only: to_text, lower_case, shortened
+   use text, only: to_text, lower_case, shortened, newline
    use errors, only: error_type, raise, require, input_error
    use assignments, only: namelist_type, assignment_type, token_type, put_assignment, undoes, split_subscript, &
-      & assignment_text, study_group
-   use text_scanner, only: scanner, control_character, newline
-   use machine_names, only: counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable, &
-      & is_name, longest_bearing
+      & assignment_text, study_group, counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, &
+      & naming_variable, is_name, longest_bearing
    use variable_names, only: meant_variable
-   use input_file, only: read_input
+   use input_file, only: read_input, require_text, control_character, tab, carriage
    implicit none (type, external)
    private
    public :: parse_namelist, parse_override, read_text, parse_case
@@ -22,6 +20,17 @@ module namelist_text
    !> Longest input file, bytes.
    integer, parameter :: longest_file = 100000
 
+   !> Moves over namelist text, character by character and word by word: the text, and the position in it.
+   type :: scanner
+      character(len=:), allocatable :: text, file
+      integer :: at = 1, line = 1
+   contains
+      procedure :: peek
+      procedure :: skip_blank
+      procedure :: word
+      procedure :: origin
+   end type scanner
+
 contains
 
    !> Parses the text of a file; `file` is for messages.
@@ -32,15 +41,11 @@ contains
       type(scanner) :: scan
       type(assignment_type) :: group
       type(assignment_type), allocatable :: own(:)
-      integer :: i
 
       parsed%file = file
       allocate (parsed%groups(0), parsed%assignments(0))
-      i = control_character(text)
-      if (i > 0) then
-         call raise(error, input_error, file//': not a text file (byte '//to_text(i)//' is a control character)')
-         return
-      end if
+      call require_text(text, file, error)
+      if (allocated(error)) return
       scan%text = text
       scan%file = file
       ! a UTF-8 byte order mark
@@ -313,6 +318,54 @@ contains
          token%text = token%text//scan%text(scan%at:scan%at)
       end do
    end subroutine quoted
+
+   ! How the scanner moves.
+
+   !> The character here; empty at the end.
+   pure function peek(self) result(here)
+      class(scanner), intent(in) :: self
+      character(len=:), allocatable :: here
+      here = self%text(self%at:min(self%at, len(self%text)))
+   end function peek
+
+   !> Moves over blanks, ends of lines, comments, and the characters of `also`.
+   pure subroutine skip_blank(self, also)
+      class(scanner), intent(inout) :: self
+      character(len=*), intent(in) :: also
+      do while (self%at <= len(self%text))
+         associate (c => self%text(self%at:self%at))
+            if (c == '!') then
+               do while (self%at < len(self%text))
+                  if (self%text(self%at + 1:self%at + 1) == newline) exit
+                  self%at = self%at + 1
+               end do
+            else if (c == newline) then
+               self%line = self%line + 1
+            else if (index(' '//tab//carriage//also, c) == 0) then
+               return
+            end if
+         end associate
+         self%at = self%at + 1
+      end do
+   end subroutine skip_blank
+
+   !> The run of characters from here to a separator; moves behind it.
+   function word(self) result(found)
+      class(scanner), intent(inout) :: self
+      character(len=:), allocatable :: found
+      integer :: length
+      length = scan(self%text(self%at:)//' ', ' ,=/&!''"'//tab//newline//carriage) - 1
+      found = self%text(self%at:self%at + length - 1)
+      self%at = self%at + length
+   end function word
+
+   !> The position for messages: "case.nml line 3".
+   pure function origin(self)
+      class(scanner), intent(in) :: self
+      character(len=:), allocatable :: origin
+      origin = self%file
+      if (index(self%file, '--set') /= 1) origin = self%file//' line '//to_text(self%line)
+   end function origin
 
    ! A case file, read and split into assignments.
 

@@ -3,9 +3,8 @@ module namelist_writer
    use text, only: to_text, exact_text
    use case_groups, only: is_set, unset
    use case_inputs, only: case_type
-   use assignments, only: token_type, value_text
+   use assignments, only: token_type, value_text, group_heading
    use variable_table, only: variable_type, variable_table_type, logical_words
-   use machine_names, only: group_heading
    use case_fields, only: list_variables, list_all_variables
    implicit none (type, external)
    private

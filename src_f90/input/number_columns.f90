@@ -2,14 +2,12 @@
 module number_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use text, only: to_text, lower_case, shortened
-   use errors, only: error_type, raise, refuse, add_context, input_error
+   use text, only: to_text, lower_case, shortened, filled
+   use errors, only: error_type, raise, require, refuse, add_context, input_error
    use case_groups, only: pivot_type
    use case_inputs, only: case_type
    use other_units, only: in_other_units
-   use csv_line, only: cell_type, next_cell, content
-   use text_scanner, only: control_character
-   use input_file, only: read_input
+   use csv_table, only: csv_table_type, read_csv, cell_type, next_cell, content
    use assignments, only: read_number
    implicit none (type, external)
    private
@@ -17,7 +15,6 @@ module number_columns
 
    !> Longest file, bytes.
    integer, parameter :: longest_file = 100000000
-   character(len=*), parameter :: newline = achar(10), carriage = achar(13)
    !> Least time between two rows, s.
    real(wp), parameter :: shortest_time = 1e-9_wp
 
@@ -65,9 +62,9 @@ contains
          before = 0
          do k = first, size(numbers, 2)
             do i = 1, 2
-               if (.not. numbers(i, k) > before(i)) call refuse(pivot%file//' line '//to_text(k + 1)//': ' &
-                  & //trim(of_pivots(i)%name)//' = '//to_text(numbers(i, k))//': must be above '//to_text(before(i)) &
-                  & //trim(merge(repeat(' ', 25), ', that of the line before', k == first)), error)
+               if (.not. numbers(i, k) > before(i)) call refuse(pivot%file//filled(' line {i}: ' &
+                  & //trim(of_pivots(i)%name)//' = {}: must be above {}'//trim(merge(repeat(' ', 25), &
+                  & ', that of the line before', k == first)), [real(wp) :: k + 1, numbers(i, k), before(i)]), error)
             end do
             before = numbers(:, k)
          end do
@@ -93,8 +90,8 @@ contains
                x%table = numbers(2:, :)
                do k = 2, size(x%time)
                   if (.not. x%time(k) - x%time(k - 1) >= shortest_time) call raise(error, input_error, x%file &
-                     & //' line '//to_text(k + 1)//': time = '//to_text(x%time(k))//': must be ' &
-                     & //to_text(shortest_time)//' s or more above that of the line before, '//to_text(x%time(k - 1)))
+                     & //filled(' line {i}: time = {}: must be {} s or more above that of the line before, {}', &
+                     & [real(wp) :: k + 1, x%time(k), shortest_time, x%time(k - 1)]))
                end do
             end if
             call add_context(error, 'excitation('//to_text(i)//')%file')
@@ -109,39 +106,21 @@ contains
       type(column_type), intent(in) :: columns(:)
       real(wp), allocatable, intent(out) :: numbers(:, :)
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: text, line
-      real(wp), allocatable :: rows(:, :)
-      integer :: at, row, last, length
-      call read_input(file, 'table', longest_file, '', '', text, error)
+      type(csv_table_type) :: table
+      integer :: k
+      call read_csv(file, longest_file, table, error)
       if (allocated(error)) return
-      at = control_character(text)
-      if (at > 0) then
-         call raise(error, input_error, file//': not a text file (byte '//to_text(at)//' is a control character)')
-         return
-      end if
-      at = 1
-      ! a UTF-8 byte order mark
-      if (index(text, char(239)//char(187)//char(191)) == 1) at = 4
-      last = verify(text, ' '//newline//carriage//achar(9), back=.true.)
-      allocate (rows(size(columns), 64))
-      row = -1
-      do while (at <= last)
-         length = index(text(at:last), newline) - 1
-         if (length < 0) length = last - at + 1
-         line = text(at:at + length - 1)
-         at = at + length + 1
-         row = row + 1
-         if (row > size(rows, 2)) rows = reshape(rows, [size(columns), 2*size(rows, 2)], pad=rows)
-         if (row == 0) then
-            call check_names(line, file, columns%name, error)
+      allocate (numbers(size(columns), max(0, table%rows)))
+      do k = 0, table%rows
+         if (k == 0) then
+            call check_names(table%row(0), file, columns%name, error)
          else
-            call read_row(line, file//' line '//to_text(row + 1), columns, rows(:, row), error)
+            call read_row(table%row(k), table%origin(k), columns, numbers(:, k), error)
          end if
          if (allocated(error)) return
       end do
-      if (row < 2) call raise(error, input_error, file//': has '//to_text(max(0, row))//' rows of numbers; it needs ' &
-         & //'a line of names, '//listed(columns%name)//', and two rows or more')
-      numbers = rows(:, :max(0, row))
+      if (table%rows < 2) call raise(error, input_error, file//': has '//to_text(max(0, table%rows))//' rows of ' &
+         & //'numbers; it needs a line of names, '//listed(columns%name)//', and two rows or more')
    end subroutine read_columns
 
    !> The first line names the columns.
@@ -154,10 +133,10 @@ contains
       at = 1
       fit = .true.
       do i = 1, size(names)
-         call next_cell(without_return(line), at, cell)
+         call next_cell(line, at, cell)
          fit = fit .and. lower_case(content(line, cell)) == trim(names(i))
       end do
-      if (.not. fit .or. at <= len(without_return(line)) + 1) call raise(error, input_error, file//' line 1: ' &
+      if (.not. fit .or. at <= len(line) + 1) call raise(error, input_error, file//' line 1: ' &
          & //shortened(line)//': must name the columns, '//listed(names))
    end subroutine check_names
 
@@ -173,7 +152,7 @@ contains
       at = 1
       numbers = 0
       do i = 1, size(columns)
-         call next_cell(without_return(line), at, cell)
+         call next_cell(line, at, cell)
          call read_number(lower_case(content(line, cell)), numbers(i), ok)
          if (ok) ok = ieee_is_finite(numbers(i))
          if (.not. ok) then
@@ -182,24 +161,16 @@ contains
                & //'decimals have a point')
             return
          end if
-         if (numbers(i) >= columns(i)%low .and. numbers(i) <= columns(i)%high) cycle
-         call raise(error, input_error, origin//': '//trim(columns(i)%name)//' = '//to_text(numbers(i))//': must be ' &
-            & //to_text(columns(i)%low)//' to '//to_text(columns(i)%high)//' '//columns(i)%unit &
-            & //in_other_units(numbers(i), trim(columns(i)%name), columns(i)%unit, columns(i)%low, columns(i)%high))
+         associate (c => columns(i), x => numbers(i))
+            if (x >= c%low .and. x <= c%high) cycle
+            call raise(error, input_error, origin//': '//trim(c%name)//filled(' = {}: must be {} to {} ', [x, c%low, &
+               & c%high])//c%unit//in_other_units(x, trim(c%name), c%unit, c%low, c%high))
+         end associate
          return
       end do
-      if (at <= len(without_return(line)) + 1) call raise(error, input_error, origin//': has more than ' &
-         & //to_text(size(columns))//' numbers; the columns are '//listed(columns%name))
+      call require(at > len(line) + 1, origin//': has more than '//to_text(size(columns))//' numbers; the columns ' &
+         & //'are '//listed(columns%name), error)
    end subroutine read_row
-
-   !> A line without a carriage return at its end.
-   pure function without_return(line) result(text)
-      character(len=*), intent(in) :: line
-      character(len=:), allocatable :: text
-      text = line
-      if (len(line) == 0) return
-      if (line(len(line):) == carriage) text = line(:len(line) - 1)
-   end function without_return
 
    !> "time, force_y, force_z"
    pure function listed(names) result(text)

@@ -1,18 +1,14 @@
 !> A table of the values of a study: a CSV file whose first line names variables; every other line has a value of each.
-!> The text stays as it is, and a value is looked up where it stands, so that a million rows take little more memory
-!> than their file.
 module study_table
    use text, only: to_text, lower_case, shortened
-   use errors, only: error_type, raise, input_error
+   use errors, only: error_type, raise, require, input_error
    use case_inputs, only: case_type
    use variable_table, only: variable_table_type
    use case_fields, only: list_all_variables
    use variable_names, only: meant_variable, meant_group, group_names
-   use assignments, only: assignment_type, token_type, target_text, split_subscript
-   use machine_names, only: kind_of, is_spelled
-   use text_scanner, only: control_character
-   use csv_line, only: cell_type, next_cell, content
-   use input_file, only: read_input
+   use assignments, only: assignment_type, token_type, target_text, split_subscript, kind_of, is_spelled
+   use input_file, only: tab
+   use csv_table, only: csv_table_type, read_csv, cell_type, next_cell, content, blanks
    implicit none (type, external)
    private
    public :: study_table_type, read_table, table_from_text
@@ -20,22 +16,14 @@ module study_table
    !> Longest file, bytes: forty columns of a million rows.
    integer, parameter :: longest_file = 1000000000
    integer, parameter :: most_columns = 1000
-   character(len=*), parameter :: newline = achar(10), tab = achar(9), carriage = achar(13)
-   character(len=*), parameter :: blanks = ' '//tab//carriage//newline
 
-   type :: study_table_type
-      character(len=:), allocatable :: file
+   type, extends(csv_table_type) :: study_table_type
       !> The variables of the columns, without values.
       type(assignment_type), allocatable :: columns(:)
-      integer :: rows = 0
       !> Whether they take texts.
       logical, allocatable, private :: is_text(:)
-      character(len=:), allocatable, private :: text
-      !> First and last character of each line.
-      integer, allocatable, private :: first(:), last(:)
    contains
       procedure :: value
-      procedure :: origin
    end type study_table_type
 
 contains
@@ -45,9 +33,8 @@ contains
       character(len=*), intent(in) :: file
       type(study_table_type), intent(out) :: table
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: text
-      call read_input(file, 'table', longest_file, '', '', text, error)
-      if (.not. allocated(error)) call table_from_text(text, file, table, error)
+      call read_csv(file, longest_file, table, error)
+      if (.not. allocated(error)) call check_table(table, error)
    end subroutine read_table
 
    !> The same from text, which becomes the table's; `file` is for messages.
@@ -56,87 +43,40 @@ contains
       character(len=*), intent(in) :: file
       type(study_table_type), intent(out) :: table
       type(error_type), allocatable, intent(out) :: error
-      integer :: at
-      at = control_character(text)
-      if (at > 0) then
-         call raise(error, input_error, file//': not a text file (byte '//to_text(at)//' is a control character)')
-         return
-      end if
-      call move_alloc(text, table%text)
-      table%file = file
-      call find_lines(table)
-      if (size(table%first) == 0) then
-         call raise(error, input_error, file//': is empty; its first line must name variables, group%name')
-         return
-      end if
-      call read_names(table%text(table%first(1):table%last(1)), table, error)
-      do at = 1, table%rows
-         if (allocated(error)) return
-         call check_row(table%text(table%first(at + 1):table%last(at + 1)), at, table, error)
-      end do
-      if (.not. allocated(error) .and. table%rows == 0) call raise(error, input_error, file//': has no rows of ' &
-         & //'values below its first line')
+      call table%take(text, file, error)
+      if (.not. allocated(error)) call check_table(table, error)
    end subroutine table_from_text
 
-   !> Finds the lines; blank ones at the end are none.
-   subroutine find_lines(table)
+   !> Reads the names, and checks the rows.
+   subroutine check_table(table, error)
       type(study_table_type), intent(inout) :: table
-      integer :: start, finish, lines, i
-      associate (text => table%text)
-         start = 1
-         ! a UTF-8 byte order mark
-         if (index(text(:min(3, len(text))), char(239)//char(187)//char(191)) == 1) start = 4
-         finish = verify(text, blanks, back=.true.)
-         lines = 0
-         do i = start, finish
-            if (text(i:i) == newline) lines = lines + 1
-         end do
-         if (finish >= start) lines = lines + 1
-         allocate (table%first(lines), table%last(lines))
-         table%rows = max(0, lines - 1)
-         lines = 0
-         do i = start, finish
-            if (text(i:i) /= newline .and. i < finish) cycle
-            lines = lines + 1
-            table%first(lines) = start
-            table%last(lines) = merge(i - 1, i, text(i:i) == newline)
-            if (i > start) then
-               if (text(i:i) == newline .and. text(i - 1:i - 1) == carriage) table%last(lines) = i - 2
-            end if
-            start = i + 1
-         end do
-      end associate
-   end subroutine find_lines
-
-   !> Where a row stands, for messages: "members.csv line 5".
-   function origin(self, row)
-      class(study_table_type), intent(in) :: self
-      integer, intent(in) :: row
-      character(len=:), allocatable :: origin
-      origin = self%file//' line '//to_text(row + 1)
-   end function origin
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: k
+      call require(table%rows >= 0, table%file//': is empty; its first line must name variables, group%name', error)
+      if (.not. allocated(error)) call read_names(table%row(0), table, error)
+      do k = 1, table%rows
+         if (allocated(error)) return
+         call check_row(table%row(k), k, table, error)
+      end do
+      call require(table%rows > 0, table%file//': has no rows of values below its first line', error)
+   end subroutine check_table
 
    !> The value of a row in a column. What is no number is a text, which is refused where a number belongs.
    subroutine value(self, row, column, token)
       class(study_table_type), intent(in) :: self
       integer, intent(in) :: row, column
       type(token_type), intent(out) :: token
-      call find_value(self%text(self%first(row + 1):self%last(row + 1)), column, token%text)
-      token%quoted = self%is_text(column) .or. verify(token%text, '0123456789.-eE+dD') > 0
-   end subroutine value
-
-   subroutine find_value(line, column, value)
-      character(len=*), intent(in) :: line
-      integer, intent(in) :: column
-      character(len=:), allocatable, intent(out) :: value
+      character(len=:), allocatable :: line
       type(cell_type) :: cell
       integer :: at, i
+      line = self%row(row)
       at = 1
       do i = 1, column
          call next_cell(line, at, cell)
       end do
-      value = content(line, cell)
-   end subroutine find_value
+      token%text = content(line, cell)
+      token%quoted = self%is_text(column) .or. verify(token%text, '0123456789.-eE+dD') > 0
+   end subroutine value
 
    !> Refuses a row that has not one value for each column.
    subroutine check_row(line, row, table, error)

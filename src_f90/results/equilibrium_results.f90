@@ -1,19 +1,28 @@
-!> What the file of a run says of its equilibrium: names, dimensions and units as docs/results.md lists them.
+!> What the file of a run says of its equilibrium, of the oil of its films and of the shape of its bearings: names,
+!> dimensions and units as docs/results.md lists them.
 module equilibrium_results
    use kinds, only: wp
+   use errors, only: error_type, raise, system_error
    use record, only: record_type
    use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
    use film_network, only: warm_films_type
    use film_conduction, only: solid_layers
+   use film_oils, only: film_oil, uneven_oil, weights_degree, polynomials
+   use bearing_shape, only: bearing_shape_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number
    use tilting_pad, only: pad_coordinates_type
-   use equilibrium_record, only: equilibrium_type
-   use static_figures, only: static_figures_type
+   use equilibrium_record, only: equilibrium_type, static_figures_type
    use summary_group, only: put_figure
    implicit none (type, external)
    private
    public :: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, put_film_temperatures
+   public :: put_oil, read_oil, put_shape, read_shape
+
+   !> The polynomials (film_oils), in their order.
+   character(len=*), parameter :: names(polynomials) = [character(len=15) :: 'flow_weights', 'sliding_weights', &
+      & 'shear_weights']
+   character(len=*), parameter :: meanings(polynomials) = [character(len=12) :: 'ln(12 mu f2)', 'f1', 'ln(f0/mu)']
 
 contains
 
@@ -151,4 +160,96 @@ contains
             & 'heat from the film to the pad, which goes out at its back and ends', 'pad')
       end associate
    end subroutine put_film_temperatures
+
+   ! The oil of the films, from which they can be solved again: viscosities and, where oil is uneven, its polynomials.
+
+   !> Writes the oil of every pad's film; `group` is empty or ends with a slash.
+   subroutine put_oil(file, group, oil)
+      class(record_type), intent(inout) :: file
+      character(len=*), intent(in) :: group
+      type(film_oil), intent(in) :: oil(:)
+      real(wp) :: c(0:weights_degree, polynomials, size(oil))
+      integer :: i, k
+      call file%put(group//'viscosity', oil%viscosity, 'Pa s', 'viscosity of the film', 'pad')
+      if (.not. any(oil%varies)) return
+      do i = 1, size(oil)
+         c(:, :, i) = oil(i)%coefficients()
+      end do
+      call file%put('film_degree', [(real(k, wp), k=0, weights_degree)], '1', &
+         & 'power of the place on the arc, from the leading edge (-1) to the trailing edge (1)', 'film_degree')
+      do k = 1, polynomials
+         call file%put(group//trim(names(k)), c(:, k, :), '1', 'coefficients of '//trim(meanings(k)) &
+            & //' along the arc', 'pad film_degree')
+      end do
+   end subroutine put_oil
+
+   !> The oil that a file has; an error where it has none.
+   subroutine read_oil(file, group, oil, error)
+      class(record_type), intent(in) :: file
+      character(len=*), intent(in) :: group
+      type(film_oil), intent(out) :: oil(:)
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp) :: c(0:weights_degree, size(oil), polynomials), values(size(oil)*(weights_degree + 1)), mu(size(oil))
+      integer :: i, k
+      call file%get_list(group//'viscosity', mu)
+      c = 0
+      if (file%has(group//trim(names(1)))) then
+         do k = 1, polynomials
+            call file%get_list(group//trim(names(k)), values)
+            c(:, :, k) = reshape(values, shape(c(:, :, k)))
+         end do
+      end if
+      if (.not. all(mu > 0) .or. .not. all(abs(c) < huge(c))) then
+         call raise(error, system_error, 'damaged: '//group//'viscosity is not that of an oil')
+         return
+      end if
+      do i = 1, size(oil)
+         oil(i) = uneven_oil(mu(i), c(:, i, :))
+      end do
+   end subroutine read_oil
+
+   ! The shape of a bearing in operation.
+
+   !> Writes radius, clearances and what has changed them.
+   subroutine put_shape(file, shape)
+      class(record_type), intent(inout) :: file
+      type(bearing_shape_type), intent(in) :: shape
+      call put('journal_radius', shape%journal_radius, 'm', 'radius of the journal in operation')
+      call put('machined_clearance', shape%machined_clearance, 'm', 'clearance between bore and journal in operation')
+      call put('assembled_clearance', shape%assembled_clearance, 'm', 'clearance at the pivots in operation')
+      call put('pivot_distance', shape%pivot_distance, 'm', 'distance from the bore to the pivot in operation')
+      call put('elastic_bending', shape%bending%elastic, 'm', &
+         & 'change of the pad clearance as the pressure bends the pad')
+      call put('thermal_bending', shape%bending%thermal, 'm', 'change of the pad clearance as heat bends the pad')
+      call put_figure(file, 'equilibrium_bearing_clearance', minval(shape%assembled_clearance), 'm', &
+         & 'bearing clearance in operation')
+      associate (t => shape%temperatures)
+         if (.not. allocated(t%pads)) return
+         call put('shaft_temperature', t%shaft, 'degC', 'temperature of the shaft that expands')
+         call put('housing_temperature', t%housing, 'degC', 'temperature of the housing that expands')
+         call put('pad_temperature', t%pads, 'degC', 'temperature of the pad that expands')
+      end associate
+   contains
+      !> A number, or one of each pad.
+      subroutine put(name, values, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), intent(in) :: values(..)
+         call file%put('shape/'//name, values, units, long_name, 'pad')
+      end subroutine put
+   end subroutine put_shape
+
+   !> Gives a shape the lengths that the file of its bearing has; an error where it has none.
+   subroutine read_shape(file, shape, error)
+      class(record_type), intent(in) :: file
+      type(bearing_shape_type), intent(inout) :: shape
+      type(error_type), allocatable, intent(inout) :: error
+      shape%journal_radius = file%get_real('shape/journal_radius')
+      call file%get_list('shape/machined_clearance', shape%machined_clearance)
+      call file%get_list('shape/assembled_clearance', shape%assembled_clearance)
+      call file%get_list('shape/pivot_distance', shape%pivot_distance)
+      associate (lengths => shape%lengths())
+         if (.not. (all(lengths > 0) .and. all(lengths < huge(lengths)))) call raise(error, system_error, &
+            & 'damaged: shape is not that of a bearing')
+      end associate
+   end subroutine read_shape
 end module equilibrium_results

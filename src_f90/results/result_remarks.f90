@@ -3,11 +3,11 @@
 module result_remarks
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, degree, pi
-   use text, only: to_text, fixed_text, micro
+   use text, only: to_text, filled, line_if, behind, newline
    use case_groups, only: bearing_type
    use case_inputs, only: case_type
-   use case_remarks, only: remarks_on_case, behind, newline, remarks_on_load, remark_on_unbalance
-   use equilibrium_refusal, only: listed
+   use case_remarks, only: remarks_on_case, remarks_on_load, remark_on_unbalance
+   use bearing_equilibrium, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
    use record, only: record_type, lines
    use run_file, only: run_file_type
@@ -15,8 +15,11 @@ module result_remarks
    use summary_group, only: figure, pad_figures
    implicit none (type, external)
    private
-   public :: remarks_on_run, put_remarks, new_lines, pad_diagnosis
+   public :: remarks_on_run, put_remarks, new_lines, pad_diagnosis, not_closed
 
+   !> What is said of a periodic orbit that is none: {} is its change.
+   character(len=*), parameter :: not_closed = 'Newton''s method does not close the orbit: it is that of the march, ' &
+      & //'whose displacements change by {} of their characteristic scales in a period'
    character(len=*), parameter :: name = 'summary/remarks'
    !> Reynolds number of a film above which it may be turbulent: published limits lie from here to 1500.
    real(wp), parameter :: laminar_up_to = 500
@@ -58,9 +61,7 @@ contains
          end associate
       end do
       if (.not. file%has('periodic/closed')) return
-      if (.not. file%get_real('periodic/closed') > 0) all = all//'Newton''s method does not close the orbit: it is ' &
-         & //'that of the march, whose displacements change by '//to_text(file%get_real('periodic/change')) &
-         & //' of their characteristic scales in a period'//newline
+      all = all//line_if(.not. file%get_real('periodic/closed') > 0, not_closed, [file%get_real('periodic/change')])
    end function remarks_on_run
 
    !> What the damping that the reduction of a shaft gives to its high modes changes.
@@ -71,10 +72,9 @@ contains
       remark = ''
       if (.not. file%has('rotor/damping_error')) return
       associate (error => file%get_real('rotor/damping_error'), above => inputs%rotor%elastic%reduction%damp_above)
-         if (error > much_damping) remark = 'the damping of modes above '//to_text(above) &
-            & //' Hz changes amplitudes at the highest speed by '//fixed_text(100*error, 1) &
-            & //' %; reduction%damp_above = '//to_text(anint(max(2*above, far_above*inputs%highest_speed()/(2*pi)))) &
-            & //' changes less, and takes more steps in a march'//newline
+         remark = line_if(error > much_damping, 'the damping of modes above {} Hz changes amplitudes at the highest ' &
+            & //'speed by {c.1} %; reduction%damp_above = {} changes less, and takes more steps in a march', [above, &
+            & error, anint(max(2*above, far_above*inputs%highest_speed()/(2*pi)))])
       end associate
    end function on_damping
 
@@ -126,74 +126,70 @@ contains
       real(wp), dimension(bearing%pad_count()) :: film, reynolds, hottest, depth, load, inlet, taken
       real(wp) :: rise
       integer :: i
-      said = ''
       rise = file%get_real('equilibrium/temperature_rise_fresh')
       associate (roughness => bearing%asperity%roughness, p => bearing%pads)
          call file%get_list('equilibrium/min_film_thickness', film)
-         if (bearing%asperity%model /= 'none' .and. any(film < roughnesses*roughness)) said = said//'at the ' &
-            & //'equilibrium the film of '//listed(film < roughnesses*roughness)//' is '//micro(minval(film)) &
-            & //' um thin: less than '//to_text(roughnesses)//' times asperity%roughness = ' &
-            & //to_text(1e6_wp*roughness)//' um, so that surfaces touch'//newline
+         said = line_if(bearing%asperity%model /= 'none' .and. any(film < roughnesses*roughness), 'at the ' &
+            & //'equilibrium the film of '//listed(film < roughnesses*roughness)//' is {u.3} um thin: less than {} ' &
+            & //'times asperity%roughness = {u} um, so that surfaces touch', [minval(film), roughnesses, roughness])
          depth = file%get_real('equilibrium/journal_y')*sin(p%pivot_angle_deg*degree) &
             & + file%get_real('equilibrium/journal_z')*cos(p%pivot_angle_deg*degree) &
             & - bearing%assembled_clearance
-         if (bearing%tilting() .and. any(depth > 0)) said = said//'eccentricity ratio ' &
-            & //fixed_text(file%get_real('equilibrium/eccentricity_ratio'), 3)//': at '//listed(depth > 0)//' the ' &
-            & //'journal lies '//micro(maxval(depth))//' um deeper than the clearance; ' &
-            & //'are load (N), viscosity (Pa s) and clearance (m) as meant?'//newline
+         said = said//line_if(bearing%tilting() .and. any(depth > 0), 'eccentricity ratio {.3}: at ' &
+            & //listed(depth > 0)//' the journal lies {u.3} um deeper than the clearance; are load (N), viscosity ' &
+            & //'(Pa s) and clearance (m) as meant?', [file%get_real('equilibrium/eccentricity_ratio'), maxval(depth)])
          if (ieee_is_nan(rise)) rise = 0
-         if (thermal_model == 'none' .and. rise > largest_rise) said = said//'the oil warms by ' &
-            & //fixed_text(rise, 1)//' K although every pad draws fresh oil: its viscosity is not that of the case ' &
-            & //'in all films; thermal%model = ''pad'' with an oil (oil%grade) finds temperatures and viscosities' &
-            & //newline
+         said = said//line_if(thermal_model == 'none' .and. rise > largest_rise, 'the oil warms by {.1} K although ' &
+            & //'every pad draws fresh oil: its viscosity is not that of the case in all films; thermal%model = ' &
+            & //'''pad'' with an oil (oil%grade) finds temperatures and viscosities', [rise])
          if (file%has('equilibrium/maximum_temperature')) then
             call file%get_list('equilibrium/maximum_temperature', hottest)
-            if (any(hottest > warm_metal)) said = said//listed(hottest > warm_metal)//': up to ' &
-               & //fixed_text(maxval(hottest), 1)//' C; white metal is near its limit from about ' &
-               & //to_text(warm_metal)//' C on'//newline
+            said = said//line_if(any(hottest > warm_metal), listed(hottest > warm_metal)//': up to {.1} C; white ' &
+               & //'metal is near its limit from about {} C on', [maxval(hottest), warm_metal])
          end if
          call file%get_list('equilibrium/inlet_flow', inlet)
          call file%get_list('equilibrium/reformation_flow', taken)
          do i = 1, size(taken)
             if (ieee_is_nan(inlet(i))) cycle
-            if (abs(taken(i)) > visible_flow*abs(inlet(i))) said = said//'pad '//to_text(i)//': '//micro(inlet(i)) &
-               & //' ml/s enter, and '//micro(inlet(i) + taken(i))//' leave: at the reformation boundary behind the ' &
-               & //'cavitated part the film takes up '//micro(taken(i))//' ml/s beyond what reaches it, as ' &
-               & //'Reynolds'' condition does not conserve oil there'//newline
+            said = said//line_if(abs(taken(i)) > visible_flow*abs(inlet(i)), 'pad {}: {u.3} ml/s enter, and {u.3} ' &
+               & //'leave: at the reformation boundary behind the cavitated part the film takes up {u.3} ml/s beyond ' &
+               & //'what reaches it, as Reynolds'' condition does not conserve oil there', &
+               & [real(wp) :: i, inlet(i), inlet(i) + taken(i), taken(i)])
          end do
          call file%get_list('equilibrium/reynolds_number', reynolds)
-         if (any(reynolds > laminar_up_to)) said = said//'Reynolds number of the film of ' &
-            & //listed(reynolds > laminar_up_to)//': '//to_text(nint(maxval(reynolds)))//'; above ' &
-            & //to_text(laminar_up_to)//' films may be turbulent, and turbulent ones lose more power'//newline
+         said = said//line_if(any(reynolds > laminar_up_to), 'Reynolds number of the film of ' &
+            & //listed(reynolds > laminar_up_to)//': {i}; above {} films may be turbulent, and turbulent ones lose ' &
+            & //'more power', [maxval(reynolds), laminar_up_to])
          if (bearing%tilting()) then
             call file%get_list('equilibrium/pivot_load', load)
-            if (sum(load) > 0 .and. any(load < smallest_share*sum(load))) said = said//'at the equilibrium ' &
-               & //listed(load < smallest_share*sum(load))//trim(merge(' carries', ' carry  ', &
-               & count(load < smallest_share*sum(load)) == 1))//' no load; unloaded pads may flutter'//newline
+            associate (idle => load < smallest_share*sum(load))
+               said = said//line_if(sum(load) > 0 .and. any(idle), 'at the equilibrium '//listed(idle) &
+                  & //trim(merge(' carries', ' carry  ', count(idle) == 1))//' no load; unloaded pads may flutter')
+            end associate
          end if
       end associate
-      if (figure(file, 'misalignment') > visible_slope) said = said//'the slope of the shaft changes the film by ' &
-         & //to_text(nint(100*figure(file, 'misalignment')))//' % of its minimum thickness from the middle of the ' &
-         & //'bearing to its end, which is left out'//newline
+      associate (misalignment => figure(file, 'misalignment'))
+         said = said//line_if(misalignment > visible_slope, 'the slope of the shaft changes the film by {ci} % of ' &
+            & //'its minimum thickness from the middle of the bearing to its end, which is left out', [misalignment])
+      end associate
    end function on_equilibrium
 
    !> On pivots that give way by much of the clearance: those of another bearing may be too small.
    function on_pivots(bearing, file) result(said)
       type(bearing_type), intent(in) :: bearing
       type(bearing_file_type), intent(inout) :: file
-      character(len=:), allocatable :: said
+      character(len=:), allocatable :: said, ending
       real(wp) :: deflection(bearing%pad_count())
       said = ''
       if (.not. file%has('equilibrium/pivot_deflection')) return
       call file%get_list('equilibrium/pivot_deflection', deflection)
+      ending = ''
+      if (bearing%pivot%law /= 'table') ending = filled('; is pivot%socket_radius = {} m that of this bearing?', &
+         & [maxval(bearing%pivot%socket_radius)])
       associate (soft => deflection > soft_pivot*bearing%assembled_clearance)
-         if (.not. any(soft)) return
-         said = 'at the equilibrium '//trim(merge('the pivot ', 'the pivots', count(soft) == 1))//' of '//listed(soft) &
-            & //trim(merge(' gives', ' give ', count(soft) == 1))//' way by '//micro(maxval(deflection, mask=soft)) &
-            & //' um, more than '//to_text(soft_pivot)//' of the clearance'
-         if (bearing%pivot%law /= 'table') said = said//'; is pivot%socket_radius = ' &
-            & //to_text(maxval(bearing%pivot%socket_radius))//' m that of this bearing?'
-         said = said//newline
+         said = line_if(any(soft), 'at the equilibrium '//trim(merge('the pivot ', 'the pivots', count(soft) == 1)) &
+            & //' of '//listed(soft)//trim(merge(' gives', ' give ', count(soft) == 1))//' way by {u.3} um, more ' &
+            & //'than {} of the clearance', [maxval(deflection, mask=soft), soft_pivot], ending)
       end associate
    end function on_pivots
 
@@ -202,17 +198,17 @@ contains
    function on_motion(pad_count, file) result(said)
       integer, intent(in) :: pad_count
       type(bearing_file_type), intent(inout) :: file
-      character(len=:), allocatable :: said, diagnosis
+      character(len=:), allocatable :: said, diagnosis, of_load
       type(pad_behaviour_type) :: pads(pad_count)
       integer :: i
-      said = ''
       associate (held => pad_figures(file, 'pad_without_equilibrium'))
-         if (any(held > 0)) said = said//listed(held > 0)//': without equilibrium; the march starts without tilt' &
-            & //newline
+         said = line_if(any(held > 0), listed(held > 0)//': without equilibrium; the march starts without tilt')
       end associate
-      if (figure(file, 'whirls') > 0) said = said//'the journal whirls at ' &
-         & //fixed_text(figure(file, 'whirl_order'), 3)//' of the shaft speed, amplitude ' &
-         & //micro(figure(file, 'whirl_amplitude'))//' um'//newline
+      associate (whirls => figure(file, 'whirls'), order => figure(file, 'whirl_order'), &
+            & amplitude => figure(file, 'whirl_amplitude'))
+         said = said//line_if(whirls > 0, 'the journal whirls at {.3} of the shaft speed, amplitude {u.3} um', &
+            & [order, amplitude])
+      end associate
       pads%load = pad_figures(file, 'pad_load')
       pads%unloaded = pad_figures(file, 'pad_unloaded') > 0
       pads%lifted = pad_figures(file, 'pad_lifted')
@@ -222,50 +218,38 @@ contains
       pads%rubbing = pad_figures(file, 'pad_rubbing')
       do i = 1, size(pads)
          diagnosis = pad_diagnosis(pads(i))
-         if (diagnosis /= '') said = said//'pad '//to_text(i)//' '//diagnosis//newline
+         said = said//line_if(diagnosis /= '', 'pad '//to_text(i)//' '//diagnosis)
       end do
-      said = said//on_contact(file)
-   end function on_motion
-
-   !> Which pads touched the journal in the whole run, how hard and how long.
-   function on_contact(file) result(said)
-      type(bearing_file_type), intent(inout) :: file
-      character(len=:), allocatable :: said, of_load
-      integer :: i
-      said = ''
+      ! which pads touched the journal in the whole run, how hard and how long
       associate (force => pad_figures(file, 'pad_asperity_force'), share => pad_figures(file, 'pad_asperity_share'), &
             & time => pad_figures(file, 'pad_asperity_time'))
          do i = 1, size(force)
-            if (.not. force(i) > 0) cycle
             of_load = ''
-            if (share(i) > 0) of_load = ', '//fixed_text(100*share(i), 2)//' % of the load'
-            said = said//'pad '//to_text(i)//' touched the journal for '//fixed_text(1e3_wp*time(i), 3) &
-               & //' ms of the run; its asperities bore up to '//fixed_text(force(i), 1)//' N'//of_load//newline
+            if (share(i) > 0) of_load = filled(', {c.2} % of the load', [share(i)])
+            said = said//line_if(force(i) > 0, 'pad {} touched the journal for {m.3} ms of the run; its asperities ' &
+               & //'bore up to {.1} N', [real(wp) :: i, time(i), force(i)], of_load)
          end do
       end associate
-   end function on_contact
+   end function on_motion
 
    !> "carries next to no load (mean 12 N); it flutters at 0.48 of the shaft speed, ..."; empty for a pad like others.
    function pad_diagnosis(pad) result(words)
       type(pad_behaviour_type), intent(in) :: pad
       character(len=:), allocatable :: words
       words = ''
-      if (pad%unloaded) call say('carries next to no load (mean '//fixed_text(pad%load, 1)//' N)')
-      if (pad%lifted > 0) call say('is lifted off its pivot '//percent(pad%lifted))
-      if (pad%flutters) call say('flutters at '//fixed_text(pad%order, 3)//' of the shaft speed, amplitude of the ' &
-         & //'tilt '//fixed_text(1e3_wp*pad%amplitude, 4)//' mrad')
-      if (pad%rubbing > 0) call say('rubs on the journal '//percent(pad%rubbing))
+      call say(pad%unloaded, 'carries next to no load (mean {.1} N)', [pad%load])
+      call say(pad%lifted > 0, 'is lifted off its pivot {c.1} % of the time', [pad%lifted])
+      call say(pad%flutters, 'flutters at {.3} of the shaft speed, amplitude of the tilt {m.4} mrad', &
+         & [pad%order, pad%amplitude])
+      call say(pad%rubbing > 0, 'rubs on the journal {c.1} % of the time', [pad%rubbing])
    contains
-      subroutine say(what)
-         character(len=*), intent(in) :: what
+      subroutine say(holds, template, numbers)
+         logical, intent(in) :: holds
+         character(len=*), intent(in) :: template
+         real(wp), intent(in) :: numbers(:)
+         if (.not. holds) return
          if (words /= '') words = words//'; it '
-         words = words//what
+         words = words//filled(template, numbers)
       end subroutine say
-
-      function percent(share)
-         real(wp), intent(in) :: share
-         character(len=:), allocatable :: percent
-         percent = fixed_text(100*share, 1)//' % of the time'
-      end function percent
    end function pad_diagnosis
 end module result_remarks

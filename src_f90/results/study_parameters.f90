@@ -3,11 +3,10 @@ module study_parameters
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
    use text, only: to_text, replaced
-   use assignments, only: assignment_type, token_type, target_text
+   use assignments, only: assignment_type, token_type, target_text, kind_of, identifier_of
    use case_inputs, only: case_type
    use variable_table, only: variable_table_type
    use case_fields, only: list_all_variables
-   use machine_names, only: kind_of, identifier_of
    use parameter_study, only: study_type
    use hdf5_file, only: hdf5_type
    use hdf5_rows, only: hdf5_rows_type, most_rows

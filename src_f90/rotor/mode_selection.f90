@@ -2,12 +2,10 @@
 module mode_selection
    ! heap: matrices of all displacements of a shaft
    use kinds, only: wp, pi
-   use case_groups, only: is_set
-   use rotor_groups, only: reduction_type
+   use case_groups, only: is_set, reduction_type
    use case_inputs, only: case_type
-   use rotor_component, only: rotor_component_type
+   use rotor_component, only: rotor_component_type, unbalance_moments
    use fixed_interface, only: fixed_interface_type
-   use station_forces, only: unbalance_moments
    use linear_algebra, only: zgesv
    implicit none (type, external)
    private

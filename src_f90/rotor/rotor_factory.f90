@@ -1,17 +1,28 @@
-!> Builds the rotor of a case.
+!> Builds the rotor of a case: a rigid journal, or a shaft on its journals, reduced to few displacements.
 module rotor_factory
+   ! heap: matrices of all displacements of a shaft
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, rpm
-   use text, only: to_text
-   use errors, only: error_type
+   use text, only: to_text, list_text
+   use errors, only: error_type, input_error, raise, require
    use case_inputs, only: case_type
-   use rotor_matrices, only: rotor_matrices_type
-   use shaft_in_bearings, only: find_rotor
+   use rotor_matrices, only: rotor_matrices_type, reduced_rotor
    use abstract_rotor, only: rotor_type
    use rigid_journal, only: new_rigid_journal
    use elastic_rotor, only: elastic_rotor_type, new_elastic_rotor
+   use case_groups, only: bearing_type
+   use rotor_component, only: rotor_component_type, shaft_component
+   use fixed_interface, only: fixed_interface_type, find_fixed_interface
+   use mode_selection, only: mode_selection_type, select_modes, most_modes
+   use linear_algebra, only: dpotrf, dpotrs
    implicit none (type, external)
    private
-   public :: make_rotor
+   public :: make_rotor, find_rotor
+
+   !> How symmetric a matrix must be, relative to its largest element.
+   real(wp), parameter :: symmetry = 1e-8_wp
+   !> How closely a translation by 1 and the mass must follow from a mass matrix, which may be ill-conditioned.
+   real(wp), parameter :: alike = 1e-4_wp
 
 contains
 
@@ -64,4 +75,154 @@ contains
          if (branch%parameter == 'operation%speed_rpm') highest_speed = max(highest_speed, branch%last*rpm)
       end associate
    end function highest_speed
+
+   ! The elastic rotor of a case on its journals: shaft, discs and supports, reduced to few displacements.
+
+   !> The equations of a case's rotor for runs up to a speed, rad/s.
+   subroutine find_rotor(inputs, highest_speed, matrices, error, modes)
+      type(case_type), intent(in) :: inputs
+      real(wp), intent(in) :: highest_speed
+      type(rotor_matrices_type), intent(out) :: matrices
+      type(error_type), allocatable, intent(out) :: error
+      !> Modes with the journals held that are kept, in a plane of a shaft; left out, they are chosen.
+      integer, intent(in), optional :: modes
+      type(rotor_component_type) :: component
+      type(fixed_interface_type) :: fixed
+      type(mode_selection_type) :: selection
+      integer, allocatable :: border(:)
+      logical :: held
+      associate (rotor => inputs%rotor%elastic)
+         if (rotor%rotor_file == '') then
+            component = shaft_component(rotor)
+            call check_numbers(component, error)
+         else if (allocated(rotor%given)) then
+            component%given_rotor_type = rotor%given
+            call check_component(inputs, component, error)
+         else
+            call raise(error, input_error, 'rotor%file = '''//rotor%rotor_file//''': is not read here')
+         end if
+      end associate
+      if (allocated(error)) return
+      call component%turn_in(inputs%sense())
+      border = journal_displacements(inputs%bearings, component)
+      call find_fixed_interface(component, border, fixed, held)
+      if (.not. held) call raise(error, input_error, 'machine: its bearings (at the stations ' &
+         & //list_text(real(inputs%bearings%station, wp))//') do not hold the shaft: it needs two at different ' &
+         & //'stations, and sections with stiffness between them')
+      if (allocated(error)) return
+      if (present(modes)) then
+         selection%modes = min(modes, size(fixed%frequency))
+      else
+         call select_modes(inputs, component, fixed, border, highest_speed, selection)
+         if (fixed%planes*selection%modes > most_modes) call raise(error, input_error, 'reduction%frequency = ' &
+            & //to_text(inputs%rotor%elastic%reduction%frequency)//': '//to_text(fixed%planes*selection%modes) &
+            & //' modes are below it, those of both planes; a machine keeps at most '//to_text(most_modes))
+         if (allocated(error)) return
+      end if
+      matrices = reduced_rotor(inputs, component, fixed, selection%modes)
+      matrices%truncation_error = selection%truncation_error
+      matrices%damping_error = selection%damping_error
+   end subroutine find_rotor
+
+   !> Displacements y and z of each journal among those of the rotor.
+   pure function journal_displacements(bearings, component) result(border)
+      type(bearing_type), intent(in) :: bearings(:)
+      type(rotor_component_type), intent(in) :: component
+      integer :: border(2*size(bearings)), b, p
+      do b = 1, size(bearings)
+         do p = 1, 2
+            border(2*(b - 1) + p) = maxloc(component%station(2*(bearings(b)%station - 1) + p, :), dim=1)
+         end do
+      end do
+   end function journal_displacements
+
+   subroutine check_numbers(component, error)
+      type(rotor_component_type), intent(in) :: component
+      type(error_type), allocatable, intent(inout) :: error
+      if (.not. (all(ieee_is_finite(component%mass)) .and. all(ieee_is_finite(component%stiffness)) &
+         & .and. all(ieee_is_finite(component%gyroscopic)))) call raise(error, input_error, 'shaft: its mass or ' &
+         & //'stiffness is too large for a number: lengths and diameters are in m, moduli in Pa')
+   end subroutine check_numbers
+
+   ! What matrices that another program made must be so that they are those of a rotor.
+
+   !> Raises an error for the first requirement that the matrices of a case's rotor do not meet. The name of the file
+   !> stands before it.
+   subroutine check_component(inputs, component, error)
+      type(case_type), intent(in) :: inputs
+      type(rotor_component_type), intent(in) :: component
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: file
+      file = 'rotor%file = '''//inputs%rotor%elastic%rotor_file//''': '
+      associate (c => component)
+         call require(all(ieee_is_finite(c%mass)) .and. all(ieee_is_finite(c%damping)) .and. &
+            & all(ieee_is_finite(c%gyroscopic)) .and. all(ieee_is_finite(c%stiffness)) .and. &
+            & all(ieee_is_finite(c%station)) .and. all(ieee_is_finite(c%slope)) .and. &
+            & all(ieee_is_finite(c%weighed)) .and. ieee_is_finite(c%total_mass), &
+            & file//'its numbers must be finite', error)
+         if (allocated(error)) return
+         call require(symmetric(c%mass, 1.0_wp), file//'mass: must be symmetric', error)
+         call check_translation(c, file, error)
+         call require(symmetric(c%stiffness, 1.0_wp), file//'stiffness: must be symmetric', error)
+         call require(symmetric(c%gyroscopic, -1.0_wp), file//'gyroscopic: must change its sign when it ' &
+            & //'is transposed', error)
+         call check_stations(inputs, c%station, file, error)
+      end associate
+   end subroutine check_component
+
+   !> The mass matrix is that of a body whose translation along y moves all stations, weighs `weighed` and has its mass.
+   subroutine check_translation(component, file, error)
+      type(rotor_component_type), intent(in) :: component
+      character(len=*), intent(in) :: file
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), allocatable :: factor(:, :), translation(:, :), moved(:, :)
+      integer :: n, info
+      n = size(component%weighed)
+      factor = component%mass
+      call dpotrf('U', n, factor, n, info)
+      call require(info == 0, file//'mass: must be positive definite', error)
+      if (allocated(error)) return
+      translation = reshape(component%weighed, [n, 1])
+      call dpotrs('U', n, 1, factor, n, translation, n, info)
+      moved = reshape(matmul(component%station, translation(:, 1)), [2, size(component%station, 1)/2])
+      call require(all(abs(moved(1, :) - 1) <= alike) .and. all(abs(moved(2, :)) <= alike), file//'weighed: must be ' &
+         & //'mass times a translation that moves all stations by 1 along y', error)
+      associate (mass => dot_product(component%weighed, translation(:, 1)))
+         call require(abs(component%total_mass - mass) <= alike*mass, file//'total_mass = ' &
+            & //to_text(component%total_mass)//': must be that of the translation in weighed, '//to_text(mass)//' kg', &
+            & error)
+      end associate
+   end subroutine check_translation
+
+   !> Stations of the case exist; those of bearings are displacements of their own.
+   subroutine check_stations(inputs, station, file, error)
+      type(case_type), intent(in) :: inputs
+      real(wp), intent(in) :: station(:, :)
+      character(len=*), intent(in) :: file
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: stations, highest, b, row
+      stations = size(station, 1)/2
+      highest = max(maxval(inputs%bearings%station), 0)
+      associate (rotor => inputs%rotor%elastic)
+         if (size(rotor%unbalances) > 0) highest = max(highest, maxval(rotor%unbalances%station))
+         if (size(rotor%loads) > 0) highest = max(highest, maxval(rotor%loads%station))
+      end associate
+      call require(highest <= stations, file//'has '//to_text(stations)//' stations, but station = '//to_text(highest) &
+         & //' is asked for', error)
+      call require(size(inputs%rotor%elastic%discs) == 0, file//'a group disc has no effect: its matrices contain ' &
+         & //'the discs', error)
+      if (allocated(error)) return
+      do b = 1, size(inputs%bearings)
+         do row = 2*inputs%bearings(b)%station - 1, 2*inputs%bearings(b)%station
+            call require(abs(maxval(station(row, :)) - 1) <= 0 .and. count(abs(station(row, :)) > 0) == 1, file &
+               & //'station: row '//to_text(row)//', of a bearing, must have one element 1 and otherwise 0', error)
+         end do
+      end do
+   end subroutine check_stations
+
+   !> Whether a matrix is `sign` times its transpose.
+   pure logical function symmetric(matrix, sign)
+      real(wp), intent(in) :: matrix(:, :), sign
+      symmetric = maxval(abs(matrix - sign*transpose(matrix))) <= symmetry*maxval(abs(matrix))
+   end function symmetric
 end module rotor_factory

@@ -3,10 +3,9 @@ module rotor_matrices
    ! heap: matrices of all displacements of a shaft
    use kinds, only: wp, pi
    use case_inputs, only: case_type
-   use rotor_component, only: rotor_component_type
+   use rotor_component, only: rotor_component_type, static_forces, unbalance_moments
    use fixed_interface, only: fixed_interface_type
    use mode_selection, only: mode_damping
-   use station_forces, only: static_forces, unbalance_moments
    use linear_element, only: relative_displacements, add_supports
    implicit none (type, external)
    private

@@ -4,7 +4,7 @@ module rotor_file
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, input_error, raise, add_context
-   use rotor_groups, only: rotor_type, given_rotor_type
+   use case_groups, only: rotor_type, given_rotor_type
    use guarded_open, only: try_reading
    use files, only: is_regular
    use hdf5_file, only: hdf5_type

@@ -14,7 +14,7 @@ SOURCES = (
     "input/parameter_study",
     "input/study_variables",
     "input/study_table",
-    "input/csv_line",
+    "input/csv_table",
     "input/namelist_writer",
     "input/case_fields",
     "input/variable_table",

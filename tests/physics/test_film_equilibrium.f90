@@ -6,9 +6,8 @@ program test_film_equilibrium
    use case_inputs, only: case_type
    use input_cases, only: case_of
    use equations_of_motion, only: machine_model, new_machine_model
-   use equilibrium_record, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type, static_figures_type, find_static_figures
    use equilibrium, only: find_equilibrium
-   use static_figures, only: static_figures_type, find_static_figures
    use linear_bearing, only: bearing_coefficients_type
    use linear_analysis, only: analyse
    use check, only: runs, expect, expect_close, expect_no_error, report

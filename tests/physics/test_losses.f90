@@ -13,9 +13,8 @@ program test_losses
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use random_films, only: film_state, random_film, shown, shaft_speed
    use equations_of_motion, only: machine_model, new_machine_model
-   use equilibrium_record, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type, static_figures_type, find_static_figures
    use equilibrium, only: find_equilibrium
-   use static_figures, only: static_figures_type, find_static_figures
    use paper_bearing, only: paper_oil, paper_pad, offset_pad
    use check, only: runs, expect, expect_close, expect_no_error, between, report
    implicit none (type, external)

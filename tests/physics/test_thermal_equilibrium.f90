@@ -7,9 +7,8 @@ program test_thermal_equilibrium
    use linear_analysis, only: analyse
    use state_layout, only: tilt, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
-   use equilibrium_record, only: equilibrium_type
+   use equilibrium_record, only: equilibrium_type, static_figures_type, find_static_figures
    use equilibrium, only: find_equilibrium
-   use static_figures, only: static_figures_type, find_static_figures
    use linear_bearing, only: bearing_coefficients_type
    use viscosity_history, only: viscosity_history_type
    use groove_transient, only: find_groove_transient

@@ -25,7 +25,7 @@ program global_search
    use state_layout, only: pad_state, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces, force_derivatives, stability_at, stability_type
-   use pseudo_transient, only: unbalanced, reference_force, residual_limit
+   use static_model, only: unbalanced, reference_force, residual_limit
    implicit none (type, external)
 
    !> Distances and leanings of a table; distances over the pad clearance.

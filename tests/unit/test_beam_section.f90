@@ -2,7 +2,7 @@
 program test_beam_section
    use kinds, only: wp, pi
    use linear_algebra, only: dgesv
-   use beam_section, only: beam_section_type
+   use rotor_component, only: beam_section_type
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
    real(wp), parameter :: rounding = 1e-12_wp

@@ -1,8 +1,9 @@
 !> Remarks on cases: what is seldom meant, what the paper's bearing lends a case, and groups of other tasks.
 program test_case_remarks
-   use text, only: replaced
+   use kinds, only: wp
+   use text, only: replaced, filled, line_if, behind
    use input_cases, only: case_of
-   use case_remarks, only: remarks_on_case, behind
+   use case_remarks, only: remarks_on_case
    use check, only: runs, expect, report
    implicit none (type, external)
    character(len=*), parameter :: own = '&bearing journal_radius = 0.05 /', &
@@ -15,6 +16,14 @@ program test_case_remarks
    if (runs('speeds_and_forces')) call speeds_and_forces()
    if (runs('lent_values')) call lent_values()
    if (runs('idle_groups')) call idle_groups()
+   if (runs('templates')) then
+      call expect(filled('pad {}: {u.3} um, {i} of {M} MPa, {c.1} %', [1.0_wp, 2.5e-6_wp, 1234567.0_wp, 5e6_wp, &
+         & 0.125_wp]) == 'pad 1: 2.500 um, 1234567 of 5 MPa, 12.5 %', 'numbers in their places')
+      call expect(filled('a {} b {.2}', [-0.019_wp, 2.0_wp]) == 'a -0.019 b 2.00' .and. filled('none') == 'none', &
+         & 'short numbers, decimals, and no numbers')
+      call expect(line_if(.true., '{ci} %', [0.126_wp], '; more') == '13 %; more'//achar(10) &
+         & .and. line_if(.false., '{}', [1.0_wp]) == '', 'a line where its condition holds')
+   end if
    if (runs('lines')) call expect(behind('- ', 'a'//achar(10)//'b'//achar(10)) == '- a'//achar(10)//'- b'//achar(10), &
       & 'a mark before each line')
    call report()

@@ -193,12 +193,11 @@ program test_continuation
    use kinds, only: wp, pi
    use errors, only: error_type
    use newton_method, only: branch_problem_type, branch_point_type, return_to
-   use continuation, only: branch_options, start_branch, advance
-   use bifurcations, only: bifurcation_type, find_bifurcations
+   use continuation, only: branch_options, start_branch, advance, bifurcation_type, find_bifurcations
    use orbit_polynomials, only: orbit_type
    use constant_orbit, only: at_rest
    use orbit_problem, only: orbit_problem_type, begin_orbits
-   use period_doubling, only: double_period
+   use branch_progress, only: double_period
    use branch_problems, only: parabola, turning_frame, duffing, oscillator_orbits
    use check, only: runs, expect, expect_close, expect_no_error, report
    implicit none (type, external)

@@ -8,9 +8,8 @@ program test_equilibrium
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces
    use equilibrium_record, only: equilibrium_type
-   use bearing_equilibrium, only: find_partial_equilibrium
+   use bearing_equilibrium, only: find_partial_equilibrium, search_traces, refusal
    use equilibrium, only: find_equilibrium
-   use equilibrium_refusal, only: search_traces, refusal
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)

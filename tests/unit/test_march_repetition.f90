@@ -1,7 +1,7 @@
 !> What a march does from period to period, by displacements that are given.
 program test_march_repetition
    use kinds, only: wp
-   use march_repetition, only: march_repetition_type
+   use periodic_orbit, only: march_repetition_type
    use check, only: runs, expect, report
    implicit none (type, external)
 

@@ -3,7 +3,7 @@
 program test_pad_bending
    use kinds, only: wp, degree
    use pad_gap, only: pad_gap_type
-   use pad_bending, only: points_along, points_across, bending_points, bent_by_pressure, bent_by_heat
+   use shape_field, only: points_along, points_across, bending_points, bent_by_pressure, bent_by_heat
    use bearing_shape, only: bearing_shape_type, bending_type, part_temperatures_type, new_shape
    use case_inputs, only: case_type
    use errors, only: error_type

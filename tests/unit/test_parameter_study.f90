@@ -5,7 +5,7 @@ program test_parameter_study
    use text, only: to_text, exact_text, checksum
    use errors, only: error_type, input_error
    use assignments, only: token_type
-   use varied_values, only: varied_values_type, read_varied_values
+   use study_variables, only: varied_values_type, read_varied_values
    use case_inputs, only: case_type
    use namelist_writer, only: namelist_of
    use parameter_study, only: study_type, run_tag, study_from_text

@@ -2,12 +2,11 @@
 program test_rotor_file
    use kinds, only: wp, rpm
    use errors, only: error_type, input_error
-   use case_groups, only: unset
+   use case_groups, only: unset, given_rotor_type
    use case_inputs, only: case_type
-   use rotor_groups, only: given_rotor_type
    use rotor_component, only: rotor_component_type, shaft_component
    use rotor_matrices, only: rotor_matrices_type
-   use shaft_in_bearings, only: find_rotor
+   use rotor_factory, only: find_rotor
    use rotor_file, only: read_rotor
    use hdf5_file, only: hdf5_type
    use hdf5_expectations, only: put_real, put_list, put_table

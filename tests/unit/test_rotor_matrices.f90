@@ -4,7 +4,7 @@ program test_rotor_matrices
    use errors, only: error_type, input_error
    use case_inputs, only: case_type
    use rotor_matrices, only: rotor_matrices_type
-   use shaft_in_bearings, only: find_rotor
+   use rotor_factory, only: find_rotor
    use example_machine, only: turbine, plain_shaft, put_bearings, put_disc, put_unbalance, rotor_of, all_modes, &
       & unbalance_response, response_error, static_stations, whirl_frequencies
    use check, only: runs, expect, expect_close, expect_error, report
