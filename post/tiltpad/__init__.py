@@ -65,10 +65,11 @@ from tiltpad.calculate.tables import write_coefficients
 from tiltpad.collect.collect import Collected, RunWarning, collect
 from tiltpad.files.archive import NotInRunError, RunError
 from tiltpad.files.namelist import write_case
+from tiltpad.files.processes import MissingProgramError
 from tiltpad.files.read import IncompleteRunWarning, Run, of_run, read
 from tiltpad.files.study import Study, read_study
 from tiltpad.fitting import Fit, fit
-from tiltpad.running import MissingProgramError, run
+from tiltpad.running import run
 from tiltpad.sampling import sample
 from tiltpad.up_and_down import brute_force
 

@@ -13,12 +13,10 @@ from typing import Any, TypeVar
 
 from tiltpad.files import namelist
 from tiltpad.files.archive import RunError, meant
-from tiltpad.files.processes import run_program
+from tiltpad.files.processes import program, run_program
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study, read_either
 
-#: The program, where the environment variable TILTPAD names no other.
-PROGRAM = "tiltpad"
 #: Exit status of the program where case or command are wrong, and where there may be a result.
 INPUT_ERROR, NUMERICS, STOPPED = 1, 2, 4
 
@@ -27,10 +25,6 @@ REMARK = re.compile(r"^((?:'[^']*'|[^'!\n])*?)\s*!.*$", re.MULTILINE)
 
 Groups = Mapping[str, Mapping[str, Any]]
 Result = TypeVar("Result", bound=Run | Study)
-
-
-class MissingProgramError(RunError):
-    """There is no program to run."""
 
 
 def run(
@@ -152,19 +146,3 @@ def checked(case: str | os.PathLike, *options: str) -> str:
     if done.returncode:
         raise RunError(done.stderr.strip() or f"the program ended with status {done.returncode}")
     return REMARK.sub(r"\1", done.stdout)
-
-
-def program() -> str:
-    """The program: TILTPAD in the environment, that of this Python, on PATH, or built where the source is."""
-    if given := os.environ.get("TILTPAD"):
-        if not os.access(given, os.X_OK):
-            raise MissingProgramError(f"TILTPAD = {given}: no program")
-        return given
-    beside = Path(sys.executable).parent / PROGRAM
-    built = Path(__file__).resolve().parents[2] / "build/bin" / PROGRAM
-    for each in (beside, shutil.which(PROGRAM), built):
-        if each and os.access(each, os.X_OK):
-            return os.fspath(each)
-    raise MissingProgramError(
-        "no program tiltpad: build it (make build), put it on PATH, or name it in the variable TILTPAD"
-    )

@@ -11,13 +11,13 @@ module arguments
    !> Longest override, and how many there may be.
    integer, parameter :: longest = 4096, most = 1000
    character(len=*), parameter :: options = '--output --overwrite --resume --set --check --verify --jobs --run ' &
-      & //'--block --count --quiet --yes --reference --version --help'
+      & //'--block --count --table --quiet --yes --reference --version --help'
 
    type :: arguments_type
-      !> 'run', 'check', 'count', 'help', 'version' or 'reference'.
+      !> 'run', 'check', 'count', 'table', 'help', 'version' or 'reference'.
       character(len=:), allocatable :: task
       !> Files; empty where none is given.
-      character(len=:), allocatable :: case_file, output, resumed
+      character(len=:), allocatable :: case_file, output, resumed, log_file
       !> "group%name=value".
       character(len=longest), allocatable :: overrides(:)
       !> Run of a study, and how many at a time; 0 where not given.
@@ -44,6 +44,7 @@ contains
       given%case_file = ''
       given%output = ''
       given%resumed = ''
+      given%log_file = ''
       allocate (given%overrides(0))
       i = 0
       do while (i < command_argument_count())
@@ -66,7 +67,7 @@ contains
             given%overwrite = .true.
          case ('--yes')
             given%yes = .true.
-         case ('--output', '-o', '--resume', '--set', '--verify', '--run', '--block', '--jobs')
+         case ('--output', '-o', '--resume', '--table', '--set', '--verify', '--run', '--block', '--jobs')
             call require(i < command_argument_count(), word//': a value must follow; see tiltpad --help', error)
             if (allocated(error)) return
             i = i + 1
@@ -119,6 +120,9 @@ contains
             & error)
          if (word == '--resume') then
             given%resumed = value
+         else if (word == '--table') then
+            given%log_file = value
+            given%task = 'table'
          else
             given%output = value
          end if
@@ -130,6 +134,11 @@ contains
       type(arguments_type), intent(in) :: given
       type(error_type), allocatable, intent(out) :: error
       logical :: resumes, runs
+      if (given%task == 'table') then
+         call require(given%case_file == '' .and. given%resumed == '' .and. size(given%overrides) == 0, '--table: makes ' &
+            & //'the file of a study from its log; not with a case, --resume or --set', error)
+         return
+      end if
       resumes = given%resumed /= ''
       runs = given%task == 'run'
       call require(.not. resumes .or. given%output == '', '--resume goes on with its file; --output cannot ' &
@@ -226,6 +235,8 @@ contains
          & '                          task of an array job; the last that ends joins them', &
          & '  --jobs N                performs N runs of a study at a time; default: one for each processor', &
          & '  --run K                 performs (with --check: prints) only run K of a study', &
+         & '  --table FILE            makes the file of a study of its log, FILE (NAME.h5.rows), as a study does at', &
+         & '                          its end; runs nothing', &
          & '  --count                 prints the number of runs of the case; 1 without a group &sweep', &
          & '  --yes                   performs a study of more than a gigabyte from a terminal, too', &
          & '  --quiet                 prints errors only', &

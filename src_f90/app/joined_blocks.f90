@@ -1,21 +1,19 @@
-!> The file of a study or of a block of it: opened, and joined from the files of blocks.
+!> The file of a study or of a block of it: opened with the rows that there are, and joined from the files of blocks.
 module joined_blocks
    use clock, only: wall_clock
    use text, only: to_text
    use errors, only: error_type, raise, stopped
    use files, only: is_regular
-   use hdf5_file, only: hdf5_type
    use parameter_study, only: study_type
-   use restart, only: open_result
    use stop_signals, only: stop_requested, stop_reason
    use study_file, only: study_file_type
-   use study_marks, only: is_collected
-   use study_blocks, only: block_type, path_type, block_paths, read_status, delete_block
-   use study_rows, only: not_run
+   use study_source, only: take_rows, is_collected
+   use study_blocks, only: block_type, path_type, block_paths, delete_block
+   use study_log, only: not_run
    use run_case, only: way_out
    implicit none (type, external)
    private
-   public :: study_place_type, open_table, open_joined, delete_blocks, join_blocks, status_elsewhere
+   public :: study_place_type, open_study, delete_blocks, join_blocks, find_rows
 
    !> Where a study is written: NAME.h5, and where runs have files the folder NAME.
    type :: study_place_type
@@ -27,14 +25,57 @@ module joined_blocks
 
 contains
 
-   !> Opens the file of a study or of a block: a new one, or that of the same study to go on with.
-   subroutine open_table(study, place, share, table, error)
+   !> Adds to `status` that of the runs that have rows in the file of a block or of the whole study, as `take_rows`.
+   subroutine find_rows(study, place, path, way, status, error)
+      type(study_type), intent(in) :: study
+      type(study_place_type), intent(in) :: place
+      !> The file, and what a message says of replacing it.
+      character(len=*), intent(in) :: path, way
+      integer, intent(inout) :: status(:)
+      type(error_type), allocatable, intent(out) :: error
+      logical :: other
+      if (is_made_anew(place, path)) return
+      call take_rows(path, study, status, other, error)
+      if (allocated(error)) call refuse(other, place%overwrite, way, error)
+   end subroutine find_rows
+
+   !> Whether a file is one that tiltpad-collect made of the files of runs.
+   logical function is_made_anew(place, path) result(is)
+      type(study_place_type), intent(in) :: place
+      character(len=*), intent(in) :: path
+      is = place%filed
+      if (is) is = is_regular(path)
+      if (is) is = is_collected(path)
+   end function is_made_anew
+
+   !> Keeps the error that a file is in the way, unless it is of another study and may be overwritten: what cannot be read
+   !> never is.
+   subroutine refuse(other, overwrite, way, error)
+      logical, intent(in) :: other, overwrite
+      character(len=*), intent(in) :: way
+      type(error_type), allocatable, intent(inout) :: error
+      if (.not. other) then
+         error%message = error%message//'; it is not replaced'
+      else if (overwrite) then
+         deallocate (error)
+      else
+         error%message = error%message//way
+      end if
+   end subroutine refuse
+
+   !> Opens the file of a study or of a block, with the rows that there are under its name and, for a whole study, in the
+   !> files of blocks. These are `taken`: of no use any more once the table is published.
+   subroutine open_study(study, place, share, table, taken, error)
       type(study_type), intent(in) :: study
       type(study_place_type), intent(in) :: place
       type(block_type), intent(in) :: share
       type(study_file_type), intent(inout) :: table
+      type(path_type), allocatable, intent(out) :: taken(:)
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: path
+      integer :: i
+      logical :: other
+      allocate (taken(0))
       path = share%path(place%name)
       call table%claim(path, error)
       if (allocated(error)) return
@@ -42,69 +83,31 @@ contains
          if (.not. place%quiet .and. taken_from /= '') print '(a)', path//': '//taken_from//', which wrote it, has ' &
             & //'ended'
       end associate
-      if (has_rows(place, path)) then
-         call table%reopen(study, error)
-         if (.not. allocated(error)) return
-         call refuse(path, place%overwrite, way_out, error)
-         if (.not. allocated(error)) call table%claim(path, error)
-         if (allocated(error)) return
-      end if
-      call table%begin(study, error, share%first(study%runs), share%last(study%runs))
-   end subroutine open_table
-
-   !> Whether there is a file of a study that goes on: not one that is made anew of the same files.
-   logical function has_rows(place, path) result(has)
-      type(study_place_type), intent(in) :: place
-      character(len=*), intent(in) :: path
-      has = is_regular(path)
-      if (.not. (has .and. place%filed)) return
-      has = .not. is_collected(path)
-   end function has_rows
-
-   !> Keeps the error that a file is in the way, unless it may be overwritten; what is no result never is.
-   subroutine refuse(path, overwrite, way, error)
-      character(len=*), intent(in) :: path, way
-      logical, intent(in) :: overwrite
-      type(error_type), allocatable, intent(inout) :: error
-      type(error_type), allocatable :: foreign
-      type(hdf5_type) :: file
-      logical :: older
-      call open_result(path, file, foreign, older)
-      if (allocated(foreign) .and. .not. older) then
-         error%message = error%message//'; it is not replaced'
-      else if (overwrite) then
-         deallocate (error)
-      else
-         error%message = error%message//way
-      end if
-      call file%close()
-   end subroutine refuse
-
-   !> Opens the file of the whole study, and adds the rows of all blocks that there are. They are `taken`: of no use any
-   !> more once the table is published.
-   subroutine open_joined(study, place, table, taken, error)
-      type(study_type), intent(in) :: study
-      type(study_place_type), intent(in) :: place
-      type(study_file_type), intent(inout) :: table
-      type(path_type), allocatable, intent(out) :: taken(:)
-      type(error_type), allocatable, intent(out) :: error
-      integer :: i
-      call open_table(study, place, block_type(), table, error)
       ! behind the lock, as another may have joined them
-      taken = block_paths(place%name)
-      do i = 1, size(taken)
+      if (share%of == 1) taken = block_paths(place%name)
+      call table%begin(study, share%first(study%runs), share%last(study%runs), error)
+      do i = 0, size(taken)
          if (allocated(error)) exit
-         call table%working%beat(int(wall_clock()))
-         call table%join(study, taken(i)%path, error)
-         if (allocated(error)) then
-            if (.not. allocated(table%failure)) call refuse(taken(i)%path, place%overwrite, way_out, error)
-         else if (stop_requested()) then
-            call raise(error, stopped, stop_reason()//' while blocks were joined')
+         if (i > 0) path = taken(i)%path
+         if (i == 0) then
+            if (is_made_anew(place, path)) cycle
          end if
+         call table%working%beat(int(wall_clock()))
+         call table%take(study, path, other, error)
+         if (allocated(error)) call refuse(other, place%overwrite, way_out, error)
+         if (.not. allocated(error) .and. stop_requested()) call raise(error, stopped, stop_reason()//' while rows ' &
+            & //'were read')
       end do
-      if (allocated(error) .or. place%quiet .or. size(taken) == 0) return
-      print '(a)', table%name//': takes the rows of '//to_text(size(taken))//' files of blocks'
-   end subroutine open_joined
+      if (allocated(error)) then
+         call table%abandon()
+         return
+      end if
+      call table%start(error)
+      if (allocated(error) .or. place%quiet) return
+      if (table%lost() > 0) print '(a)', table%name//'.rows: the last '//to_text(table%lost())//' bytes were no whole ' &
+         & //'row; its run is performed again'
+      if (size(taken) > 0) print '(a)', table%name//': takes the rows of '//to_text(size(taken))//' files of blocks'
+   end subroutine open_study
 
    !> Deletes files whose rows have been published.
    subroutine delete_blocks(taken)
@@ -131,7 +134,7 @@ contains
          return
       end if
       if (size(block_paths(place%name)) == 0) return
-      call open_joined(study, place, table, taken, error)
+      call open_study(study, place, block_type(), table, taken, error)
       if (.not. allocated(error)) call table%publish(error)
       if (.not. allocated(error)) then
          call delete_blocks(taken)
@@ -153,40 +156,23 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(block_type) :: share
       character(len=:), allocatable :: path
-      integer, allocatable :: status(:), own(:)
+      integer, allocatable :: status(:)
       integer :: j
-      allocate (status(study%runs), own(study%runs))
-      call status_elsewhere(study, place, status, error)
+      allocate (status(study%runs), source=not_run)
+      call find_rows(study, place, place%name//'.h5', way_out, status, error)
       all_finished = .not. allocated(error)
       do j = of, 1, -1
          if (.not. all_finished) return
          share = block_type(j, of)
          path = share%path(place%name)
-         own = not_run
-         if (is_regular(path)) call read_status(path, study, own, error)
+         call find_rows(study, place, path, '; --block '//to_text(j)//'/'//to_text(of)//' --overwrite replaces it', &
+            & status, error)
          ! joined and deleted by another program meanwhile
          if (allocated(error)) then
             if (.not. is_regular(path)) deallocate (error)
          end if
-         if (allocated(error)) call refuse(path, place%overwrite, '; --block '//to_text(j)//'/'//to_text(of) &
-            & //' --overwrite replaces it', error)
-         associate (first => share%first(study%runs), last => share%last(study%runs))
-            all_finished = all(max(status(first:last), own(first:last)) /= not_run) .and. .not. allocated(error)
-         end associate
+         all_finished = all(status(share%first(study%runs):share%last(study%runs)) /= not_run) &
+            & .and. .not. allocated(error)
       end do
    end subroutine ask_all
-
-   !> The exit status of each run in the study's own file, `not_run` where it has no row or there is no file.
-   subroutine status_elsewhere(study, place, status, error)
-      type(study_type), intent(in) :: study
-      type(study_place_type), intent(in) :: place
-      integer, intent(out) :: status(:)
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: path
-      path = place%name//'.h5'
-      status = not_run
-      if (.not. has_rows(place, path)) return
-      call read_status(path, study, status, error)
-      if (allocated(error)) call refuse(path, place%overwrite, way_out, error)
-   end subroutine status_elsewhere
 end module joined_blocks

@@ -3,13 +3,13 @@
 module study_child
    use, intrinsic :: iso_c_binding, only: c_loc, c_size_t
    use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
-   use kinds, only: wp
    use errors, only: error_type, numerics_error
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag
-   use study_file, only: study_file_type
    use record, only: record_type
-   use record_message, only: description, take_description, numbers, take_numbers
+   use study_header, only: names_taken
+   use study_row, only: study_row_type
+   use packet, only: packet_type, packet_of
    use processes, only: process_id, record_length, new_process, end_child, end_with_parent, open_pipe, close_pipe, &
       & close_end, send_record, receive_record, wait_for_record, send_bytes, receive_bytes, ended
    use stop_signals, only: stop_requested
@@ -48,17 +48,17 @@ module study_child
    integer, parameter :: pause = 100
    !> Runs that a child runs before a new one replaces it, so that what they may leave in memory does not add up.
    integer, parameter :: runs_a_child = 50
-   !> In the report of a run: its number and status, the length of the description of its results, where it is new, how
-   !> many numbers they have, and whether its child stays; its message follows.
-   character(len=*), parameter :: head_format = '(ss,4i12,l1,a)'
-   integer, parameter :: head = 49
+   !> In the report of a run: its number and status, the length of its row, and whether its child stays; its message
+   !> follows.
+   character(len=*), parameter :: head_format = '(ss,3i12,l1,a)'
+   integer, parameter :: head = 37
 
    !> What a child reports of a run that has ended.
    type :: report_type
       integer :: run = 0
       type(error_type) :: error
-      !> Letters of the description of its results and how many numbers these have, which wait in the child's own pipe.
-      integer, private :: letters = 0, numbers = 0
+      !> Bytes of its row, which wait in the child's own pipe.
+      integer, private :: bytes = 0
       !> Whether the child waits for the order of another.
       logical :: stays = .false.
    end type report_type
@@ -68,8 +68,8 @@ module study_child
       integer :: process = 0, run = 0
       !> The pipes of its orders and of its results.
       integer :: orders(2) = -1, returns(2) = -1
-      !> The results of its last run.
-      type(record_type) :: results
+      !> The row of its last run.
+      type(study_row_type) :: row
       !> How it ended, where that is known before its last report is read.
       character(len=:), allocatable :: how
    contains
@@ -93,20 +93,18 @@ contains
       call send_record(child%orders(2), record)
    end subroutine order
 
-   !> Takes the results that a report announces; `ok` is false where the child has ended before it sent them.
+   !> Takes the row that a report announces; `ok` is false where the child has ended before it sent it.
    subroutine receive(child, report, ok)
       class(child_type), intent(inout) :: child
       type(report_type), intent(in) :: report
       logical, intent(out) :: ok
-      character(len=report%letters), target :: letters
-      real(wp), allocatable, target :: values(:)
-      allocate (values(report%numbers))
-      ok = .true.
-      if (report%letters > 0) ok = receive_bytes(child%returns(1), c_loc(letters), int(report%letters, c_size_t))
-      if (ok .and. report%letters > 0) call take_description(child%results, letters)
-      if (ok .and. report%numbers > 0) ok = receive_bytes(child%returns(1), c_loc(values), &
-         & int(report%numbers, c_size_t)*(storage_size(values)/8))
-      if (ok) call take_numbers(child%results, values)
+      character(len=:), allocatable, target :: bytes
+      type(packet_type) :: packed
+      allocate (character(len=report%bytes) :: bytes)
+      ok = receive_bytes(child%returns(1), c_loc(bytes), int(report%bytes, c_size_t))
+      if (.not. ok) return
+      packed = packet_of(bytes)
+      call child%row%exchange(packed)
    end subroutine receive
 
    !> Orders a child that waits to end, and waits for it.
@@ -133,11 +131,9 @@ contains
    end subroutine wait_for_end
 
    !> Starts a child, which waits for orders; `child` has no process where none could be started.
-   subroutine start(child, study, table, pipe, runner)
+   subroutine start(child, study, pipe, runner)
       class(child_type), intent(inout) :: child
       type(study_type), intent(in) :: study
-      !> The open file of the study, which the child lets go.
-      type(study_file_type), intent(inout) :: table
       integer, intent(in) :: pipe
       class(study_runner_type), intent(in) :: runner
       integer :: parent, process
@@ -153,7 +149,6 @@ contains
       process = new_process()
       if (process == 0) then
          call end_with_parent(parent)
-         call table%let_go()
          call close_end(child%returns(1))
          call run_in_child(study, child%orders(1), child%returns(2), pipe, runner)
       else if (process < 0) then
@@ -174,13 +169,14 @@ contains
       integer, intent(in) :: orders, returns, pipe
       class(study_runner_type), intent(in) :: runner
       type(record_type) :: results
-      integer :: k, count, told
+      type(study_row_type) :: row
+      integer :: k, count
       logical :: stays
-      told = -1
+      call row%begin(names_taken(study))
       do count = 1, runs_a_child
          call receive_order(orders, k)
          if (k == 0) exit
-         call run_one(study, k, returns, pipe, count < runs_a_child, runner, results, told, stays)
+         call run_one(study, k, returns, pipe, count < runs_a_child, runner, results, row, stays)
          if (.not. stays) exit
       end do
       call end_child(0)
@@ -203,38 +199,34 @@ contains
    end subroutine receive_order
 
    !> Performs a run and sends its report, with whether the child stays for another, and its results.
-   subroutine run_one(study, k, returns, pipe, may_stay, runner, results, told, stays)
+   subroutine run_one(study, k, returns, pipe, may_stay, runner, results, row, stays)
       type(study_type), intent(in) :: study
       integer, intent(in) :: k, returns, pipe
       logical, intent(in) :: may_stay
       class(study_runner_type), intent(in) :: runner
       type(record_type), intent(inout) :: results
-      !> Version of the results whose description the parent has.
-      integer, intent(inout) :: told
+      type(study_row_type), intent(inout) :: row
       logical, intent(out) :: stays
       type(case_type) :: inputs
       type(run_tag) :: tag
       type(error_type), allocatable :: error
       character(len=record_length) :: record
-      character(len=:), allocatable, target :: letters
-      real(wp), allocatable, target :: values(:)
+      character(len=:), allocatable, target :: bytes
+      type(packet_type) :: packed
       call study%tag(k, tag)
       call study%inputs(k, inputs, error)
       call results%clear()
       if (.not. allocated(error)) call runner%perform(inputs, tag, results, error)
       if (.not. allocated(error)) error = error_type(0, '')
       stays = may_stay .and. any(error%status == [0, numerics_error])
-      letters = ''
-      if (results%version /= told) letters = description(results)
-      told = results%version
-      values = numbers(results)
-      write (record, head_format) k, error%status, len(letters), size(values), stays, &
+      call row%make(results, error%status == 0)
+      call row%exchange(packed)
+      bytes = packed%bytes()
+      write (record, head_format) k, error%status, len(bytes), stays, &
          & error%message(:min(len(error%message), record_length - head))
       call send_record(pipe, record)
       ! where the parent has gone, so does this process
-      if (len(letters) > 0) stays = send_bytes(returns, c_loc(letters), len(letters, c_size_t)) .and. stays
-      if (size(values) > 0) stays = send_bytes(returns, c_loc(values), &
-         & size(values, kind=c_size_t)*(storage_size(values)/8)) .and. stays
+      stays = send_bytes(returns, c_loc(bytes), len(bytes, c_size_t)) .and. stays
    end subroutine run_one
 
    !> Takes a report out of a pipe where one waits; `ok` is false where that failed.
@@ -245,7 +237,7 @@ contains
       character(len=record_length) :: record
       ok = receive_record(pipe, record)
       if (.not. ok) return
-      read (record(:head), head_format) report%run, report%error%status, report%letters, report%numbers, report%stays
+      read (record(:head), head_format) report%run, report%error%status, report%bytes, report%stays
       report%error%message = trim(record(head + 1:))
    end subroutine read_report
 end module study_child

@@ -8,6 +8,7 @@ module study_runs
    use processes, only: open_pipe, wait_for_record, ended, stop_process
    use study_child, only: child_type, report_type, read_report, study_runner_type, pause
    use study_file, only: study_file_type
+   use study_row, only: study_row_type
    use study_blocks, only: block_type
    use hdf5_base, only: start_hdf5
    use stop_signals, only: stop_requested, stop_reason
@@ -84,7 +85,7 @@ contains
       children_know = .false.
       do
          stopping = stop_requested() .or. allocated(error)
-         if (.not. stopping) call give_orders(children, study, table, pipe(2), runner, wanted, next, tally)
+         if (.not. stopping) call give_orders(children, study, pipe(2), runner, wanted, next, tally)
          if (stopping .and. .not. children_know) then
             children_know = .true.
             do i = 1, size(children)
@@ -106,10 +107,9 @@ contains
    end subroutine perform_runs
 
    !> Orders each child that waits to perform the next run that is wanted.
-   subroutine give_orders(children, study, table, pipe, runner, wanted, next, tally)
+   subroutine give_orders(children, study, pipe, runner, wanted, next, tally)
       type(child_type), intent(inout) :: children(:)
       type(study_type), intent(in) :: study
-      type(study_file_type), intent(inout) :: table
       integer, intent(in) :: pipe
       class(study_runner_type), intent(in) :: runner
       logical, intent(in) :: wanted(:)
@@ -118,7 +118,7 @@ contains
       integer :: i
       do i = 1, size(children)
          if (children(i)%run /= 0 .or. next > size(wanted)) cycle
-         if (children(i)%process == 0) call children(i)%start(study, table, pipe, runner)
+         if (children(i)%process == 0) call children(i)%start(study, pipe, runner)
          if (children(i)%process /= 0) then
             call children(i)%order(next)
          else
@@ -157,9 +157,11 @@ contains
       class(study_runner_type), intent(in) :: runner
       type(tally_type), intent(inout) :: tally
       type(report_type) :: report
+      type(study_row_type) :: lost
       character(len=:), allocatable :: how
       integer :: i
       logical :: ok
+      call lost%begin('')
       if (.not. wait_for_record(pipe, pause)) then
          do i = 1, size(children)
             if (children(i)%process == 0) cycle
@@ -174,9 +176,9 @@ contains
          ! one that was killed meanwhile will be told below
          if (.not. ok) cycle
          call note(report%run, report%error, tally)
-         if (children(i)%results%has('summary/remarks')) tally%remarked = tally%remarked + 1
+         if (children(i)%row%remarks /= '') tally%remarked = tally%remarked + 1
          if (report%error%status /= stopped) call table%add(report%run, report%error%status, report%error%message, &
-            & children(i)%results, i, runner%own_file(report%run))
+            & children(i)%row, runner%own_file(report%run))
          children(i)%run = 0
          if (.not. report%stays) call children(i)%wait_for_end()
       end do
@@ -186,8 +188,7 @@ contains
          how = children(i)%how
          if (children(i)%run /= 0) then
             call note(children(i)%run, error_type(system_error, how), tally)
-            call children(i)%results%clear()
-            call table%add(children(i)%run, system_error, how, children(i)%results, i)
+            call table%add(children(i)%run, system_error, how, lost, '')
          end if
          call children(i)%wait_for_end()
       end do

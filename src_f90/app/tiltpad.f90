@@ -18,6 +18,7 @@ program tiltpad
    use record, only: record_type
    use study_folder, only: result_path, prepare_folder, check_neighbours
    use study_runs, only: check_runs
+   use table_of_log, only: write_table_of
    use whole_study, only: perform_study, mark_study, refuse_large
    implicit none (type, external)
 
@@ -40,6 +41,8 @@ program tiltpad
          print '(a)', 'tiltpad '//program_version//' ('//program_commit//')'
       case ('reference')
          call put(reference_text(), error)
+      case ('table')
+         call write_table_of(given%log_file, given%output, error)
       case default
          call catch_signals()
          if (given%case_file == '') then

@@ -16,12 +16,13 @@ module whole_study
    use record, only: record_type
    use study_child, only: study_runner_type
    use study_file, only: study_file_type
-   use study_rows, only: not_run, stays
-   use study_blocks, only: block_type, path_type, refuse_written
+   use study_log, only: not_run, stays
+   use study_source, only: log_path
+   use study_blocks, only: block_type, path_type, block_paths, refuse_written
    use study_folder, only: result_path, prepare_folder, check_folder
    use study_runs, only: perform_runs, tally_type, new_tally, tell
-   use joined_blocks, only: study_place_type, open_table, open_joined, delete_blocks, join_blocks, status_elsewhere
-   use run_case, only: run_task
+   use joined_blocks, only: study_place_type, open_study, delete_blocks, join_blocks, find_rows
+   use run_case, only: run_task, way_out
    use stop_signals, only: stop_requested
    implicit none (type, external)
    private
@@ -121,30 +122,27 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(study_file_type) :: table
       type(path_type), allocatable :: taken(:)
-      integer, allocatable :: status(:)
-      logical, allocatable :: wanted(:)
-      logical :: joined
-      integer :: k, first, last
+      integer :: status(study%runs), k, first, last
+      logical :: wanted(study%runs)
       first = share%first(study%runs)
       last = share%last(study%runs)
       path = share%path(runner%place%name)
-      allocate (status(study%runs), source=not_run)
-      allocate (taken(0))
+      status = not_run
       if (share%of == 1) then
          call refuse_written(runner%place%name, error)
-         if (.not. allocated(error)) call open_joined(study, runner%place, table, taken, error)
       else
-         call status_elsewhere(study, runner%place, status, error)
-         if (allocated(error)) return
-         ! all is there in the file of the whole study, which has been joined
-         joined = .not. is_regular(path)
-         if (joined .and. all(stays(status(first:last)) .and. .not. missing(first:last))) then
-            path = runner%place%name//'.h5'
-            tally = new_tally(status(first:last))
-            return
-         end if
-         call open_table(study, runner%place, share, table, error)
+         call find_rows(study, runner%place, runner%place%name//'.h5', way_out, status, error)
       end if
+      if (.not. allocated(error)) call find_rows(study, runner%place, path, way_out, status, error)
+      if (allocated(error)) return
+      tally = new_tally(status(first:last))
+      if (all(stays(status(first:last)) .and. .not. missing(first:last)) .and. .not. is_begun(runner%place%name, path, &
+         & share)) then
+         ! a block that has been joined
+         if (.not. is_regular(path)) path = runner%place%name//'.h5'
+         return
+      end if
+      call open_study(study, runner%place, share, table, taken, error)
       if (.not. allocated(error)) then
          status = [(merge(table%status(k), status(k), table%has_row(k)), k=1, study%runs)]
          wanted = .not. stays(status) .or. missing
@@ -157,6 +155,14 @@ contains
       if (.not. allocated(error)) call delete_blocks(taken)
       call table%abandon()
    end subroutine perform_block
+
+   !> Whether rows wait to be written into the file of a study or block, or of blocks to be joined.
+   logical function is_begun(name, path, share)
+      character(len=*), intent(in) :: name, path
+      type(block_type), intent(in) :: share
+      is_begun = is_regular(log_path(path))
+      if (share%of == 1 .and. .not. is_begun) is_begun = size(block_paths(name)) > 0
+   end function is_begun
 
    !> Which runs of a study have files of their own.
    function which_have_files(study, first) result(filed)

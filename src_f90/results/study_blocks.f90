@@ -6,13 +6,10 @@ module study_blocks
    use errors, only: error_type
    use files, only: delete_file, block_names
    use working_file, only: working_file_type, clear_leftovers
-   use hdf5_file, only: hdf5_type
-   use parameter_study, only: study_type
-   use study_rows, only: study_rows_type, not_run
-   use study_marks, only: open_rows
+   use study_source, only: log_path, log_ending
    implicit none (type, external)
    private
-   public :: block_type, path_type, block_paths, refuse_written, read_status, delete_block
+   public :: block_type, path_type, block_paths, refuse_written, delete_block
 
    !> One of some blocks of runs that follow each other, whose sizes differ by one at most.
    type :: block_type
@@ -54,11 +51,20 @@ contains
       path = path//'.h5'
    end function path
 
-   !> The files of blocks that there are of the study NAME, however many blocks it was given.
+   !> The files of blocks that there are of the study NAME, however many blocks it was given; of one that was killed
+   !> there may be its log alone.
    function block_paths(name) result(paths)
       character(len=*), intent(in) :: name
       type(path_type), allocatable :: paths(:)
+      type(path_type), allocatable :: logs(:)
+      integer :: i, k
       paths = paths_with('.h5', name)
+      logs = paths_with('.h5'//log_ending, name)
+      do i = 1, size(logs)
+         associate (own => logs(i)%path(:len(logs(i)%path) - len(log_ending)))
+            if (.not. any([(paths(k)%path == own, k=1, size(paths))])) paths = [paths, path_type(own)]
+         end associate
+      end do
    end function block_paths
 
    !> The files beside a study that are named like its blocks' with this ending.
@@ -95,28 +101,14 @@ contains
       end do
    end subroutine refuse_written
 
-   !> The exit status of each run in a file of this study, `not_run` where there is no row; it may have fewer runs.
-   subroutine read_status(path, study, status, error)
-      character(len=*), intent(in) :: path
-      type(study_type), intent(in) :: study
-      integer, intent(out) :: status(:)
-      type(error_type), allocatable, intent(out) :: error
-      type(hdf5_type) :: file
-      type(study_rows_type) :: rows
-      status = not_run
-      call open_rows(path, study, file, rows, error)
-      if (allocated(error)) return
-      status(:size(rows%status)) = rows%status
-      call rows%close(file)
-      call file%close()
-   end subroutine read_status
-
    !> Deletes the file of a block and what a killed program has left beside it, unless somebody writes it.
    subroutine delete_block(path)
       character(len=*), intent(in) :: path
       logical :: locked
       call clear_leftovers(path)
       inquire (file=path//'.lock', exist=locked)
-      if (.not. locked) call delete_file(path)
+      if (locked) return
+      call delete_file(log_path(path))
+      call delete_file(path)
    end subroutine delete_block
 end module study_blocks

@@ -1,55 +1,56 @@
-!> The file of a study: a row for each run, at its number from the beginning, with the parameters of all runs. It is
-!> written beside its name and published whole at checkpoints and at the end, so that a kill at any moment leaves the
-!> last checkpoint. After a failure every routine does nothing; the next one with an error tells it.
+!> A study that is being performed: its log, to which each run that ends adds a row, and its file, the table that is made
+!> of the log at checkpoints and at the end. A kill at any moment loses no row that was added. After a failure every
+!> routine does nothing; the next one with an error tells it.
 module study_file
-   use kinds, only: wp
-   use errors, only: error_type
+   use kinds, only: wp, i8
+   use text, only: printable
+   use errors, only: error_type, raise, system_error
    use clock, only: wall_clock
-   use record, only: record_type
+   use files, only: delete_file, rename_file, is_regular
+   use system_texts, only: system_reason
    use parameter_study, only: study_type
-   use guarded_open, only: unlock, empty
    use hdf5_file, only: hdf5_type
-   use hdf5_texts, only: text_type
    use working_file, only: working_file_type
-   use study_rows, only: study_rows_type, not_run, stays
-   use study_parameters, only: parameter_type, parameters_of, write_parameters
-   use study_origin, only: put_origin, names_of, write_runs
-   use study_marks, only: put_marks, check_marks, open_study, missing_runs
-   use study_join, only: join_rows
+   use frame_log, only: is_log
+   use study_header, only: header_type, header_of
+   use study_log, only: study_log_type, row_type, stays
+   use study_row, only: study_row_type
+   use study_source, only: take_rows, log_path
+   use study_builder, only: write_table
    implicit none (type, external)
    private
-   public :: study_file_type
+   public :: study_file_type, make_table
 
    !> A checkpoint must have paid for itself: this many times the time of the last one passes before the next.
    real(wp), parameter :: rest = 20
 
-   type, extends(hdf5_type) :: study_file_type
+   type :: study_file_type
       !> Name of the file, as it was given.
       character(len=:), allocatable :: name
       type(working_file_type) :: working
-      type(study_rows_type), private :: rows
-      !> Clock when the last checkpoint was done, and how long it took, s.
+      type(study_log_type), private :: log
+      !> Whether the log has its name.
+      logical, private :: named = .false.
+      type(error_type), allocatable, private :: failure
+      !> Clock when the last checkpoint was done, and how long it took, s; whether rows have been added since.
       real(wp), private :: last_checkpoint = 0, taken = 0
-      !> Whether rows have been added since.
       logical, private :: grown = .false.
    contains
-      !> Locks the name of the file, so that nobody else writes it, until `finish` or `abandon`.
+      !> Locks the name of the file, so that nobody else writes it, until `abandon`.
       procedure :: claim
       procedure :: begin
-      procedure :: reopen
+      procedure :: take
+      procedure :: start
       procedure :: has_row
       !> Exit status of a run; -2 where it has no row.
       procedure :: status
+      !> Bytes of the logs whose rows were taken that were no whole rows.
+      procedure :: lost
       procedure :: add
       procedure :: checkpoint_if_due
-      procedure :: checkpoint
-      procedure :: join
       procedure :: publish
-      procedure :: finish
-      !> Deletes what was not published, and frees the lock.
+      !> Frees the lock.
       procedure :: abandon
-      !> Forgets the file in a child process; nothing happens to it.
-      procedure :: let_go
       !> Who has the lock, where it was refused for that; else empty.
       procedure :: held_by
    end type study_file_type
@@ -64,93 +65,92 @@ contains
       call self%working%claim(path, error)
    end subroutine claim
 
-   !> Starts a new file under the name claimed, with no row yet. Numbers and parameters are those of all runs, or of a
-   !> block of them, from `first` to `last`, where the file is one of many that are to be joined.
-   subroutine begin(self, study, error, first, last)
+   !> Begins a log for the name claimed, with no row yet: NAME.rows.part. Numbers and parameters are those of all runs, or
+   !> of a block of them, from `first` to `last`.
+   subroutine begin(self, study, first, last, error)
       class(study_file_type), intent(inout) :: self
       type(study_type), intent(in) :: study
+      integer, intent(in) :: first, last
       type(error_type), allocatable, intent(out) :: error
-      integer, intent(in), optional :: first, last
-      type(parameter_type), allocatable :: parameters(:)
-      integer :: from, to
-      call self%working%make_part(error)
-      if (.not. allocated(error)) then
-         from = 1
-         to = study%runs
-         if (present(first)) from = first
-         if (present(last)) to = last
-         call self%create(self%working%part)
-         call unlock(self%hdf5_type)
-         parameters = parameters_of(study)
-         call put_origin(self, study, parameters)
-         call write_runs(self, study%runs, from, to, .false.)
-         call write_parameters(self, study, parameters, from, to, .false.)
-         call self%rows%begin(self, study%runs, names_of(parameters))
-         self%last_checkpoint = wall_clock()
-         call self%error_of(self%working%path, error)
+      character(len=:), allocatable :: part
+      part = log_path(self%working%path)//'.part'
+      ! a killed run has left it
+      if (is_regular(part)) then
+         if (is_log(part)) call delete_file(part)
       end if
+      call self%log%begin(part, header_of(study, first, last), error)
       if (allocated(error)) call self%abandon()
    end subroutine begin
 
-   !> Opens a copy of the file of the name claimed, to go on with it. It must be of this study, which may have got more
-   !> runs since.
-   subroutine reopen(self, study, error)
+   !> Takes the rows of log and table of a path: of the name claimed, or of a block of the study. `other` is true where
+   !> they are of another study, so that they may be replaced.
+   subroutine take(self, study, path, other, error)
       class(study_file_type), intent(inout) :: self
       type(study_type), intent(in) :: study
+      character(len=*), intent(in) :: path
+      logical, intent(out) :: other
       type(error_type), allocatable, intent(out) :: error
-      type(hdf5_type) :: found
-      type(parameter_type), allocatable :: parameters(:)
-      integer :: runs
-      call open_study(self%working%path, found, error)
+      type(header_type) :: origin
+      integer :: status(study%runs)
+      status = self%log%status
+      call take_rows(path, study, status, other, error, self%log, origin)
+      if (allocated(error) .or. path /= self%name .or. .not. allocated(origin%created)) return
+      self%log%header%created = origin%created
+      self%log%header%version = origin%version
+      call self%log%put_header(self%log%header, error)
+   end subroutine take
+
+   !> Gives the log its name; rows may be added from now on.
+   subroutine start(self, error)
+      class(study_file_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: name
+      name = log_path(self%working%path)
+      call self%log%sync(error)
       if (.not. allocated(error)) then
-         call check_marks(self%working%path, found, study, error)
-         call found%close()
-      end if
-      if (.not. allocated(error)) call self%working%copy_published(error)
-      if (.not. allocated(error)) call open_part(self, error)
-      if (.not. allocated(error)) then
-         parameters = parameters_of(study)
-         call self%rows%read_layout(self, names_of(parameters))
-         runs = self%rows%table%runs
-         if (study%runs > runs) then
-            call write_runs(self, study%runs, runs + 1, study%runs, .true.)
-            call write_parameters(self, study, parameters, runs + 1, study%runs, .true.)
-            call self%rows%resize(self, study%runs)
-            call put_marks(self, study)
-         end if
-         call self%put_flag('finished', 0)
-         self%last_checkpoint = wall_clock()
-         call self%error_of(self%working%path, error)
+         self%named = rename_file(name//'.part', name)
+         if (.not. self%named) call raise(error, system_error, 'cannot write '//name//': '//system_reason())
       end if
       if (allocated(error)) call self%abandon()
-   end subroutine reopen
+      self%last_checkpoint = wall_clock()
+   end subroutine start
 
    !> Whether run k has a row that is to stay.
    pure logical function has_row(self, k)
       class(study_file_type), intent(in) :: self
       integer, intent(in) :: k
-      has_row = stays(self%rows%status(k))
+      has_row = stays(self%log%status(k))
    end function has_row
 
    pure integer function status(self, k)
       class(study_file_type), intent(in) :: self
       integer, intent(in) :: k
-      status = self%rows%status(k)
+      status = self%log%status(k)
    end function status
 
-   !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. Records of
-   !> one source, numbered from 1, are mostly alike; each process and reader is one. `own`: where its file is, if it has
-   !> one, relative to the folder of this file.
-   subroutine add(self, k, status, reason, record, source, own)
+   pure integer(i8) function lost(self)
+      class(study_file_type), intent(in) :: self
+      lost = self%log%lost
+   end function lost
+
+   !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. `own`: where its
+   !> file is, if it has one, relative to the folder of this file.
+   subroutine add(self, k, status, reason, row, own)
       class(study_file_type), intent(inout) :: self
-      integer, intent(in) :: k, status, source
-      character(len=*), intent(in) :: reason
-      type(record_type), intent(in) :: record
-      character(len=*), intent(in), optional :: own
+      integer, intent(in) :: k, status
+      character(len=*), intent(in) :: reason, own
+      type(study_row_type), intent(in) :: row
+      type(row_type) :: new
+      if (allocated(self%failure)) return
       self%grown = .true.
-      if (.not. allocated(self%failure)) call self%rows%add(self, k, status, reason, record, source)
-      if (.not. present(own) .or. allocated(self%failure)) return
-      if (own /= '') call self%rows%put_files(self, k, [text_type(own)])
+      new%run = k
+      new%status = status
+      new%reason = trim(printable(reason))
+      new%file = own
+      new%remarks = row%remarks
+      new%numbers = row%numbers
+      call self%log%describe(row%description, new%description, self%failure)
+      if (.not. allocated(self%failure)) call self%log%add(new, self%failure)
    end subroutine add
 
    !> A checkpoint, if this many seconds have passed since the last, and 20 times what it took; `now` is the wall clock.
@@ -159,103 +159,65 @@ contains
       class(study_file_type), intent(inout) :: self
       real(wp), intent(in) :: now, seconds
       type(error_type), allocatable, intent(out) :: error
-      if (allocated(self%failure)) then
-         call self%error_of(self%working%path, error)
-         call self%abandon()
-      else if (self%grown .and. seconds > 0 .and. now - self%last_checkpoint >= max(seconds, rest*self%taken)) then
-         call self%checkpoint(error)
+      if (.not. allocated(self%failure)) then
+         if (.not. self%grown .or. seconds <= 0) return
+         if (now - self%last_checkpoint < max(seconds, rest*self%taken)) return
       end if
+      call write_out(self, error)
+      self%last_checkpoint = wall_clock()
+      self%taken = self%last_checkpoint - now
    end subroutine checkpoint_if_due
 
-   !> Publishes all rows that were added, and goes on with a copy.
-   subroutine checkpoint(self, error)
-      class(study_file_type), intent(inout) :: self
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: started
-      logical :: exchanged
-      started = wall_clock()
-      self%grown = .false.
-      call note(self)
-      call close_all(self)
-      call self%error_of(self%working%path, error)
-      if (.not. allocated(error)) call self%working%publish(exchanged, error)
-      if (.not. allocated(error)) call self%working%copy_published(error)
-      if (.not. allocated(error)) call open_part(self, error)
-      if (.not. allocated(error)) then
-         call self%rows%open(self)
-         call self%error_of(self%working%path, error)
-      end if
-      if (allocated(error)) call self%abandon()
-      self%last_checkpoint = wall_clock()
-      self%taken = self%last_checkpoint - started
-   end subroutine checkpoint
-
-   !> Adds all rows of another file of this study that this one has not. Where the error is that file's, nothing of it
-   !> was added, and there is no failure.
-   subroutine join(self, study, path, error)
-      class(study_file_type), intent(inout) :: self
-      type(study_type), intent(in) :: study
-      character(len=*), intent(in) :: path
-      type(error_type), allocatable, intent(out) :: error
-      call self%error_of(self%working%path, error)
-      if (.not. allocated(error)) call join_rows(self, self%rows, study, path, error)
-      if (.not. allocated(error)) call self%error_of(self%working%path, error)
-   end subroutine join
-
-   !> Writes what is left and publishes the file, which is finished where all runs have a row. Nothing can be added
-   !> then.
+   !> Makes the file of all rows, which is finished where all runs have one. Nothing can be added then.
    subroutine publish(self, error)
       class(study_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
-      logical :: exchanged
-      call note(self)
-      call close_all(self)
-      call self%error_of(self%working%path, error)
-      if (.not. allocated(error)) call self%working%publish(exchanged, error)
+      call write_out(self, error)
+      if (allocated(error)) return
+      call self%log%close()
+      if (self%named) call delete_file(log_path(self%working%path))
+      self%named = .false.
    end subroutine publish
 
-   !> Publishes the file and frees its lock.
-   subroutine finish(self, error)
+   !> Makes the table of the log under the name claimed.
+   subroutine write_out(self, error)
       class(study_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
-      call self%publish(error)
+      logical :: exchanged
+      self%grown = .false.
+      if (allocated(self%failure)) error = self%failure
+      if (.not. allocated(error)) call self%log%sync(error)
+      if (.not. allocated(error)) call self%working%make_part(error)
+      if (.not. allocated(error)) call make_table(self%log, self%working%part, self%working%path, error)
+      if (.not. allocated(error)) call self%working%publish(exchanged, error)
+      call self%working%drop_part()
+      if (.not. allocated(error)) return
+      if (self%named) error%message = error%message//'; '//log_path(self%working%path)//' has the rows so far, from ' &
+         & //'which the next run of the study goes on'
       call self%abandon()
-   end subroutine finish
+   end subroutine write_out
 
-   !> Writes the rows that are held back, and which runs have none.
-   subroutine note(self)
-      class(study_file_type), intent(inout) :: self
-      if (allocated(self%failure)) return
-      call self%rows%flush(self)
-      call self%put_flag('finished', merge(0, 1, any(self%rows%status == not_run)))
-      call self%put_text('missing', missing_runs(self%rows%status == not_run))
-   end subroutine note
-
-   subroutine let_go(self)
-      class(study_file_type), intent(inout) :: self
-      call empty(self%hdf5_type)
-      call close_all(self)
-   end subroutine let_go
-
-   !> Opens the part, unless another run has taken the place of this one, whose part then has the name.
-   subroutine open_part(self, error)
-      class(study_file_type), intent(inout) :: self
+   !> Makes the table of a log, a new file; `name` is what messages call it.
+   subroutine make_table(log, path, name, error)
+      type(study_log_type), intent(inout) :: log
+      character(len=*), intent(in) :: path, name
       type(error_type), allocatable, intent(out) :: error
-      call self%working%check_part(error)
-      if (allocated(error)) return
-      call self%open(self%working%part, writing=.true.)
-      call unlock(self%hdf5_type)
-   end subroutine open_part
-
-   subroutine close_all(self)
-      class(study_file_type), intent(inout) :: self
-      call self%rows%close(self)
-      call self%close()
-   end subroutine close_all
+      type(error_type), allocatable :: of_file
+      type(hdf5_type) :: file
+      call file%create(path)
+      call write_table(log, file, error)
+      call file%close()
+      call file%error_of(name, of_file)
+      if (allocated(of_file)) call move_alloc(of_file, error)
+   end subroutine make_table
 
    subroutine abandon(self)
       class(study_file_type), intent(inout) :: self
-      call close_all(self)
+      call self%log%close()
+      if (.not. self%named .and. allocated(self%working%path)) then
+         if (self%working%lock%is_ours()) call delete_file(log_path(self%working%path)//'.part')
+      end if
+      self%named = .false.
       call self%working%release()
    end subroutine abandon
 

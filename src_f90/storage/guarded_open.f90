@@ -1,6 +1,5 @@
 !> Reads an HDF5 file in a child process first: if it is damaged, the library may crash or run for ever.
 module guarded_open
-   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int, c_int64_t, c_ptr
    use kinds, only: wp
    use hdf5_base, only: start_hdf5
    use hdf5_file, only: hdf5_type
@@ -10,23 +9,12 @@ module guarded_open
    use record_file, only: read_record
    use processes, only: new_process, end_child, limit_child, exit_status
    use system_texts, only: system_reason
-   use hdf5, only: h5p_default_f
-   use files, only: unlock_file, empty_file
    implicit none (type, external)
    private
-   public :: try_reading, new_reader, unlock, empty
+   public :: try_reading, new_reader
 
    !> Seconds of time, and of the processor's time, after which the reading is given up, and megabytes that it may take.
    integer, parameter :: seconds = 60, work = 3, room = 300
-
-   interface
-      !> The system's number of an open file.
-      integer(c_int) function file_handle(file, access, handle) bind(c, name='H5Fget_vfd_handle')
-         import :: c_int, c_int64_t, c_ptr
-         integer(c_int64_t), value :: file, access
-         type(c_ptr), intent(out) :: handle
-      end function file_handle
-   end interface
 
 contains
 
@@ -106,36 +94,4 @@ contains
          end if
       end do
    end subroutine read_group
-
-   ! An HDF5 file that is open while child processes are started, which inherit it.
-
-   !> Frees HDF5's own lock of an open file: children would keep it, and readers from the file once it is published.
-   subroutine unlock(file)
-      type(hdf5_type), intent(inout) :: file
-      integer(c_int), pointer :: number
-      call find_number(file, number)
-      if (associated(number)) call unlock_file(number)
-   end subroutine unlock
-
-   !> In a child, before it closes the file: what HDF5 then writes is lost, and the child does not keep the file's room
-   !> on the disk after it was deleted.
-   subroutine empty(file)
-      type(hdf5_type), intent(inout) :: file
-      integer(c_int), pointer :: number
-      call find_number(file, number)
-      if (associated(number)) call empty_file(number)
-   end subroutine empty
-
-   !> The system's number of an open file; not associated where none is open.
-   subroutine find_number(file, number)
-      type(hdf5_type), intent(inout) :: file
-      integer(c_int), pointer, intent(out) :: number
-      type(c_ptr) :: handle
-      integer :: status
-      nullify (number)
-      if (file%id < 0) return
-      status = file_handle(int(file%id, c_int64_t), int(h5p_default_f, c_int64_t), handle)
-      call file%check(status, 'find the number of the file')
-      if (status >= 0) call c_f_pointer(handle, number)
-   end subroutine find_number
 end module guarded_open

@@ -1,6 +1,6 @@
-!> A dataset with a value, or an array of values, for each row, which may become larger in any dimension: a column of a
-!> table, or a series, to which samples are appended. Where nothing was written it has a value of its own, and takes no
-!> room in the file. After a failure, which the file keeps, every routine does nothing.
+!> A dataset with a value, or an array of values, for each row: a column of a table, or a series, to which samples are
+!> appended. Where nothing was written it has a value of its own, and takes no room in the file. After a failure, which
+!> the file keeps, every routine does nothing.
 module hdf5_rows
    use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
    use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
@@ -42,7 +42,6 @@ module hdf5_rows
       procedure :: append
       procedure :: read => read_rows
       procedure :: read_behind
-      procedure :: resize
    end type hdf5_rows_type
 
 contains
@@ -165,19 +164,6 @@ contains
       width = 1
       if (allocated(self%extents)) width = product(self%extents)
    end function width
-
-   !> Makes it larger or smaller; what is new has the value of what was not written.
-   subroutine resize(self, file, extents, rows)
-      class(hdf5_rows_type), intent(inout) :: self
-      class(hdf5_type), intent(inout) :: file
-      integer, intent(in) :: extents(:), rows
-      integer :: status
-      if (allocated(file%failure)) return
-      self%extents = extents
-      call set_length(self, int(rows, i8))
-      call h5dset_extent_f(self%id, dimensions(self, self%length), status)
-      call file%check(status, 'change the size of a dataset')
-   end subroutine resize
 
    !> Writes rows from the `first` on, values(width, rows).
    subroutine write_rows(self, file, first, values)

@@ -3,20 +3,17 @@
 module hdf5_texts
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_loc, c_null_char, c_null_ptr, c_ptr
    use hdf5, only: hid_t, hsize_t, h5s_unlimited_f, h5screate_simple_f, h5sclose_f, h5dcreate_f, h5dwrite_f, &
-      & h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_type_f, h5pcreate_f, h5pclose_f, h5pset_chunk_f, &
+      & h5dread_f, h5dclose_f, h5dget_type_f, h5pcreate_f, h5pclose_f, h5pset_chunk_f, &
       & h5p_dataset_create_f, h5tclose_f
    use hdf5_base, only: is_of_texts, kind_of_texts, c_free
    use kinds, only: i8
+   use packet, only: text_type
    use hdf5_file, only: hdf5_type, opened_type
    use hdf5_rows, only: rows_a_chunk, small_transfers, select_part
    use system_texts, only: fortran_text
    implicit none (type, external)
    private
-   public :: hdf5_texts_type, text_type
-
-   type :: text_type
-      character(len=:), allocatable :: text
-   end type text_type
+   public :: hdf5_texts_type
 
    type :: hdf5_texts_type
       integer(hid_t) :: id = -1
@@ -25,7 +22,6 @@ module hdf5_texts
       procedure :: create
       procedure :: open => open_texts
       procedure :: close => close_texts
-      procedure :: resize
       procedure :: write => write_texts
       procedure :: read => read_texts
    end type hdf5_texts_type
@@ -84,17 +80,6 @@ contains
       are_texts = is_of_texts(kind)
       call h5tclose_f(kind, status)
    end function are_texts
-
-   subroutine resize(self, file, length)
-      class(hdf5_texts_type), intent(inout) :: self
-      class(hdf5_type), intent(inout) :: file
-      integer, intent(in) :: length
-      integer :: status
-      if (allocated(file%failure)) return
-      self%length = length
-      call h5dset_extent_f(self%id, int([length], hsize_t), status)
-      call file%check(status, 'change the size of a list of texts')
-   end subroutine resize
 
    !> Writes texts from the `first` on.
    subroutine write_texts(self, file, first, texts)

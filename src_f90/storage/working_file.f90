@@ -45,7 +45,9 @@ module working_file
       !> Shows other programs that this one lives, and has the system begin to write the part to the disk; to be called
       !> often with a clock, s.
       procedure :: beat
-      !> Deletes the part; frees the lock, whose file stays where the part does.
+      !> Deletes the part if it is the one that this run has made.
+      procedure :: drop_part => delete_part
+      !> The same, and frees the lock, whose file stays where the part does.
       procedure :: release
       !> An error where the part must not be written any more; to be asked before it is opened.
       procedure :: check_part
@@ -248,7 +250,7 @@ contains
       call begin_sync(self%part)
    end subroutine beat
 
-   !> Deletes the part if it is the one that this run has made; what stays so stays in the lock.
+   !> What stays stays in the lock.
    subroutine delete_part(self)
       class(working_file_type), intent(inout) :: self
       character(len=:), allocatable :: found

@@ -4,9 +4,9 @@ module files
    use system_texts, only: fortran_text, system_reason
    implicit none (type, external)
    private
-   public :: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, unlock_file
+   public :: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync
    public :: block_names
-   public :: empty_file, real_path, is_regular, file_identity, untold, make_folder, remove_folder, other_number
+   public :: real_path, is_regular, file_identity, untold, make_folder, remove_folder, other_number
 
    !> Stands for the identity that the system does not tell.
    character(len=*), parameter :: untold = '?'
@@ -53,18 +53,6 @@ module files
          import :: c_char
          character(kind=c_char, len=*), intent(in) :: path
       end subroutine begin_sync
-
-      !> Frees the lock of an open file, which children that have it open, too, would keep.
-      subroutine unlock_file(file) bind(c, name='tiltpad_unlock')
-         import :: c_int
-         integer(c_int), intent(in) :: file
-      end subroutine unlock_file
-
-      !> Closes an open file but keeps its number, behind which there is nothing then: what is written is lost.
-      subroutine empty_file(file) bind(c, name='tiltpad_empty')
-         import :: c_int
-         integer(c_int), intent(in) :: file
-      end subroutine empty_file
 
       !> True for an ordinary file, false for folders, devices, pipes and where nothing is there.
       logical(c_bool) function is_regular(path) bind(c, name='tiltpad_is_regular')

@@ -12,6 +12,7 @@
 #include <sched.h>
 #include <signal.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -194,21 +195,6 @@ void tiltpad_begin_sync(const text_t *path)
    close(file);
 }
 
-/* Frees the lock of an open file, which children that have it open too would keep. */
-void tiltpad_unlock(const int *file)
-{
-   flock(*file, LOCK_UN);
-}
-
-/* Closes an open file but keeps its number, behind which there is nothing then: what is written is lost. */
-void tiltpad_empty(const int *file)
-{
-   int nothing = open("/dev/null", O_RDWR);
-   if (nothing < 0) return;
-   dup2(nothing, *file);
-   close(nothing);
-}
-
 /* Makes a folder, unless something of its name is there. */
 bool tiltpad_make_folder(const text_t *path)
 {
@@ -267,6 +253,71 @@ const char *tiltpad_block_names(const text_t *path, const text_t *ending)
    if (!found) return "";
    found[length] = 0;
    return found;
+}
+
+/* ---- a file that is open ----------------------------------------------------------------------- */
+
+/* Its number, negative where it cannot be opened; a file that is written is there. */
+int tiltpad_open(const text_t *path, bool writing)
+{
+   C_STRING(name, path);
+   return open(name, (writing ? O_RDWR : O_RDONLY) | O_CLOEXEC);
+}
+
+long tiltpad_size(int file)
+{
+   struct stat status;
+   return fstat(file, &status) == 0 ? (long)status.st_size : -1;
+}
+
+/* Writes bytes at a place, the end of the file; where it is full, nothing of them stays. */
+bool tiltpad_write_at(int file, const text_t *bytes, long place)
+{
+   for (size_t done = 0; done < bytes->length;) {
+      ssize_t now = pwrite(file, bytes->start + done, bytes->length - done, place + done);
+      if (now < 0 && errno == EINTR) continue;
+      if (now <= 0) {
+         int reason = now < 0 ? errno : ENOSPC;
+         if (ftruncate(file, place) != 0) reason = reason ? reason : errno;
+         errno = reason;
+         return false;
+      }
+      done += now;
+   }
+   return true;
+}
+
+/* False where it cannot be read, and where fewer bytes are there. */
+bool tiltpad_read_at(int file, const text_t *bytes, long place)
+{
+   for (size_t done = 0; done < bytes->length;) {
+      ssize_t now = pread(file, bytes->start + done, bytes->length - done, place + done);
+      if (now < 0 && errno == EINTR) continue;
+      if (now == 0) errno = EIO;
+      if (now <= 0) return false;
+      done += now;
+   }
+   return true;
+}
+
+bool tiltpad_sync_open(int file)
+{
+   return fdatasync(file) == 0;
+}
+
+/* CRC-32 (ISO 3309, as in zlib) of bytes behind others, whose checksum is `before`. */
+int32_t tiltpad_crc32(const text_t *bytes, int32_t before)
+{
+   static uint32_t table[256];
+   uint32_t sum = ~(uint32_t)before;
+   if (!table[1]) {
+      for (uint32_t i = 0; i < 256; i++) {
+         table[i] = i;
+         for (int bit = 0; bit < 8; bit++) table[i] = table[i] >> 1 ^ (table[i] & 1 ? 0xEDB88320u : 0);
+      }
+   }
+   for (size_t i = 0; i < bytes->length; i++) sum = sum >> 8 ^ table[(sum ^ (unsigned char)bytes->start[i]) & 255];
+   return (int32_t)~sum;
 }
 
 /* ---- locks ------------------------------------------------------------------------------------- */

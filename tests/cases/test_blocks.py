@@ -363,7 +363,7 @@ def test_a_block_that_is_written(tiltpad, start, case):
         "&operation duration=10000 / &output keep='summary' /\n&sweep rotor%mass=2000,2100,2200 /\n"
     )
     process = start(folder, "-q", "case.nml", "--block", "1/3")
-    wait_for(lambda: (folder / "case.1of3.h5.part").exists(), process)
+    wait_for(lambda: (folder / "case.1of3.h5.rows").exists(), process)
     done = tiltpad("case.nml", "-q", "--block", "1/3", cwd=folder, status=3)
     assert f"case.1of3.h5: process {process.pid} on" in done.stderr
     done = tiltpad("case.nml", "-q", cwd=folder, status=3)
@@ -466,6 +466,6 @@ def test_a_disk_that_is_full_while_blocks_are_joined(tiltpad, program, case):
             break
         full += 1
         assert done.stderr.count("\n") == 1
-        assert done.stderr.endswith("no space left on device\n")
+        assert "o space left on device" in done.stderr
         assert "case.1of3.h5\ncase.2of3.h5\n" in done.stdout
     assert full > 2

@@ -1,5 +1,5 @@
-!> The record of a run: what it has after it was cleared and filled again, the file written from it again and again, and
-!> the message that brings it to another process.
+!> The record of a run: what it has after it was cleared and filled again, and the file written from it again
+!> and again.
 program test_record
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, i8
@@ -7,7 +7,6 @@ program test_record
    use files, only: delete_file
    use record, only: record_type, move_record
    use record_file, only: write_record, read_record
-   use record_message, only: description, take_description, numbers, take_numbers
    use hdf5_file, only: hdf5_type
    use scratch, only: scratch_path
    use check, only: runs, expect, expect_close, between, report
@@ -19,8 +18,6 @@ program test_record
    if (runs('filled_again')) call filled_again()
    if (runs('versions')) call versions()
    if (runs('moved')) call moved()
-   if (runs('message')) call message()
-   if (runs('messages_of_many_runs')) call messages_of_many_runs()
    if (runs('written_again')) call written_again()
    call report()
 
@@ -167,62 +164,6 @@ contains
       call fill(from, 2)
       call expect_run(from, 2, 'and can be filled again')
    end subroutine moved
-
-   !> Everything arrives, also where the record is used again.
-   subroutine message()
-      type(record_type) :: sent, taken
-      real(wp), allocatable :: values(:)
-      integer :: k, i
-      do k = 1, 7
-         call fill(sent, k)
-         values = numbers(sent)
-         call take_description(taken, description(sent))
-         call take_numbers(taken, values)
-         call expect_run_sent(taken, k)
-         call expect(taken%count == sent%count, 'datasets')
-         do i = 1, sent%count
-            associate (own => sent%datasets(i), its => taken%datasets(i))
-               call expect(own%path == its%path .and. own%units == its%units .and. own%long_name == its%long_name &
-                  & .and. own%scales == its%scales .and. own%kind == its%kind .and. own%texts == its%texts .and. &
-                  & size(own%extents) == size(its%extents), own%path)
-               call expect(all(own%extents == its%extents), own%path//': sizes')
-            end associate
-         end do
-      end do
-   end subroutine message
-
-   !> A message has no place for what a run lacks: it is not a number there.
-   subroutine expect_run_sent(record, k)
-      type(record_type), intent(inout) :: record
-      integer, intent(in) :: k
-      real(wp) :: values(2*k)
-      integer :: i
-      call record%get_list('modes/frequency', values)
-      call expect(all(abs(values - [(1.5_wp**i, i=1, 2*k)]) <= 0), 'values of '//to_text(k))
-      call expect(nint(record%get_real('statistics/steps'), i8) == 2_i8**40 + k, 'a count of '//to_text(k))
-      if (k < 3) return
-      call expect(ieee_is_nan(record%get_real('summary/only')) .neqv. mod(k, 3) == 0, 'a figure that not all have')
-   end subroutine expect_run_sent
-
-   !> A description is sent where the version is new alone; numbers are those of this description.
-   subroutine messages_of_many_runs()
-      type(record_type) :: sent, taken
-      integer :: i, k, told, descriptions
-      told = -1
-      descriptions = 0
-      do i = 1, 200
-         k = 3 + 3*int(between(0.0_wp, 1.02_wp))
-         call fill(sent, k)
-         if (sent%version /= told) then
-            call take_description(taken, description(sent))
-            descriptions = descriptions + 1
-         end if
-         told = sent%version
-         call take_numbers(taken, numbers(sent))
-         call expect_run_sent(taken, k)
-      end do
-      call expect(descriptions < 50, to_text(descriptions)//' descriptions')
-   end subroutine messages_of_many_runs
 
    !> Its file, written as it changes: sizes that change after they were deleted, what is no longer there, and a file
    !> that lacks more than the record knows.

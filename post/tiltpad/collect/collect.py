@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tiltpad.collect.runs import DONE, UNENDED, StudyRun, one_run, planned
-from tiltpad.collect.study_file import ranges, write
+from tiltpad.collect.study_log import ranges, write_study
 from tiltpad.files.archive import RunError, opened, plain, reading
 from tiltpad.files.processes import side_by_side
 from tiltpad.files.read import IncompleteRunWarning
@@ -77,7 +77,7 @@ def collect(
     missing = sorted(set(range(1, planned(runs) + 1)) - {each.number for each in runs})
     if missing:
         warnings.warn(f"{given[0]}: missing runs: {ranges(missing)}", RunWarning, stacklevel=2)
-    write(target, runs, missing)
+    write_study(target, runs, missing)
     done = sum(each.status == DONE for each in runs)
     unended = sum(each.status in UNENDED for each in runs)
     lost = sum(bool(np.isnan(each.status)) for each in runs)

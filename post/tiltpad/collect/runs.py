@@ -109,6 +109,9 @@ def measured(path: Path, run: Run) -> StudyRun:
             values |= {name: points[state] for name, state in POINTS.items() if state in points}
             values |= ends_of_revolutions(run, len(points["time"]))
     known = dict.fromkeys(each for _, dimensions in found.values() for each in dimensions)
+    labels = {name: value(run, name).tolist() for name in known}
+    if twice := [name for name, own in labels.items() if len(set(own)) < len(own)]:
+        raise damaged(f"{path}", twice[0], "a label is there twice")
     groups = [each.group for each in run.bearings.values()] or [""]
     counts = {group: len(values.get(f"{group}poincare_y", ())) for group in groups}
     return StudyRun(
@@ -123,7 +126,8 @@ def measured(path: Path, run: Run) -> StudyRun:
         {name: attributes[name] for name in ("version", "title", "input")},
         values,
         found,
-        {name: value(run, name).tolist() for name in (*known, *(f"{group}pad" for group in groups))}
+        labels
+        | {f"{group}pad": value(run, f"{group}pad").tolist() for group in groups}
         | {f"{group}revolution": range(1 - count, 1) for group, count in counts.items()},
         run.remarks,
     )

@@ -3,21 +3,48 @@
 import ctypes
 import multiprocessing
 import os
+import shutil
 import signal
 import subprocess
+import sys
 import threading
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import Any, TypeVar
+
+from tiltpad.files.archive import RunError
 
 Part = TypeVar("Part")
 Result = TypeVar("Result")
 
+#: The program, where the environment variable TILTPAD names no other.
+PROGRAM = "tiltpad"
 #: Signals that end or interrupt a process.
 INTERRUPTS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 #: The system's own functions, and the number with which prctl asks for a signal at the parent's end.
 SYSTEM, PARENT_DEATH_SIGNAL = ctypes.CDLL(None), 1
+
+
+class MissingProgramError(RunError):
+    """There is no program to run."""
+
+
+def program() -> str:
+    """The program: TILTPAD in the environment, that of this Python, on PATH, or built where the source is."""
+    if given := os.environ.get("TILTPAD"):
+        if not os.access(given, os.X_OK):
+            raise MissingProgramError(f"TILTPAD = {given}: no program")
+        return given
+    beside = Path(sys.executable).parent / PROGRAM
+    built = Path(__file__).resolve().parents[3] / "build/bin" / PROGRAM
+    for each in (beside, shutil.which(PROGRAM), built):
+        if each and os.access(each, os.X_OK):
+            return os.fspath(each)
+    raise MissingProgramError(
+        "no program tiltpad: build it (make build), put it on PATH, or name it in the variable TILTPAD"
+    )
 
 
 def run_program(words: Sequence[str], **options: Any) -> subprocess.CompletedProcess:
@@ -30,6 +57,14 @@ def run_program(words: Sequence[str], **options: Any) -> subprocess.CompletedPro
             os._exit(1)
 
     return subprocess.run(words, text=True, preexec_fn=follow, **options)
+
+
+def write_table(log: str | os.PathLike, target: str | os.PathLike) -> None:
+    """Has the program make the file of a study of its log. Raises RunError."""
+    words = [program(), "--table", os.fspath(log), "--output", os.fspath(target)]
+    done = run_program(words, stderr=subprocess.PIPE)
+    if done.returncode:
+        raise RunError(done.stderr.strip().removeprefix("tiltpad: error: "))
 
 
 def side_by_side(work: Callable[[Part], Result], parts: Iterable[Part]) -> list[Result]:

@@ -3,6 +3,10 @@
 import csv
 import io
 import os
+import tempfile
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,7 +16,8 @@ import numpy as np
 
 from tiltpad.files.archive import Archive, RunError, damaged, few_enough, plain, reading, shown
 from tiltpad.files.notebook import html_of
-from tiltpad.files.read import Run, StudyError, read
+from tiltpad.files.processes import write_table
+from tiltpad.files.read import IncompleteRunWarning, Run, StudyError, read
 from tiltpad.files.writing import write
 
 #: The dimension of all arrays, and of what has a value for each of the pivots in small vibrations.
@@ -66,9 +71,35 @@ def read_study(path: str | os.PathLike) -> "Study":
 def read_either(path: str | os.PathLike) -> "Run | Study":
     """Opens the result of a run or a study, whichever it is. Raises RunError."""
     try:
-        return read(path)
+        return read_study(path) if os.path.exists(log_of(path)) else read(path)
     except StudyError:
         return read_study(path)
+
+
+def log_of(path: str | os.PathLike) -> str:
+    """The log of a study that is being performed, or whose program was killed: it has all rows."""
+    return f"{os.path.realpath(path)}.rows"
+
+
+@contextmanager
+def with_all_rows(path: str | os.PathLike) -> Iterator[str | os.PathLike]:
+    """The file of a study, or, where it has a log, one that the program makes of this, to be opened at once."""
+    if not os.path.exists(log := log_of(path)):
+        yield path
+        return
+    with tempfile.TemporaryDirectory(prefix="tiltpad-") as folder:
+        table: str | os.PathLike = os.path.join(folder, os.path.basename(path))
+        try:
+            write_table(log, table)
+        except RunError as error:
+            if not os.path.exists(path):
+                raise
+            table = path
+            if os.path.exists(log):
+                warnings.warn(
+                    f"{path}: without the rows since its last checkpoint: {error}", IncompleteRunWarning, stacklevel=4
+                )
+        yield table
 
 
 class Study(Archive):
@@ -87,6 +118,11 @@ class Study(Archive):
 
     KINDS = "fiuO"
 
+    def __init__(self, path: str | os.PathLike):
+        with with_all_rows(path) as table:
+            super().__init__(table)
+        self.path = os.fspath(path)
+
     title: str
     version: str
     created: str
@@ -104,8 +140,8 @@ class Study(Archive):
         """The datasets as an xarray.Dataset in memory, over the runs; needs xarray and h5netcdf."""
         import xarray
 
-        with reading(self.path, "it"):
-            return xarray.load_dataset(self.path, engine="h5netcdf")
+        with reading(self.path, "it"), with_all_rows(self.path) as table:
+            return xarray.load_dataset(table, engine="h5netcdf")
 
     def to_csv(self, path: str | os.PathLike) -> None:
         """Writes parameters and results of one number, a row for each run.
