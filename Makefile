@@ -37,24 +37,27 @@ endif
 
 # ---- flags by compiler: this is the one place ---------------------------------------------------
 # Another compiler needs a block of its own and its name in `family`.
-#   standard         used always
+#   standard         used always; position-independent, as Python's library is of the same objects
 #   heap             added for modules whose arrays are as long as a run
 #   modules          stands before the folder of module files
-#   release, debug   FFLAGS, if they are not given
+#   release, debug   FFLAGS, if they are not given; plain_release, plain_debug: added to them for modules that compute
+#                    little and for tests, which compile in half the time
 #   any, alone       FFLAGS for any processor of this kind, and what links the compiler's own libraries in: for a wheel
 machine := $(shell uname -m)
 family := $(or $(findstring flang,$(notdir $(FC))),$(findstring ifx,$(notdir $(FC))),gfortran)
 
-gfortran.standard := -std=f2018 -fimplicit-none -fopenmp-simd
+gfortran.standard := -std=f2018 -fimplicit-none -fopenmp-simd -fPIC -fno-semantic-interposition
 gfortran.heap     := -fno-stack-arrays
 gfortran.modules  := -J
 gfortran.release  := -O3 -march=native -mprefer-vector-width=256 -fstack-arrays
+gfortran.plain_release := -O1
+gfortran.plain_debug   := -O0
 gfortran.debug    := -O1 -g -fcheck=all,no-array-temps -fbacktrace -ffpe-trap=invalid,zero,overflow -Wall -Wextra \
                      -Wno-unused-dummy-argument -Wno-uninitialized -Wno-maybe-uninitialized -Wno-compare-reals -Werror
 gfortran.any      := -O3 -fstack-arrays
 gfortran.alone    := -static-libgcc -static-libgfortran -l:libgfortran.a $(if $(filter x86_64,$(machine)),-l:libquadmath.a)
 
-flang.standard := -std=f2018 -fimplicit-none
+flang.standard := -std=f2018 -fimplicit-none -fPIC
 flang.heap     := -fno-stack-arrays
 flang.modules  := -J
 flang.release  := -O3 -march=native -fstack-arrays
@@ -62,7 +65,7 @@ flang.debug    := -O1 -g
 flang.any      := -O3 -fstack-arrays
 flang.alone    :=
 
-ifx.standard := -stand f18 -implicitnone -qopenmp-simd
+ifx.standard := -stand f18 -implicitnone -qopenmp-simd -fPIC
 ifx.heap     := -heap-arrays
 ifx.modules  := -module #
 ifx.release  := -O3 -xHost -fp-model=precise
@@ -76,10 +79,6 @@ B := build/debug
 else ifeq ($(MODE),release)
 FFLAGS ?= $($(family).release)
 B := build
-else ifeq ($(MODE),wrap)
-# for Python: position-independent, and for any machine of its kind, as a wheel travels
-override FFLAGS := -O2 -fPIC
-B := build/wrap
 else ifneq ($(filter any x86-64-v3,$(MODE)),)
 # for a wheel: any processor of its kind, and those of PCs since about 2013
 override FFLAGS := $($(family).any) $(if $(filter x86%,$(MODE)),-march=$(MODE))
@@ -106,9 +105,7 @@ modules  := $(if $(SUNDIALS_PREFIX),$(wildcard $(addprefix $(SUNDIALS_PREFIX)/,i
 INCLUDE := $(addprefix -I,$(modules)) $(patsubst %,-I%/include,$(SUNDIALS_PREFIX)) -I$(B)/mod
 # how a program is linked with them is found out when linking, as they may be installed only now
 LIBS := $$(cat $(B)/lib/flags)
-ifneq ($(filter any x86-64-v3,$(MODE)),)
-LIBS += $($(family).alone) -s
-endif
+alone := $(if $(filter any x86-64-v3,$(MODE)),$($(family).alone) -s)
 COMPILE = $(FC) $($(family).standard) $(FFLAGS) $(INCLUDE) $($(family).modules)$(B)/mod
 
 # ---- system packages ---------------------------------------------------------------------------
@@ -129,8 +126,11 @@ objects_of = $(call object,$(linked.$1) $(basename $(notdir $(filter-out src_f90
 # which modules each source uses, and which say that they have arrays as long as a run
 $(foreach line,$(shell awk -f src_f90/dependencies.awk $(sources)),$(eval $(subst ;, ,$(line))))
 # such arrays are not on the stack, wherever FFLAGS puts the short ones of the march
-run_long := $(sort $(heap) $(basename $(notdir $(filter $(addprefix src_f90/,$(addsuffix /%.f90,\
-            system input storage results app)),$(sources)))))
+modules_of = $(basename $(notdir $(filter $(addsuffix /%,$1),$(sources))))
+run_long := $(sort $(heap) $(call modules_of,$(addprefix src_f90/,system input storage results app)))
+# modules that compute little, and what their FFLAGS have besides
+plain := $(call modules_of,$(addprefix src_f90/,base system case input storage results app equilibrium branches) tests)
+plain_flags := $(if $(filter file override,$(origin FFLAGS)),$($(family).plain_$(if $(filter debug,$(MODE)),debug,release)))
 test_names := $(basename $(notdir $(filter tests/unit/test_% tests/physics/test_%,$(sources))))
 test_programs := $(addprefix $(B)/tests/,$(test_names))
 programs := $(B)/bin/tiltpad $(test_programs) $(B)/fuzz/fuzz_input $(B)/bench/film_bench $(B)/stress/global_search
@@ -152,7 +152,7 @@ module build_info
    character(len=*), parameter :: program_flags = ''$(foreach flag,$(FFLAGS), &$(newline)     & //' $(subst ','',$(flag))')
 end module build_info
 endef
-flags := $(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) long:$($(family).heap) $(run_long)
+flags := $(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) long:$($(family).heap) $(run_long) plain:$(plain_flags) $(plain)
 ifeq ($(only_tells),)
 $(shell mkdir -p $(B)/obj $(B)/mod)
 # $1: a file, $2: what it must say
@@ -169,7 +169,7 @@ VENV := build/venv
 venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
-.PHONY: help run build deps python wrap python_library wheel test test-slurm test-debian13 stress realistic fuzz faults \
+.PHONY: help run build deps python again wheel test test-slurm test-debian13 stress realistic fuzz faults \
         bench paper site unit test-programs lint format docs install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
@@ -210,8 +210,7 @@ test: build python build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B
 	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input
 	@if $(MAKE) --no-print-directory build/site/ready; then $(MAKE) --no-print-directory site; \
 	   else echo 'no mkdocs: the tests of the site are skipped'; fi
-	@TILTPAD="$$PWD/$(B)/bin/tiltpad" tests/run_all $(VENV)/bin/python \
-	   $(addprefix build/debug/tests/,$(test_names))
+	@TILTPAD="$$PWD/$(B)/bin/tiltpad" $(venv_python) tests/run_all.py $(addprefix build/debug/tests/,$(test_names))
 
 # starts munged, slurmctld and slurmd in a temporary folder, and stops them
 test-slurm: build python build/deps-slurm
@@ -274,29 +273,21 @@ build/deps-%: build/deps-checked
 	@$(if $(strip $(prefixes)),,src_f90/packages.sh $(packages.$*) || echo 'tests that need them are skipped')
 	@touch $@
 
-python: $(VENV)/ready wrap
+python: $(VENV)/ready $(B)/library
 
-# the library for Python, by f2py: objects of their own, of the modules that it uses
-wrap: $(VENV)/ready
-	@ls post/tiltpad/_library.* >/dev/null 2>&1 || rm -f build/wrap/library
-	@$(MAKE) --no-print-directory MODE=wrap build/wrap/library
-
-build/wrap/library: $$(call objects_of,library) $(VENV)/ready
-	@rm -f post/tiltpad/_library.*
-	@$(MAKE) --no-print-directory MODE=wrap python_library FOLDER=post/tiltpad
-	@touch $@
-
-# compiles it, in MODE=wrap, for the Python of VENV into FOLDER
+# the library for Python, by f2py, of the program's objects of the modules that it uses
+FOLDER := post/tiltpad
 f2py = $(B)/f2py/$(FOLDER)
-python_library: $$(call objects_of,library)
-	@rm -rf $(f2py) && mkdir -p $(f2py) && cp $(wrapper) $(f2py)
+$(B)/library: $$(call objects_of,library) $(VENV)/ready $(if $(wildcard $(FOLDER)/_library.*),,again)
+	@rm -rf $(FOLDER)/_library.* $(f2py) && mkdir -p $(f2py) && cp $(wrapper) $(f2py)
 	root=$$PWD; cd $(f2py) && "$$root/$(venv_python)" -m numpy.f2py --quiet -m _library $(notdir $(wrapper)) >log 2>&1 || \
 	   { cat log; exit 1; }
 	set -e; eval "$$($(venv_python) post/wrap/paths.py)"; \
 	$(COMPILE) -c $(f2py)/_library-f2pywrappers2.f90 -o $(f2py)/wrappers.o; \
 	for source in $(f2py)/_librarymodule.c "$$f2py/fortranobject.c"; do \
 	   $(CC) -O2 -fPIC -w -I"$$python" -I"$$numpy" -I"$$f2py" -c "$$source" -o $(f2py)/$$(basename "$$source").o; done; \
-	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $^ $(LIBS) -o $(FOLDER)/_library$$suffix
+	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $(filter %.o,$^) $(LIBS) -o $(FOLDER)/_library$$suffix
+	@touch $@
 
 $(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/deps-checked
 	$(PYTHON) -m venv $(VENV)
@@ -326,7 +317,8 @@ wheel-%:
 	cp LICENSE build/wheel/$*/source && post/wheel/licences.sh build/any/lib/flags build/wheel/$*/source
 	$* -m venv build/wheel/$*/venv
 	grep -E '^(numpy|setuptools|wheel)=' post/requirements.txt | build/wheel/$*/venv/bin/python -m pip install -q -r /dev/stdin
-	@$(MAKE) --no-print-directory MODE=wrap python_library VENV=build/wheel/$*/venv FOLDER=build/wheel/$*/source/tiltpad
+	touch build/wheel/$*/venv/ready
+	@$(MAKE) --no-print-directory MODE=any VENV=build/wheel/$*/venv FOLDER=build/wheel/$*/source/tiltpad build/any/library
 	build/wheel/$*/venv/bin/python -m pip wheel -q --no-build-isolation --no-deps -w build/wheel/$*/raw build/wheel/$*/source
 	PATH="$$PWD/$(VENV)/bin:$$PATH" $(venv_python) -m auditwheel repair -w build/wheel build/wheel/$*/raw/*.whl
 	tests/wheel/try_wheel build/wheel $* build/wheel/$*/try
@@ -361,7 +353,7 @@ build: $(B)/bin/tiltpad
 $(programs): $$(call objects_of,$$(@F))
 	@mkdir -p $(@D)
 	@echo 'linking $@'
-	@$(FC) $(FFLAGS) -o $@ $^ $(LIBS)
+	@$(FC) $(FFLAGS) -o $@ $^ $(LIBS) $(alone)
 
 $(B)/bin/tiltpad: $(B)/obj/program_start.o
 
@@ -385,6 +377,7 @@ $(B)/lib/unused.o: $(B)/lib/flags
 	$(CC) -O1 -fPIC -w -c $(B)/lib/unused.c -o $@
 
 $(call object,$(run_long)): private override FFLAGS += $($(family).heap)
+$(call object,$(plain)): private override FFLAGS += $(plain_flags)
 
 test-programs: $(test_programs)
 

@@ -235,8 +235,7 @@ contains
          & '                          task of an array job; the last that ends joins them', &
          & '  --jobs N                performs N runs of a study at a time; default: one for each processor', &
          & '  --run K                 performs (with --check: prints) only run K of a study', &
-         & '  --table FILE            makes the file of a study of its log, FILE (NAME.h5.rows), as a study does at', &
-         & '                          its end; runs nothing', &
+         & '  --table FILE            makes the file of a study of its log, FILE (NAME.h5.rows); runs nothing', &
          & '  --count                 prints the number of runs of the case; 1 without a group &sweep', &
          & '  --yes                   performs a study of more than a gigabyte from a terminal, too', &
          & '  --quiet                 prints errors only', &

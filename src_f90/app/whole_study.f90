@@ -138,6 +138,7 @@ contains
       tally = new_tally(status(first:last))
       if (all(stays(status(first:last)) .and. .not. missing(first:last)) .and. .not. is_begun(runner%place%name, path, &
          & share)) then
+         call clear_leftovers(path)
          ! a block that has been joined
          if (.not. is_regular(path)) path = runner%place%name//'.h5'
          return

@@ -189,17 +189,21 @@ def test_a_full_disk(folder, small_disk, kilobytes):
 def test_one_refused_write(folder, failing):
     """Whichever it is, it is told, and the study that was there stays."""
     before = old(folder, "study.h5")
-    told = write = 0
-    while True:
+    told = missed = write = 0
+    # Python tries its folder for temporary files by a write, and takes another where that fails
+    while missed < 2:
         write += 1
         status, said = ended(folder, "study.h5", env=failing("write", write, "ENOSPC"))
+        assert names(folder) == ["study.h5"]
         if status == 0:
-            break
+            missed += 1
+            before = (folder / "study.h5").read_bytes()
+            continue
         told += 1
+        missed = 0
         assert (status, said.count("\n")) == (3, 1), said
         assert "no space left on device" in said.lower(), said
         assert (folder / "study.h5").read_bytes() == before
-        assert names(folder) == ["study.h5"]
     assert told > 0
 
 

@@ -290,7 +290,7 @@ def test_the_input_reference_is_up_to_date(tiltpad, root):
 def test_every_option_of_the_help_is_known(tiltpad, case):
     """One that is not is proposed for its own name without its last letter."""
     options = re.findall(r"^  (--[a-z]+)", tiltpad("--help", cwd=case).stdout, re.M) + ["--help"]
-    assert len(options) == 15
+    assert len(options) == 16
     for option in options:
         run = tiltpad("case.nml", option + "x", cwd=case)
         assert f"(did you mean {option}?)" in run.stderr

@@ -1,0 +1,83 @@
+"""Runs every test program and the Python tests, as many at a time as there are processors.
+
+The last line reads "N passed, N failed" over all of them; before it stand the tests that took longest.
+
+usage: run_all.py TEST-PROGRAM...
+TILTPAD: the program under test. ONLY=NAME: of the test programs the cases whose "program:case" contains NAME, of
+the Python tests those that pytest -k NAME takes.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+
+TESTS = Path(__file__).parent
+ONLY = os.environ.get("ONLY", "")
+#: How many of the slowest tests are listed; shorter ones than this, s, never are.
+SLOWEST, SHORT = 25, 0.5
+#: A test that hangs shows where, and ends the others of its file.
+PYTEST = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=0", f"--durations-min={SHORT}",
+          "-o", "faulthandler_timeout=900", "-o", "faulthandler_exit_on_timeout=true"]  # fmt: skip
+#: What pytest says of a test's time.
+DURATION = re.compile(r"([\d.]+)s (?:call|setup|teardown) +(\S.*)\n")
+COUNTS = re.compile(r"(\d+) passed, (\d+) failed")
+
+
+def jobs(programs):
+    """Each job's name and command; those that take long come first."""
+    python = [sys.executable, *PYTEST, *(["-k", ONLY] if ONLY else [])]
+    # tests/post shares its result files
+    yield "tests/post", [*python, "tests/post"]
+    for file in sorted(TESTS.glob("cases/test_*.py"), key=lambda file: -file.stat().st_size):
+        yield f"tests/cases/{file.name}", [*python, str(file.relative_to(TESTS.parent))]
+    for program in programs:
+        yield Path(program).name, [program]
+
+
+def perform(name, command):
+    """Whatever a job wrote, and the seconds of its tests by their names."""
+    start = time.monotonic()
+    done = subprocess.run(command, cwd=TESTS.parent, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          errors="replace")  # fmt: skip
+    seconds = {}
+    for spent, test in DURATION.findall(done.stdout):
+        seconds[test] = seconds.get(test, 0) + float(spent)
+    if not command[0] == sys.executable:
+        seconds[name] = time.monotonic() - start
+    return DURATION.sub("", done.stdout).replace(f"slowest durations", ""), seconds
+
+
+def main(programs):
+    if not programs:
+        sys.exit("no test program is given")
+    passed = failed = 0
+    seconds = {}
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        started = {pool.submit(perform, *job): job[0] for job in jobs([os.path.abspath(each) for each in programs])}
+        for job in as_completed(started):
+            log, spent = job.result()
+            seconds |= spent
+            counts = COUNTS.fullmatch(log.rstrip().rpartition("\n")[2])
+            if counts and ONLY and counts[0] == "0 passed, 0 failed":
+                continue
+            print(f"== {started[job]}\n{log}", end="", flush=True)
+            if counts:
+                passed += int(counts[1])
+                failed += int(counts[2])
+            else:
+                print(f"FAILED: {started[job]} ended without a count of its tests")
+                failed += 1
+    print("\nthe slowest:")
+    for name in sorted(seconds, key=seconds.get, reverse=True)[:SLOWEST]:
+        print(f"{seconds[name]:8.1f} s  {name}")
+    if ONLY and passed + failed == 0:
+        print(f"no test has {ONLY} in its name")
+    print(f"\n{passed} passed, {failed} failed")
+    sys.exit(not passed or failed > 0)
+
+
+main(sys.argv[1:])
