@@ -8,7 +8,7 @@ module tiltpad_library
    use text, only: to_text
    use case_inputs, only: case_type
    use case_namelist, only: case_from_text
-   use number_columns, only: read_tables
+   use read_files, only: read_tables
    use film_oils, only: uneven_oil
    use factories, only: make_law, make_friction
    use abstract_rotor, only: journal_motion

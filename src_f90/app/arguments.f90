@@ -1,7 +1,7 @@
 !> The words of the command line.
 module arguments
    use text, only: shortened, to_text, lower_case, whole_number
-   use variable_names, only: meant_variable, meant_word
+   use case_parameter, only: meant_variable, meant_word
    use errors, only: error_type, raise, require, input_error
    use study_blocks, only: block_type
    implicit none (type, external)

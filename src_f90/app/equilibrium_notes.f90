@@ -14,7 +14,7 @@ module equilibrium_notes
    use equations_of_motion, only: machine_model
    use load_shares, only: bearing_alone, part_of, bearing_loads
    use bearing_file, only: bearing_file_type
-   use checked_case, only: first_equal
+   use namelist_writer, only: first_equal
    use equilibrium_results, only: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, &
       & put_film_temperatures, put_oil
    use machine_results, only: put_machine_equilibrium

@@ -13,7 +13,7 @@ module run_case
    use hdf5_file, only: hdf5_type
    use restart, only: restart_type, read_result, open_result, refuse_other_case
    use rotor_file, only: read_rotor
-   use number_columns, only: read_tables
+   use read_files, only: read_tables
    use files, only: is_regular
    use processes, only: can_have
    use working_file, only: clear_leftovers

@@ -7,7 +7,7 @@ program tiltpad
    use case_inputs, only: case_type
    use parameter_study, only: study_type, run_tag, read_study
    use namelist_writer, only: namelist_of, reference_text
-   use number_columns, only: read_tables
+   use read_files, only: read_tables
    use files, only: real_path
    use processes, only: write_output
    use build_info, only: program_version, program_commit

@@ -3,13 +3,12 @@ module whole_study
    use kinds, only: wp
    use errors, only: error_type, raise, input_error
    use case_inputs, only: case_type
-   use result_size, only: size_note, is_huge
+   use result_size, only: size_note, result_bytes
    use assignments, only: assignment_type, token_type, target_text
    use parameter_study, only: study_type, run_tag
    use namelist_writer, only: namelist_of
-   use number_columns, only: read_tables
    use files, only: is_regular
-   use read_files, only: file_marks
+   use read_files, only: read_tables, file_marks
    use rotor_file, only: read_rotor
    use processes, only: processors, is_terminal
    use working_file, only: clear_leftovers
@@ -40,6 +39,8 @@ module whole_study
    !> Variables that decide which files a run reads.
    character(len=*), parameter :: deciding(3) = ['file', 'kind', 'law ']
    character(len=*), parameter :: newline = achar(10)
+   !> Bytes of results, above which a study is refused.
+   real(wp), parameter :: huge_size = 1e9_wp
 
 contains
 
@@ -55,7 +56,7 @@ contains
       runs = share%last(study%runs) - share%first(study%runs) + 1
       call study%inputs(1, first, error)
       if (allocated(error) .or. runs < 1) return
-      if (.not. is_huge(first, runs)) return
+      if (runs*result_bytes(first) <= huge_size) return
       note = size_note(first, runs)
       call raise(error, input_error, note(7:)//'; --yes performs them all the same')
    end subroutine refuse_large
@@ -187,7 +188,7 @@ contains
       type(study_type), intent(in) :: study
       type(assignment_type), allocatable :: varied(:)
       integer :: i
-      varied = study%varied%targets()
+      varied = study%varied%variables%target
       keeps_differ = any([(any(target_text(varied(i)) == [character(len=11) :: 'case%task', 'output%keep']), &
          & i=1, size(varied))])
    end function keeps_differ
@@ -244,7 +245,7 @@ contains
       type(assignment_type), allocatable :: varied(:)
       type(token_type) :: token
       integer :: i, k, way
-      varied = study%varied%targets()
+      varied = study%varied%variables%target
       marks = marks_of_run(study, 1)
       do i = 1, size(varied)
          if (all(varied(i)%name /= deciding)) cycle

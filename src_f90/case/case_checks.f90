@@ -30,395 +30,365 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
       integer :: b
+      ! long: a list of checks, below
       if (.not. inputs%rotor%is_rigid()) then
-         call check_machine(inputs, error)
-         if (.not. allocated(error)) call check_start(inputs, inputs%bearings(1), error)
+         associate (s => inputs%start, q => inputs%coefficients%cross_stiffness)
+            call check_shaft(inputs%rotor%elastic)
+            call check_parts(inputs%rotor%station_count())
+            call require(any(s%from == ['equilibrium', 'file       ']), 'start%from = '''//s%from//''': must be ' &
+               & //'''equilibrium'' or ''file'' for a machine', error)
+            call require(.not. abs(q) > 0, 'coefficients%cross_stiffness = {}: must be 0 for a machine', [q], error)
+            if (.not. allocated(error)) call check_start(inputs%bearings(1))
+         end associate
       end if
       do b = 1, size(inputs%bearings)
          if (allocated(error)) return
-         call check_groups(inputs, inputs%bearings(b), error)
-         call add_context(error, inputs%bearings(b)%label())
+         associate (bearing => inputs%bearings(b))
+            call check_bearing(bearing)
+            call check_laws(bearing)
+            call check_start(bearing)
+            call check_pads(bearing)
+            call add_context(error, bearing%label())
+         end associate
       end do
-      call check_run(inputs, error)
-      call check_shape(inputs, error)
-      call check_branch(inputs, error)
-      call check_excitations(inputs, error)
-   end subroutine check_case
-
-   !> The groups of one bearing.
-   subroutine check_groups(inputs, bearing, error)
-      type(case_type), intent(in) :: inputs
-      type(bearing_type), intent(in) :: bearing
-      type(error_type), allocatable, intent(inout) :: error
-      call check_bearing(bearing, error)
-      call check_laws(inputs, bearing, error)
-      call check_start(inputs, bearing, error)
-      call check_pads(bearing, error)
-   end subroutine check_groups
-
-   !> Solver of the films, and sizes of a bearing.
-   subroutine check_bearing(bearing, error)
-      type(bearing_type), intent(in) :: bearing
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: most, i
-      associate (f => bearing%film, cells => bearing%film%circumferential_cells)
-         call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = {}: must ' &
-            & //'be even, and 0 or at least 8', [real(cells, wp)], error)
-         call require(f%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough', error)
-         call require(f%solver /= 'fourier' .or. f%cavitation /= 'reynolds', 'film%solver = ''fourier''' &
-            & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''', error)
-         ! where films cavitate, elimination keeps a block of (axial cells/2)**2 values a column and pad;
-         ! 0 stands for some 100 columns
-         most = int(sqrt(most_in_blocks/(max(cells, 100)*bearing%pad_count())))
-         call require(f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most, &
-            & 'film%axial_cells = {}: must be at most {} with film%circumferential_cells = {} and {} pads, or ' &
-            & //'film%solver = ''sor''', [real(wp) :: f%axial_cells, most, cells, bearing%pad_count()], error)
-      end associate
-      associate (machined => bearing%machined_clearance, assembled => bearing%assembled_clearance, &
-            & radius => bearing%journal_radius)
-         do i = 1, bearing%pad_count()
-            if (.not. in_range(machined(i)/radius, clearance_range)) call refuse(filled( &
-               & 'bearing%machined_clearance = {}: must be {} to {} of bearing%journal_radius = {}'//in_metres, &
-               & [real(wp) :: machined(i), clearance_range, radius, i])//in_other_units(machined(i), &
-               & 'bearing%machined_clearance', 'm', clearance_range(1)*radius, clearance_range(2)*radius), error)
-            call require(assembled(i) <= 2*machined(i), 'bearing%assembled_clearance = {}: must be at most twice ' &
-               & //'bearing%machined_clearance = {}'//in_metres, [real(wp) :: assembled(i), machined(i), i], error)
-            if (.not. in_range(bearing%axial_length(i)/radius, length_range)) call refuse(filled( &
-               & 'bearing%axial_length = {}: must be {} to {} times bearing%journal_radius = {}'//in_metres, &
-               & [real(wp) :: bearing%axial_length(i), length_range, radius, i])//in_other_units( &
-               & bearing%axial_length(i), 'bearing%axial_length', 'm', length_range(1)*radius, &
-               & length_range(2)*radius), error)
-         end do
-      end associate
-      call require(bearing%cavitation_pressure <= min(bearing%supply_pressure, bearing%ambient_pressure) &
-         & .or. bearing%film%cavitation == 'none', 'bearing%cavitation_pressure = {}: must not exceed ' &
-         & //'bearing%supply_pressure = {} and bearing%ambient_pressure = {}', &
-         & [bearing%cavitation_pressure, bearing%supply_pressure, bearing%ambient_pressure], error)
-   end subroutine check_bearing
-
-   !> Heat, friction and pivots of a bearing.
-   subroutine check_laws(inputs, bearing, error)
-      type(case_type), intent(in) :: inputs
-      type(bearing_type), intent(in) :: bearing
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: i
-      associate (t => inputs%thermal, oil => bearing%oil)
-         call require(t%model == 'pad' .or. t%march == 'frozen', 'thermal%march = '''//t%march//''': has no effect ' &
-            & //'but with thermal%model = ''pad''', error)
-         call require(t%model == 'none' .or. oil%law /= 'constant', 'thermal%model = '''//t%model//''': needs an oil ' &
-            & //'whose viscosity depends on its temperature: oil%grade, oil%kinematic_viscosity, or ' &
-            & //'oil%reference_viscosity and oil%temperature_exponent', error)
-         call require(t%march == 'frozen' .or. oil%groove_volume > 0, 'oil%groove_volume = 0: must be > 0 for ' &
-            & //'thermal%march = ''groove''', error)
-         call require(t%march == 'frozen' .or. inputs%start%from /= 'partial', 'start%from = ''partial'': is not for ' &
-            & //'thermal%march = ''groove'', which begins at the equilibrium', error)
-      end associate
-      associate (f => bearing%friction, static => bearing%friction%static_coefficient, &
-            & dynamic => bearing%friction%dynamic_coefficient)
-         do i = 1, bearing%pad_count()
-            call require(dynamic(i) <= static(i), 'friction%dynamic_coefficient = {}: must not exceed ' &
-               & //'friction%static_coefficient = {} (pad {})', [real(wp) :: dynamic(i), static(i), i], error)
-            call require(f%model /= 'lugre' .or. dynamic(i) > 0, 'friction%dynamic_coefficient = 0: must be > 0 for ' &
-               & //'model = ''lugre'' (pad {})', [real(i, wp)], error)
-         end do
-         call require(bearing%tilting() .or. f%model == 'none', 'friction%model = '''//f%model//''': must be ' &
-            & //'''none'' for pads%motion = ''fixed'', whose pads have no pivots', error)
-      end associate
-      associate (v => bearing%pivot)
-         call require(v%law /= 'table' .or. v%file /= '', 'pivot%file = '''': must name a CSV file for ' &
-            & //'law = ''table''', error)
-         call require(v%law == 'table' .or. v%file == '', 'pivot%file = '''//v%file &
-            & //''': needs pivot%law = ''table''', error)
-         do i = 1, size(v%socket_radius)
-            call require(v%radius_difference(i) <= 0.5_wp*v%socket_radius(i), 'pivot%radius_difference = {}: must be ' &
-               & //'at most half of pivot%socket_radius = {} (pad {})', &
-               & [real(wp) :: v%radius_difference(i), v%socket_radius(i), i], error)
-            call require(v%law /= 'hertz' .or. v%radius_difference(i) > 0, 'pivot%radius_difference = 0: must be > 0 ' &
-               & //'for law = ''hertz'' (pad {})', [real(i, wp)], error)
-         end do
-      end associate
-   end subroutine check_laws
-
-   subroutine check_start(inputs, bearing, error)
-      type(case_type), intent(in) :: inputs
-      type(bearing_type), intent(in) :: bearing
-      type(error_type), allocatable, intent(inout) :: error
-      associate (s => inputs%start)
-         call require(s%from /= 'file' .or. s%file /= '', 'start%file = '''': must name a result for start%from = ' &
-            & //'''file''', error)
-         call require(s%from == 'file' .or. s%file == '', 'start%file = '''//s%file//''': needs start%from = ' &
-            & //'''file'', not '''//s%from//'''', error)
-         call require(bearing%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0), 'start%pad_tilt = {}, ' &
-            & //'pad_tilt_rate = {}: must be 0 for pads%motion = ''fixed''', [s%pad_tilt(1), s%pad_tilt_rate(1)], error)
-         call require(bearing%tilting_radial() .or. all(abs([s%pivot_deflection, s%pivot_deflection_rate]) <= 0), &
-            & 'start%pivot_deflection = {}, pivot_deflection_rate = {}: must be 0 for pads%motion = ''' &
-            & //bearing%pads%motion//'''', [s%pivot_deflection(1), s%pivot_deflection_rate(1)], error)
-      end associate
-   end subroutine check_start
-
-   subroutine check_pads(bearing, error)
-      type(bearing_type), intent(in) :: bearing
-      type(error_type), allocatable, intent(inout) :: error
-      real(wp) :: smallest
-      integer :: i
-      associate (p => bearing%pads)
-         do i = 1, bearing%pad_count()
-            call require_room(bearing, i, error)
-            if (.not. bearing%tilting()) cycle
-            call require(p%arc_deg(i) <= longest_arc, 'pads%arc_deg = {}: must be at most {} for pads that tilt', &
-               & [p%arc_deg(i), longest_arc], error)
-            smallest = p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2)
-            if (.not. (p%inertia(i) > smallest)) call refuse(filled('pads%inertia = {}: must exceed pads%mass = {} ' &
-               & //'times the squared distance of the centre of gravity from the pivot, {} (pad {})', &
-               & [real(wp) :: p%inertia(i), p%mass(i), smallest, i])//in_other_units(p%mass(i), 'pads%mass', 'kg', &
-               & 0.0_wp, p%mass(i)*p%inertia(i)/smallest), error)
-         end do
-      end associate
-   end subroutine check_pads
-
-   !> A pad reaches from theta - theta_2 to theta + theta_1; the next one must start after that.
-   subroutine require_room(bearing, i, error)
-      type(bearing_type), intent(in) :: bearing
-      integer, intent(in) :: i
-      type(error_type), allocatable, intent(inout) :: error
-      real(wp) :: distance
-      integer :: j
-      associate (p => bearing%pads, at => bearing%pads%pivot_angle_deg)
-         do j = 1, bearing%pad_count()
-            if (i == j) cycle
-            ! from pivot i on to pivot j, going up
-            distance = modulo(at(j) - at(i), 360.0_wp)
-            call require(distance > p%pivot_ratio(i)*p%arc_deg(i) + (1 - p%pivot_ratio(j))*p%arc_deg(j), &
-               & 'pads%pivot_angle_deg = {}, {}: pads {} and {} overlap; the pivots must be further apart or ' &
-               & //'pads%arc_deg smaller', [real(wp) :: at(i), at(j), i, j], error)
-         end do
-      end associate
-   end subroutine require_room
-
-   !> When a march ends and what it samples; but for a march and an equilibrium the speed is constant.
-   subroutine check_run(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      character(len=:), allocatable :: also
-      associate (periodic => inputs%integration%stop_when_periodic, output => inputs%output, o => inputs%operation, &
-            & task => inputs%about%task, limit => inputs%coefficients%threshold_up_to_rpm)
-         call require(periodic <= 0 .or. inputs%is_steady(), 'integration%stop_when_periodic = {}: must be 0 where ' &
-            & //'operation%final_speed_rpm differs from operation%speed_rpm', [periodic], error)
-         call require(output%start_time <= o%duration, 'output%start_time = {}: must not exceed operation%duration ' &
-            & //'= {}', [output%start_time, o%duration], error)
-         call require(o%duration*inputs%highest_speed()/360/degree*output%samples_per_revolution < 1e9_wp, &
-            & 'operation%duration = {}: more than 1e9 samples at output%samples_per_revolution = {i}', &
-            & [real(wp) :: o%duration, output%samples_per_revolution], error)
-         call require(task /= 'branch' .or. output%keep == 'all', 'output%keep = '''//output%keep//''': must be ' &
-            & //'''all'' with case%task = ''branch'', whose results are its points', error)
-         also = ''
-         if (task == 'coefficients') also = '; a study varies the speed'
-         call require(task == 'march' .or. task == 'equilibrium' .or. inputs%is_steady(), 'operation%final_speed_rpm ' &
-            & //'= {}: must be operation%speed_rpm = {} with case%task = '''//task//''''//also, [o%final_speed_rpm, &
-            & o%speed_rpm], error)
-         call require(task /= 'coefficients' .or. limit <= 0 .or. limit > o%speed_rpm, &
-            & 'coefficients%threshold_up_to_rpm = {}: must be 0 or above operation%speed_rpm = {}, where the search ' &
-            & //'starts', [limit, o%speed_rpm], error)
-      end associate
-   end subroutine check_run
-
-   !> A branch needs a parameter; `case_parameter` checks what it, its last value and its step mean.
-   subroutine check_branch(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      if (inputs%about%task /= 'branch') return
-      associate (b => inputs%branch)
-         call require(b%parameter /= '', 'branch%parameter = '''': must name a number of the input, such as ' &
-            & //'''operation%speed_rpm''', error)
-         if (is_set(b%step) .and. b%max_step > 0) call require(b%max_step >= abs(b%step), 'branch%max_step = {}: ' &
-            & //'must be 0 or at least the size of branch%step = {}', [b%max_step, b%step], error)
-         call require(b%switch .or. b%of == 'periodic', 'branch%switch = .false.: has no effect on a branch of ' &
-            & //'equilibria', error)
-      end associate
-   end subroutine check_branch
-
-   ! Checks of a machine: what no single value of its shaft and of what stands on it or under it can tell. A message
-   ! names the group, its variables, their values and what is allowed.
-
-   !> Raises an error for the first requirement that a machine does not meet.
-   subroutine check_machine(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      associate (s => inputs%start, q => inputs%coefficients%cross_stiffness)
-         call check_shaft(inputs%rotor%elastic, error)
-         call check_bearings(inputs%bearings, inputs%rotor%station_count(), error)
-         call check_parts(inputs, inputs%rotor%station_count(), error)
-         call require(any(s%from == ['equilibrium', 'file       ']), 'start%from = '''//s%from//''': must be ' &
-            & //'''equilibrium'' or ''file'' for a machine', error)
-         call require(.not. abs(q) > 0, 'coefficients%cross_stiffness = {}: must be 0 for a machine', [q], error)
-      end associate
-   end subroutine check_machine
-
-   !> A shaft or a rotor from a file, and every section a tube.
-   subroutine check_shaft(elastic, error)
-      type(elastic_type), intent(in) :: elastic
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: i
-      associate (shaft => elastic%shaft)
-         if (.not. shaft%is_given()) then
-            call require(elastic%rotor_file /= '', 'shaft%length: must be given, the lengths of the shaft''s ' &
-               & //'sections; or rotor%file, the matrices of a rotor', error)
-            return
-         end if
-         call require(elastic%rotor_file == '', 'rotor%file = '''//elastic%rotor_file//''': shaft%length is given ' &
-            & //'too; give one of them', error)
-         call require(all(is_set(shaft%length)), 'shaft%length: every section needs one', error)
-         call require(all(is_set(shaft%diameter)), 'shaft%diameter: must be given, of each of the {} sections', &
-            & [real(size(shaft%length), wp)], error)
-         do i = 1, size(shaft%length)
-            call require(shaft%bore(i) < shaft%diameter(i), 'shaft%bore = {}: must be below shaft%diameter = {} ' &
-               & //'(section {})', [real(wp) :: shaft%bore(i), shaft%diameter(i), i], error)
-         end do
-      end associate
-   end subroutine check_shaft
-
-   !> Enough bearings, each at a station of its own.
-   subroutine check_bearings(bearings, stations, error)
-      type(bearing_type), intent(in) :: bearings(:)
-      integer, intent(in) :: stations
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: b, c
-      if (size(bearings) < 2) call refuse('a machine needs two or more groups &bearing, each with a name; there ' &
-         & //trim(merge('are none', 'is one  ', size(bearings) == 0)), error)
-      do b = 1, size(bearings)
-         call check_station('bearing'//bearings(b)%suffix(), bearings(b)%station, stations, error)
-         do c = 1, b - 1
-            if (bearings(b)%station == bearings(c)%station) call refuse('bearing'//bearings(b)%suffix() &
-               & //'%station = '//to_text(bearings(b)%station)//': is that of '//bearings(c)%label(' already'), error)
-         end do
-      end do
-   end subroutine check_bearings
-
-   !> What is on the shaft is at its stations, and a support holds its bearing.
-   subroutine check_parts(inputs, stations, error)
-      type(case_type), intent(in) :: inputs
-      integer, intent(in) :: stations
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: i
-      associate (elastic => inputs%rotor%elastic, bearings => inputs%bearings)
-         do i = 1, size(elastic%discs)
-            associate (disc => elastic%discs(i))
-               call check_station('disc('//to_text(i)//')', disc%station, stations, error)
-               ! the moments of inertia of any body
-               call require(disc%polar_inertia <= 2*disc%diametral_inertia, 'disc({})%polar_inertia = {}: must be at ' &
-                  & //'most twice diametral_inertia = {}', [real(wp) :: i, disc%polar_inertia, &
-                  & disc%diametral_inertia], error)
-            end associate
-         end do
-         do i = 1, size(elastic%unbalances)
-            call check_station('unbalance('//to_text(i)//')', elastic%unbalances(i)%station, stations, error)
-         end do
-         do i = 1, size(elastic%loads)
-            call check_station('load('//to_text(i)//')', elastic%loads(i)%station, stations, error)
-         end do
-         do i = 1, size(inputs%excitations)
-            call check_station('excitation('//to_text(i)//')', inputs%excitations(i)%station, stations, error)
-         end do
-         do i = 1, size(bearings)
-            if (.not. allocated(bearings(i)%support)) cycle
-            associate (k => bearings(i)%support%stiffness, mass => bearings(i)%support%mass, &
-               & group => 'support'//bearings(i)%suffix())
-               call require(mass > 0, group//'%mass = {}: must be above 0, kg', [mass], error)
-               call require(all(is_set(k)), group//'%stiffness: must be given, along y and z', error)
-               call require(all(k > 0), group//'%stiffness = {}: must be above 0 along y and z', [minval(k)], error)
-            end associate
-         end do
-      end associate
-   end subroutine check_parts
-
-   !> Refuses a station that is left out or that the shaft, of this number of stations, does not have.
-   subroutine check_station(group, station, stations, error)
-      character(len=*), intent(in) :: group
-      integer, intent(in) :: station, stations
-      type(error_type), allocatable, intent(inout) :: error
-      real(wp) :: last
-      last = merge(stations, most_stations, stations > 0)
-      call require(station > 0, group//'%station: must be given, 1 to {}', [last], error)
-      call require(station <= last, group//'%station = {}: must be 1 to {}, the stations of the shaft, of which ' &
-         & //'there is one more than sections', [real(station, wp), last], error)
-   end subroutine check_station
-
-   ! Checks of bent pads and of clearances that heat changes: which cases have them, and what they need.
-
-   !> Raises an error for the first requirement that a case does not meet.
-   subroutine check_shape(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: b
+      call check_run()
       do b = 1, size(inputs%bearings)
-         if (.not. inputs%bearings(b)%changes_shape()) cycle
          if (allocated(error)) return
-         call check_shape_of(inputs%bearings(b), inputs, error)
+         if (inputs%bearings(b)%changes_shape()) call check_shape(inputs%bearings(b))
          call add_context(error, inputs%bearings(b)%label())
       end do
-   end subroutine check_shape
-
-   !> Shapes are those of one equilibrium; bent pads and warm clearances need temperatures.
-   subroutine check_shape_of(bearing, inputs, error)
-      type(bearing_type), intent(in) :: bearing
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      !> The variable that changes the shape, with its value.
-      character(len=:), allocatable :: what
-      integer :: i
-      what = 'pads%bending = '''//bearing%pads%bending//''''
-      if (bearing%pads%bending == 'none') what = 'bearing%clearance_temperature = ' &
-         & //to_text(bearing%clearance_temperature)
-      associate (p => bearing%pads, heat => inputs%thermal, limit => inputs%coefficients%threshold_up_to_rpm)
-         call require(inputs%about%task /= 'branch', what//': is not for case%task = ''branch''; a study of ' &
-            & //'equilibria finds the shape of each', error)
-         call require(.not. limit > 0, 'coefficients%threshold_up_to_rpm = {}: is not for '//what//'; a study of ' &
-            & //'coefficients over the speed finds the shape at each', [limit], error)
-         call require(inputs%start%from /= 'partial', 'start%from = ''partial'': is not for '//what//', which starts ' &
-            & //'at the equilibrium', error)
-         call require(heat%march == 'frozen', 'thermal%march = '''//heat%march//''': is not for '//what &
-            & //'; ''frozen'' keeps oil and shape of the start', error)
-         if (p%bending /= 'none') then
-            call require(bearing%tilting(), what//': is for pads that tilt on a pivot; pads%motion = ''fixed'' has ' &
-               & //'none', error)
-            call require(p%bending == 'elastic' .or. heat%model == 'film', what//': needs the temperatures in the ' &
-               & //'pads, thermal%model = ''film''; ''elastic'' does not', error)
+      call check_branch()
+      call check_excitations()
+   contains
+      !> Solver of the films, and sizes of a bearing.
+      subroutine check_bearing(bearing)
+         type(bearing_type), intent(in) :: bearing
+         integer :: most, i
+         associate (f => bearing%film, cells => bearing%film%circumferential_cells)
+            call require(mod(cells, 2) == 0 .and. (cells == 0 .or. cells >= 8), 'film%circumferential_cells = {}: ' &
+               & //'must be even, and 0 or at least 8', [real(cells, wp)], error)
+            call require(f%axial_cells /= 1, 'film%axial_cells = 1: must be 2 or more, or 0 for enough', error)
+            call require(f%solver /= 'fourier' .or. f%cavitation /= 'reynolds', 'film%solver = ''fourier''' &
+               & //': needs film%cavitation = ''gumbel'' or ''none''; film%solver = ''auto'' knows ''reynolds''', error)
+            ! where films cavitate, elimination keeps a block of (axial cells/2)**2 values a column and pad;
+            ! 0 stands for some 100 columns
+            most = int(sqrt(most_in_blocks/(max(cells, 100)*bearing%pad_count())))
+            call require(f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most, &
+               & 'film%axial_cells = {}: must be at most {} with film%circumferential_cells = {} and {} pads, or ' &
+               & //'film%solver = ''sor''', [real(wp) :: f%axial_cells, most, cells, bearing%pad_count()], error)
+         end associate
+         associate (machined => bearing%machined_clearance, assembled => bearing%assembled_clearance, &
+               & radius => bearing%journal_radius)
             do i = 1, bearing%pad_count()
-               call require(p%arc_deg(i)*max(p%pivot_ratio(i), 1 - p%pivot_ratio(i)) <= farthest, 'pads%arc_deg = ' &
-                  & //'{}: a pad that bends may reach at most {} deg from its pivot (pad {})', &
-                  & [real(wp) :: p%arc_deg(i), farthest, i], error)
+               if (.not. in_range(machined(i)/radius, clearance_range)) call refuse(filled( &
+                  & 'bearing%machined_clearance = {}: must be {} to {} of bearing%journal_radius = {}'//in_metres, &
+                  & [real(wp) :: machined(i), clearance_range, radius, i])//in_other_units(machined(i), &
+                  & 'bearing%machined_clearance', 'm', clearance_range(1)*radius, clearance_range(2)*radius), error)
+               call require(assembled(i) <= 2*machined(i), 'bearing%assembled_clearance = {}: must be at most twice ' &
+                  & //'bearing%machined_clearance = {}'//in_metres, [real(wp) :: assembled(i), machined(i), i], error)
+               if (.not. in_range(bearing%axial_length(i)/radius, length_range)) call refuse(filled( &
+                  & 'bearing%axial_length = {}: must be {} to {} times bearing%journal_radius = {}'//in_metres, &
+                  & [real(wp) :: bearing%axial_length(i), length_range, radius, i])//in_other_units( &
+                  & bearing%axial_length(i), 'bearing%axial_length', 'm', length_range(1)*radius, &
+                  & length_range(2)*radius), error)
             end do
-         end if
-         if (.not. is_set(bearing%clearance_temperature)) return
-         call require(heat%model /= 'none' .or. is_set(bearing%oil%shaft_temperature), what//': needs ' &
-            & //'oil%shaft_temperature, or thermal%model = ''pad'' or ''film'', which give the shaft''s', error)
-         do i = 1, bearing%pad_count()
-            call require(heat%model == 'film' .or. is_set(p%temperature(i)), what//': needs pads%temperature, or ' &
-               & //'thermal%model = ''film'', which gives it (pad {})', [real(i, wp)], error)
+         end associate
+         call require(bearing%cavitation_pressure <= min(bearing%supply_pressure, bearing%ambient_pressure) &
+            & .or. bearing%film%cavitation == 'none', 'bearing%cavitation_pressure = {}: must not exceed ' &
+            & //'bearing%supply_pressure = {} and bearing%ambient_pressure = {}', &
+            & [bearing%cavitation_pressure, bearing%supply_pressure, bearing%ambient_pressure], error)
+      end subroutine check_bearing
+
+      !> Heat, friction and pivots of a bearing.
+      subroutine check_laws(bearing)
+         type(bearing_type), intent(in) :: bearing
+         integer :: i
+         associate (t => inputs%thermal, oil => bearing%oil)
+            call require(t%model == 'pad' .or. t%march == 'frozen', 'thermal%march = '''//t%march//''': has no ' &
+               & //'effect but with thermal%model = ''pad''', error)
+            call require(t%model == 'none' .or. oil%law /= 'constant', 'thermal%model = '''//t%model//''': needs an ' &
+               & //'oil whose viscosity depends on its temperature: oil%grade, oil%kinematic_viscosity, or ' &
+               & //'oil%reference_viscosity and oil%temperature_exponent', error)
+            call require(t%march == 'frozen' .or. oil%groove_volume > 0, 'oil%groove_volume = 0: must be > 0 for ' &
+               & //'thermal%march = ''groove''', error)
+            call require(t%march == 'frozen' .or. inputs%start%from /= 'partial', 'start%from = ''partial'': is not ' &
+               & //'for thermal%march = ''groove'', which begins at the equilibrium', error)
+         end associate
+         associate (f => bearing%friction, static => bearing%friction%static_coefficient, &
+               & dynamic => bearing%friction%dynamic_coefficient)
+            do i = 1, bearing%pad_count()
+               call require(dynamic(i) <= static(i), 'friction%dynamic_coefficient = {}: must not exceed ' &
+                  & //'friction%static_coefficient = {} (pad {})', [real(wp) :: dynamic(i), static(i), i], error)
+               call require(f%model /= 'lugre' .or. dynamic(i) > 0, 'friction%dynamic_coefficient = 0: must be > 0 ' &
+                  & //'for model = ''lugre'' (pad {})', [real(i, wp)], error)
+            end do
+            call require(bearing%tilting() .or. f%model == 'none', 'friction%model = '''//f%model//''': must be ' &
+               & //'''none'' for pads%motion = ''fixed'', whose pads have no pivots', error)
+         end associate
+         associate (v => bearing%pivot)
+            call require(v%law /= 'table' .or. v%file /= '', 'pivot%file = '''': must name a CSV file for ' &
+               & //'law = ''table''', error)
+            call require(v%law == 'table' .or. v%file == '', 'pivot%file = '''//v%file &
+               & //''': needs pivot%law = ''table''', error)
+            do i = 1, size(v%socket_radius)
+               call require(v%radius_difference(i) <= 0.5_wp*v%socket_radius(i), 'pivot%radius_difference = {}: must ' &
+                  & //'be at most half of pivot%socket_radius = {} (pad {})', [real(wp) :: v%radius_difference(i), &
+                  & v%socket_radius(i), i], error)
+               call require(v%law /= 'hertz' .or. v%radius_difference(i) > 0, 'pivot%radius_difference = 0: must be ' &
+                  & //'> 0 for law = ''hertz'' (pad {})', [real(i, wp)], error)
+            end do
+         end associate
+      end subroutine check_laws
+
+      subroutine check_start(bearing)
+         type(bearing_type), intent(in) :: bearing
+         associate (s => inputs%start)
+            call require(s%from /= 'file' .or. s%file /= '', 'start%file = '''': must name a result for start%from = ' &
+               & //'''file''', error)
+            call require(s%from == 'file' .or. s%file == '', 'start%file = '''//s%file//''': needs start%from = ' &
+               & //'''file'', not '''//s%from//'''', error)
+            call require(bearing%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0), 'start%pad_tilt = {}, ' &
+               & //'pad_tilt_rate = {}: must be 0 for pads%motion = ''fixed''', [s%pad_tilt(1), s%pad_tilt_rate(1)], &
+               & error)
+            call require(bearing%tilting_radial() .or. all(abs([s%pivot_deflection, s%pivot_deflection_rate]) <= 0), &
+               & 'start%pivot_deflection = {}, pivot_deflection_rate = {}: must be 0 for pads%motion = ''' &
+               & //bearing%pads%motion//'''', [s%pivot_deflection(1), s%pivot_deflection_rate(1)], error)
+         end associate
+      end subroutine check_start
+
+      subroutine check_pads(bearing)
+         type(bearing_type), intent(in) :: bearing
+         real(wp) :: smallest
+         integer :: i
+         associate (p => bearing%pads)
+            do i = 1, bearing%pad_count()
+               call require_room(bearing, i)
+               if (.not. bearing%tilting()) cycle
+               call require(p%arc_deg(i) <= longest_arc, 'pads%arc_deg = {}: must be at most {} for pads that tilt', &
+                  & [p%arc_deg(i), longest_arc], error)
+               smallest = p%mass(i)*(p%centre_tangential(i)**2 + p%centre_radial(i)**2)
+               if (.not. (p%inertia(i) > smallest)) call refuse(filled('pads%inertia = {}: must exceed pads%mass = ' &
+                  & //'{} times the squared distance of the centre of gravity from the pivot, {} (pad {})', [real( &
+                  & wp) :: p%inertia(i), p%mass(i), smallest, i])//in_other_units(p%mass(i), 'pads%mass', 'kg', &
+                  & 0.0_wp, p%mass(i)*p%inertia(i)/smallest), error)
+            end do
+         end associate
+      end subroutine check_pads
+
+      !> A pad reaches from theta - theta_2 to theta + theta_1; the next one must start after that.
+      subroutine require_room(bearing, i)
+         type(bearing_type), intent(in) :: bearing
+         integer, intent(in) :: i
+         real(wp) :: distance
+         integer :: j
+         associate (p => bearing%pads, at => bearing%pads%pivot_angle_deg)
+            do j = 1, bearing%pad_count()
+               if (i == j) cycle
+               ! from pivot i on to pivot j, going up
+               distance = modulo(at(j) - at(i), 360.0_wp)
+               call require(distance > p%pivot_ratio(i)*p%arc_deg(i) + (1 - p%pivot_ratio(j))*p%arc_deg(j), &
+                  & 'pads%pivot_angle_deg = {}, {}: pads {} and {} overlap; the pivots must be further apart or ' &
+                  & //'pads%arc_deg smaller', [real(wp) :: at(i), at(j), i, j], error)
+            end do
+         end associate
+      end subroutine require_room
+
+      !> When a march ends and what it samples; but for a march and an equilibrium the speed is constant.
+      subroutine check_run()
+         character(len=:), allocatable :: also
+         associate (periodic => inputs%integration%stop_when_periodic, output => inputs%output, o => inputs%operation, &
+               & task => inputs%about%task, limit => inputs%coefficients%threshold_up_to_rpm)
+            call require(periodic <= 0 .or. inputs%is_steady(), 'integration%stop_when_periodic = {}: must be 0 ' &
+               & //'where operation%final_speed_rpm differs from operation%speed_rpm', [periodic], error)
+            call require(output%start_time <= o%duration, 'output%start_time = {}: must not exceed ' &
+               & //'operation%duration = {}', [output%start_time, o%duration], error)
+            call require(o%duration*inputs%highest_speed()/360/degree*output%samples_per_revolution < 1e9_wp, &
+               & 'operation%duration = {}: more than 1e9 samples at output%samples_per_revolution = {i}', &
+               & [real(wp) :: o%duration, output%samples_per_revolution], error)
+            call require(task /= 'branch' .or. output%keep == 'all', 'output%keep = '''//output%keep//''': must be ' &
+               & //'''all'' with case%task = ''branch'', whose results are its points', error)
+            also = ''
+            if (task == 'coefficients') also = '; a study varies the speed'
+            call require(task == 'march' .or. task == 'equilibrium' .or. inputs%is_steady(), &
+               & 'operation%final_speed_rpm = {}: must be operation%speed_rpm = {} with case%task = '''//task//'''' &
+               & //also, [o%final_speed_rpm, o%speed_rpm], error)
+            call require(task /= 'coefficients' .or. limit <= 0 .or. limit > o%speed_rpm, &
+               & 'coefficients%threshold_up_to_rpm = {}: must be 0 or above operation%speed_rpm = {}, where the ' &
+               & //'search starts', [limit, o%speed_rpm], error)
+         end associate
+      end subroutine check_run
+
+      !> A branch needs a parameter; `case_parameter` checks what it, its last value and its step mean.
+      subroutine check_branch()
+         if (inputs%about%task /= 'branch') return
+         associate (b => inputs%branch)
+            call require(b%parameter /= '', 'branch%parameter = '''': must name a number of the input, such as ' &
+               & //'''operation%speed_rpm''', error)
+            if (is_set(b%step) .and. b%max_step > 0) call require(b%max_step >= abs(b%step), 'branch%max_step = {}: ' &
+               & //'must be 0 or at least the size of branch%step = {}', [b%max_step, b%step], error)
+            call require(b%switch .or. b%of == 'periodic', 'branch%switch = .false.: has no effect on a branch of ' &
+               & //'equilibria', error)
+         end associate
+      end subroutine check_branch
+
+      ! Checks of a machine: what no single value of its shaft and of what stands on it or under it can tell. A message
+      ! names the group, its variables, their values and what is allowed.
+
+      !> A shaft or a rotor from a file, and every section a tube.
+      subroutine check_shaft(elastic)
+         type(elastic_type), intent(in) :: elastic
+         integer :: i
+         associate (shaft => elastic%shaft)
+            if (.not. shaft%is_given()) then
+               call require(elastic%rotor_file /= '', 'shaft%length: must be given, the lengths of the shaft''s ' &
+                  & //'sections; or rotor%file, the matrices of a rotor', error)
+               return
+            end if
+            call require(elastic%rotor_file == '', 'rotor%file = '''//elastic%rotor_file//''': shaft%length is given ' &
+               & //'too; give one of them', error)
+            call require(all(is_set(shaft%length)), 'shaft%length: every section needs one', error)
+            call require(all(is_set(shaft%diameter)), 'shaft%diameter: must be given, of each of the {} sections', &
+               & [real(size(shaft%length), wp)], error)
+            do i = 1, size(shaft%length)
+               call require(shaft%bore(i) < shaft%diameter(i), 'shaft%bore = {}: must be below shaft%diameter = {} ' &
+                  & //'(section {})', [real(wp) :: shaft%bore(i), shaft%diameter(i), i], error)
+            end do
+         end associate
+      end subroutine check_shaft
+
+      !> There are enough bearings, each at a station of its own; what is on the shaft is at its stations, and a support
+      !> holds its bearing.
+      subroutine check_parts(stations)
+         integer, intent(in) :: stations
+         integer :: i, c
+         associate (elastic => inputs%rotor%elastic, bearings => inputs%bearings)
+            if (size(bearings) < 2) call refuse('a machine needs two or more groups &bearing, each with a name; ' &
+               & //'there '//trim(merge('are none', 'is one  ', size(bearings) == 0)), error)
+            do i = 1, size(bearings)
+               call check_station('bearing'//bearings(i)%suffix(), bearings(i)%station, stations)
+               do c = 1, i - 1
+                  if (bearings(i)%station == bearings(c)%station) call refuse('bearing'//bearings(i)%suffix() &
+                     & //'%station = '//to_text(bearings(i)%station)//': is that of '//bearings(c)%label(' already'), &
+                     & error)
+               end do
+            end do
+            do i = 1, size(elastic%discs)
+               associate (disc => elastic%discs(i))
+                  call check_station('disc('//to_text(i)//')', disc%station, stations)
+                  ! the moments of inertia of any body
+                  call require(disc%polar_inertia <= 2*disc%diametral_inertia, 'disc({})%polar_inertia = {}: must be ' &
+                     & //'at most twice diametral_inertia = {}', [real(wp) :: i, disc%polar_inertia, &
+                     & disc%diametral_inertia], error)
+               end associate
+            end do
+            do i = 1, size(elastic%unbalances)
+               call check_station('unbalance('//to_text(i)//')', elastic%unbalances(i)%station, stations)
+            end do
+            do i = 1, size(elastic%loads)
+               call check_station('load('//to_text(i)//')', elastic%loads(i)%station, stations)
+            end do
+            do i = 1, size(inputs%excitations)
+               call check_station('excitation('//to_text(i)//')', inputs%excitations(i)%station, stations)
+            end do
+            do i = 1, size(bearings)
+               if (.not. allocated(bearings(i)%support)) cycle
+               associate (k => bearings(i)%support%stiffness, mass => bearings(i)%support%mass, &
+                  & group => 'support'//bearings(i)%suffix())
+                  call require(mass > 0, group//'%mass = {}: must be above 0, kg', [mass], error)
+                  call require(all(is_set(k)), group//'%stiffness: must be given, along y and z', error)
+                  call require(all(k > 0), group//'%stiffness = {}: must be above 0 along y and z', [minval(k)], error)
+               end associate
+            end do
+         end associate
+      end subroutine check_parts
+
+      !> Refuses a station that is left out or that the shaft, of this number of stations, does not have.
+      subroutine check_station(group, station, stations)
+         character(len=*), intent(in) :: group
+         integer, intent(in) :: station, stations
+         real(wp) :: last
+         last = merge(stations, most_stations, stations > 0)
+         call require(station > 0, group//'%station: must be given, 1 to {}', [last], error)
+         call require(station <= last, group//'%station = {}: must be 1 to {}, the stations of the shaft, of which ' &
+            & //'there is one more than sections', [real(station, wp), last], error)
+      end subroutine check_station
+
+      ! Checks of bent pads and of clearances that heat changes.
+
+      !> Shapes are those of one equilibrium; bent pads and warm clearances need temperatures.
+      subroutine check_shape(bearing)
+         type(bearing_type), intent(in) :: bearing
+         !> The variable that changes the shape, with its value.
+         character(len=:), allocatable :: what
+         integer :: i
+         what = 'pads%bending = '''//bearing%pads%bending//''''
+         if (bearing%pads%bending == 'none') what = 'bearing%clearance_temperature = ' &
+            & //to_text(bearing%clearance_temperature)
+         associate (p => bearing%pads, heat => inputs%thermal, limit => inputs%coefficients%threshold_up_to_rpm)
+            call require(inputs%about%task /= 'branch', what//': is not for case%task = ''branch''; a study of ' &
+               & //'equilibria finds the shape of each', error)
+            call require(.not. limit > 0, 'coefficients%threshold_up_to_rpm = {}: is not for '//what//'; a study of ' &
+               & //'coefficients over the speed finds the shape at each', [limit], error)
+            call require(inputs%start%from /= 'partial', 'start%from = ''partial'': is not for '//what//', which ' &
+               & //'starts at the equilibrium', error)
+            call require(heat%march == 'frozen', 'thermal%march = '''//heat%march//''': is not for '//what &
+               & //'; ''frozen'' keeps oil and shape of the start', error)
+            if (p%bending /= 'none') then
+               call require(bearing%tilting(), what//': is for pads that tilt on a pivot; pads%motion = ''fixed'' ' &
+                  & //'has none', error)
+               call require(p%bending == 'elastic' .or. heat%model == 'film', what//': needs the temperatures in the ' &
+                  & //'pads, thermal%model = ''film''; ''elastic'' does not', error)
+               do i = 1, bearing%pad_count()
+                  call require(p%arc_deg(i)*max(p%pivot_ratio(i), 1 - p%pivot_ratio(i)) <= farthest, 'pads%arc_deg = ' &
+                     & //'{}: a pad that bends may reach at most {} deg from its pivot (pad {})', &
+                     & [real(wp) :: p%arc_deg(i), farthest, i], error)
+               end do
+            end if
+            if (.not. is_set(bearing%clearance_temperature)) return
+            call require(heat%model /= 'none' .or. is_set(bearing%oil%shaft_temperature), what//': needs ' &
+               & //'oil%shaft_temperature, or thermal%model = ''pad'' or ''film'', which give the shaft''s', error)
+            do i = 1, bearing%pad_count()
+               call require(heat%model == 'film' .or. is_set(p%temperature(i)), what//': needs pads%temperature, or ' &
+                  & //'thermal%model = ''film'', which gives it (pad {})', [real(i, wp)], error)
+            end do
+         end associate
+      end subroutine check_shape
+
+      ! Checks of excitations.
+
+      !> Raises an error for the first requirement that the excitations of a case do not meet.
+      subroutine check_excitations()
+         integer :: i
+         if (size(inputs%excitations) == 0) return
+         call require(inputs%about%task /= 'branch', 'excitation: has no effect with case%task = ''branch''; a study ' &
+            & //'varies a number of the input', error)
+         associate (periodic => inputs%integration%stop_when_periodic)
+            call require(inputs%about%task /= 'march' .or. periodic <= 0, 'integration%stop_when_periodic = {}: must ' &
+               & //'be 0 with excitations; the task periodic finds the orbit under them', [periodic], error)
+         end associate
+         do i = 1, size(inputs%excitations)
+            call check_values(inputs%excitations(i), 'excitation('//to_text(i)//')%', error)
+            call check_times(inputs%excitations(i), 'excitation('//to_text(i)//')%')
+            if (allocated(error)) return
          end do
-      end associate
-   end subroutine check_shape_of
+      end subroutine check_excitations
 
-   ! Checks of excitations.
-
-   !> Raises an error for the first requirement that the excitations of a case do not meet.
-   subroutine check_excitations(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: i
-      if (size(inputs%excitations) == 0) return
-      call require(inputs%about%task /= 'branch', 'excitation: has no effect with case%task = ''branch''; a study ' &
-         & //'varies a number of the input', error)
-      associate (periodic => inputs%integration%stop_when_periodic)
-         call require(inputs%about%task /= 'march' .or. periodic <= 0, 'integration%stop_when_periodic = {}: must be ' &
-            & //'0 with excitations; the task periodic finds the orbit under them', [periodic], error)
-      end associate
-      do i = 1, size(inputs%excitations)
-         call check_values(inputs%excitations(i), 'excitation('//to_text(i)//')%', error)
-         call check_times(inputs, inputs%excitations(i), 'excitation('//to_text(i)//')%', error)
-         if (allocated(error)) return
-      end do
-   end subroutine check_excitations
+      !> It acts before the run ends, and one of a periodic orbit always.
+      subroutine check_times(x, name)
+         type(excitation_type), intent(in) :: x
+         character(len=*), intent(in) :: name
+         call require(x%end > x%start .or. .not. is_set(x%end), name//'end = {}: must be above '//name//'start = {} ' &
+            & //'(both in s)', [x%end, x%start], error)
+         call require(inputs%about%task /= 'march' .or. x%start < inputs%operation%duration, name//'start = {}: must ' &
+            & //'be below operation%duration = {}, when the run ends (both in s)', [x%start, &
+            & inputs%operation%duration], error)
+         if (.not. inputs%seeks_orbits()) return
+         call require(x%kind == 'harmonic', name//'kind = '''//x%kind//''': must be ''harmonic'' for a periodic ' &
+            & //'orbit', error)
+         call require(x%start <= 0 .and. .not. is_set(x%end), name//'start = {}: must be 0 for a periodic orbit, and ' &
+            & //'there is no end', [x%start], error)
+      end subroutine check_times
+   end subroutine check_case
 
    !> What each kind needs, and what it has no use for.
    subroutine check_values(x, name, error)
@@ -451,22 +421,4 @@ contains
          call require(is_needed .or. .not. is_given, name//variable//': has no effect'//with, error)
       end subroutine need
    end subroutine check_values
-
-   !> It acts before the run ends, and one of a periodic orbit always.
-   subroutine check_times(inputs, x, name, error)
-      type(case_type), intent(in) :: inputs
-      type(excitation_type), intent(in) :: x
-      character(len=*), intent(in) :: name
-      type(error_type), allocatable, intent(inout) :: error
-      call require(x%end > x%start .or. .not. is_set(x%end), name//'end = {}: must be above '//name//'start = {} ' &
-         & //'(both in s)', [x%end, x%start], error)
-      call require(inputs%about%task /= 'march' .or. x%start < inputs%operation%duration, name//'start = {}: must be ' &
-         & //'below operation%duration = {}, when the run ends (both in s)', [x%start, inputs%operation%duration], &
-         & error)
-      if (.not. inputs%seeks_orbits()) return
-      call require(x%kind == 'harmonic', name//'kind = '''//x%kind//''': must be ''harmonic'' for a periodic orbit', &
-         & error)
-      call require(x%start <= 0 .and. .not. is_set(x%end), name//'start = {}: must be 0 for a periodic orbit, and ' &
-         & //'there is no end', [x%start], error)
-   end subroutine check_times
 end module case_checks

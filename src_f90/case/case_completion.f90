@@ -57,116 +57,128 @@ contains
    subroutine complete_case(inputs, error)
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      integer :: b
+      integer :: b, i
       call inputs%set_final_speed()
       ! what has no samples is a row of a study alone, unless a file of each run is asked for
       if (inputs%output%keep == '') inputs%output%keep = trim(merge('summary', 'all    ', &
          & any(inputs%about%task == ['equilibrium ', 'coefficients'])))
       do b = 1, size(inputs%bearings)
-         call complete_bearing(inputs%bearings(b), inputs%thermal%model == 'film', error)
-         call add_context(error, inputs%bearings(b)%label())
+         associate (bearing => inputs%bearings(b))
+            do i = 1, bearing%pad_count()
+               call set_clearance(bearing, i)
+            end do
+            if (.not. allocated(error)) call complete_oil(bearing, error)
+            do i = 1, bearing%pad_count()
+               if (.not. allocated(error)) call set_pad(bearing, i, inputs%thermal%model == 'film')
+            end do
+            call add_context(error, bearing%label())
+         end associate
          if (allocated(error)) return
       end do
-      call complete_excitations(inputs, error)
-   end subroutine complete_case
+      call complete_excitations()
+   contains
+      !> A pad's clearance: as given, by the preload, or the paper's.
+      subroutine set_clearance(b, i)
+         type(bearing_type), intent(inout) :: b
+         integer, intent(in) :: i
+         type(bearing_type) :: paper
+         paper = bearing_type()
+         associate (machined => b%machined_clearance(i), assembled => b%assembled_clearance(i), &
+            & radius => b%journal_radius)
+            if (assembled > 2*clearance_range(2)*radius) then
+               call refuse(filled('bearing%assembled_clearance = {}: must be at most {} of bearing%journal_radius = ' &
+                  & //'{} (both in m; pad {})', [real(wp) :: assembled, 2*clearance_range(2), radius, i]) &
+                  & //in_other_units(assembled, 'bearing%assembled_clearance', 'm', 0.0_wp, 2*clearance_range( &
+                  & 2)*radius), error)
+            else if (is_set(b%preload(i)) .and. is_set(machined)) then
+               call refuse(filled('bearing%preload = {}: bearing%machined_clearance = {} is given too; give one of ' &
+                  & //'them (pad {})', [real(wp) :: b%preload(i), machined, i]), error)
+            else if (is_set(b%preload(i))) then
+               machined = assembled/(1 - b%preload(i))
+               if (.not. in_range(machined/radius, clearance_range)) call refuse(filled('bearing%preload = {}: gives ' &
+                  & //'bearing%machined_clearance = {} with bearing%assembled_clearance = {}; it must be {} to {} of ' &
+                  & //'bearing%journal_radius = {} (all in m; pad {})', [real(wp) :: b%preload(i), machined, &
+                  & assembled, clearance_range, radius, i])//in_other_units(assembled, 'bearing%assembled_clearance', &
+                  & 'm', 0.0_wp, clearance_range(2)*radius/5), error)
+            else
+               call fill(machined, paper%machined_clearance(1))
+            end if
+            b%preload(i) = unset
+         end associate
+      end subroutine set_clearance
 
-   !> The same of the groups of one bearing, through whose pads heat flows or not.
-   subroutine complete_bearing(bearing, heated, error)
-      type(bearing_type), intent(inout) :: bearing
-      logical, intent(in) :: heated
-      type(error_type), allocatable, intent(out) :: error
-      integer :: i
-      do i = 1, bearing%pad_count()
-         call set_clearance(bearing, i, error)
-         if (allocated(error)) return
-      end do
-      call complete_oil(bearing, error)
-      do i = 1, bearing%pad_count()
-         if (allocated(error)) return
-         call set_pad(bearing, i, heated, error)
-      end do
-   end subroutine complete_bearing
-
-   !> A pad's clearance: as given, by the preload, or the paper's.
-   subroutine set_clearance(b, i, error)
-      type(bearing_type), intent(inout) :: b
-      integer, intent(in) :: i
-      type(error_type), allocatable, intent(out) :: error
-      type(bearing_type) :: paper
-      paper = bearing_type()
-      associate (machined => b%machined_clearance(i), assembled => b%assembled_clearance(i), radius => b%journal_radius)
-         if (assembled > 2*clearance_range(2)*radius) then
-            call refuse(filled('bearing%assembled_clearance = {}: must be at most {} of bearing%journal_radius = {} ' &
-               & //'(both in m; pad {})', [real(wp) :: assembled, 2*clearance_range(2), radius, i]) &
-               & //in_other_units(assembled, 'bearing%assembled_clearance', 'm', 0.0_wp, 2*clearance_range(2)*radius), &
+      !> What is left out of a pad's mass, inertia and centre of gravity: that of the paper's pads if it has their size
+      !> and neither density nor thickness is given, else that of an annular sector.
+      subroutine set_pad(bearing, i, heated)
+         type(bearing_type), intent(inout) :: bearing
+         integer, intent(in) :: i
+         logical, intent(in) :: heated
+         type(annular_sector_type) :: sector
+         type(bearing_type) :: paper
+         paper = bearing_type()
+         associate (p => bearing%pads, q => paper%pads, needs_thickness => heated .or. bearing%pads%bending /= 'none')
+            ! a density or thickness that nothing would follow from
+            call require(.not. all(is_set([p%density(i), p%mass(i)])), 'pads%density = {}: pads%mass = {} is given ' &
+               & //'too; give one of them (pad {})', [real(wp) :: p%density(i), p%mass(i), i], error)
+            call require(needs_thickness .or. .not. all(is_set([p%thickness(i), p%mass(i), p%inertia(i), &
+               & p%centre_tangential(i), p%centre_radial(i)])), 'pads%thickness = {}: has no effect where mass, ' &
+               & //'inertia, centre_tangential and centre_radial are given (pad {})', [real(wp) :: p%thickness(i), i], &
                & error)
-         else if (is_set(b%preload(i)) .and. is_set(machined)) then
-            call refuse(filled('bearing%preload = {}: bearing%machined_clearance = {} is given too; give one of them ' &
-               & //'(pad {})', [real(wp) :: b%preload(i), machined, i]), error)
-         else if (is_set(b%preload(i))) then
-            machined = assembled/(1 - b%preload(i))
-            if (.not. in_range(machined/radius, clearance_range)) call refuse(filled('bearing%preload = {}: gives ' &
-               & //'bearing%machined_clearance = {} with bearing%assembled_clearance = {}; it must be {} to {} of ' &
-               & //'bearing%journal_radius = {} (all in m; pad {})', [real(wp) :: b%preload(i), machined, assembled, &
-               & clearance_range, radius, i])//in_other_units(assembled, 'bearing%assembled_clearance', 'm', 0.0_wp, &
-               & clearance_range(2)*radius/5), error)
-         else
-            call fill(machined, paper%machined_clearance(1))
-         end if
-         b%preload(i) = unset
-      end associate
-   end subroutine set_clearance
+            if (allocated(error)) return
+            if (.not. bearing%tilting()) then
+               ! fixed pads need no masses
+            else if (all(abs(size_of(bearing, i) - size_of(paper, 1)) <= 0) &
+               & .and. .not. (is_set(p%density(i)) .or. is_set(p%thickness(i)))) then
+               call fill(p%mass(i), q%mass(1))
+               call fill(p%inertia(i), q%inertia(1))
+               call fill(p%centre_tangential(i), q%centre_tangential(1))
+               call fill(p%centre_radial(i), q%centre_radial(1))
+            else
+               call fill(p%thickness(i), p%pivot_distance(i))
+               call fill(p%density(i), steel)
+               sector = new_annular_sector(bearing%journal_radius + bearing%machined_clearance(i), &
+                  & p%thickness(i), p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
+                  & bearing%axial_length(i), p%pivot_distance(i))
+               call fill(p%mass(i), p%density(i)*sector%volume)
+               call fill(p%inertia(i), p%mass(i)*sector%squared_radius)
+               call fill(p%centre_tangential(i), sector%centre_tangential)
+               call fill(p%centre_radial(i), sector%centre_radial)
+               call require_range('mass', p%mass(i), mass_range, error)
+               call require_range('inertia', p%inertia(i), inertia_range, error)
+               call require_range('centre_tangential', p%centre_tangential(i), centre_range, error)
+               call require_range('centre_radial', p%centre_radial(i), centre_range, error)
+            end if
+            p%density(i) = unset
+            if (needs_thickness) then
+               call fill(p%thickness(i), p%pivot_distance(i))
+            else
+               p%thickness(i) = unset
+            end if
+         end associate
+      end subroutine set_pad
 
-   !> What is left out of a pad's mass, inertia and centre of gravity: that of the paper's pads if it has their size and
-   !> neither density nor thickness is given, else that of an annular sector.
-   subroutine set_pad(bearing, i, heated, error)
-      type(bearing_type), intent(inout) :: bearing
-      integer, intent(in) :: i
-      logical, intent(in) :: heated
-      type(error_type), allocatable, intent(out) :: error
-      type(annular_sector_type) :: sector
-      type(bearing_type) :: paper
-      paper = bearing_type()
-      associate (p => bearing%pads, q => paper%pads, needs_thickness => heated .or. bearing%pads%bending /= 'none')
-         ! a density or thickness that nothing would follow from
-         call require(.not. all(is_set([p%density(i), p%mass(i)])), 'pads%density = {}: pads%mass = {} is given too; ' &
-            & //'give one of them (pad {})', [real(wp) :: p%density(i), p%mass(i), i], error)
-         call require(needs_thickness .or. .not. all(is_set([p%thickness(i), p%mass(i), p%inertia(i), &
-            & p%centre_tangential(i), p%centre_radial(i)])), 'pads%thickness = {}: has no effect where mass, ' &
-            & //'inertia, centre_tangential and centre_radial are given (pad {})', [real(wp) :: p%thickness(i), i], &
-            & error)
-         if (allocated(error)) return
-         if (.not. bearing%tilting()) then
-            ! fixed pads need no masses
-         else if (all(abs(size_of(bearing, i) - size_of(paper, 1)) <= 0) &
-            & .and. .not. (is_set(p%density(i)) .or. is_set(p%thickness(i)))) then
-            call fill(p%mass(i), q%mass(1))
-            call fill(p%inertia(i), q%inertia(1))
-            call fill(p%centre_tangential(i), q%centre_tangential(1))
-            call fill(p%centre_radial(i), q%centre_radial(1))
-         else
-            call fill(p%thickness(i), p%pivot_distance(i))
-            call fill(p%density(i), steel)
-            sector = new_annular_sector(bearing%journal_radius + bearing%machined_clearance(i), &
-               & p%thickness(i), p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
-               & bearing%axial_length(i), p%pivot_distance(i))
-            call fill(p%mass(i), p%density(i)*sector%volume)
-            call fill(p%inertia(i), p%mass(i)*sector%squared_radius)
-            call fill(p%centre_tangential(i), sector%centre_tangential)
-            call fill(p%centre_radial(i), sector%centre_radial)
-            call require_range('mass', p%mass(i), mass_range, error)
-            call require_range('inertia', p%inertia(i), inertia_range, error)
-            call require_range('centre_tangential', p%centre_tangential(i), centre_range, error)
-            call require_range('centre_radial', p%centre_radial(i), centre_range, error)
-         end if
-         p%density(i) = unset
-         if (needs_thickness) then
-            call fill(p%thickness(i), p%pivot_distance(i))
-         else
-            p%thickness(i) = unset
-         end if
-      end associate
-   end subroutine set_pad
+      !> Finds the ends that are left out and needed, and makes the period of an orbit one of all excitations.
+      subroutine complete_excitations()
+         character(len=15) :: given
+         integer :: i
+         do i = 1, size(inputs%excitations)
+            associate (x => inputs%excitations(i), revolutions => inputs%periodic%revolutions)
+               if (any(x%kind == ['chirp', 'ramp ']) .and. .not. is_set(x%end)) x%end = inputs%operation%duration
+               if (.not. inputs%seeks_orbits() .or. x%kind /= 'harmonic') cycle
+               if (is_set(x%frequency_hz) .eqv. is_set(x%frequency_ratio)) cycle
+               revolutions = common_multiple(revolutions, revolutions_of(x, inputs%operation%speed_rpm*rpm))
+               given = merge('frequency_hz   ', 'frequency_ratio', is_set(x%frequency_hz))
+               call require(revolutions >= 1 .and. revolutions <= most_revolutions, 'excitation({})%'//trim(given) &
+                  & //' = {}: must be a fraction of the speed of the shaft whose period is at most {} revolutions ' &
+                  & //'for case%task = '''//inputs%about%task//''', with periodic%revolutions and the other ' &
+                  & //'excitations; its frequency over the speed is {}', [real(wp) :: i, merge(x%frequency_hz, &
+                  & x%frequency_ratio, is_set(x%frequency_hz)), most_revolutions, ratio(x, &
+                  & inputs%operation%speed_rpm*rpm)], error)
+            end associate
+            if (allocated(error)) return
+         end do
+      end subroutine complete_excitations
+   end subroutine complete_case
 
    !> The size of a pad, clearances apart.
    pure function size_of(b, i)
@@ -219,8 +231,17 @@ contains
       associate (oil => b%oil)
          ! resolved cases once said so of every case without a grade
          if (.not. oil%grade > 0) oil%grade = unset
-         if (oil%law == '') oil%law = meant_law(oil)
-         call refuse_other_law(b, error)
+         if (oil%law == '') then
+            oil%law = 'constant'
+            if (is_set(oil%reference_viscosity) .or. is_set(oil%temperature_exponent)) oil%law = 'exponential'
+            if (is_set(oil%grade) .or. any(is_set(oil%kinematic_viscosity))) oil%law = 'walther'
+         end if
+         ! what tells that another law is meant; numbers that merely have no effect may stand
+         call only_of('constant', 'bearing%viscosity', b%viscosity)
+         call only_of('walther', 'oil%grade', oil%grade)
+         call only_of('walther', 'oil%kinematic_viscosity', maxval(oil%kinematic_viscosity))
+         call only_of('exponential', 'oil%reference_viscosity', oil%reference_viscosity)
+         call only_of('exponential', 'oil%temperature_exponent', oil%temperature_exponent)
          select case (oil%law)
          case ('constant')
             if (.not. is_set(b%viscosity)) b%viscosity = paper%viscosity
@@ -237,40 +258,14 @@ contains
                & //'{} Pa s; must be {} to {}', [oil%supply_temperature, mu, viscosity_range], error)
          end associate
       end associate
-   end subroutine complete_oil
-
-   !> The law whose numbers are given.
-   pure function meant_law(oil) result(law)
-      type(oil_type), intent(in) :: oil
-      character(len=:), allocatable :: law
-      if (is_set(oil%grade) .or. any(is_set(oil%kinematic_viscosity))) then
-         law = 'walther'
-      else if (is_set(oil%reference_viscosity) .or. is_set(oil%temperature_exponent)) then
-         law = 'exponential'
-      else
-         law = 'constant'
-      end if
-   end function meant_law
-
-   !> Refuses what tells that another law is meant; numbers that merely have no effect may stand.
-   subroutine refuse_other_law(bearing, error)
-      type(bearing_type), intent(in) :: bearing
-      type(error_type), allocatable, intent(inout) :: error
-      associate (oil => bearing%oil)
-         call only_of('constant', 'bearing%viscosity', bearing%viscosity)
-         call only_of('walther', 'oil%grade', oil%grade)
-         call only_of('walther', 'oil%kinematic_viscosity', maxval(oil%kinematic_viscosity))
-         call only_of('exponential', 'oil%reference_viscosity', oil%reference_viscosity)
-         call only_of('exponential', 'oil%temperature_exponent', oil%temperature_exponent)
-      end associate
    contains
       subroutine only_of(law, name, value)
          character(len=*), intent(in) :: law, name
          real(wp), intent(in) :: value
-         call require(.not. is_set(value) .or. bearing%oil%law == law, name//' = {}: belongs to oil%law = '''//law &
-            & //''', but this case has oil%law = '''//bearing%oil%law//'''; take it out of the case', [value], error)
+         call require(.not. is_set(value) .or. b%oil%law == law, name//' = {}: belongs to oil%law = '''//law &
+            & //''', but this case has oil%law = '''//b%oil%law//'''; take it out of the case', [value], error)
       end subroutine only_of
-   end subroutine refuse_other_law
+   end subroutine complete_oil
 
    subroutine check_walther(oil, error)
       type(oil_type), intent(in) :: oil
@@ -297,29 +292,6 @@ contains
          & //'to {} C', [oil%density_slope, temperature_range(2)], error)
    end subroutine check_walther
 
-   !> Finds the ends that are left out and needed, and makes the period of an orbit one of all excitations.
-   subroutine complete_excitations(inputs, error)
-      type(case_type), intent(inout) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      character(len=15) :: given
-      integer :: i
-      do i = 1, size(inputs%excitations)
-         associate (x => inputs%excitations(i), revolutions => inputs%periodic%revolutions)
-            if (any(x%kind == ['chirp', 'ramp ']) .and. .not. is_set(x%end)) x%end = inputs%operation%duration
-            if (.not. inputs%seeks_orbits() .or. x%kind /= 'harmonic') cycle
-            if (is_set(x%frequency_hz) .eqv. is_set(x%frequency_ratio)) cycle
-            revolutions = common_multiple(revolutions, revolutions_of(x, inputs%operation%speed_rpm*rpm))
-            given = merge('frequency_hz   ', 'frequency_ratio', is_set(x%frequency_hz))
-            call require(revolutions >= 1 .and. revolutions <= most_revolutions, 'excitation({})%'//trim(given) &
-               & //' = {}: must be a fraction of the speed of the shaft whose period is at most {} revolutions for ' &
-               & //'case%task = '''//inputs%about%task//''', with periodic%revolutions and the other excitations; ' &
-               & //'its frequency over the speed is {}', [real(wp) :: i, merge(x%frequency_hz, x%frequency_ratio, &
-               & is_set(x%frequency_hz)), most_revolutions, ratio(x, inputs%operation%speed_rpm*rpm)], error)
-         end associate
-         if (allocated(error)) return
-      end do
-   end subroutine complete_excitations
-
    !> Frequency over that of the shaft, which has this speed, rad/s.
    pure real(wp) function ratio(x, speed)
       type(excitation_type), intent(in) :: x
@@ -340,18 +312,13 @@ contains
       revolutions = 0
    end function revolutions_of
 
+   !> The least one of two numbers; 0 where one of them is.
    pure integer function common_multiple(a, b)
       integer, intent(in) :: a, b
-      integer :: large, small, rest
       common_multiple = 0
       if (min(a, b) < 1) return
-      large = a
-      small = b
-      do while (small > 0)
-         rest = mod(large, small)
-         large = small
-         small = rest
+      do common_multiple = a, a*b, a
+         if (mod(common_multiple, b) == 0) return
       end do
-      common_multiple = a/large*b
    end function common_multiple
 end module case_completion

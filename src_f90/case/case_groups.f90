@@ -28,8 +28,7 @@ module case_groups
    real(wp), parameter :: temperature_range(2) = [-100.0_wp, 500.0_wp], viscosity_range(2) = [1e-6_wp, 10.0_wp]
 
    type :: about_type
-      character(len=:), allocatable :: title
-      character(len=:), allocatable :: task
+      character(len=:), allocatable :: title, task
       !> What a case of another bearing than the paper's leaves to this, with values; no variable of the input.
       character(len=:), allocatable :: of_paper
    end type about_type
@@ -65,8 +64,7 @@ module case_groups
 
    !> The heat balance.
    type :: thermal_type
-      character(len=:), allocatable :: model
-      character(len=:), allocatable :: march
+      character(len=:), allocatable :: model, march
       !> Stations along the arc, and layers across the film, of its temperatures.
       integer :: stations = 40, layers = 12
    end type thermal_type
@@ -80,9 +78,8 @@ module case_groups
       real(wp), allocatable :: density(:), thickness(:)
       !> W/(m K); it counts, with the thickness, where films have temperatures.
       real(wp), allocatable :: conductivity(:)
-      character(len=:), allocatable :: motion
-      !> What bends the pads; their modulus, Pa, ratio of Poisson and linear expansion, 1/K.
-      character(len=:), allocatable :: bending
+      !> How the pads move and what bends them; their modulus, Pa, ratio of Poisson and linear expansion, 1/K.
+      character(len=:), allocatable :: motion, bending
       real(wp), allocatable :: young_modulus(:), poisson_ratio(:), expansion(:)
       !> C; unset: from the temperatures of the films.
       real(wp), allocatable :: temperature(:)
@@ -130,7 +127,7 @@ module case_groups
    end type start_type
 
    type :: film_type
-      character(len=:), allocatable :: solver
+      character(len=:), allocatable :: solver, cavitation
       !> Cells along the arc and, on finite volumes, along half the width; modes. 0: the solver's own number.
       integer :: circumferential_cells = 0, axial_cells = 0, axial_modes = 0
       !> Of an iterative solution: relaxation factor, 0: the grid's optimum; residual at which it ends; most SOR sweeps.
@@ -138,7 +135,6 @@ module case_groups
       integer :: max_sweeps = 5000
       !> Of forces from tables over that of a film that is just whole; 0: by the march's tolerance.
       real(wp) :: table_tolerance = 0
-      character(len=:), allocatable :: cavitation
    end type film_type
 
    !> What a bearing stands on: the mass that moves with its housing, kg, the pads' included; N/m and N s/m along y
@@ -227,8 +223,7 @@ module case_groups
    end type periodic_type
 
    type :: branch_type
-      character(len=:), allocatable :: of
-      character(len=:), allocatable :: parameter
+      character(len=:), allocatable :: of, parameter
       !> Its value at the end; its first change; its largest change in a step, 0: ten times the first. Unset where they
       !> are left out.
       real(wp) :: last = unset, step = unset, max_step = 0

@@ -31,8 +31,7 @@ module excitations
       real(wp), private :: along(2) = 0, across(2) = 0
    contains
       procedure :: prepare
-      procedure :: force
-      procedure :: force_rate
+      procedure :: evaluate
       procedure :: next_switch
    end type excitation_type
 
@@ -57,16 +56,8 @@ contains
       !> Of the shaft: 1 clockwise, -1 anticlockwise.
       real(wp), intent(in) :: sense
       real(wp) :: towards
-      select case (self%kind)
-      case ('step')
-         self%law = step
-      case ('ramp')
-         self%law = ramp
-      case ('table')
-         self%law = table
-      case default
-         self%law = vibration
-      end select
+      ! as the numbers of the kinds are in this order
+      self%law = vibration + findloc([character(len=5) :: 'step', 'ramp', 'table'], self%kind, dim=1)
       towards = self%direction_deg*degree
       self%rotates = self%rotating /= 'no'
       self%along = [cos(towards), sin(towards)]
@@ -131,58 +122,34 @@ contains
       end do
    end function interval
 
-   !> Force along y and z at time t, s, N, where the shaft has turned by an angle, rad, since the start of the
-   !> excitation.
-   pure function force(self, t, turned)
-      class(excitation_type), intent(in) :: self
-      real(wp), intent(in) :: t, turned
-      real(wp) :: force(2), angle, rate
-      integer :: k
-      force = 0
-      if (.not. acts(self, t)) return
-      select case (self%law)
-      case (table)
-         k = interval(self, t - self%start)
-         if (k > 0) force = self%table(:, k) + (t - self%start - self%time(k))*slope(self, k)
-      case (step)
-         force = self%amplitude*self%along
-      case (ramp)
-         force = self%amplitude*min(1.0_wp, (t - self%start)/(self%end - self%start))*self%along
-      case default
-         call phase(self, t, turned, 0.0_wp, angle, rate)
-         force = self%amplitude*direction(self, angle)
-      end select
-   end function force
-
-   !> How the force changes with time, N/s, at a speed of the shaft, rad/s.
-   pure function force_rate(self, t, turned, speed)
+   !> Force along y and z at time t, s, N, and how it changes with time, N/s, where the shaft has turned by an angle,
+   !> rad, since the start of the excitation and has a speed, rad/s.
+   pure subroutine evaluate(self, t, turned, speed, force, force_rate)
       class(excitation_type), intent(in) :: self
       real(wp), intent(in) :: t, turned, speed
-      real(wp) :: force_rate(2), angle, rate
+      real(wp), intent(out) :: force(2), force_rate(2)
+      real(wp) :: angle, rate
       integer :: k
+      force = 0
       force_rate = 0
       if (.not. acts(self, t)) return
       select case (self%law)
       case (table)
          k = interval(self, t - self%start)
-         if (k > 0) force_rate = slope(self, k)
+         if (k == 0) return
+         force_rate = (self%table(:, k + 1) - self%table(:, k))/(self%time(k + 1) - self%time(k))
+         force = self%table(:, k) + (t - self%start - self%time(k))*force_rate
       case (step)
-         force_rate = 0
+         force = self%amplitude*self%along
       case (ramp)
+         force = self%amplitude*min(1.0_wp, (t - self%start)/(self%end - self%start))*self%along
          if (t < self%end) force_rate = self%amplitude/(self%end - self%start)*self%along
       case default
          call phase(self, t, turned, speed, angle, rate)
+         force = self%amplitude*direction(self, angle)
          force_rate = self%amplitude*rate*direction(self, angle + 0.5_wp*pi)
       end select
-   end function force_rate
-
-   !> Slope of the table behind row k, N/s.
-   pure function slope(self, k)
-      class(excitation_type), intent(in) :: self
-      integer, intent(in) :: k
-      real(wp) :: slope(2)
-      slope = (self%table(:, k + 1) - self%table(:, k))/(self%time(k + 1) - self%time(k))
-   end function slope
+   end subroutine evaluate
 
    !> Makes `next` the first time after t, s, at which the force jumps or its rate does, where that is before `next`;
    !> `jumps` tells whether it is the force.

@@ -24,7 +24,6 @@ module operating_point
    contains
       procedure :: speed
       procedure :: shaft_angle
-      procedure :: excitation_force
       procedure :: excitation_forces
       procedure :: excitation_rates
       procedure :: next_switch
@@ -67,42 +66,33 @@ contains
       shaft_angle = (self%speed_rpm*rpm + 0.5_wp*self%acceleration*t)*t
    end function shaft_angle
 
-   !> The sum of the forces of the excitations along y and z at time t, N.
-   pure function excitation_force(self, t) result(force)
-      class(operating_point_type), intent(in) :: self
-      real(wp), intent(in) :: t
-      real(wp) :: force(2)
-      integer :: i
-      force = 0
-      do i = 1, excitation_count(self)
-         associate (x => self%excitations(i))
-            force = force + x%force(t, self%shaft_angle(t) - self%shaft_angle(x%start))
-         end associate
-      end do
-   end function excitation_force
-
    !> The forces of the excitations along y and z at time t, N, (2, excitation).
    pure function excitation_forces(self, t) result(forces)
       class(operating_point_type), intent(in) :: self
       real(wp), intent(in) :: t
-      real(wp) :: forces(2, excitation_count(self))
-      integer :: i
-      do i = 1, size(forces, 2)
-         forces(:, i) = self%excitations(i)%force(t, self%shaft_angle(t) - self%shaft_angle(self%excitations(i)%start))
-      end do
+      real(wp) :: forces(2, excitation_count(self)), rates(2, excitation_count(self))
+      call evaluate(self, t, forces, rates)
    end function excitation_forces
 
    !> How these forces change with time, N/s.
    pure function excitation_rates(self, t) result(rates)
       class(operating_point_type), intent(in) :: self
       real(wp), intent(in) :: t
-      real(wp) :: rates(2, excitation_count(self))
-      integer :: i
-      do i = 1, size(rates, 2)
-         rates(:, i) = self%excitations(i)%force_rate(t, &
-            & self%shaft_angle(t) - self%shaft_angle(self%excitations(i)%start), self%speed(t))
-      end do
+      real(wp) :: forces(2, excitation_count(self)), rates(2, excitation_count(self))
+      call evaluate(self, t, forces, rates)
    end function excitation_rates
+
+   !> Both.
+   pure subroutine evaluate(self, t, forces, rates)
+      class(operating_point_type), intent(in) :: self
+      real(wp), intent(in) :: t
+      real(wp), intent(out) :: forces(:, :), rates(:, :)
+      integer :: i
+      do i = 1, size(forces, 2)
+         call self%excitations(i)%evaluate(t, self%shaft_angle(t) - self%shaft_angle(self%excitations(i)%start), &
+            & self%speed(t), forces(:, i), rates(:, i))
+      end do
+   end subroutine evaluate
 
    !> Number of its excitations.
    pure integer function excitation_count(self)

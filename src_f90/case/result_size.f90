@@ -7,10 +7,10 @@ module result_size
    implicit none (type, external)
    private
    public :: sample_interval, sample_count, figure_samples, result_bytes, memory_bytes, memory_advice, bytes_text, &
-      & size_note, is_huge
+      & size_note
 
    !> From this number of bytes on, the size is printed before a run.
-   real(wp), parameter :: large = 100e6_wp, huge_size = 1e9_wp
+   real(wp), parameter :: large = 100e6_wp
    !> Bytes of a value, and of a file without samples.
    real(wp), parameter :: of_value = 8, of_frame = 1e5_wp
    !> Bytes of memory of a run but its figures; the examples take 3 to 6 MB, with other libraries more.
@@ -36,37 +36,29 @@ contains
       type(case_type), intent(in) :: inputs
       real(wp) :: angle, last, acceleration, square, time
       samples = 0
-      select case (inputs%about%task)
-      case ('periodic')
-         samples = 1 + int(inputs%periodic%revolutions, i8)*inputs%output%samples_per_revolution
-      case ('march')
-         samples = max(0_i8, sample_count(inputs))
-         angle = 2*pi*(1 + real(inputs%output%spectrum_revolutions, wp))
-         last = inputs%operation%final_speed_rpm*pi/30
-         acceleration = (last - inputs%operation%speed_rpm*pi/30)/inputs%operation%duration
-         ! back from the end the shaft turns by last t - acceleration t^2/2
-         square = last**2 - 2*acceleration*angle
-         if (square < 0 .or. .not. last > 0) return
-         time = 2*angle/(last + sqrt(square))
-         samples = min(samples, 2 + ceiling(min(time/sample_interval(inputs), 1e15_wp), i8))
-      case default
-         samples = 0
-      end select
+      if (inputs%about%task == 'periodic') samples = 1 + int(inputs%periodic%revolutions, i8) &
+         & *inputs%output%samples_per_revolution
+      if (inputs%about%task /= 'march') return
+      samples = max(0_i8, sample_count(inputs))
+      angle = 2*pi*(1 + real(inputs%output%spectrum_revolutions, wp))
+      last = inputs%operation%final_speed_rpm*pi/30
+      acceleration = (last - inputs%operation%speed_rpm*pi/30)/inputs%operation%duration
+      ! back from the end the shaft turns by last t - acceleration t^2/2
+      square = last**2 - 2*acceleration*angle
+      if (square < 0 .or. .not. last > 0) return
+      time = 2*angle/(last + sqrt(square))
+      samples = min(samples, 2 + ceiling(min(time/sample_interval(inputs), 1e15_wp), i8))
    end function figure_samples
 
    !> Bytes of the result of a case; 0 where nothing is marched.
    pure real(wp) function result_bytes(inputs) result(bytes)
       type(case_type), intent(in) :: inputs
+      integer(i8) :: samples
       bytes = 0
-      if (inputs%about%task /= 'march') return
-      select case (inputs%output%keep)
-      case ('all')
-         bytes = of_frame + of_value*values_of_sample(inputs)*max(0.0_wp, real(sample_count(inputs), wp))
-      case ('last_revolutions')
-         bytes = of_frame + of_value*values_of_sample(inputs)*real(figure_samples(inputs), wp)
-      case default
-         bytes = 0
-      end select
+      if (inputs%about%task /= 'march' .or. inputs%output%keep == 'summary') return
+      samples = max(0_i8, sample_count(inputs))
+      if (inputs%output%keep == 'last_revolutions') samples = figure_samples(inputs)
+      bytes = of_frame + of_value*values_of_sample(inputs)*real(samples, wp)
    end function result_bytes
 
    !> Values of a sample: the series that docs/results.md lists.
@@ -125,13 +117,6 @@ contains
          text = to_text(0.1_wp*anint(bytes/1e8_wp))//' GB'
       end if
    end function bytes_text
-
-   !> Whether this many results of the case have more than a gigabyte together.
-   pure logical function is_huge(inputs, results)
-      type(case_type), intent(in) :: inputs
-      integer, intent(in) :: results
-      is_huge = results*result_bytes(inputs) > huge_size
-   end function is_huge
 
    !> A note where this many results of the case are large together; else empty.
    function size_note(inputs, results) result(note)

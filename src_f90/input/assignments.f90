@@ -7,7 +7,7 @@ module assignments
    implicit none (type, external)
    private
    public :: namelist_type, assignment_type, token_type, put_assignment, undoes, assignment_text, target_text, &
-      & value_text, study_group, split_subscript, is_special, read_number, counted, of_bearing, kind_of, bearing_of, &
+      & place_of, value_text, study_group, split_subscript, is_special, read_number, counted, kind_of, bearing_of, &
       & is_counted, may_have_bearing, naming_variable, group_heading, identifier_of, is_name, is_spelled, &
       & longest_bearing
 
@@ -57,13 +57,6 @@ contains
       character(len=:), allocatable :: text
       text = '('//to_text(number)//')'
    end function counted
-
-   !> Behind the name of a group: ":drive_end".
-   pure function of_bearing(name) result(text)
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable :: text
-      text = ':'//name
-   end function of_bearing
 
    !> "disc" of disc(2), "pads" of pads:drive_end.
    pure function kind_of(group) result(kind)
@@ -143,23 +136,20 @@ contains
       type(namelist_type), intent(inout) :: parsed
       type(assignment_type), allocatable :: together(:)
       logical, allocatable :: keep(:)
-      integer :: at, i, k
-      keep = [(.not. replaces(new, parsed%assignments(i)), i=1, size(parsed%assignments))]
-      at = size(keep) + 1
+      integer, allocatable :: order(:)
+      integer :: at, i, n
+      n = size(parsed%assignments)
+      keep = [(.not. replaces(new, parsed%assignments(i)), i=1, n)]
+      at = n + 1
       if (new%group == study_group) at = findloc([keep, .false.], .false., dim=1)
+      ! n + 1 stands for the new one
+      order = [pack([(i, i=1, at - 1)], keep(:at - 1)), n + 1, pack([(i, i=at, n)], keep(at:))]
       ! one by one, as the compiler forgets to free what a constructor with pack copies
-      allocate (together(count(keep) + 1))
-      k = 0
-      do i = 1, size(keep) + 1
-         if (i == at) then
-            k = k + 1
-            together(k) = new
-         end if
-         if (i > size(keep)) exit
-         if (.not. keep(i)) cycle
-         k = k + 1
-         together(k) = parsed%assignments(i)
+      allocate (together(size(order)))
+      do i = 1, size(order)
+         if (order(i) <= n) together(i) = parsed%assignments(order(i))
       end do
+      together(findloc(order, n + 1, dim=1)) = new
       call move_alloc(together, parsed%assignments)
    end subroutine put_assignment
 
@@ -185,13 +175,19 @@ contains
       type(assignment_type), intent(in) :: a
       character(len=:), allocatable :: text
       integer :: i
-      text = target_text(a)//' = '
-      do i = 1, min(4, size(a%values))
-         if (i > 1) text = text//', '
-         text = text//shortened(value_text(a%values(i)))
+      text = target_text(a)//' = '//shortened(value_text(a%values(1)))
+      do i = 2, min(4, size(a%values))
+         text = text//', '//shortened(value_text(a%values(i)))
       end do
       if (size(a%values) > 4) text = text//', ... ('//to_text(size(a%values))//' values)'
    end function assignment_text
+
+   !> "case.nml line 3: pads%mass", for messages.
+   pure function place_of(a) result(text)
+      type(assignment_type), intent(in) :: a
+      character(len=:), allocatable :: text
+      text = a%origin//': '//a%group//'%'//a%name
+   end function place_of
 
    !> "pads%mass(2)".
    pure function target_text(a) result(text)
@@ -233,21 +229,16 @@ contains
    !> would take more, such as 1+2 for 100.
    pure logical function is_number(word)
       character(len=*), intent(in) :: word
+      character(len=*), parameter :: digits = '0123456789'
       character(len=:), allocatable :: mantissa, exponent
       integer :: e, point
-      is_number = .false.
-      if (len(word) == 0 .or. len(word) > 60) return
-      e = scan(word, 'ed')
-      mantissa = word
-      if (e > 0) then
-         mantissa = word(:e - 1)
-         exponent = unsigned(word(e + 1:))
-         if (len(exponent) == 0 .or. verify(exponent, '0123456789') /= 0) return
-      end if
-      mantissa = unsigned(mantissa)
-      point = index(mantissa, '.')
-      if (point > 0) mantissa = mantissa(:point - 1)//mantissa(point + 1:)
-      is_number = len(mantissa) > 0 .and. verify(mantissa, '0123456789') == 0
+      e = scan(word//'e', 'ed')
+      mantissa = unsigned(word(:e - 1))
+      exponent = unsigned(word(e + 1:))
+      point = index(mantissa//'.', '.')
+      mantissa = mantissa(:point - 1)//mantissa(point + 1:)
+      is_number = len(word) <= 60 .and. len(mantissa) > 0 .and. verify(mantissa//exponent, digits) == 0 &
+         & .and. (e > len(word) .or. len(exponent) > 0)
    end function is_number
 
    !> The number that a word in lower case means, infinite where it is too large; `ok` is false where it is no number.
@@ -279,9 +270,6 @@ contains
    pure function unsigned(word)
       character(len=*), intent(in) :: word
       character(len=:), allocatable :: unsigned
-      unsigned = word
-      if (len(word) > 0) then
-         if (index('+-', word(1:1)) > 0) unsigned = word(2:)
-      end if
+      unsigned = word(1 + scan(word(:min(1, len(word))), '+-'):)
    end function unsigned
 end module assignments

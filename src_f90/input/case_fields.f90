@@ -1,15 +1,15 @@
-!> The list of all input variables: each with its component of the case, name, allowed values, unit and meaning. The
-!> groups of a bearing are in bearing_fields. Groups that a machine has several times have their number or the name of
-!> their bearing behind them: disc(2), pads:drive_end (see assignments).
+!> The list of all input variables: each with its component of the case, name, allowed values, unit and meaning. Groups
+!> that a machine has several times have their number or the name of their bearing behind them: disc(2),
+!> pads:drive_end (see assignments).
 module case_fields
    use kinds, only: wp
-   use variable_table, only: variable_table_type
-   use case_groups, only: bearing_type, support_type, start_type, most_ratios, unset, is_set, rotor_type, &
-      & elastic_type, shaft_type, reduction_type, most_sections, most_stations
+   use variable_table, only: variable_table_type, logical_words
+   use case_groups, only: bearing_type, oil_type, pads_type, pivot_type, friction_type, film_type, support_type, &
+      & reduction_type, most_ratios, most_sections, most_stations, max_pads, unset, is_set, mass_range, &
+      & inertia_range, centre_range, temperature_range, viscosity_range
    use case_inputs, only: case_type
    use excitations, only: excitation_type, make_excitations
    use assignments, only: counted
-   use bearing_fields, only: list_bearing, list_oil, list_contacts, list_film
    implicit none (type, external)
    private
    public :: list_variables, put_variables, list_all_variables
@@ -21,6 +21,9 @@ module case_fields
    character(len=*), parameter :: checkpoint_variable = 'output%checkpoint_seconds'
    !> The variables whose lengths are the numbers of pads and of sections.
    character(len=*), parameter :: counting_variables(2) = [character(len=20) :: 'pads%pivot_angle_deg', 'shaft%length']
+   !> Allowed temperatures, C, and viscosities, Pa s.
+   real(wp), parameter :: low = temperature_range(1), high = temperature_range(2)
+   real(wp), parameter :: thinnest = viscosity_range(1), thickest = viscosity_range(2)
 
 contains
 
@@ -30,7 +33,6 @@ contains
       type(variable_table_type), intent(out) :: table
       type(case_type) :: copy
       copy = inputs
-      call table%begin(filled=.false.)
       call go_along(copy, table, all=.false.)
    end subroutine list_variables
 
@@ -38,7 +40,8 @@ contains
    subroutine put_variables(table, inputs)
       type(variable_table_type), intent(inout) :: table
       type(case_type), intent(inout) :: inputs
-      call table%begin(filled=.true.)
+      table%filled = .true.
+      table%at = 0
       call go_along(inputs, table, all=.false.)
    end subroutine put_variables
 
@@ -52,7 +55,6 @@ contains
       allocate (copy%rotor%elastic, copy%bearings(1)%support)
       call copy%rotor%elastic%begin(discs=1, unbalances=1, loads=1)
       call make_excitations(1, copy%excitations)
-      call table%begin(filled=.false.)
       call go_along(copy, table, all=.true.)
    end subroutine list_all_variables
 
@@ -62,349 +64,486 @@ contains
       type(case_type), intent(inout) :: inputs
       type(variable_table_type), intent(inout) :: v
       logical, intent(in) :: all
+      !> What stands behind the names of groups.
+      character(len=:), allocatable :: ending
       logical :: rigid, machine
+      integer :: b
+      ! long: the list of all variables, below
       machine = .not. inputs%rotor%is_rigid()
       rigid = all .or. .not. machine
-      call list_case(inputs, v)
-      call list_rotor(inputs%rotor, rigid, v)
-      call list_operation(inputs, v)
-      call list_excitations(inputs%excitations, v, numbered=.not. all, stations=machine)
-      if (rigid) call list_bearing(inputs%bearings(1), v)
-      if (all) call list_place(inputs%bearings(1), v)
-      if (rigid) call list_oil(inputs%bearings(1)%oil, v)
-      call list_thermal(inputs, v)
-      if (rigid) call list_contacts(inputs%bearings(1), v)
-      call list_start(inputs%start, rigid, v)
-      if (rigid) call list_film(inputs%bearings(1)%film, v)
-      call list_integration(inputs, v)
-      call list_output(inputs, v)
-      call list_coefficients(inputs, v)
-      call list_periodic(inputs, v)
-      call list_branch(inputs, v)
+      ending = ''
+      call list_rotor()
+      call list_excitations(inputs%excitations)
+      if (rigid) call list_bearing(inputs%bearings(1))
+      call list_thermal()
+      if (rigid) call list_contacts(inputs%bearings(1))
+      call list_start()
+      if (rigid) call list_film(inputs%bearings(1)%film)
+      call list_march()
+      call list_analyses()
       if (.not. machine) return
-      call list_parts(inputs%rotor%elastic, v, numbered=.not. all)
-      if (all) call list_support(inputs%bearings(1)%support, v)
-      call list_reduction(inputs%rotor%elastic%reduction, v)
-      if (.not. all) call list_bearings(inputs%bearings, v)
-   end subroutine go_along
-
-   subroutine list_case(inputs, v)
-      type(case_type), intent(inout) :: inputs
-      type(variable_table_type), intent(inout) :: v
-      call v%group('case', 'Title and task of the run')
-      call v%word(inputs%about%title, 'title', '', 'free text, which the result file contains')
-      call v%word(inputs%about%task, 'task', 'march equilibrium coefficients periodic branch', &
-         & 'march: motion over time; equilibrium: only the static equilibrium; coefficients: the same, with ' &
-         & //'stiffness, damping and stability there; periodic: the orbit that the motion repeats, and its ' &
-         & //'stability; branch: equilibria or such orbits over a number of the input, and where their stability ' &
-         & //'changes')
-   end subroutine list_case
-
-   subroutine list_rotor(rotor, rigid, v)
-      type(rotor_type), intent(inout) :: rotor
-      logical, intent(in) :: rigid
-      type(variable_table_type), intent(inout) :: v
-      call v%group('rotor', 'The part of the rotor that this bearing carries, and its loads')
-      if (rigid) then
-         call v%number(rotor%mass, 'mass', 1e-6_wp, 1e9_wp, 'kg', 'mass m_J carried by the bearing')
-         call v%number(rotor%unbalance, 'unbalance', 0.0_wp, 1e6_wp, 'kg m', 'unbalance dmE')
-         call v%number(rotor%balance_grade, 'balance_grade', 1e-6_wp, 1e5_wp, 'mm/s', &
-            & 'instead of unbalance: ISO 21940-11 grade G of eq (26)')
-         call v%number(rotor%balance_speed_rpm, 'balance_speed_rpm', 1.0_wp, 1e6_wp, 'rpm', &
-            & 'speed of eq (26); if left out, the maximum speed of the run')
-      end if
-      call v%number(rotor%gravity, 'gravity', 0.0_wp, 1e3_wp, 'm/s^2', 'acceleration towards -y')
-      if (rigid) call v%numbers(rotor%static_load, 'static_load', -1e12_wp, 1e12_wp, 'N', &
-         & 'extra force on the journal along y and z')
-      if (.not. rotor%is_rigid()) call v%word(rotor%elastic%rotor_file, 'file', '', 'instead of the group shaft: the ' &
-         & //'HDF5 file with the matrices of a rotor from another program')
-   end subroutine list_rotor
-
-   subroutine list_operation(inputs, v)
-      type(case_type), intent(inout) :: inputs
-      type(variable_table_type), intent(inout) :: v
-      call v%group('operation', 'Speed and duration')
-      call v%number(inputs%operation%speed_rpm, 'speed_rpm', 1e-3_wp, 1e6_wp, 'rpm', 'shaft speed at the start')
-      call v%number(inputs%operation%final_speed_rpm, 'final_speed_rpm', 0.0_wp, 1e6_wp, 'rpm', &
-         & 'shaft speed at the end; it changes linearly; if left out, speed_rpm')
-      call v%word(inputs%operation%rotation, 'rotation', 'clockwise anticlockwise', &
-         & 'seen with y up and z to the right: clockwise, from +y to +z; anticlockwise, from +y to -z: oil then ' &
-         & //'enters a pad at its smaller angle, and pads%pivot_ratio counts from there')
-      call v%number(inputs%operation%duration, 'duration', 1e-9_wp, 1e6_wp, 's', 'simulated time')
-   end subroutine list_operation
-
-   subroutine list_thermal(inputs, v)
-      type(case_type), intent(inout) :: inputs
-      type(variable_table_type), intent(inout) :: v
-      call v%group('thermal', 'Heat balance of the oil')
-      call v%word(inputs%thermal%model, 'model', 'none pad film', &
-         & 'none: all oil has supply_temperature; pad: a temperature and a viscosity for each pad; film: ' &
-         & //'temperatures along and across each film, and in the pad')
-      call v%whole(inputs%thermal%stations, 'stations', 8.0_wp, 400.0_wp, 'film: stations along the arc')
-      call v%whole(inputs%thermal%layers, 'layers', 4.0_wp, 100.0_wp, 'film: layers across the film')
-      call v%word(inputs%thermal%march, 'march', 'frozen groove', &
-         & 'in a march; frozen: temperatures of the equilibrium; groove: the oil between the pads warms and cools')
-   end subroutine list_thermal
-
-   subroutine list_start(start, rigid, v)
-      type(start_type), intent(inout) :: start
-      logical, intent(in) :: rigid
-      type(variable_table_type), intent(inout) :: v
-      call v%group('start', &
-         & 'Where a march starts; the values of journal and pads are added, as a disturbance; a resumed run does ' &
-         & //'not start again')
-      call v%word(start%from, 'from', 'equilibrium partial centred given file', &
-         & 'equilibrium: of the initial speed, at rest; partial: the same, but pads without equilibrium stand on ' &
-         & //'their pivots without tilt; centred: journal in the middle, pads at rest on their pivots without tilt; ' &
-         & //'given: only the values of journal and pads below; file: the end of another result')
-      call v%word(start%file, 'file', '', &
-         & 'file: the result file, with the same pads; its last whole turn of the shaft is taken')
-      if (.not. rigid) return
-      call v%numbers(start%journal, 'journal', -0.1_wp, 0.1_wp, 'm', 'displacement of the journal along y and z')
-      call v%numbers(start%journal_velocity, 'journal_velocity', -1e3_wp, 1e3_wp, 'm/s', &
-         & 'velocity of the journal along y and z')
-      call v%each(start%pad_tilt, 'pads', 'pad_tilt', -3.0_wp, 3.0_wp, 'rad', 'tilts of the pads')
-      call v%each(start%pad_tilt_rate, 'pads', 'pad_tilt_rate', -1e5_wp, 1e5_wp, 'rad/s', 'their rates')
-      call v%each(start%pivot_deflection, 'pads', 'pivot_deflection', -0.1_wp, 0.1_wp, 'm', &
-         & 'tilting_radial: deflections of the pivots')
-      call v%each(start%pivot_deflection_rate, 'pads', 'pivot_deflection_rate', -1e3_wp, 1e3_wp, 'm/s', &
-         & 'tilting_radial: their rates')
-   end subroutine list_start
-
-   subroutine list_integration(inputs, v)
-      type(case_type), intent(inout) :: inputs
-      type(variable_table_type), intent(inout) :: v
-      call v%group('integration', 'Integration in time by CVODE')
-      call v%number(inputs%integration%relative_tolerance, 'relative_tolerance', 1e-13_wp, 1e-2_wp, '1', &
-         & 'relative tolerance of every state')
-      call v%number(inputs%integration%tolerance_scale, 'tolerance_scale', 1e-6_wp, 1e6_wp, '1', &
-         & 'factor of the absolute tolerances: each is relative_tolerance times this times the scale of its state')
-      call v%number(inputs%integration%max_step, 'max_step', 0.0_wp, 1e6_wp, 's', 'maximum step; 0: no limit')
-      call v%whole(inputs%integration%max_steps, 'max_steps', 1.0_wp, 2e9_wp, &
-         & 'maximum number of steps of the march; more is a failure')
-      call v%number(inputs%integration%stop_when_periodic, 'stop_when_periodic', 0.0_wp, 1.0_wp, '1', &
-         & '> 0: the run ends when the samples repeat from one revolution to the next within this part of the ' &
-         & //'bearing clearance (journal) and of the clearance over the pad''s length (tilts)')
-   end subroutine list_integration
-
-   subroutine list_output(inputs, v)
-      type(case_type), intent(inout) :: inputs
-      type(variable_table_type), intent(inout) :: v
-      call v%group('output', 'Contents of the result file')
-      call v%whole(inputs%output%samples_per_revolution, 'samples_per_revolution', 1.0_wp, 1e6_wp, &
-         & 'samples per revolution at the maximum speed of the run')
-      call v%number(inputs%output%start_time, 'start_time', 0.0_wp, 1e6_wp, 's', 'time of the first sample')
-      call v%whole(inputs%output%spectrum_revolutions, 'spectrum_revolutions', 1.0_wp, 1e6_wp, &
-         & 'number of revolutions at the end of the run that the spectra cover, where there are samples')
-      call v%number(inputs%output%checkpoint_seconds, 'checkpoint_seconds', 0.0_wp, 1e9_wp, 's', &
-         & 'wall time between checkpoints, from which --resume continues; 0: only when a signal stops the run')
-      call v%word(inputs%output%keep, 'keep', 'all last_revolutions summary', &
-         & 'samples in the results: all, those of the last spectrum_revolutions, or none; with summary a run of a ' &
-         & //'study has no file but a row of the study; if left out, summary for the tasks equilibrium and ' &
-         & //'coefficients, else all')
-   end subroutine list_output
-
-   subroutine list_coefficients(inputs, v)
-      type(case_type), intent(inout) :: inputs
-      type(variable_table_type), intent(inout) :: v
-      call v%group('coefficients', 'Stiffness, damping and stability, for the task coefficients')
-      call v%list(inputs%coefficients%frequency_ratio, most_ratios, 'frequency_ratio', 0.0_wp, 1e6_wp, '1', &
-         & 'whirl frequencies over the speed of the shaft, of the coefficients of the journal')
-      call v%number(inputs%coefficients%threshold_up_to_rpm, 'threshold_up_to_rpm', 0.0_wp, 1e6_wp, 'rpm', &
-         & '> 0: the speed at which stability is lost is sought from speed_rpm up to this one')
-      call v%number(inputs%coefficients%cross_stiffness, 'cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', &
-         & 'Q: cross-coupled stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward whirl')
-   end subroutine list_coefficients
-
-   subroutine list_periodic(inputs, v)
-      type(case_type), intent(inout) :: inputs
-      type(variable_table_type), intent(inout) :: v
-      call v%group('periodic', 'A periodic orbit and its stability, for the tasks periodic and branch')
-      call v%whole(inputs%periodic%revolutions, 'revolutions', 1.0_wp, 1000.0_wp, &
-         & 'revolutions of the shaft in a period')
-      call v%number(inputs%periodic%tolerance, 'tolerance', 1e-12_wp, 1e-2_wp, '1', &
-         & 'how far from the orbit Newton''s method may end, over the characteristic scale of each state')
-      call v%whole(inputs%periodic%max_iterations, 'max_iterations', 1.0_wp, 1e6_wp, &
-         & 'maximum number of iterations of Newton''s method; more is a failure')
-   end subroutine list_periodic
-
-   subroutine list_branch(inputs, v)
-      type(case_type), intent(inout) :: inputs
-      type(variable_table_type), intent(inout) :: v
-      call v%group('branch', 'Equilibria or periodic orbits over a number of the input, for the task branch')
-      call v%word(inputs%branch%of, 'of', 'periodic equilibrium', &
-         & 'periodic: orbits, as the task periodic finds them; equilibrium: equilibria without friction in the pivots')
-      call v%word(inputs%branch%parameter, 'parameter', '', &
-         & 'the number that changes, from the value that the case gives it: ''operation%speed_rpm''; with an ' &
-         & //'element where there are several, ''rotor%static_load(1)''; of values of the pads all without one. ' &
-         & //'Numbers of rotor, operation, bearing, oil, pads, pivot, friction and asperity')
-      call v%number(inputs%branch%last, 'last', -1e15_wp, 1e15_wp, '', &
-         & 'its value where the branch ends, twice the first one if left out; it also ends where it comes back to ' &
-         & //'the first value')
-      call v%number(inputs%branch%step, 'step', -1e15_wp, 1e15_wp, '', &
-         & 'its first change, a twentieth of the way if left out; later steps are as long as the iteration allows')
-      call v%number(inputs%branch%max_step, 'max_step', 0.0_wp, 1e15_wp, '', &
-         & 'its largest change from point to point; 0: ten times the first')
-      call v%whole(inputs%branch%max_points, 'max_points', 2.0_wp, 1e5_wp, 'maximum number of points of a branch')
-      call v%flag(inputs%branch%switch, 'switch', &
-         & 'periodic: whether the orbits of double period are followed, too, where the period doubles')
-   end subroutine list_branch
-
-   ! The variables of a machine, and of excitations.
-
-   !> Shaft and what it carries; `numbered`: of what there are several, each with its number.
-   subroutine list_parts(rotor, v, numbered)
-      type(elastic_type), intent(inout) :: rotor
-      type(variable_table_type), intent(inout) :: v
-      logical, intent(in) :: numbered
-      integer :: i
-      call list_shaft(rotor%shaft, v)
-      do i = 1, size(rotor%discs)
-         associate (disc => rotor%discs(i))
-            call begin_part('disc', 'a rigid disc on its shaft', disc%station)
-            call v%number(disc%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', 'mass')
-            call v%number(disc%polar_inertia, 'polar_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
-               & 'moment of inertia about the axis of the shaft')
-            call v%number(disc%diametral_inertia, 'diametral_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
-               & 'moment of inertia about a diameter')
+      call list_parts()
+      if (all) call list_support(inputs%bearings(1)%support)
+      call list_reduction(inputs%rotor%elastic%reduction)
+      do b = 1, merge(0, size(inputs%bearings), all)
+         associate (own => inputs%bearings(b))
+            ending = own%suffix()
+            call list_bearing(own)
+            call list_contacts(own)
+            call list_film(own%film)
          end associate
       end do
-      do i = 1, size(rotor%unbalances)
-         call begin_part('unbalance', 'an unbalance', rotor%unbalances(i)%station)
-         call v%number(rotor%unbalances(i)%moment, 'moment', 0.0_wp, 1e6_wp, 'kg m', 'mass times eccentricity')
-         call v%number(rotor%unbalances(i)%angle_deg, 'angle_deg', -360.0_wp, 360.0_wp, 'deg', &
-            & 'its angle on the shaft, in the sense of rotation')
-      end do
-      do i = 1, size(rotor%loads)
-         call begin_part('load', 'a steady force on its shaft, beside the weight', rotor%loads(i)%station)
-         call v%numbers(rotor%loads(i)%force, 'force', -1e12_wp, 1e12_wp, 'N', 'along y and z')
-      end do
-      call v%behind_group('')
    contains
-      !> The group of the i-th part of a kind, and its station.
-      subroutine begin_part(name, meaning, station)
+      subroutine group(name, meaning)
          character(len=*), intent(in) :: name, meaning
-         integer, intent(inout) :: station
-         if (numbered) call v%behind_group(counted(i))
-         call v%group(name, 'A machine: '//meaning//'; one group for each')
-         call list_station(station, v)
-      end subroutine begin_part
-   end subroutine list_parts
+         v%this_group = name//ending
+         v%group_meaning = meaning
+      end subroutine group
 
-   !> Each bearing with its own groups.
-   subroutine list_bearings(bearings, v)
-      type(bearing_type), intent(inout) :: bearings(:)
-      type(variable_table_type), intent(inout) :: v
-      integer :: b
-      do b = 1, size(bearings)
-         associate (own => bearings(b))
-            call v%behind_group(own%suffix())
-            call list_bearing(own, v)
-            call list_place(own, v)
-            if (allocated(own%support)) call list_support(own%support, v)
-            call list_oil(own%oil, v)
-            call list_contacts(own, v)
-            call list_film(own%film, v)
+      !> The group of the i-th part of a kind.
+      subroutine group_of(i, name, meaning)
+         integer, intent(in) :: i
+         character(len=*), intent(in) :: name, meaning
+         if (.not. all) ending = counted(i)
+         call group(name, meaning)
+         ending = ''
+      end subroutine group_of
+
+      subroutine list_rotor()
+         call group('case', 'Title and task of the run')
+         call v%word(inputs%about%title, 'title', '', 'free text, which the result file contains')
+         call v%word(inputs%about%task, 'task', 'march equilibrium coefficients periodic branch', &
+            & 'march: motion over time; equilibrium: only the static equilibrium; coefficients: the same, with ' &
+            & //'stiffness, damping and stability there; periodic: the orbit that the motion repeats, and its ' &
+            & //'stability; branch: equilibria or such orbits over a number of the input, and where their stability ' &
+            & //'changes')
+         call group('rotor', 'The part of the rotor that this bearing carries, and its loads')
+         if (rigid) then
+            call v%number(inputs%rotor%mass, 'mass', 1e-6_wp, 1e9_wp, 'kg', 'mass m_J carried by the bearing')
+            call v%number(inputs%rotor%unbalance, 'unbalance', 0.0_wp, 1e6_wp, 'kg m', 'unbalance dmE')
+            call v%number(inputs%rotor%balance_grade, 'balance_grade', 1e-6_wp, 1e5_wp, 'mm/s', &
+               & 'instead of unbalance: ISO 21940-11 grade G of eq (26)')
+            call v%number(inputs%rotor%balance_speed_rpm, 'balance_speed_rpm', 1.0_wp, 1e6_wp, 'rpm', &
+               & 'speed of eq (26); if left out, the maximum speed of the run')
+         end if
+         call v%number(inputs%rotor%gravity, 'gravity', 0.0_wp, 1e3_wp, 'm/s^2', 'acceleration towards -y')
+         if (rigid) call v%numbers(inputs%rotor%static_load, 'static_load', -1e12_wp, 1e12_wp, 'N', &
+            & 'extra force on the journal along y and z')
+         if (.not. inputs%rotor%is_rigid()) call v%word(inputs%rotor%elastic%rotor_file, 'file', '', &
+            & 'instead of the group shaft: the HDF5 file with the matrices of a rotor from another program')
+         call group('operation', 'Speed and duration')
+         call v%number(inputs%operation%speed_rpm, 'speed_rpm', 1e-3_wp, 1e6_wp, 'rpm', 'shaft speed at the start')
+         call v%number(inputs%operation%final_speed_rpm, 'final_speed_rpm', 0.0_wp, 1e6_wp, 'rpm', &
+            & 'shaft speed at the end; it changes linearly; if left out, speed_rpm')
+         call v%word(inputs%operation%rotation, 'rotation', 'clockwise anticlockwise', &
+            & 'seen with y up and z to the right: clockwise, from +y to +z; anticlockwise, from +y to -z: oil then ' &
+            & //'enters a pad at its smaller angle, and pads%pivot_ratio counts from there')
+         call v%number(inputs%operation%duration, 'duration', 1e-9_wp, 1e6_wp, 's', 'simulated time')
+      end subroutine list_rotor
+
+      subroutine list_thermal()
+         call group('thermal', 'Heat balance of the oil')
+         call v%word(inputs%thermal%model, 'model', 'none pad film', &
+            & 'none: all oil has supply_temperature; pad: a temperature and a viscosity for each pad; film: ' &
+            & //'temperatures along and across each film, and in the pad')
+         call v%whole(inputs%thermal%stations, 'stations', 8.0_wp, 400.0_wp, 'film: stations along the arc')
+         call v%whole(inputs%thermal%layers, 'layers', 4.0_wp, 100.0_wp, 'film: layers across the film')
+         call v%word(inputs%thermal%march, 'march', 'frozen groove', &
+            & 'in a march; frozen: temperatures of the equilibrium; groove: the oil between the pads warms and cools')
+      end subroutine list_thermal
+
+      subroutine list_start()
+         call group('start', 'Where a march starts; the values of journal and pads are added, as a disturbance; a ' &
+            & //'resumed run does not start again')
+         call v%word(inputs%start%from, 'from', 'equilibrium partial centred given file', &
+            & 'equilibrium: of the initial speed, at rest; partial: the same, but pads without equilibrium stand on ' &
+            & //'their pivots without tilt; centred: journal in the middle, pads at rest on their pivots without ' &
+            & //'tilt; given: only the values of journal and pads below; file: the end of another result')
+         call v%word(inputs%start%file, 'file', '', &
+            & 'file: the result file, with the same pads; its last whole turn of the shaft is taken')
+         if (.not. rigid) return
+         call v%numbers(inputs%start%journal, 'journal', -0.1_wp, 0.1_wp, 'm', &
+            & 'displacement of the journal along y and z')
+         call v%numbers(inputs%start%journal_velocity, 'journal_velocity', -1e3_wp, 1e3_wp, 'm/s', &
+            & 'velocity of the journal along y and z')
+         call v%each(inputs%start%pad_tilt, 'pads', 'pad_tilt', -3.0_wp, 3.0_wp, 'rad', 'tilts of the pads')
+         call v%each(inputs%start%pad_tilt_rate, 'pads', 'pad_tilt_rate', -1e5_wp, 1e5_wp, 'rad/s', 'their rates')
+         call v%each(inputs%start%pivot_deflection, 'pads', 'pivot_deflection', -0.1_wp, 0.1_wp, 'm', &
+            & 'tilting_radial: deflections of the pivots')
+         call v%each(inputs%start%pivot_deflection_rate, 'pads', 'pivot_deflection_rate', -1e3_wp, 1e3_wp, 'm/s', &
+            & 'tilting_radial: their rates')
+      end subroutine list_start
+
+      !> Integration and output.
+      subroutine list_march()
+         call group('integration', 'Integration in time by CVODE')
+         call v%number(inputs%integration%relative_tolerance, 'relative_tolerance', 1e-13_wp, 1e-2_wp, '1', &
+            & 'relative tolerance of every state')
+         call v%number(inputs%integration%tolerance_scale, 'tolerance_scale', 1e-6_wp, 1e6_wp, '1', &
+            & 'factor of the absolute tolerances: each is relative_tolerance times this times the scale of its state')
+         call v%number(inputs%integration%max_step, 'max_step', 0.0_wp, 1e6_wp, 's', 'maximum step; 0: no limit')
+         call v%whole(inputs%integration%max_steps, 'max_steps', 1.0_wp, 2e9_wp, &
+            & 'maximum number of steps of the march; more is a failure')
+         call v%number(inputs%integration%stop_when_periodic, 'stop_when_periodic', 0.0_wp, 1.0_wp, '1', &
+            & '> 0: the run ends when the samples repeat from one revolution to the next within this part of the ' &
+            & //'bearing clearance (journal) and of the clearance over the pad''s length (tilts)')
+         call group('output', 'Contents of the result file')
+         call v%whole(inputs%output%samples_per_revolution, 'samples_per_revolution', 1.0_wp, 1e6_wp, &
+            & 'samples per revolution at the maximum speed of the run')
+         call v%number(inputs%output%start_time, 'start_time', 0.0_wp, 1e6_wp, 's', 'time of the first sample')
+         call v%whole(inputs%output%spectrum_revolutions, 'spectrum_revolutions', 1.0_wp, 1e6_wp, &
+            & 'number of revolutions at the end of the run that the spectra cover, where there are samples')
+         call v%number(inputs%output%checkpoint_seconds, 'checkpoint_seconds', 0.0_wp, 1e9_wp, 's', &
+            & 'wall time between checkpoints, from which --resume continues; 0: only when a signal stops the run')
+         call v%word(inputs%output%keep, 'keep', 'all last_revolutions summary', &
+            & 'samples in the results: all, those of the last spectrum_revolutions, or none; with summary a run of a ' &
+            & //'study has no file but a row of the study; if left out, summary for the tasks equilibrium and ' &
+            & //'coefficients, else all')
+      end subroutine list_march
+
+      !> What other tasks than a march have.
+      subroutine list_analyses()
+         character(len=:), allocatable :: word
+         call group('coefficients', 'Stiffness, damping and stability, for the task coefficients')
+         call v%list(inputs%coefficients%frequency_ratio, most_ratios, 'frequency_ratio', 0.0_wp, 1e6_wp, '1', &
+            & 'whirl frequencies over the speed of the shaft, of the coefficients of the journal')
+         call v%number(inputs%coefficients%threshold_up_to_rpm, 'threshold_up_to_rpm', 0.0_wp, 1e6_wp, 'rpm', &
+            & '> 0: the speed at which stability is lost is sought from speed_rpm up to this one')
+         call v%number(inputs%coefficients%cross_stiffness, 'cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', 'Q: ' &
+            & //'cross-coupled stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward whirl')
+         call group('periodic', 'A periodic orbit and its stability, for the tasks periodic and branch')
+         call v%whole(inputs%periodic%revolutions, 'revolutions', 1.0_wp, 1000.0_wp, &
+            & 'revolutions of the shaft in a period')
+         call v%number(inputs%periodic%tolerance, 'tolerance', 1e-12_wp, 1e-2_wp, '1', &
+            & 'how far from the orbit Newton''s method may end, over the characteristic scale of each state')
+         call v%whole(inputs%periodic%max_iterations, 'max_iterations', 1.0_wp, 1e6_wp, &
+            & 'maximum number of iterations of Newton''s method; more is a failure')
+         call group('branch', 'Equilibria or periodic orbits over a number of the input, for the task branch')
+         call v%word(inputs%branch%of, 'of', 'periodic equilibrium', 'periodic: orbits, as the task periodic finds ' &
+            & //'them; equilibrium: equilibria without friction in the pivots')
+         call v%word(inputs%branch%parameter, 'parameter', '', &
+            & 'the number that changes, from the value that the case gives it: ''operation%speed_rpm''; with an ' &
+            & //'element where there are several, ''rotor%static_load(1)''; of values of the pads all without one. ' &
+            & //'Numbers of rotor, operation, bearing, oil, pads, pivot, friction and asperity')
+         call v%number(inputs%branch%last, 'last', -1e15_wp, 1e15_wp, '', 'its value where the branch ends, twice ' &
+            & //'the first one if left out; it also ends where it comes back to the first value')
+         call v%number(inputs%branch%step, 'step', -1e15_wp, 1e15_wp, '', &
+            & 'its first change, a twentieth of the way if left out; later steps are as long as the iteration allows')
+         call v%number(inputs%branch%max_step, 'max_step', 0.0_wp, 1e15_wp, '', &
+            & 'its largest change from point to point; 0: ten times the first')
+         call v%whole(inputs%branch%max_points, 'max_points', 2.0_wp, 1e5_wp, 'maximum number of points of a branch')
+         word = trim(merge('.true. ', '.false.', inputs%branch%switch))
+         call v%word(word, 'switch', logical_words, &
+            & 'periodic: whether the orbits of double period are followed, too, where the period doubles')
+         inputs%branch%switch = word == '.true.'
+      end subroutine list_analyses
+
+      ! The variables of a bearing.
+
+      !> Geometry of a bearing, its oil where the law is constant, its boundary pressures, where and on what it stands,
+      !> and its oil.
+      subroutine list_bearing(own)
+         type(bearing_type), intent(inout) :: own
+         call group('bearing', 'Geometry, oil and boundary pressures')
+         call v%number(own%journal_radius, 'journal_radius', 1e-4_wp, 10.0_wp, 'm', 'radius R_J of the journal')
+         call v%each(own%machined_clearance, 'pads', 'machined_clearance', 1e-9_wp, 0.1_wp, 'm', &
+            & 'radial clearance c_m between pad bore and journal')
+         call v%each(own%assembled_clearance, 'pads', 'assembled_clearance', 1e-9_wp, 0.1_wp, 'm', &
+            & 'radial clearance c_r at the pivots; where pads differ, the smallest is that of the bearing')
+         call v%each(own%preload, 'pads', 'preload', -1.0_wp, 0.999_wp, '1', &
+            & 'instead of machined_clearance: preload m of the pads, c_m = c_r/(1 - m)')
+         call v%each(own%axial_length, 'pads', 'axial_length', 1e-5_wp, 100.0_wp, 'm', 'pad length L along the shaft')
+         call v%number(own%viscosity, 'viscosity', thinnest, thickest, 'Pa s', &
+            & 'dynamic viscosity of the oil where oil%law is constant')
+         call v%number(own%clearance_temperature, 'clearance_temperature', low, high, 'C', &
+            & 'temperature at which the clearances were measured: shaft, pads and housing expand from there; if left ' &
+            & //'out, the clearances are those in operation')
+         call v%number(own%shaft_expansion, 'shaft_expansion', 0.0_wp, 1e-3_wp, '1/K', &
+            & 'linear expansion of the shaft, which has oil%shaft_temperature or, if that is left out, the ' &
+            & //'temperature of the solution; 11e-6: steel')
+         call v%number(own%housing_expansion, 'housing_expansion', 0.0_wp, 1e-3_wp, '1/K', &
+            & 'linear expansion of the housing')
+         call v%number(own%housing_temperature, 'housing_temperature', low, high, 'C', &
+            & 'temperature of the housing; if left out, oil%supply_temperature')
+         call v%number(own%supply_pressure, 'supply_pressure', -1e9_wp, 1e9_wp, 'Pa', 'pressure at the leading edges')
+         call v%number(own%ambient_pressure, 'ambient_pressure', -1e9_wp, 1e9_wp, 'Pa', 'pressure at the other edges')
+         call v%number(own%cavitation_pressure, 'cavitation_pressure', -1e9_wp, 1e9_wp, 'Pa', &
+            & 'pressure at which the film cavitates')
+         if (machine) then
+            call list_station(own%station)
+            call v%numbers(own%offset, 'offset', -0.1_wp, 0.1_wp, 'm', &
+               & 'of a machine: how far the bearing stands from the line of the others, along y and z')
+         end if
+         if (allocated(own%support) .and. .not. all) call list_support(own%support)
+         call list_oil(own%oil)
+      end subroutine list_bearing
+
+      subroutine list_oil(oil)
+         type(oil_type), intent(inout) :: oil
+         call group('oil', &
+            & 'Viscosity over temperature, and what heats the oil by how much; *Oil* above says which viscosity holds')
+         call v%word(oil%law, 'law', 'constant exponential walther', 'constant: bearing%viscosity; exponential, ' &
+            & //'walther: over the temperature; if left out, the law whose numbers are given')
+         call v%number(oil%grade, 'grade', 0.0_wp, 3200.0_wp, '1', &
+            & 'walther: ISO viscosity grade, 10 15 22 32 46 68 100 150 220 320 460 680 1000 1500 2200 3200, with ' &
+            & //'viscosity index 100; if left out or 0, kinematic_viscosity is given', whole=.true.)
+         call v%numbers(oil%kinematic_viscosity, 'kinematic_viscosity', 5e-7_wp, 1.0_wp, 'm^2/s', &
+            & 'walther: kinematic viscosities at at_temperature')
+         call v%numbers(oil%at_temperature, 'at_temperature', low, high, 'C', &
+            & 'walther: the lower and the higher temperature of kinematic_viscosity')
+         call v%number(oil%density_at_15, 'density_at_15', 100.0_wp, 1e5_wp, 'kg/m^3', &
+            & 'walther: density at 15 C, which makes the kinematic viscosity a dynamic one; density if left out')
+         call v%number(oil%density_slope, 'density_slope', -10.0_wp, 0.0_wp, 'kg/(m^3 K)', &
+            & 'walther: change of this density with the temperature')
+         call v%number(oil%reference_viscosity, 'reference_viscosity', thinnest, thickest, 'Pa s', &
+            & 'exponential: dynamic viscosity at reference_temperature')
+         call v%number(oil%reference_temperature, 'reference_temperature', low, high, 'C', &
+            & 'exponential: its temperature')
+         call v%number(oil%temperature_exponent, 'temperature_exponent', 0.0_wp, 1.0_wp, '1/K', &
+            & 'exponential: beta of mu_ref exp(-beta (T - T_ref))')
+         call v%number(oil%density, 'density', 100.0_wp, 1e5_wp, 'kg/m^3', 'density of the heat balance, constant')
+         call v%number(oil%specific_heat, 'specific_heat', 100.0_wp, 1e6_wp, 'J/(kg K)', 'specific heat')
+         call v%number(oil%conductivity, 'conductivity', 0.0_wp, 1e3_wp, 'W/(m K)', 'thermal conductivity')
+         call v%number(oil%supply_temperature, 'supply_temperature', low, high, 'C', &
+            & 'temperature of the fresh oil; of all oil where there is no heat balance')
+         call v%number(oil%carry_over, 'carry_over', 0.0_wp, 1.0_wp, '1', &
+            & 'part of the oil leaving a pad that enters the next one')
+         call v%number(oil%widest_gap_deg, 'widest_gap_deg', 0.0_wp, 360.0_wp, 'deg', &
+            & 'widest gap between two pads that oil is carried across; beyond it a pad draws fresh oil')
+         call v%number(oil%shaft_nusselt, 'shaft_nusselt', 0.0_wp, 1e3_wp, '1', &
+            & 'Nusselt number of the exchange of heat between film and shaft; 0: none')
+         call v%number(oil%shaft_temperature, 'shaft_temperature', low, high, 'C', &
+            & 'temperature of the shaft; if left out, that at which it takes no heat on the whole')
+         call v%number(oil%groove_volume, 'groove_volume', 0.0_wp, 1.0_wp, 'm^3', &
+            & 'oil between two pads, for thermal%march = groove')
+         call v%number(oil%back_coefficient, 'back_coefficient', 0.0_wp, 1e6_wp, 'W/(m^2 K)', &
+            & 'for thermal%model = film: film coefficient at the back and both ends of the pads')
+         call v%number(oil%back_temperature, 'back_temperature', low, high, 'C', &
+            & 'likewise: temperature of the oil there; if left out, supply_temperature')
+      end subroutine list_oil
+
+      !> Its pads, their pivots and what rubs.
+      subroutine list_contacts(bearing)
+         type(bearing_type), intent(inout) :: bearing
+         call list_pads(bearing%pads)
+         call list_pivot(bearing%pivot)
+         call list_friction(bearing%friction)
+         call group('asperity', 'Contact of pad and journal where the film is thinner than 4 times their roughness')
+         call v%word(bearing%asperity%model, 'model', 'greenwood_tripp none', &
+            & 'greenwood_tripp: pressure of the asperities; none: a film that closes ends the run')
+         call v%number(bearing%asperity%roughness, 'roughness', 1e-9_wp, 1e-3_wp, 'm', &
+            & 'combined rms roughness sigma, the root of the sum of the squares of both; 0.5 um: ground or fine turned')
+         call v%number(bearing%asperity%elastic_modulus, 'elastic_modulus', 1e5_wp, 1e14_wp, 'Pa', &
+            & 'composite modulus E'', 1/E'' = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2; 47 GPa: steel on white metal (210 ' &
+            & //'and 52 GPa)')
+         call v%number(bearing%asperity%factor, 'factor', 1e-9_wp, 1.0_wp, '1', 'K'' = 16 sqrt(2) pi/15 (sigma beta ' &
+            & //'eta)^2 (sigma/beta)^0.5; 0.003: upper end of the usual 0.0003 to 0.003')
+         call v%number(bearing%asperity%friction_coefficient, 'friction_coefficient', 0.0_wp, 10.0_wp, '1', &
+            & 'boundary friction of touching asperities; 0.1: usual for oiled metals')
+      end subroutine list_contacts
+
+      subroutine list_pads(pads)
+         type(pads_type), intent(inout) :: pads
+         call group('pads', 'The bearing has one pad for each pivot angle')
+         call v%list(pads%pivot_angle_deg, max_pads, 'pivot_angle_deg', -360.0_wp, 360.0_wp, 'deg', &
+            & 'angle theta of each pivot, from +z towards +y', counts='pads')
+         call v%each(pads%arc_deg, 'pads', 'arc_deg', 0.1_wp, 360.0_wp, 'deg', &
+            & 'arc theta_1 + theta_2; at most 350 for pads that tilt')
+         call v%each(pads%pivot_ratio, 'pads', 'pivot_ratio', 0.01_wp, 0.99_wp, '1', &
+            & 'offset: position of the pivot from the leading edge, theta_1 over the arc')
+         call v%each(pads%pivot_distance, 'pads', 'pivot_distance', 1e-6_wp, 1.0_wp, 'm', &
+            & 'radial distance kappa from the pad''s bore to the pivot')
+         call v%each(pads%mass, 'pads', 'mass', mass_range(1), mass_range(2), 'kg', &
+            & 'pad mass; *Pads* above says what it is if it is not given')
+         call v%each(pads%inertia, 'pads', 'inertia', inertia_range(1), inertia_range(2), 'kg m^2', &
+            & 'moment of inertia about the pivot; likewise')
+         call v%each(pads%centre_tangential, 'pads', 'centre_tangential', centre_range(1), centre_range(2), 'm', &
+            & 'position C_xi of the centre of gravity from the pivot, along the pad; likewise')
+         call v%each(pads%centre_radial, 'pads', 'centre_radial', centre_range(1), centre_range(2), 'm', &
+            & 'position C_eta of the centre of gravity from the pivot, outward; likewise')
+         call v%each(pads%density, 'pads', 'density', 1e3_wp, 1e5_wp, 'kg/m^3', &
+            & 'instead of mass: density of the pad; steel, 7850, where it is needed and not given')
+         call v%each(pads%thickness, 'pads', 'thickness', 1e-6_wp, 1.0_wp, 'm', 'radial thickness of the pad, for ' &
+            & //'mass, inertia and centre of gravity; pivot_distance where it is needed and not given')
+         call v%each(pads%conductivity, 'pads', 'conductivity', 1e-3_wp, 1e4_wp, 'W/(m K)', 'for thermal%model = ' &
+            & //'film: thermal conductivity of the pad, through the thickness pads%thickness, or else pivot_distance')
+         call v%word(pads%bending, 'bending', 'none elastic thermal both', 'what bends pads that tilt: none; ' &
+            & //'elastic: the pressure of the films; thermal: the heat that flows through them, with thermal%model = ' &
+            & //'film; both; pads are as thick as pads%thickness, or else pivot_distance')
+         call v%each(pads%young_modulus, 'pads', 'young_modulus', 1e6_wp, 1e13_wp, 'Pa', &
+            & 'Young''s modulus of the pad; 210 GPa: steel')
+         call v%each(pads%poisson_ratio, 'pads', 'poisson_ratio', 0.0_wp, 0.5_wp, '1', 'its Poisson''s ratio')
+         call v%each(pads%expansion, 'pads', 'expansion', 0.0_wp, 1e-3_wp, '1/K', &
+            & 'linear expansion of the pad; 11e-6: steel')
+         call v%each(pads%temperature, 'pads', 'temperature', low, high, 'C', 'for bearing%clearance_temperature: ' &
+            & //'mean temperature of the pad; if left out, that of thermal%model = film')
+         call v%word(pads%motion, 'motion', 'tilting_radial tilting_only fixed', 'tilting_radial: the pads tilt and ' &
+            & //'move radially on their pivots; tilting_only: they only tilt; fixed: neither, lobes of a plain bearing')
+      end subroutine list_pads
+
+      subroutine list_pivot(pivot)
+         type(pivot_type), intent(inout) :: pivot
+         call group('pivot', 'Ball-and-socket contact')
+         call v%word(pivot%law, 'law', 'fang hertz table', &
+            & 'fang: conformal contact (11)-(18); hertz: law of Hertz; table: as measured, by pivot%file')
+         call v%word(pivot%file, 'file', '', 'table: the CSV file whose columns are deflection (m) and force (N)')
+         call v%each(pivot%socket_radius, 'pads', 'socket_radius', 1e-5_wp, 10.0_wp, 'm', 'radius R_2 of the socket')
+         call v%each(pivot%radius_difference, 'pads', 'radius_difference', 0.0_wp, 1.0_wp, 'm', &
+            & 'dR = R_2 - R_1, R_1 being the radius of the ball')
+         call v%numbers(pivot%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'values of ball and socket')
+         call v%numbers(pivot%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'values of ball and socket')
+         call v%number(pivot%deflection_factor, 'deflection_factor', 0.1_wp, 100.0_wp, '1', &
+            & 'factor of eq (13): 4 as printed; 2 pi agrees with Hertz''s law')
+         call v%number(pivot%wear_coefficient, 'wear_coefficient', 0.0_wp, 1e-6_wp, 'm^3/(N m)', &
+            & 'worn volume over pivot load and distance slid (Archard), for pad_wear_rate; 0: no figures of the wear')
+      end subroutine list_pivot
+
+      subroutine list_friction(f)
+         type(friction_type), intent(inout) :: f
+         call group('friction', 'Friction in the pivots')
+         call v%word(f%model, 'model', 'none bengisu_akay lugre', 'none; bengisu_akay: eq (22); lugre: eqs (23)-(25)')
+         call v%each(f%static_coefficient, 'pads', 'static_coefficient', 1e-6_wp, 10.0_wp, '1', &
+            & 'static friction coefficient f_s')
+         call v%each(f%dynamic_coefficient, 'pads', 'dynamic_coefficient', 0.0_wp, 10.0_wp, '1', &
+            & 'dynamic friction coefficient f_d <= f_s')
+         call v%number(f%critical_velocity, 'critical_velocity', 1e-12_wp, 10.0_wp, 'm/s', &
+            & 'Bengisu-Akay: critical velocity v_c')
+         call v%number(f%decay, 'decay', 0.0_wp, 1e9_wp, 's/m', 'Bengisu-Akay: decay chi of the Stribeck curve')
+         call v%number(f%stribeck_velocity, 'stribeck_velocity', 1e-9_wp, 1e3_wp, 'm/s', 'LuGre: Stribeck velocity v_s')
+         call v%number(f%stribeck_exponent, 'stribeck_exponent', 0.1_wp, 10.0_wp, '1', 'LuGre: Stribeck exponent gamma')
+         call v%number(f%bristle_stiffness, 'bristle_stiffness', 1.0_wp, 1e12_wp, '1/m', &
+            & 'LuGre: bristle stiffness sigma_0')
+         call v%number(f%bristle_damping, 'bristle_damping', 0.0_wp, 1e6_wp, 's/m', &
+            & 'LuGre: bristle damping sigma_1; if left out, that of eq (28)')
+         call v%number(f%viscous_coefficient, 'viscous_coefficient', 0.0_wp, 1e6_wp, 's/m', &
+            & 'LuGre: viscous coefficient sigma_2')
+         call v%number(f%characteristic_load, 'characteristic_load', 1e-6_wp, 1e12_wp, 'N', &
+            & 'LuGre: characteristic load N_m of eq (28)')
+      end subroutine list_friction
+
+      subroutine list_film(film)
+         type(film_type), intent(inout) :: film
+         call group('film', 'Solver of the Reynolds equation')
+         call v%word(film%solver, 'solver', 'auto direct fourier sor', &
+            & 'auto: tables of converged films, direct where there is none; direct: axial modes, finite volumes ' &
+            & //'where a film cavitates; fourier: axial Fourier expansion; sor: over-relaxation')
+         call v%whole(film%circumferential_cells, 'circumferential_cells', 0.0_wp, 2000.0_wp, &
+            & 'direct, fourier, sor: cells along the arc, an even number; 0: as many as axial modes need, 80 where a ' &
+            & //'film cavitates, 60 for sor, twice or three times as many from 180 or 300 degrees on')
+         call v%whole(film%axial_cells, 'axial_cells', 0.0_wp, 1000.0_wp, &
+            & 'direct, sor: cells along half the width, at least 2; 0: 8, or 15 for sor')
+         call v%whole(film%axial_modes, 'axial_modes', 0.0_wp, 200.0_wp, 'direct, fourier: maximum number of axial ' &
+            & //'modes; the closed form takes those that are too stiff for the cells; 0: automatic')
+         call v%number(film%relaxation, 'relaxation', 0.0_wp, 1.999_wp, '1', &
+            & 'sor: relaxation factor; 0: the optimum for the grid')
+         call v%number(film%tolerance, 'tolerance', 1e-13_wp, 1e-2_wp, '1', &
+            & 'sor: limit of residual over source; at most a thousandth of relative_tolerance is used')
+         call v%whole(film%max_sweeps, 'max_sweeps', 1.0_wp, 1e8_wp, &
+            & 'sor: maximum number of sweeps for a film; more is a failure')
+         call v%number(film%table_tolerance, 'table_tolerance', 0.0_wp, 1e-2_wp, '1', &
+            & 'auto: usual error of forces from tables, over the force itself; 0: relative_tolerance, with reynolds ' &
+            & //'4 times as much; cavitated films keep to 4e-7 at best')
+         call v%word(film%cavitation, 'cavitation', 'reynolds gumbel none', &
+            & 'reynolds: p >= p_cav in the solution; gumbel: clipped after the solution; none: no cavitation')
+      end subroutine list_film
+
+      ! The variables of a machine, and of excitations.
+
+      !> The shaft and what it carries.
+      subroutine list_parts()
+         integer :: i
+         associate (rotor => inputs%rotor%elastic, shaft => inputs%rotor%elastic%shaft)
+            call group('shaft', 'A machine: the sections of its shaft, from station 1 to station 2, from there to ' &
+               & //'station 3, ...; *Machines* above')
+            call v%list(shaft%length, most_sections, 'length', 1e-6_wp, 1e3_wp, 'm', &
+               & 'length of each section', counts='sections')
+            call v%each(shaft%diameter, 'sections', 'diameter', 1e-4_wp, 100.0_wp, 'm', 'outer diameter')
+            call v%each(shaft%bore, 'sections', 'bore', 0.0_wp, 100.0_wp, 'm', 'inner diameter; 0: solid')
+            call v%number(shaft%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'of its material')
+            call v%number(shaft%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'of its material')
+            call v%number(shaft%density, 'density', 1.0_wp, 1e5_wp, 'kg/m^3', 'of its material')
+            do i = 1, size(rotor%discs)
+               call group_of(i, 'disc', 'A machine: a rigid disc on its shaft; one group for each')
+               call list_station(rotor%discs(i)%station)
+               call v%number(rotor%discs(i)%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', 'mass')
+               call v%number(rotor%discs(i)%polar_inertia, 'polar_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
+                  & 'moment of inertia about the axis of the shaft')
+               call v%number(rotor%discs(i)%diametral_inertia, 'diametral_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
+                  & 'moment of inertia about a diameter')
+            end do
+            do i = 1, size(rotor%unbalances)
+               call group_of(i, 'unbalance', 'A machine: an unbalance; one group for each')
+               call list_station(rotor%unbalances(i)%station)
+               call v%number(rotor%unbalances(i)%moment, 'moment', 0.0_wp, 1e6_wp, 'kg m', 'mass times eccentricity')
+               call v%number(rotor%unbalances(i)%angle_deg, 'angle_deg', -360.0_wp, 360.0_wp, 'deg', &
+                  & 'its angle on the shaft, in the sense of rotation')
+            end do
+            do i = 1, size(rotor%loads)
+               call group_of(i, 'load', 'A machine: a steady force on its shaft, beside the weight; one group for each')
+               call list_station(rotor%loads(i)%station)
+               call v%numbers(rotor%loads(i)%force, 'force', -1e12_wp, 1e12_wp, 'N', 'along y and z')
+            end do
          end associate
-      end do
-      call v%behind_group('')
-   end subroutine list_bearings
+      end subroutine list_parts
 
-   subroutine list_shaft(shaft, v)
-      type(shaft_type), intent(inout) :: shaft
-      type(variable_table_type), intent(inout) :: v
-      call v%group('shaft', 'A machine: the sections of its shaft, from station 1 to station 2, from there to ' &
-         & //'station 3, ...; *Machines* above')
-      call v%list(shaft%length, most_sections, 'length', 1e-6_wp, 1e3_wp, 'm', 'length of each section', &
-         & counts='sections')
-      call v%each(shaft%diameter, 'sections', 'diameter', 1e-4_wp, 100.0_wp, 'm', 'outer diameter')
-      call v%each(shaft%bore, 'sections', 'bore', 0.0_wp, 100.0_wp, 'm', 'inner diameter; 0: solid')
-      call v%number(shaft%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'of its material')
-      call v%number(shaft%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'of its material')
-      call v%number(shaft%density, 'density', 1.0_wp, 1e5_wp, 'kg/m^3', 'of its material')
-   end subroutine list_shaft
+      subroutine list_support(support)
+         type(support_type), intent(inout) :: support
+         call group('support', 'A machine: what a bearing stands on; without this group it stands on the ground')
+         call v%number(support%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', &
+            & 'mass that moves with the housing of the bearing, that of the pads with it; must be above 0')
+         call v%numbers(support%stiffness, 'stiffness', 0.0_wp, 1e15_wp, 'N/m', 'along y and z')
+         call v%numbers(support%damping, 'damping', 0.0_wp, 1e12_wp, 'N s/m', 'along y and z')
+      end subroutine list_support
 
-   subroutine list_support(support, v)
-      type(support_type), intent(inout) :: support
-      type(variable_table_type), intent(inout) :: v
-      call v%group('support', 'A machine: what a bearing stands on; without this group it stands on the ground')
-      call v%number(support%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', &
-         & 'mass that moves with the housing of the bearing, that of the pads with it; must be above 0')
-      call v%numbers(support%stiffness, 'stiffness', 0.0_wp, 1e15_wp, 'N/m', 'along y and z')
-      call v%numbers(support%damping, 'damping', 0.0_wp, 1e12_wp, 'N s/m', 'along y and z')
-   end subroutine list_support
+      subroutine list_reduction(r)
+         type(reduction_type), intent(inout) :: r
+         call group('reduction', 'A machine: which modes of the shaft are kept')
+         call v%number(r%frequency, 'frequency', 1e-3_wp, 1e7_wp, 'Hz', 'modes of the shaft on fixed bearings up to ' &
+            & //'this frequency are kept; if left out, as many as the run needs')
+         call v%number(r%damp_above, 'damp_above', 0.0_wp, 1e7_wp, 'Hz', 'modes above this frequency are damped')
+         call v%number(r%damping_ratio, 'damping_ratio', 0.0_wp, 1.0_wp, '1', 'their damping ratio')
+      end subroutine list_reduction
 
-   subroutine list_reduction(reduction, v)
-      type(reduction_type), intent(inout) :: reduction
-      type(variable_table_type), intent(inout) :: v
-      call v%group('reduction', 'A machine: which modes of the shaft are kept')
-      call v%number(reduction%frequency, 'frequency', 1e-3_wp, 1e7_wp, 'Hz', &
-         & 'modes of the shaft on fixed bearings up to this frequency are kept; if left out, as many as the run needs')
-      call v%number(reduction%damp_above, 'damp_above', 0.0_wp, 1e7_wp, 'Hz', &
-         & 'modes above this frequency are damped')
-      call v%number(reduction%damping_ratio, 'damping_ratio', 0.0_wp, 1.0_wp, '1', 'their damping ratio')
-   end subroutine list_reduction
+      !> A station; none is given where it is 0.
+      subroutine list_station(station)
+         integer, intent(inout) :: station
+         real(wp) :: x
+         x = unset
+         if (station > 0) x = station
+         call v%number(x, 'station', 1.0_wp, real(most_stations, wp), '1', &
+            & 'of a machine: station of its shaft', whole=.true.)
+         station = 0
+         if (is_set(x)) station = nint(x)
+      end subroutine list_station
 
-   !> Where a bearing stands.
-   subroutine list_place(bearing, v)
-      type(bearing_type), intent(inout) :: bearing
-      type(variable_table_type), intent(inout) :: v
-      call list_station(bearing%station, v)
-      call v%numbers(bearing%offset, 'offset', -0.1_wp, 0.1_wp, 'm', &
-         & 'of a machine: how far the bearing stands from the line of the others, along y and z')
-   end subroutine list_place
-
-   !> A station; none is given where it is 0.
-   subroutine list_station(station, v)
-      integer, intent(inout) :: station
-      type(variable_table_type), intent(inout) :: v
-      real(wp) :: x
-      x = unset
-      if (station > 0) x = station
-      call v%number(x, 'station', 1.0_wp, real(most_stations, wp), '1', 'of a machine: station of its shaft', .true.)
-      station = 0
-      if (is_set(x)) station = nint(x)
-   end subroutine list_station
-
-   ! The input variables of the groups excitation.
-
-   !> Those of all excitations; `numbered`, each with its number, and with their stations.
-   subroutine list_excitations(excitations, v, numbered, stations)
-      type(excitation_type), intent(inout) :: excitations(:)
-      type(variable_table_type), intent(inout) :: v
-      logical, intent(in) :: numbered, stations
-      integer :: i
-      do i = 1, size(excitations)
-         if (numbered) call v%behind_group(counted(i))
-         call v%group('excitation', 'A force over time on the rotor, for the tasks march and periodic; one group for ' &
-            & //'each; *Excitation* above')
-         if (stations) call list_station(excitations(i)%station, v)
-         call list_excitation(excitations(i), v)
-      end do
-      call v%behind_group('')
-   end subroutine list_excitations
-
-   subroutine list_excitation(x, v)
-      type(excitation_type), intent(inout) :: x
-      type(variable_table_type), intent(inout) :: v
-      call v%word(x%kind, 'kind', 'harmonic chirp step ramp table', &
-         & 'harmonic: a vibration; chirp: one whose frequency changes linearly; step: constant from start to end; ' &
-         & //'ramp: from 0 at start to amplitude at end, which it keeps; table: forces from a file')
-      call v%number(x%amplitude, 'amplitude', 0.0_wp, 1e12_wp, 'N', 'amplitude of the force; not of a table')
-      call v%number(x%direction_deg, 'direction_deg', -360.0_wp, 360.0_wp, 'deg', &
-         & 'direction, from +y towards +z; of a rotating force at phase 0')
-      call v%word(x%rotating, 'rotating', 'no forward backward', &
-         & 'harmonic, chirp: whether the force turns, with the shaft or against it; no: it keeps its direction')
-      call v%number(x%frequency_hz, 'frequency_hz', 1e-6_wp, 1e7_wp, 'Hz', &
-         & 'harmonic: frequency; chirp: frequency at start')
-      call v%number(x%frequency_ratio, 'frequency_ratio', 1e-6_wp, 1e6_wp, '1', &
-         & 'harmonic: frequency over the speed of the shaft, instead of frequency_hz')
-      call v%number(x%final_frequency_hz, 'final_frequency_hz', 1e-6_wp, 1e7_wp, 'Hz', 'chirp: frequency at end')
-      call v%number(x%phase_deg, 'phase_deg', -360.0_wp, 360.0_wp, 'deg', &
-         & 'harmonic, chirp: phase at start, where 0 is the whole amplitude')
-      call v%number(x%start, 'start', 0.0_wp, 1e6_wp, 's', 'when it begins; of a table the time 0')
-      call v%number(x%end, 'end', 0.0_wp, 1e6_wp, 's', 'when it ends; if left out, not before the run (chirp, ramp: ' &
-         & //'with operation%duration)')
-      call v%word(x%file, 'file', '', 'table: CSV file of the columns time, force_y, force_z, in s and N')
-   end subroutine list_excitation
+      subroutine list_excitations(x)
+         type(excitation_type), intent(inout) :: x(:)
+         integer :: i
+         do i = 1, size(x)
+            call group_of(i, 'excitation', 'A force over time on the rotor, for the tasks march and periodic; one ' &
+               & //'group for each; *Excitation* above')
+            if (machine) call list_station(x(i)%station)
+            call v%word(x(i)%kind, 'kind', 'harmonic chirp step ramp table', &
+               & 'harmonic: a vibration; chirp: one whose frequency changes linearly; step: constant from start to ' &
+               & //'end; ramp: from 0 at start to amplitude at end, which it keeps; table: forces from a file')
+            call v%number(x(i)%amplitude, 'amplitude', 0.0_wp, 1e12_wp, 'N', 'amplitude of the force; not of a table')
+            call v%number(x(i)%direction_deg, 'direction_deg', -360.0_wp, 360.0_wp, 'deg', &
+               & 'direction, from +y towards +z; of a rotating force at phase 0')
+            call v%word(x(i)%rotating, 'rotating', 'no forward backward', &
+               & 'harmonic, chirp: whether the force turns, with the shaft or against it; no: it keeps its direction')
+            call v%number(x(i)%frequency_hz, 'frequency_hz', 1e-6_wp, 1e7_wp, 'Hz', &
+               & 'harmonic: frequency; chirp: frequency at start')
+            call v%number(x(i)%frequency_ratio, 'frequency_ratio', 1e-6_wp, 1e6_wp, '1', &
+               & 'harmonic: frequency over the speed of the shaft, instead of frequency_hz')
+            call v%number(x(i)%final_frequency_hz, 'final_frequency_hz', 1e-6_wp, 1e7_wp, 'Hz', &
+               & 'chirp: frequency at end')
+            call v%number(x(i)%phase_deg, 'phase_deg', -360.0_wp, 360.0_wp, 'deg', &
+               & 'harmonic, chirp: phase at start, where 0 is the whole amplitude')
+            call v%number(x(i)%start, 'start', 0.0_wp, 1e6_wp, 's', 'when it begins; of a table the time 0')
+            call v%number(x(i)%end, 'end', 0.0_wp, 1e6_wp, 's', &
+               & 'when it ends; if left out, not before the run (chirp, ramp: with operation%duration)')
+            call v%word(x(i)%file, 'file', '', 'table: CSV file of the columns time, force_y, force_z, in s and N')
+         end do
+      end subroutine list_excitations
+   end subroutine go_along
 end module case_fields

@@ -2,19 +2,19 @@
 module case_namelist
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use text, only: to_text, lower_case, shortened, replaced, whole_number, is_utf8
-   use errors, only: error_type, raise, add_context, input_error
-   use case_groups, only: max_pads, unset, most_sections
+   use text, only: to_text, lower_case, shortened, replaced, whole_number, is_utf8, did_you_mean
+   use errors, only: error_type, require, refuse, add_context
+   use case_groups, only: bearing_type, max_pads, unset, most_sections, most_bearings
    use case_inputs, only: case_type
+   use excitations, only: make_excitations
    use case_checks, only: check_case
    use case_completion, only: leave_out, complete_case
    use variable_table, only: variable_type, variable_table_type
    use case_fields, only: list_variables, list_all_variables, put_variables
-   use case_parameter, only: complete_branch, check_branch_parameter
-   use assignments, only: namelist_type, assignment_type, study_group, token_type, assignment_text, is_special, &
-      & read_number, kind_of, bearing_of, may_have_bearing
-   use machine_structure, only: make_several, give_to_bearings
-   use variable_names, only: group_names, names_in, meant_variable, meant_group, meant_word
+   use case_parameter, only: complete_branch, check_branch_parameter, group_names, names_in, meant_variable, &
+      & meant_group, meant_word
+   use assignments, only: namelist_type, assignment_type, study_group, token_type, assignment_text, place_of, &
+      & is_special, read_number, undoes, counted, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable
    use namelist_text, only: parse_namelist
    use case_remarks, only: note_values_of_paper
    use other_units, only: in_other_units
@@ -24,7 +24,8 @@ module case_namelist
 
    !> Longest text in a case, bytes.
    integer, parameter :: longest_text = 1000
-
+   !> Groups that only a machine has.
+   character(len=*), parameter :: of_machine = ' shaft disc unbalance load support reduction '
    !> Most values of a list that has one for each of something.
    integer, parameter :: most_each = max(max_pads, most_sections)
 
@@ -38,10 +39,9 @@ contains
       type(namelist_type) :: parsed
       integer :: i
       call parse_namelist(text, file, parsed, error)
-      if (allocated(error)) return
       do i = 1, size(parsed%groups)
-         if (parsed%groups(i)%group == study_group) call raise(error, input_error, parsed%groups(i)%origin &
-            & //': a study, where one case is expected; tiltpad --check --run K prints those of a study')
+         call require(parsed%groups(i)%group /= study_group, parsed%groups(i)%origin//': a study, where one case is ' &
+            & //'expected; tiltpad --check --run K prints those of a study', error)
       end do
       if (.not. allocated(error)) call case_from_namelist(parsed, inputs, error)
    end subroutine case_from_text
@@ -89,39 +89,29 @@ contains
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(variable_table_type) :: table
-      integer :: at(size(parsed%assignments)), i
+      integer :: at(size(parsed%assignments)), i, k
       call list_variables(inputs, table)
       call find_variables(parsed, table, inputs, at, error)
       do i = 1, table%count
          if (allocated(error)) return
-         if (table%variables(i)%counts /= '') call fill_variable(parsed, at == i, table%variables(i), error)
+         associate (list => table%variables(i))
+            if (list%counts == '') cycle
+            call fill_variable(parsed, at == i, list, error)
+            do k = 1, table%count
+               associate (v => table%variables(k))
+                  if (v%each /= list%counts .or. bearing_of(v%group) /= bearing_of(list%group)) cycle
+                  v%most = size(list%values)
+                  v%values = spread(v%values(1), 1, v%most)
+               end associate
+            end do
+         end associate
       end do
       do i = 1, table%count
          if (allocated(error)) return
-         associate (v => table%variables(i))
-            if (v%counts /= '') cycle
-            if (v%each /= '') then
-               v%most = number_of(v, table)
-               v%values = spread(v%values(1), 1, v%most)
-            end if
-            call fill_variable(parsed, at == i, v, error)
-         end associate
+         if (table%variables(i)%counts == '') call fill_variable(parsed, at == i, table%variables(i), error)
       end do
       if (.not. allocated(error)) call put_variables(table, inputs)
    end subroutine fill_variables
-
-   !> How many values a variable has that has one for each of something.
-   pure integer function number_of(v, table)
-      type(variable_type), intent(in) :: v
-      type(variable_table_type), intent(in) :: table
-      integer :: k
-      do k = 1, table%count
-         associate (list => table%variables(k))
-            if (list%counts /= v%each) cycle
-            if (bearing_of(list%group) == bearing_of(v%group)) number_of = size(list%values)
-         end associate
-      end do
-   end function number_of
 
    !> Gives a variable the values of its assignments.
    subroutine fill_variable(parsed, its_own, v, error)
@@ -151,238 +141,347 @@ contains
       elastic = .not. inputs%rotor%is_rigid()
       do i = 1, size(parsed%groups)
          if (elastic .and. may_have_bearing(parsed%groups(i)%group)) cycle
-         call refuse_unknown_group(parsed%groups(i), '&', table, error)
+         call refuse_unknown_group(parsed%groups(i), '&')
       end do
       do i = 1, size(at)
          associate (a => parsed%assignments(i))
             at(i) = table%find(a%group, a%name)
             if (at(i) > 0 .or. allocated(error)) cycle
-            call refuse_other_rotor(a, elastic, error)
-            call refuse_unknown_group(a, '', table, error)
-            if (.not. allocated(error)) call raise(error, input_error, a%origin//': unknown variable '//a%group//'%' &
-               & //a%name//meant_variable(kind_of(a%group), a%name)//'; known:'//names_in(kind_of(a%group)))
+            call refuse_other_rotor(a)
+            call refuse_unknown_group(a, '')
+            if (.not. allocated(error)) call refuse(a%origin//': unknown variable '//a%group//'%'//a%name &
+               & //meant_variable(kind_of(a%group), a%name)//'; known:'//names_in(kind_of(a%group)), error)
          end associate
       end do
+   contains
+      !> Refuses a variable that a machine does not have, or that only a machine has, and says what is to be given
+      !> instead.
+      subroutine refuse_other_rotor(a)
+         type(assignment_type), intent(in) :: a
+         type(variable_table_type) :: all
+         character(len=:), allocatable :: instead
+         call list_all_variables(case_type(), all)
+         if (all%find(kind_of(a%group), a%name) == 0) return
+         instead = 'needs a shaft (&shaft) in bearings that have names (&bearing name = ...)'
+         if (elastic) then
+            select case (a%name)
+            case ('mass')
+               instead = 'has no effect beside a shaft; the rotor''s masses are in &shaft and &disc'
+            case ('static_load')
+               instead = 'has no effect beside a shaft; give a group &load with station and force'
+            case ('unbalance', 'balance_grade', 'balance_speed_rpm')
+               instead = 'has no effect beside a shaft; give a group &unbalance with station and moment'
+            case default
+               instead = 'is for a rigid journal in one bearing; a shaft in several starts from its equilibrium'
+            end select
+         end if
+         call refuse(a%origin//': '//assignment_text(a)//': '//instead, error)
+      end subroutine refuse_other_rotor
+
+      !> Refuses an assignment or the start of a group that there is not; the message has `prefix` before the group's
+      !> name.
+      subroutine refuse_unknown_group(found, prefix)
+         type(assignment_type), intent(in) :: found
+         character(len=*), intent(in) :: prefix
+         integer :: k
+         if (allocated(error) .or. any([(table%variables(k)%group == found%group, k=1, table%count)])) return
+         call refuse(found%origin//': unknown group '//prefix//found%group//meant_group(found%group)//'; known:' &
+            & //group_names(), error)
+      end subroutine refuse_unknown_group
    end subroutine find_variables
 
-   !> Refuses a variable that a machine does not have, or that only a machine has, and says what is to be given instead.
-   subroutine refuse_other_rotor(a, elastic, error)
-      type(assignment_type), intent(in) :: a
-      logical, intent(in) :: elastic
-      type(error_type), allocatable, intent(inout) :: error
-      type(variable_table_type) :: all
-      character(len=:), allocatable :: instead
-      call list_all_variables(case_type(), all)
-      if (allocated(error) .or. all%find(kind_of(a%group), a%name) == 0) return
-      instead = 'needs a shaft (&shaft) in bearings that have names (&bearing name = ...)'
-      if (elastic) then
-         select case (a%name)
-         case ('mass')
-            instead = 'has no effect beside a shaft; the rotor''s masses are in &shaft and &disc'
-         case ('static_load')
-            instead = 'has no effect beside a shaft; give a group &load with station and force'
-         case ('unbalance', 'balance_grade', 'balance_speed_rpm')
-            instead = 'has no effect beside a shaft; give a group &unbalance with station and moment'
-         case default
-            instead = 'is for a rigid journal in one bearing; a shaft in several starts from its equilibrium'
-         end select
-      end if
-      call refuse_values(a, instead, error)
-   end subroutine refuse_other_rotor
-
-   !> Refuses an assignment or the start of a group that there is not; the message has `prefix` before the group's name.
-   subroutine refuse_unknown_group(found, prefix, table, error)
-      type(assignment_type), intent(in) :: found
-      character(len=*), intent(in) :: prefix
-      type(variable_table_type), intent(in) :: table
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: i
-      if (allocated(error) .or. any([(table%variables(i)%group == found%group, i=1, table%count)])) return
-      call raise(error, input_error, found%origin//': unknown group '//prefix//found%group &
-         & //meant_group(found%group)//'; known:'//group_names())
-   end subroutine refuse_unknown_group
-
-   !> Gives a variable the values of an assignment.
+   !> Gives a variable the values of an assignment, checked against what it allows. A message names file, line, group,
+   !> variable, value and what is allowed.
    subroutine assign(a, v, taken, error)
       type(assignment_type), intent(in) :: a
       type(variable_type), intent(inout) :: v
-      !> The elements that assignments before have given.
+      !> The elements that assignments of the file before have given.
       logical, intent(inout) :: taken(:)
       type(error_type), allocatable, intent(inout) :: error
       real(wp), allocatable :: given(:)
-      character(len=:), allocatable :: word
+      integer :: first
       if (v%is_text) then
-         call read_word(a, v, word, error)
-         if (.not. allocated(error)) v%word = word
+         call read_word(a%values(1)%text)
          return
       end if
-      call read_reals(a, v, given, error)
+      first = max(1, a%subscript)
+      call read_reals()
       if (allocated(error)) return
       if (v%any_length) then
-         if (a%subscript > 0) call refuse_values(a, 'takes a list; give all of it without subscript', error)
+         if (a%subscript > 0) call refuse_it('takes a list; give all of it without subscript')
          v%values = given
          return
       end if
-      call take(a, size(given), taken(:v%most), error)
+      ! an element may be set after the whole list, unless the list has only one; --set may set anything again
+      if (.not. (a%overrides .or. a%subscript == 0 .and. v%most > 1)) then
+         associate (elements => taken(first:first + size(given) - 1))
+            if (any(elements)) call refuse_it('given twice')
+            elements = .true.
+         end associate
+      end if
       if (allocated(error)) return
       if (v%whole .and. verify(a%values(1)%text, '+-0123456789*') /= 0) then
-         call refuse_values(a, 'must be a whole number, '//v%range_text(), error)
-      else if (a%subscript > 0) then
-         v%values(a%subscript:a%subscript + size(given) - 1) = given
-      else if (size(given) == size(v%values)) then
-         v%values = given
+         call refuse_it('must be a whole number, '//v%allowed())
+      else if (a%subscript > 0 .or. size(given) == v%most) then
+         v%values(first:first + size(given) - 1) = given
       else if (v%each == '') then
-         call refuse_values(a, 'takes '//to_text(v%most)//' values', error)
+         call refuse_it('takes '//to_text(v%most)//' values')
       else if (size(given) == 1) then
          v%values = spread(given(1), 1, v%most)
       else
-         call refuse_values(a, 'takes one value for all '//v%each//' or one each ('//to_text(v%most)//')', error)
+         call refuse_it('takes one value for all '//v%each//' or one each ('//to_text(v%most)//')')
       end if
+   contains
+      !> "case.nml line 3: rotor%mass = -1: must be ...".
+      subroutine refuse_it(reason)
+         character(len=*), intent(in) :: reason
+         call refuse(a%origin//': '//assignment_text(a)//': '//reason, error)
+      end subroutine refuse_it
+
+      !> Its one text; a word out of several is in lower case, without blanks around it. A shell has taken the quotes of
+      !> --set away, so a bare word is a text there.
+      subroutine read_word(text)
+         character(len=*), intent(in) :: text
+         character(len=:), allocatable :: word
+         word = text
+         if (v%choices /= '') word = lower_case(trim(adjustl(text)))
+         if (size(a%values) > 1 .and. v%choices == '') then
+            call refuse_it('takes one text, in quotes where it has blanks or commas')
+         else if (size(a%values) > 1 .or. a%subscript > 0) then
+            call refuse_it('takes one text'//several_runs())
+         else if (v%choices == '' .and. .not. (a%values(1)%quoted .or. a%overrides)) then
+            call refuse_it('text must stand in quotes')
+         else if (v%choices /= '' .and. (scan(word, ' ') > 0 .or. index(' '//v%choices//' ', ' '//word//' ') == 0)) then
+            call refuse_it('must be one of '''//replaced(v%choices, ' ', ''', ''')//'''' &
+               & //meant_word(word, v%choices, a%group//'%'//a%name//'='))
+         else if (len(word) > longest_text) then
+            call refuse(place_of(a)//': '//to_text(len(word))//' characters; a text has at most ' &
+               & //to_text(longest_text), error)
+         else if (.not. is_utf8(word)) then
+            call refuse_it('must be UTF-8 text')
+         else
+            v%word = word
+         end if
+      end subroutine read_word
+
+      !> Its values as reals, each within the range; at most as many as the variable takes up to the last element.
+      subroutine read_reals()
+         real(wp) :: x
+         integer :: i, repeat
+         allocate (given(0))
+         if (v%most == 1 .and. is_number_with_comma()) call refuse_it('takes one value; a decimal has a point (' &
+            & //a%values(1)%text//'.'//a%values(2)%text//'), and thousands have no comma ('//a%values(1)%text &
+            & //a%values(2)%text//')')
+         do i = 1, size(a%values)
+            if (allocated(error)) return
+            call read_real(a%values(i), x, repeat)
+            if (first - 1 + size(given) + repeat > v%most) then
+               if (v%most == 1 .and. size(a%values) > 1) call refuse_it('takes one value'//several_runs())
+               call refuse_it('at most '//to_text(v%most)//' values')
+            end if
+            if (.not. allocated(error)) given = [given, spread(x, 1, repeat)]
+         end do
+      end subroutine read_reals
+
+      !> Whether two values are digits, the second with 0 before others or three of them: 9,000 or 0,019.
+      logical function is_number_with_comma() result(is)
+         is = size(a%values) == 2
+         if (.not. is) return
+         associate (whole => a%values(1)%text, part => a%values(2)%text)
+            is = whole /= '' .and. len(part) > 1 .and. verify(whole//part, '0123456789') == 0
+            if (is) is = len(part) == 3 .or. part(1:1) == '0'
+         end associate
+      end function is_number_with_comma
+
+      !> One value and how often it stands there: `repeat*value`. Of what a case may leave out and what is never below
+      !> 0, the value -1 says that it is not set.
+      subroutine read_real(token, x, repeat)
+         type(token_type), intent(in) :: token
+         real(wp), intent(out) :: x
+         integer, intent(out) :: repeat
+         character(len=:), allocatable :: digits
+         integer :: star
+         logical :: ok
+         digits = lower_case(token%text)
+         star = index(digits, '*')
+         repeat = 1
+         if (star > 0) repeat = whole_number(digits(:star - 1))
+         digits = digits(star + 1:)
+         call read_number(digits, x, ok)
+         if (.not. token%quoted .and. is_special(digits)) then
+            call refuse_it('must be finite, '//v%allowed())
+         else if (index(token%text, ':') > 0 .and. .not. token%quoted) then
+            call refuse_it('must be a number, '//v%allowed()//several_runs())
+         else if (repeat < 1 .or. repeat >= 1000000 .or. token%quoted .or. .not. ok) then
+            call refuse_it('must be a number, '//v%allowed())
+         else if (.not. ieee_is_finite(x)) then
+            call refuse_it('must be finite, '//v%allowed())
+         else if (v%may_be_unset .and. v%low >= 0 .and. abs(x + 1) <= 0) then
+            x = unset
+         else if (x < v%low .or. x > v%high) then
+            call refuse_it('must be '//v%allowed()//in_other_units(x, a%group//'%'//a%name, v%unit, v%low, v%high))
+         end if
+      end subroutine read_real
+
+      !> How to write what has several values or a range, where one value is expected: a run for each of them.
+      function several_runs() result(text)
+         character(len=:), allocatable :: text
+         text = '; for one run of each value: '//study_group//'%'//shortened(assignment_text(a))
+      end function several_runs
    end subroutine assign
 
-   !> Marks the elements that an assignment of the file sets, and refuses those that were set before. An element may be
-   !> set after the whole list, unless the list has only one. An assignment of --set may set anything again.
-   subroutine take(a, count, taken, error)
-      type(assignment_type), intent(in) :: a
-      integer, intent(in) :: count
-      logical, intent(inout) :: taken(:)
+   ! Which groups a case has of those that there may be several of: excitations, and of a machine discs, bearings with
+   ! their names and others. And what groups without a bearing's name say of all bearings.
+
+   !> Gives a case its excitations and its machine, with default values, where its namelist has groups of them.
+   subroutine make_several(parsed, inputs, error)
+      type(namelist_type), intent(in) :: parsed
+      type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      if (a%overrides .or. a%subscript == 0 .and. size(taken) > 1) return
-      associate (elements => taken(max(1, a%subscript):max(1, a%subscript) + count - 1))
-         if (any(elements)) call refuse_values(a, 'given twice', error)
-         elements = .true.
+      integer :: i
+      call make_excitations(count_of(parsed, 'excitation('), inputs%excitations)
+      associate (groups => parsed%groups, a => parsed%assignments)
+         if (any([(is_of_machine(groups(i)%group), i=1, size(groups)), (is_of_machine(a(i)%group) &
+            & .or. a(i)%group//'%'//a(i)%name == 'rotor%file', i=1, size(a))])) call make_machine(parsed, inputs, error)
+         do i = 1, size(groups)
+            call look_at(groups(i), inputs, error)
+         end do
+         do i = 1, size(a)
+            call look_at(a(i), inputs, error)
+         end do
       end associate
-   end subroutine take
+   end subroutine make_several
 
-   ! The values of an assignment, checked against what its variable allows. The message names file, line, group,
-   ! variable, value and what is allowed.
+   !> Groups whose names begin so.
+   pure integer function count_of(parsed, beginning)
+      type(namelist_type), intent(in) :: parsed
+      character(len=*), intent(in) :: beginning
+      integer :: k
+      count_of = count([(index(parsed%groups(k)%group, beginning) == 1, k=1, size(parsed%groups))])
+   end function count_of
 
-   !> The one text of an assignment; a word out of several is in lower case, without blanks around it. A shell has
-   !> taken the quotes of --set away, so a bare word is a text there.
-   subroutine read_word(a, v, word, error)
+   pure logical function is_of_machine(group)
+      character(len=*), intent(in) :: group
+      is_of_machine = index(group, ':') > 0 .or. index(of_machine, ' '//kind_of(group)//' ') > 0
+   end function is_of_machine
+
+   !> Gives a case its machine.
+   subroutine make_machine(parsed, inputs, error)
+      type(namelist_type), intent(in) :: parsed
+      type(case_type), intent(inout) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i, k, b
+      allocate (inputs%rotor%elastic)
+      call inputs%rotor%elastic%begin(count_of(parsed, 'disc('), count_of(parsed, 'unbalance('), &
+         & count_of(parsed, 'load('))
+      deallocate (inputs%bearings)
+      allocate (inputs%bearings(count_of(parsed, 'bearing:')))
+      associate (groups => parsed%groups, bearings => inputs%bearings)
+         call require(size(bearings) <= most_bearings, parsed%file//': '//to_text(size(bearings))//' groups &bearing ' &
+            & //'with names; a machine has at most '//to_text(most_bearings)//' bearings', error)
+         b = 0
+         do i = 1, size(groups)
+            if (index(groups(i)%group, 'bearing:') /= 1) cycle
+            b = b + 1
+            bearings(b) = bearing_type()
+            bearings(b)%name = bearing_of(groups(i)%group)
+            ! without a name a support is that of all bearings
+            if (any([(groups(k)%group == 'support' .or. groups(k)%group == 'support'//bearings(b)%suffix(), &
+               & k=1, size(groups))])) allocate (bearings(b)%support)
+         end do
+      end associate
+   end subroutine make_machine
+
+   !> Refuses a group or an assignment of what the case does not have.
+   subroutine look_at(a, inputs, error)
       type(assignment_type), intent(in) :: a
-      type(variable_type), intent(in) :: v
-      character(len=:), allocatable, intent(out) :: word
-      type(error_type), allocatable, intent(out) :: error
-      word = a%values(1)%text
-      if (v%choices /= '') word = lower_case(trim(adjustl(word)))
-      if (size(a%values) > 1 .and. v%choices == '') then
-         call refuse_values(a, 'takes one text, in quotes where it has blanks or commas', error)
-      else if (size(a%values) > 1 .or. a%subscript > 0) then
-         call refuse_values(a, 'takes one text'//several_runs(a), error)
-      else if (v%choices /= '' .and. .not. is_choice(word, v%choices)) then
-         call refuse_values(a, 'must be one of '''//replaced(v%choices, ' ', ''', ''')//'''' &
-            & //meant_word(word, v%choices, a%group//'%'//a%name//'='), error)
-      else if (v%choices == '' .and. .not. (a%values(1)%quoted .or. a%overrides)) then
-         call refuse_values(a, 'text must stand in quotes', error)
-      else if (len(word) > longest_text) then
-         call raise(error, input_error, a%origin//': '//a%group//'%'//a%name//': '//to_text(len(word)) &
-            & //' characters; a text has at most '//to_text(longest_text))
-      else if (.not. is_utf8(word)) then
-         call refuse_values(a, 'must be UTF-8 text', error)
-      end if
-   end subroutine read_word
-
-   !> The values of an assignment as reals, each within the range; at most as many as the variable takes up to the last
-   !> element.
-   subroutine read_reals(a, v, values, error)
-      type(assignment_type), intent(in) :: a
-      type(variable_type), intent(in) :: v
-      real(wp), allocatable, intent(out) :: values(:)
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: x
-      integer :: i, repeat
-      allocate (values(0))
-      if (v%most == 1 .and. is_number_with_comma(a)) then
-         call refuse_values(a, 'takes one value; a decimal has a point ('//a%values(1)%text//'.'//a%values(2)%text &
-            & //'), and thousands have no comma ('//a%values(1)%text//a%values(2)%text//')', error)
-         return
-      end if
-      do i = 1, size(a%values)
-         call read_real(a, a%values(i), v, x, repeat, error)
-         if (allocated(error)) return
-         if (max(1, a%subscript) - 1 + size(values) + repeat > v%most) then
-            if (v%most == 1 .and. size(a%values) > 1) then
-               call refuse_values(a, 'takes one value'//several_runs(a), error)
-            else
-               call refuse_values(a, 'at most '//to_text(v%most)//' values', error)
-            end if
-            return
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: kind, name, names
+      integer :: b
+      kind = kind_of(a%group)
+      name = bearing_of(a%group)
+      if (kind == 'excitation') call look_at_number(size(inputs%excitations))
+      if (inputs%rotor%is_rigid() .or. allocated(error)) return
+      associate (elastic => inputs%rotor%elastic, bearings => inputs%bearings)
+         if (kind == 'disc') call look_at_number(size(elastic%discs))
+         if (kind == 'unbalance') call look_at_number(size(elastic%unbalances))
+         if (kind == 'load') call look_at_number(size(elastic%loads))
+         if (kind == 'support' .and. name == '' .and. .not. any([(allocated(bearings(b)%support), &
+            & b=1, size(bearings))])) call refuse(place_of(a)//': the case has no group &support', error)
+         if (a%group == 'bearing' .and. a%name == 'station') call refuse(place_of(a)//': must be in a group &bearing ' &
+            & //'with a name, as each bearing has a station of its own', error)
+         if (a%group /= kind .and. .not. is_counted(kind) .and. (name == '' .or. .not. may_have_bearing(kind) &
+            & .or. a%group /= kind//':'//name)) call refuse(a%origin//': unknown group '//a%group//'; the name of a ' &
+            & //'bearing stands behind its own groups alone, as in pads:left', error)
+         if (name == '' .or. allocated(error)) return
+         b = findloc([(bearings(b)%name == name, b=1, size(bearings))], .true., dim=1)
+         if (b == 0) then
+            names = ''
+            do b = 1, size(bearings)
+               names = names//' '//bearings(b)%name
+            end do
+            if (names == '') names = ' none'
+            call refuse(a%origin//': &'//kind//' '//naming_variable(kind)//' = '''//name//''': there is no group ' &
+               & //'&bearing of this name'//did_you_mean(name, names)//'; there are:'//names, error)
+         else if (kind == 'support' .and. .not. allocated(bearings(b)%support)) then
+            call refuse(place_of(a)//': the case has no group &support of this bearing', error)
          end if
-         values = [values, spread(x, 1, repeat)]
-      end do
-   end subroutine read_reals
-
-   !> Whether two values are digits, the second with 0 before others or three of them: 9,000 or 0,019.
-   pure logical function is_number_with_comma(a) result(is)
-      type(assignment_type), intent(in) :: a
-      is = size(a%values) == 2
-      if (.not. is) return
-      associate (first => a%values(1)%text, second => a%values(2)%text)
-         is = first /= '' .and. len(second) > 1 .and. verify(first//second, '0123456789') == 0
-         if (is) is = len(second) == 3 .or. second(1:1) == '0'
       end associate
-   end function is_number_with_comma
+   contains
+      !> Refuses the number of a group that there are fewer of.
+      subroutine look_at_number(number)
+         integer, intent(in) :: number
+         character(len=:), allocatable :: allowed
+         integer :: i
+         if (any([(a%group == kind//counted(i), i=1, number)])) return
+         allowed = kind//counted(1)//'%'//a%name
+         if (number > 1) allowed = allowed//' to '//kind//counted(number)//'%'//a%name
+         call require(number > 0, place_of(a)//': the case has no group &'//kind, error)
+         call require(number == 0, place_of(a)//': must be '//allowed//', as the case has '//to_text(number) &
+            & //' of these groups', error)
+      end subroutine look_at_number
+   end subroutine look_at
 
-   !> One value of an assignment and how often it stands there: `repeat*value`. Of what a case may leave out and what is
-   !> never below 0, the value -1 says that it is not set.
-   subroutine read_real(a, token, v, x, repeat, error)
-      type(assignment_type), intent(in) :: a
-      type(token_type), intent(in) :: token
-      type(variable_type), intent(in) :: v
-      real(wp), intent(out) :: x
-      integer, intent(out) :: repeat
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: digits
-      integer :: star
-      logical :: repeat_ok, ok
-      digits = lower_case(token%text)
-      star = index(digits, '*')
-      repeat = 1
-      repeat_ok = .true.
-      if (star > 0) then
-         repeat = whole_number(digits(:star - 1))
-         repeat_ok = repeat > 0 .and. repeat < 1000000
-         digits = digits(star + 1:)
-      end if
-      x = 0
-      if (.not. token%quoted .and. is_special(digits)) then
-         call refuse_values(a, 'must be finite, '//v%allowed(), error)
-         return
-      end if
-      call read_number(digits, x, ok)
-      if (index(token%text, ':') > 0 .and. .not. token%quoted) then
-         call refuse_values(a, 'must be a number, '//v%allowed()//several_runs(a), error)
-      else if (.not. repeat_ok .or. token%quoted .or. .not. ok) then
-         call refuse_values(a, 'must be a number, '//v%allowed(), error)
-      else if (.not. ieee_is_finite(x)) then
-         call refuse_values(a, 'must be finite, '//v%allowed(), error)
-      else if (v%may_be_unset .and. v%low >= 0 .and. abs(x + 1) <= 0) then
-         x = unset
-      else if (x < v%low .or. x > v%high) then
-         call refuse_values(a, 'must be '//v%allowed()//in_other_units(x, a%group//'%'//a%name, v%unit, v%low, &
-            & v%high), error)
-      end if
-   end subroutine read_real
-
-   !> How to write what has several values or a range, where one value is expected: a run for each of them.
-   pure function several_runs(a) result(text)
-      type(assignment_type), intent(in) :: a
-      character(len=:), allocatable :: text
-      text = '; for one run of each value: '//study_group//'%'//shortened(assignment_text(a))
-   end function several_runs
-
-   !> "case.nml line 3: rotor%mass = -1: must be ...".
-   subroutine refuse_values(a, reason, error)
-      type(assignment_type), intent(in) :: a
-      character(len=*), intent(in) :: reason
-      type(error_type), allocatable, intent(inout) :: error
-      call raise(error, input_error, a%origin//': '//assignment_text(a)//': '//reason)
-   end subroutine refuse_values
-
-   !> True for one of the words that `choices` lists, separated by blanks.
-   pure logical function is_choice(word, choices)
-      character(len=*), intent(in) :: word, choices
-      is_choice = scan(word, ' ') == 0 .and. index(' '//choices//' ', ' '//word//' ') > 0
-   end function is_choice
+   !> The assignments of a machine, where those to a group of all bearings are one to each: those of the case before the
+   !> bearings' own, which take their place, those of --set in the order in which they are given.
+   subroutine give_to_bearings(parsed, bearings, given)
+      type(namelist_type), intent(in) :: parsed
+      type(bearing_type), intent(in) :: bearings(:)
+      type(namelist_type), intent(out) :: given
+      type(assignment_type), allocatable :: longer(:)
+      type(assignment_type) :: own
+      logical, dimension(size(parsed%assignments)) :: defaults, general
+      integer :: order(size(parsed%assignments)), i, k, b, n
+      general = [(may_have_bearing(parsed%assignments(k)%group), k=1, size(general))]
+      defaults = general .and. .not. parsed%assignments%overrides
+      order = [pack([(k, k=1, size(general))], defaults), pack([(k, k=1, size(general))], .not. defaults)]
+      given%file = parsed%file
+      given%groups = parsed%groups
+      allocate (longer(size(general) + count(general)*max(0, size(bearings) - 1)))
+      n = 0
+      do i = 1, size(order)
+         k = order(i)
+         do b = 1, merge(size(bearings), 1, general(k))
+            own = parsed%assignments(k)
+            if (general(k)) own%group = own%group//bearings(b)%suffix()
+            own%of_all = defaults(k)
+            if (is_undone()) cycle
+            n = n + 1
+            longer(n) = own
+         end do
+      end do
+      ! one by one, as the compiler forgets to free what a constructor copies
+      allocate (given%assignments(n))
+      do k = 1, n
+         given%assignments(k) = longer(k)
+      end do
+   contains
+      !> Whether what follows gives all of it another value.
+      pure logical function is_undone()
+         integer :: j
+         is_undone = general(k) .and. any([(undoes(parsed%assignments(j), own) .and. (j > k .or. defaults(k)), &
+            & j=1, size(general))])
+      end function is_undone
+   end subroutine give_to_bearings
 end module case_namelist

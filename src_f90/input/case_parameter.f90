@@ -1,18 +1,19 @@
-!> A number of the input by its name, 'group%name' or 'group%name(element)': what it may be, its value in a case, and
-!> cases with other values of it. What a branch runs over.
+!> Variables of the input by their names: what a wrong name may stand for; and a number, 'group%name' or
+!> 'group%name(element)': what it may be, its value in a case, and cases with other values of it, which a branch runs
+!> over.
 module case_parameter
    use kinds, only: wp
-   use text, only: lower_case, filled
-   use errors, only: error_type, raise, require, refuse, input_error
+   use text, only: lower_case, filled, find_similar, did_you_mean
+   use errors, only: error_type, require, refuse, add_context
    use case_groups, only: is_set, in_range
    use case_inputs, only: case_type
    use case_checks, only: check_case
-   use variable_table, only: variable_table_type
-   use case_fields, only: list_variables, put_variables
-   use variable_names, only: meant_variable
+   use variable_table, only: variable_type, variable_table_type
+   use case_fields, only: list_variables, list_all_variables, put_variables
    use assignments, only: split_subscript, kind_of
    implicit none (type, external)
    private
+   public :: group_names, names_in, meant_variable, meant_group, meant_word
    public :: case_parameter_type, find_parameter, complete_branch, check_branch_parameter
 
    !> The groups whose numbers describe the bearing; and the one number of operation that does.
@@ -22,20 +23,125 @@ module case_parameter
    !> First steps from one end of a branch to the other where the step is left out.
    integer, parameter :: first_steps = 20
 
-   type :: case_parameter_type
-      !> Group, name, and element; 0: all elements have the value.
-      character(len=:), allocatable, private :: group, variable
+   !> Names that have changed, each with today's, in pairs: 'group%name', 'group%name=word' or '--option'.
+   character(len=*), parameter :: former_names(2, 6) = reshape([character(len=27) :: &
+      & 'pivot%penetration_factor', 'pivot%deflection_factor', &
+      & 'oil%wall_exchange', 'oil%shaft_nusselt', &
+      & 'start%pad_penetration', 'start%pivot_deflection', &
+      & 'start%pad_penetration_rate', 'start%pivot_deflection_rate', &
+      & 'film%solver=modal', 'fourier', &
+      & '--member', '--run'], [2, 6])
+
+   !> Names as data sheets and other programs have them, each with what is meant, in pairs.
+   character(len=*), parameter :: common_names(2, 17) = reshape([character(len=47) :: &
+      & 'clearance', 'machined_clearance or assembled_clearance', &
+      & 'radial_clearance', 'bearing%assembled_clearance', &
+      & 'bearing_clearance', 'bearing%assembled_clearance', &
+      & 'diametral_clearance', 'bearing%assembled_clearance, half of it', &
+      & 'pad_clearance', 'bearing%machined_clearance', &
+      & 'diameter', 'bearing%journal_radius, half of it', &
+      & 'journal_diameter', 'bearing%journal_radius, half of it', &
+      & 'shaft_diameter', 'bearing%journal_radius, half of it', &
+      & 'width', 'bearing%axial_length', &
+      & 'length', 'bearing%axial_length', &
+      & 'pivot_offset', 'pads%pivot_ratio', &
+      & 'number', 'pads%pivot_angle_deg, one for each pad', &
+      & 'number_of_pads', 'pads%pivot_angle_deg, one for each pad', &
+      & 'clearance_ratio', 'bearing%assembled_clearance', &
+      & 'weight', 'rotor%mass in kg', &
+      & 'elastic_modulus', 'young_modulus', &
+      & 'load', 'rotor%static_load along y and z, or rotor%mass'], [2, 17])
+
+   type, extends(variable_type) :: case_parameter_type
+      !> 0: all elements have the value.
       integer, private :: element = 0
-      !> Unit, and what it is, for the file.
-      character(len=:), allocatable :: unit, meaning
-      !> Allowed values.
-      real(wp) :: low = 0, high = 0
    contains
       procedure :: value
       procedure :: set
    end type case_parameter_type
 
 contains
+
+   !> The groups, each with a blank before it.
+   function group_names() result(names)
+      character(len=:), allocatable :: names
+      type(variable_table_type) :: table
+      integer :: i
+      call list_all_variables(case_type(), table)
+      names = ''
+      do i = 1, table%count
+         if (index(names//' ', ' '//table%variables(i)%group//' ') == 0) names = names//' '//table%variables(i)%group
+      end do
+   end function group_names
+
+   !> The variables of a group, each with a blank before it; of all groups, as group%name, where it is empty. Those of
+   !> machines are left out if `rigid` is there.
+   function names_in(group, rigid) result(names)
+      character(len=*), intent(in) :: group
+      logical, intent(in), optional :: rigid
+      character(len=:), allocatable :: names
+      type(variable_table_type) :: table
+      integer :: i
+      if (present(rigid)) then
+         call list_variables(case_type(), table)
+      else
+         call list_all_variables(case_type(), table)
+      end if
+      names = ''
+      do i = 1, table%count
+         associate (v => table%variables(i))
+            if (v%group == group) names = names//' '//v%name
+            if (group == '') names = names//' '//v%group//'%'//v%name
+         end associate
+      end do
+   end function names_in
+
+   !> " (did you mean rotor%mass?)" for a variable that its group does not have; the group may be empty or unknown.
+   !> For the former name of a variable its new one.
+   function meant_variable(group, name) result(text)
+      character(len=*), intent(in) :: group, name
+      character(len=:), allocatable :: text, own, other
+      integer :: own_score, other_score, k
+      text = new_name(group//'%'//name)
+      if (text /= '') return
+      k = findloc(common_names(1, :), name, dim=1)
+      if (k > 0) text = ' (did you mean '//trim(common_names(2, k))//'?)'
+      if (k > 0) return
+      call find_similar(name, names_in(group), own, own_score)
+      ! a machine has many names several times
+      call find_similar(name, names_in('', rigid=.true.), other, other_score)
+      if (other == '') call find_similar(name, names_in(''), other, other_score)
+      if (own /= '' .and. own_score <= other_score) other = own
+      if (other /= '') text = ' (did you mean '//other//'?)'
+   end function meant_variable
+
+   !> " (did you mean rotor?)" for a group that does not exist.
+   function meant_group(group) result(text)
+      character(len=*), intent(in) :: group
+      character(len=:), allocatable :: text
+      text = did_you_mean(group, group_names()//' sweep')
+   end function meant_group
+
+   !> What a wrong word may stand for, an option or a value of a variable, `of`: today's name of a former one, or one of
+   !> the words that it is like.
+   pure function meant_word(word, words, of) result(text)
+      character(len=*), intent(in) :: word, words, of
+      character(len=:), allocatable :: text
+      text = new_name(of//word)
+      if (text == '') text = did_you_mean(word, words)
+   end function meant_word
+
+   !> " (is called pivot%deflection_factor now)" for a former name; else empty.
+   pure function new_name(former) result(text)
+      character(len=*), intent(in) :: former
+      character(len=:), allocatable :: text
+      integer :: k
+      k = findloc(former_names(1, :), former, dim=1)
+      text = ''
+      if (k > 0) text = ' (is called '//trim(former_names(2, k))//' now)'
+   end function new_name
+
+   ! A number by its name.
 
    !> The number of this name in a case; an error says why there is none.
    subroutine find_parameter(inputs, name, parameter, error)
@@ -46,50 +152,33 @@ contains
       type(variable_table_type) :: table
       integer :: at
       logical :: ok
-      call split(lower_case(name), parameter, ok)
-      if (.not. ok) then
-         call raise(error, input_error, 'must be group%name or group%name(element)')
-         return
-      end if
+      at = index(name, '%')
+      parameter%group = lower_case(name(:at - 1))
+      call split_subscript(lower_case(name(at + 1:)), parameter%name, parameter%element, ok)
+      call require(ok .and. parameter%group /= '' .and. parameter%name /= '', 'must be group%name or ' &
+         & //'group%name(element)', error)
+      if (allocated(error)) return
       call list_variables(inputs, table)
-      at = table%find(parameter%group, parameter%variable)
-      if (at == 0) then
-         call raise(error, input_error, 'there is no such variable' &
-            & //meant_variable(kind_of(parameter%group), parameter%variable))
-         return
-      end if
-      associate (v => table%variables(at))
-         parameter%unit = v%unit
-         parameter%meaning = v%meaning
-         parameter%low = v%low
-         parameter%high = v%high
-         call require(.not. (v%is_text .or. v%whole), 'must be a real number, no text and no whole number', error)
-         call require(index(groups, ' '//kind_of(parameter%group)//' ') > 0 .and. (parameter%group /= 'operation' &
-            & .or. parameter%variable == speed), 'must be operation%'//speed//' or a number of rotor, bearing, oil, ' &
-            & //'pads, pivot, friction, asperity, shaft, disc, unbalance, load or support', error)
+      at = table%find(parameter%group, parameter%name)
+      if (at == 0) call refuse('there is no such variable'//meant_variable(kind_of(parameter%group), &
+         & parameter%name), error)
+      if (allocated(error)) return
+      parameter%variable_type = table%variables(at)
+      call require(.not. (parameter%is_text .or. parameter%whole), 'must be a real number, no text and no whole ' &
+         & //'number', error)
+      call require(index(groups, ' '//kind_of(parameter%group)//' ') > 0 .and. (parameter%group /= 'operation' &
+         & .or. parameter%name == speed), 'must be operation%'//speed//' or a number of rotor, bearing, oil, ' &
+         & //'pads, pivot, friction, asperity, shaft, disc, unbalance, load or support', error)
+      if (allocated(error)) return
+      associate (n => size(parameter%values))
+         call require(parameter%element <= n, 'has {} element'//trim(merge('s', ' ', n /= 1)), [real(n, wp)], error)
+         call require(parameter%element > 0 .or. n <= 1 .or. parameter%each /= '', 'needs the number of an element, ' &
+            & //parameter%group//'%'//parameter%name//'(1) to ({})', [real(n, wp)], error)
          if (allocated(error)) return
-         associate (n => size(v%values))
-            call require(parameter%element <= n, 'has {} element'//trim(merge('s', ' ', n /= 1)), [real(n, wp)], error)
-            call require(parameter%element > 0 .or. n <= 1 .or. v%each /= '', 'needs the number of an element, ' &
-               & //parameter%group//'%'//parameter%variable//'(1) to ({})', [real(n, wp)], error)
-            if (allocated(error)) return
-            call require(is_set(v%values(max(1, parameter%element))), 'has no value of its own here (tiltpad --check ' &
-               & //'prints those that have)', error)
-         end associate
+         call require(is_set(parameter%values(max(1, parameter%element))), 'has no value of its own here (tiltpad ' &
+            & //'--check prints those that have)', error)
       end associate
    end subroutine find_parameter
-
-   !> Parts of "group%name(element)". `ok` is false where it is none.
-   subroutine split(name, parameter, ok)
-      character(len=*), intent(in) :: name
-      type(case_parameter_type), intent(inout) :: parameter
-      logical, intent(out) :: ok
-      integer :: percent
-      percent = index(name, '%')
-      parameter%group = name(:percent - 1)
-      call split_subscript(name(percent + 1:), parameter%variable, parameter%element, ok)
-      ok = ok .and. parameter%group /= '' .and. parameter%variable /= ''
-   end subroutine split
 
    !> Its value in a case; where several elements change together, that of the first.
    real(wp) function value(self, inputs)
@@ -97,9 +186,7 @@ contains
       type(case_type), intent(in) :: inputs
       type(variable_table_type) :: table
       call list_variables(inputs, table)
-      associate (v => table%variables(table%find(self%group, self%variable)))
-         value = v%values(max(1, self%element))
-      end associate
+      value = table%variables(table%find(self%group, self%name))%values(max(1, self%element))
    end function value
 
    !> Gives it another value in a case. An error says why the case cannot be; it is changed all the same.
@@ -110,18 +197,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(variable_table_type) :: table
       call list_variables(inputs, table)
-      associate (v => table%variables(table%find(self%group, self%variable)))
-         if (self%element > 0) then
-            v%values(self%element) = value
-         else
-            v%values = spread(value, 1, size(v%values))
-         end if
+      associate (v => table%variables(table%find(self%group, self%name)))
+         if (self%element == 0) v%values = spread(value, 1, size(v%values))
+         if (self%element > 0) v%values(self%element) = value
       end associate
       call put_variables(table, inputs)
       ! a run-up has no orbit
       inputs%operation%final_speed_rpm = inputs%operation%speed_rpm
       if (value < self%low .or. value > self%high) then
-         call refuse(filled(self%group//'%'//self%variable//' = {}: must be {} to {}', [value, self%low, self%high]), &
+         call refuse(filled(self%group//'%'//self%name//' = {}: must be {} to {}', [value, self%low, self%high]), &
             & error)
       else
          call check_case(inputs, error)
@@ -136,7 +220,6 @@ contains
       real(wp) :: first
       if (inputs%about%task /= 'branch') return
       associate (b => inputs%branch)
-         if (is_set(b%last) .and. is_set(b%step)) return
          call find_parameter(inputs, b%parameter, parameter, error)
          if (allocated(error)) return
          first = parameter%value(inputs)
@@ -155,13 +238,11 @@ contains
       if (inputs%about%task /= 'branch') return
       associate (b => inputs%branch)
          call find_parameter(inputs, b%parameter, parameter, error)
-         if (allocated(error)) then
-            error%message = 'branch%parameter = '''//b%parameter//''': '//error%message
-            return
-         end if
+         call add_context(error, 'branch%parameter = '''//b%parameter//'''')
+         if (allocated(error)) return
          first = parameter%value(inputs)
          call require(b%of /= 'equilibrium' .or. .not. (any(kind_of(parameter%group) == [character(len=9) :: &
-            & 'friction', 'unbalance']) .or. parameter%variable == 'unbalance' .or. index(parameter%variable, &
+            & 'friction', 'unbalance']) .or. parameter%name == 'unbalance' .or. index(parameter%name, &
             & 'balance_') == 1), 'branch%parameter = '''//b%parameter//''': has no effect on equilibria, which are ' &
             & //'without friction and unbalance', error)
          call require(is_set(b%last), 'branch%last: must be given, as twice '//b%parameter//' = {} is no other value', &

@@ -6,9 +6,8 @@ module case_remarks
    use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
    use bearing_numbers, only: preload, load, specific_load
-   use variable_table, only: variable_table_type, variable_type
+   use variable_table, only: variable_table_type, variable_type, lines_of
    use case_fields, only: list_variables
-   use namelist_writer, only: lines_of
    use assignments, only: assignment_type, kind_of, bearing_of
    use operating_point, only: operating_point_type
    use other_units, only: in_other_units, usual_size, usual_type
@@ -42,6 +41,9 @@ module case_remarks
    character(len=*), parameter :: to_be_given = ' rotor%mass rotor%unbalance operation%speed_rpm ' &
       & //'bearing%journal_radius bearing%machined_clearance bearing%assembled_clearance bearing%axial_length ' &
       & //'bearing%viscosity pads%pivot_angle_deg pads%arc_deg '
+   !> Variables from which others of their groups follow, and these.
+   character(len=*), parameter :: sources(2) = [character(len=26) :: 'preload machined_clearance', &
+      & 'balance_grade unbalance']
 
 contains
 
@@ -54,38 +56,127 @@ contains
       lines = ''
       call list_variables(inputs, table)
       do b = 1, size(inputs%bearings)
-         lines = lines//behind(inputs%bearings(b)%label(': '), on_bearing(inputs, inputs%bearings(b)))
+         lines = lines//behind(inputs%bearings(b)%label(': '), on_bearing(inputs%bearings(b)))
       end do
-      lines = lines//remarks_on_units(inputs, table)//remarks_on_forces(inputs)
+      lines = lines//remarks_on_units()//remarks_on_forces()
       if (allocated(inputs%about%of_paper)) lines = lines//'not given, and so as in the paper''s bearing: ' &
          & //inputs%about%of_paper//newline
       lines = lines//on_idle_groups(inputs, table)
-   end function remarks_on_case
+   contains
+      !> What does not depend on the load of a bearing.
+      function on_bearing(bearing) result(lines)
+         type(bearing_type), intent(in) :: bearing
+         character(len=:), allocatable :: lines
+         associate (radius => bearing%journal_radius, c => bearing%clearance(), turns => inputs%highest_speed()/rpm, &
+               & surface => inputs%highest_speed()*bearing%journal_radius)
+            lines = line_if(surface < usual_speeds(1), 'surface speed {} m/s at {} rpm: seldom so low', [surface, &
+               & turns], in_other_units(turns, 'operation%speed_rpm', 'rpm', usual_speeds(1)/radius/rpm, usual_speeds( &
+               & 2)/radius/rpm))
+            lines = lines//line_if(c > widest_clearance*radius, 'bearing%assembled_clearance = {}: {} of the radius ' &
+               & //'of the journal; usual are 0.001 to 0.003', [c, c/radius], in_other_units(c, &
+               & 'bearing%assembled_clearance', 'm', 0.0_wp, widest_clearance*radius))//remarks_on_pads(bearing)
+            lines = lines//line_if(any(preload(bearing) < 0), 'negative preload {}: the bore of the pads is tighter ' &
+               & //'than the clearance at the pivots; such a pad touches the journal at its edges first', &
+               & [minval(preload(bearing))])
+            lines = lines//line_if(.not. bearing%tilting() .and. any(abs(preload(bearing)) > 0), 'each lobe has a ' &
+               & //'centre of its own: eccentricity ratio and attitude angle are about the centre of the bearing and ' &
+               & //'over its clearance, so that they differ from those of a cylindrical bore')
+            lines = lines//line_if(inputs%thermal%model == 'pad' .and. surface > compared_up_to, 'surface speed {.1} ' &
+               & //'m/s: above {} m/s a temperature for each pad shows trends, and stiffness may be off by more than ' &
+               & //'10 % (docs/warm_oil.md)', [surface, compared_up_to])
+         end associate
+      end function on_bearing
 
-   !> What does not depend on the load of a bearing.
-   function on_bearing(inputs, bearing) result(lines)
-      type(case_type), intent(in) :: inputs
-      type(bearing_type), intent(in) :: bearing
-      character(len=:), allocatable :: lines
-      associate (radius => bearing%journal_radius, c => bearing%clearance(), turns => inputs%highest_speed()/rpm, &
-            & surface => inputs%highest_speed()*bearing%journal_radius)
-         lines = line_if(surface < usual_speeds(1), 'surface speed {} m/s at {} rpm: seldom so low', [surface, turns], &
-            & in_other_units(turns, 'operation%speed_rpm', 'rpm', usual_speeds(1)/radius/rpm, &
-            & usual_speeds(2)/radius/rpm))
-         lines = lines//line_if(c > widest_clearance*radius, 'bearing%assembled_clearance = {}: {} of the radius of ' &
-            & //'the journal; usual are 0.001 to 0.003', [c, c/radius], in_other_units(c, &
-            & 'bearing%assembled_clearance', 'm', 0.0_wp, widest_clearance*radius))//remarks_on_pads(bearing)
-         lines = lines//line_if(any(preload(bearing) < 0), 'negative preload {}: the bore of the pads is tighter ' &
-            & //'than the clearance at the pivots; such a pad touches the journal at its edges first', &
-            & [minval(preload(bearing))])
-         lines = lines//line_if(.not. bearing%tilting() .and. any(abs(preload(bearing)) > 0), 'each lobe has a ' &
-            & //'centre of its own: eccentricity ratio and attitude angle are about the centre of the bearing and ' &
-            & //'over its clearance, so that they differ from those of a cylindrical bore')
-         lines = lines//line_if(inputs%thermal%model == 'pad' .and. surface > compared_up_to, 'surface speed {.1} ' &
-            & //'m/s: above {} m/s a temperature for each pad shows trends, and stiffness may be off by more than ' &
-            & //'10 % (docs/warm_oil.md)', [surface, compared_up_to])
-      end associate
-   end function on_bearing
+      !> Steady forces that a case gives, the tables of its pivots beside them, and what depends on the load and the
+      !> unbalance of a rigid journal, a line each.
+      function remarks_on_forces() result(lines)
+         character(len=:), allocatable :: lines
+         real(wp) :: weight
+         integer :: i
+         lines = ''
+         associate (r => inputs%rotor, bearings => inputs%bearings)
+            if (r%is_rigid()) then
+               lines = on_force('rotor%static_load', norm2(r%static_load), r%mass*r%gravity)//on_low_load() &
+                  & //on_table(bearings(1), load(inputs))
+               if (inputs%moves()) lines = lines//remark_on_unbalance(inputs%unbalance(), r%mass, bearings( &
+                  & 1)%clearance())
+               lines = lines//remarks_on_load(inputs)
+            else if (r%station_count() > 0) then
+               weight = r%elastic%mass()*r%gravity
+               do i = 1, size(r%elastic%loads)
+                  lines = lines//on_force('load('//to_text(i)//')%force', norm2(r%elastic%loads(i)%force), weight)
+               end do
+               do i = 1, size(bearings)
+                  lines = lines//on_table(bearings(i), weight/size(bearings))
+               end do
+            end if
+         end associate
+      end function remarks_on_forces
+
+      !> A load that is low for the size of the bearing, where its size is usual.
+      function on_low_load() result(line)
+         character(len=:), allocatable :: line
+         type(usual_type) :: usual
+         usual = usual_size('bearing%journal_radius', 'm')
+         line = ''
+         if (inputs%bearings(1)%journal_radius > usual%high .or. .not. load(inputs) > 0) return
+         line = line_if(specific_load(inputs) < lowest_usual_load, 'specific load {M} MPa: seldom so low; most ' &
+            & //'bearings carry 1 to 3 MPa', [specific_load(inputs)], in_usual_unit(inputs))
+      end function on_low_load
+
+      !> All of a case, but for those on pads, a line each; by its table of variables.
+      function remarks_on_units() result(lines)
+         character(len=:), allocatable :: lines
+         real(wp) :: largest
+         integer :: i
+         lines = ''
+         do i = 1, table%count
+            lines = lines//remark_on_number(table%variables(i))
+         end do
+         if (inputs%rotor%station_count() > 0) then
+            do i = 1, size(inputs%rotor%elastic%discs)
+               associate (disc => inputs%rotor%elastic%discs(i))
+                  ! a radius of gyration as long as the shaft
+                  largest = disc%mass*sum(inputs%rotor%elastic%shaft%length)**2
+                  lines = lines//line_if(disc%diametral_inertia > largest, 'disc({})%diametral_inertia = {}: more ' &
+                     & //'than a disc of its mass has that is not larger than the shaft is long', [real(wp) :: i, &
+                     & disc%diametral_inertia], in_other_units(disc%diametral_inertia, 'disc%', 'kg m^2', 0.0_wp, &
+                     & largest))
+               end associate
+            end do
+         end if
+         lines = lines//on_frequencies()
+      end function remarks_on_units
+
+      !> Frequencies, Hz or over the speed of the shaft, far above it or in another unit, and the speed of balancing.
+      function on_frequencies() result(lines)
+         character(len=:), allocatable :: lines, name, ending
+         character(len=*), parameter :: too_high = ' = {}: this many times the speed of the shaft; is it in Hz or rpm?'
+         integer :: i
+         associate (balance => inputs%rotor%balance_speed_rpm, speed => inputs%highest_speed(), &
+               & turns => inputs%highest_speed()/(2*pi), x => inputs%excitations)
+            lines = line_if(is_set(balance) .and. is_near(balance, speed), 'rotor%balance_speed_rpm = {}: the speed ' &
+               & //'of the shaft in rad/s; it is in rpm', [balance])
+            ending = filled('; the shaft turns at {} Hz', [turns])
+            do i = 1, size(x)
+               name = 'excitation('//to_text(i)//')%'
+               if (is_set(x(i)%frequency_hz)) then
+                  associate (f => x(i)%frequency_hz, near => is_near(x(i)%frequency_hz, speed))
+                     lines = lines//line_if(near, name//'frequency_hz = {}: the speed of the shaft in rad/s', [f], &
+                        & ending)//line_if(f > highest_order*turns .and. .not. near, name//'frequency_hz = {}: {} ' &
+                        & //'times the speed of the shaft; {} rpm are {}', [f, f/turns, f, f/60], ending)
+                  end associate
+               end if
+               lines = lines//line_if(x(i)%frequency_ratio > highest_order, name//'frequency_ratio'//too_high, &
+                  & [x(i)%frequency_ratio])
+            end do
+         end associate
+         associate (ratio => maxval([0.0_wp, inputs%coefficients%frequency_ratio]))
+            lines = lines//line_if(inputs%about%task == 'coefficients' .and. ratio > highest_order, &
+               & 'coefficients%frequency_ratio'//too_high, [ratio])
+         end associate
+      end function on_frequencies
+   end function remarks_on_case
 
    !> Groups that the task of a case does not use, and what they say.
    function on_idle_groups(inputs, table) result(lines)
@@ -146,32 +237,6 @@ contains
    ! Remarks on forces: loads that few bearings have, forces too small beside the others to be meant in N, and where the
    ! load of fixed pads points to.
 
-   !> Steady forces that a case gives, the tables of its pivots beside them, and what depends on the load and the
-   !> unbalance of a rigid journal, a line each.
-   function remarks_on_forces(inputs) result(lines)
-      type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: lines
-      real(wp) :: weight
-      integer :: i
-      lines = ''
-      associate (r => inputs%rotor, bearings => inputs%bearings)
-         if (r%is_rigid()) then
-            lines = on_force('rotor%static_load', norm2(r%static_load), r%mass*r%gravity)//on_low_load(inputs) &
-               & //on_table(bearings(1), load(inputs))
-            if (inputs%moves()) lines = lines//remark_on_unbalance(inputs%unbalance(), r%mass, bearings(1)%clearance())
-            lines = lines//remarks_on_load(inputs)
-         else if (r%station_count() > 0) then
-            weight = r%elastic%mass()*r%gravity
-            do i = 1, size(r%elastic%loads)
-               lines = lines//on_force('load('//to_text(i)//')%force', norm2(r%elastic%loads(i)%force), weight)
-            end do
-            do i = 1, size(bearings)
-               lines = lines//on_table(bearings(i), weight/size(bearings))
-            end do
-         end if
-      end associate
-   end function remarks_on_forces
-
    !> A force, N, that is nothing beside the weight.
    function on_force(name, force, weight) result(line)
       character(len=*), intent(in) :: name
@@ -180,18 +245,6 @@ contains
       line = line_if(force > 0 .and. force < negligible*weight, name//': {} N are nothing beside the weight of {} N', &
          & [force, weight], in_other_units(force, name, 'N', 10*negligible*weight, huge(1.0_wp)))
    end function on_force
-
-   !> A load that is low for the size of the bearing, where its size is usual.
-   function on_low_load(inputs) result(line)
-      type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: line
-      type(usual_type) :: usual
-      usual = usual_size('bearing%journal_radius', 'm')
-      line = ''
-      if (inputs%bearings(1)%journal_radius > usual%high .or. .not. load(inputs) > 0) return
-      line = line_if(specific_load(inputs) < lowest_usual_load, 'specific load {M} MPa: seldom so low; most bearings ' &
-         & //'carry 1 to 3 MPa', [specific_load(inputs)], in_usual_unit(inputs))
-   end function on_low_load
 
    !> What weight or static load of a case, whichever is larger, is in units in which its specific load is usual.
    function in_usual_unit(inputs) result(hint)
@@ -258,31 +311,6 @@ contains
 
    ! Remarks on numbers that are allowed and seldom meant in the unit of the input, with what they are in others.
 
-   !> All of a case, but for those on pads, a line each; by its table of variables.
-   function remarks_on_units(inputs, table) result(lines)
-      type(case_type), intent(in) :: inputs
-      type(variable_table_type), intent(in) :: table
-      character(len=:), allocatable :: lines
-      real(wp) :: largest
-      integer :: i
-      lines = ''
-      do i = 1, table%count
-         lines = lines//remark_on_number(table%variables(i))
-      end do
-      if (inputs%rotor%station_count() > 0) then
-         do i = 1, size(inputs%rotor%elastic%discs)
-            associate (disc => inputs%rotor%elastic%discs(i))
-               ! a radius of gyration as long as the shaft
-               largest = disc%mass*sum(inputs%rotor%elastic%shaft%length)**2
-               lines = lines//line_if(disc%diametral_inertia > largest, 'disc({})%diametral_inertia = {}: more than ' &
-                  & //'a disc of its mass has that is not larger than the shaft is long', [real(wp) :: i, &
-                  & disc%diametral_inertia], in_other_units(disc%diametral_inertia, 'disc%', 'kg m^2', 0.0_wp, largest))
-            end associate
-         end do
-      end if
-      lines = lines//on_frequencies(inputs)
-   end function remarks_on_units
-
    !> On the first value of a variable that is not of usual size; empty where there is none.
    function remark_on_number(v) result(line)
       type(variable_type), intent(in) :: v
@@ -293,15 +321,10 @@ contains
       if (v%is_text) return
       name = v%group//'%'//v%name
       usual = usual_size(name, v%unit)
-      if (.not. usual%told) return
-      do i = 1, size(v%values)
-         associate (x => v%values(i))
-            if (.not. is_set(x) .or. abs(x) <= 0 .or. (abs(x) >= usual%low .and. abs(x) <= usual%high)) cycle
-            line = name//' = '//to_text(x)//': seldom so in '//v%unit//in_other_units(x, name, v%unit, v%low, v%high) &
-               & //newline
-            return
-         end associate
-      end do
+      i = findloc(is_set(v%values) .and. abs(v%values) > 0 .and. (abs(v%values) < usual%low &
+         & .or. abs(v%values) > usual%high), .true., dim=1)
+      if (usual%told .and. i > 0) line = name//' = '//to_text(v%values(i))//': seldom so in '//v%unit &
+         & //in_other_units(v%values(i), name, v%unit, v%low, v%high)//newline
    end function remark_on_number
 
    !> On the first mass or moment of inertia of a bearing that no pad of its size has.
@@ -325,36 +348,6 @@ contains
          end do
       end associate
    end function remarks_on_pads
-
-   !> Frequencies, Hz or over the speed of the shaft, far above it or in another unit, and the speed of balancing.
-   function on_frequencies(inputs) result(lines)
-      type(case_type), intent(in) :: inputs
-      character(len=:), allocatable :: lines, name, ending
-      character(len=*), parameter :: too_high = ' = {}: this many times the speed of the shaft; is it in Hz or rpm?'
-      integer :: i
-      associate (balance => inputs%rotor%balance_speed_rpm, speed => inputs%highest_speed(), &
-            & turns => inputs%highest_speed()/(2*pi), x => inputs%excitations)
-         lines = line_if(is_set(balance) .and. is_near(balance, speed), 'rotor%balance_speed_rpm = {}: the speed of ' &
-            & //'the shaft in rad/s; it is in rpm', [balance])
-         ending = filled('; the shaft turns at {} Hz', [turns])
-         do i = 1, size(x)
-            name = 'excitation('//to_text(i)//')%'
-            if (is_set(x(i)%frequency_hz)) then
-               associate (f => x(i)%frequency_hz, near => is_near(x(i)%frequency_hz, speed))
-                  lines = lines//line_if(near, name//'frequency_hz = {}: the speed of the shaft in rad/s', [f], &
-                     & ending)//line_if(f > highest_order*turns .and. .not. near, name//'frequency_hz = {}: {} times ' &
-                     & //'the speed of the shaft; {} rpm are {}', [f, f/turns, f, f/60], ending)
-               end associate
-            end if
-            lines = lines//line_if(x(i)%frequency_ratio > highest_order, name//'frequency_ratio'//too_high, &
-               & [x(i)%frequency_ratio])
-         end do
-      end associate
-      associate (ratio => maxval([0.0_wp, inputs%coefficients%frequency_ratio]))
-         lines = lines//line_if(inputs%about%task == 'coefficients' .and. ratio > highest_order, &
-            & 'coefficients%frequency_ratio'//too_high, [ratio])
-      end associate
-   end function on_frequencies
 
    !> Whether two numbers are the same but for rounding in a data sheet.
    pure logical function is_near(x, y)
@@ -382,15 +375,13 @@ contains
       type(assignment_type), intent(in) :: given(:)
       type(case_type), intent(inout) :: inputs
       character(len=:), allocatable :: text, line
-      character(len=len(own_size)) :: names(size(given))
+      logical :: of_size(size(given))
       type(variable_table_type) :: table
       type(variable_type) :: shown
       integer :: i
       text = ''
-      do i = 1, size(given)
-         names(i) = kind_of(given(i)%group)//'%'//given(i)%name
-      end do
-      if (.not. any([(index(own_size, ' '//trim(names(i))//' ') > 0, i=1, size(given))])) return
+      of_size = [(index(own_size, ' '//kind_of(given(i)%group)//'%'//given(i)%name//' ') > 0, i=1, size(given))]
+      if (.not. any(of_size)) return
       call list_variables(inputs, table)
       do i = 1, table%count
          associate (v => table%variables(i))
@@ -409,8 +400,8 @@ contains
       logical function has_own(v)
          type(variable_type), intent(in) :: v
          integer :: k
-         has_own = any([(given(k)%group == v%group .and. (given(k)%name == v%name .or. is_source(given(k)%name, &
-            & v%name)), k=1, size(given))])
+         has_own = any([(given(k)%group == v%group .and. (given(k)%name == v%name .or. any(given(k)%name//' '//v%name &
+            & == sources)), k=1, size(given))])
       end function has_own
 
       !> Whether a variable that is left out has an effect; of a bearing, whether the case gives it a size.
@@ -420,15 +411,8 @@ contains
          matters = all(is_set(v%values))
          if (v%name == 'unbalance') matters = inputs%moves()
          if (bearing_of(v%group) == '') return
-         matters = matters .and. any([(index(own_size, ' '//trim(names(k))//' ') > 0 &
-            & .and. bearing_of(given(k)%group) == bearing_of(v%group), k=1, size(given))])
+         matters = matters .and. any([(of_size(k) .and. bearing_of(given(k)%group) == bearing_of(v%group), &
+            & k=1, size(given))])
       end function matters
    end subroutine note_values_of_paper
-
-   !> Whether a variable follows from this one.
-   pure logical function is_source(source, name)
-      character(len=*), intent(in) :: source, name
-      is_source = source == 'preload' .and. name == 'machined_clearance' .or. source == 'balance_grade' &
-         & .and. name == 'unbalance'
-   end function is_source
 end module case_remarks

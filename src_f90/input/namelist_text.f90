@@ -1,21 +1,20 @@
 !> Splits namelist text into assignments, each with its origin. Values are not interpreted.
 module namelist_text
    use text, only: to_text, lower_case, shortened, newline
-   use errors, only: error_type, raise, require, input_error
+   use errors, only: error_type, require, refuse
    use assignments, only: namelist_type, assignment_type, token_type, put_assignment, undoes, split_subscript, &
-      & assignment_text, study_group, counted, of_bearing, kind_of, bearing_of, is_counted, may_have_bearing, &
+      & assignment_text, place_of, study_group, counted, kind_of, bearing_of, is_counted, may_have_bearing, &
       & naming_variable, is_name, longest_bearing
-   use variable_names, only: meant_variable
-   use input_file, only: read_input, require_text, control_character, tab, carriage
+   use case_parameter, only: meant_variable
+   use read_files, only: read_input, require_text, control_character, tab, carriage
    implicit none (type, external)
    private
    public :: parse_namelist, parse_override, read_text, parse_case
 
    !> Maximum number of groups, assignments, or values of one assignment, and maximum length of a name.
    integer, parameter :: most_items = 1000, longest_name = 60
-
-   character(len=*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz_'
-   character(len=*), parameter :: name_characters = letters//'0123456789'
+   character(len=*), parameter :: too_many = ': more than 1000 '
+   character(len=*), parameter :: name_characters = 'abcdefghijklmnopqrstuvwxyz_0123456789'
 
    !> Longest input file, bytes.
    integer, parameter :: longest_file = 100000
@@ -41,6 +40,7 @@ contains
       type(scanner) :: scan
       type(assignment_type) :: group
       type(assignment_type), allocatable :: own(:)
+      character(len=:), allocatable :: kind
 
       parsed%file = file
       allocate (parsed%groups(0), parsed%assignments(0))
@@ -53,36 +53,71 @@ contains
       do
          call scan%skip_blank(',')
          if (scan%peek() == '') exit
+         group%origin = scan%origin()
          if (scan%peek() /= '&') then
-            group%origin = scan%origin()
             group%name = scan%word()
             if (group%name == '') group%name = scan%peek()
-            call raise(error, input_error, group%origin//': '''//shortened(group%name)//''' stands outside a group' &
-               & //meant_variable('', lower_case(group%name))//'; expected &group ... /')
+            call refuse(group%origin//': '''//shortened(group%name)//''' stands outside a group' &
+               & //meant_variable('', lower_case(group%name))//'; expected &group ... /', error)
             return
          end if
          scan%at = scan%at + 1
-         group%origin = scan%origin()
          group%group = lower_case(scan%word())
          call require(group%group /= '', group%origin//': a group''s name is missing behind &', error)
          call require(len(group%group) <= longest_name, group%origin//': unknown group &' &
             & //shortened(group%group), error)
-         call refuse_ending(group, error)
-         call require(size(parsed%groups) < most_items, group%origin//': more than '//to_text(most_items) &
-            & //' groups', error)
+         ! --set and messages have a number or a bearing's name behind the name of a group
+         kind = kind_of(group%group)
+         call require(kind == group%group .or. .not. is_counted(kind), group%origin//': unknown group &' &
+            & //shortened(group%group)//'; groups &'//kind//' are counted in their order, without a number', error)
+         call require(kind == group%group .or. .not. may_have_bearing(kind), group%origin//': unknown group &' &
+            & //shortened(group%group)//'; the bearing of a group &'//kind//' is named in it: ' &
+            & //naming_variable(kind)//' = ''...''', error)
+         call require(size(parsed%groups) < most_items, group%origin//too_many//'groups', error)
          if (allocated(error)) return
          if (allocated(own)) deallocate (own)
          allocate (own(0))
          call parse_group(scan, group, own, error)
-         if (.not. allocated(error)) call name_group(group, own, parsed%groups, error)
-         call require(size(parsed%assignments) + size(own) <= most_items, group%origin//': more than ' &
-            & //to_text(most_items)//' values given', error)
+         if (.not. allocated(error)) call name_group()
+         call require(size(parsed%assignments) + size(own) <= most_items, group%origin//too_many//'values given', error)
          if (allocated(error)) return
          parsed%groups = [parsed%groups, group]
          parsed%assignments = [parsed%assignments, own]
       end do
-      if (size(parsed%groups) == 0) call raise(error, input_error, &
-         & file//': no namelist group in it; expected &name ... /')
+      call require(size(parsed%groups) > 0, file//': no namelist group in it; expected &name ... /', error)
+   contains
+      !> Gives a group and its assignments its number, where it is one of several, or the name of the bearing that one
+      !> of them says, which is taken out. Refuses what is given twice.
+      subroutine name_group()
+         character(len=:), allocatable :: ending
+         integer :: i, at
+         ending = ''
+         if (is_counted(kind)) then
+            ending = counted(1 + count([(kind_of(parsed%groups(i)%group) == kind, i=1, size(parsed%groups))]))
+         else if (may_have_bearing(kind)) then
+            at = findloc([(own(i)%name == naming_variable(kind), i=1, size(own))], .true., dim=1)
+            if (at > 0) then
+               associate (named => own(at), value => own(at)%values(1))
+                  call require(size(named%values) == 1 .and. named%subscript == 0 .and. value%quoted &
+                     & .and. is_name(lower_case(value%text)), named%origin//': '//assignment_text(named)//': must be ' &
+                     & //'one name in quotes, of at most '//to_text(longest_bearing)//' letters, digits and ' &
+                     & //'underscores behind a letter', error)
+                  ending = ':'//lower_case(value%text)
+               end associate
+               own = pack(own, [(i /= at, i=1, size(own))])
+            end if
+         end if
+         if (allocated(error)) return
+         group%group = kind//ending
+         do i = 1, size(own)
+            own(i)%group = group%group
+         end do
+         at = findloc([(parsed%groups(i)%group == group%group, i=1, size(parsed%groups))], .true., dim=1)
+         if (at == 0) return
+         if (ending /= '') ending = ' of bearing '''//bearing_of(group%group)//''''
+         call refuse(group%origin//': group &'//kind//ending//' is given twice, first at ' &
+            & //parsed%groups(at)%origin, error)
+      end subroutine name_group
    end subroutine parse_namelist
 
    !> Parses the argument of --set, "group%name=value"; it replaces what the file says.
@@ -97,20 +132,16 @@ contains
       percent = index(text, '%')
       group%origin = '--set '//shortened(text)
       call require(control_character(text) == 0, group%origin//': a control character is no part of a value', error)
+      if (percent <= 1 .or. index(text, '=') < percent) call refuse(group%origin//': expected group%name=value' &
+         & //meant_variable('', lower_case(trim(adjustl(text(:index(text//'=', '=') - 1))))), error)
       if (allocated(error)) return
-      if (percent > 1) group%group = lower_case(trim(adjustl(text(:percent - 1))))
-      if (percent <= 1 .or. index(text, '=') < percent) then
-         call raise(error, input_error, group%origin//': expected group%name=value' &
-            & //meant_variable('', lower_case(trim(adjustl(text(:index(text//'=', '=') - 1))))))
-         return
-      end if
+      group%group = lower_case(trim(adjustl(text(:percent - 1))))
       call require(len(group%group) <= longest_name, group%origin//': unknown group '//shortened(group%group), error)
       if (allocated(error)) return
       scan%text = text(percent + 1:)//' /'
       scan%file = group%origin
       allocate (new(0))
       call parse_group(scan, group, new, error)
-      if (allocated(error)) return
       call scan%skip_blank('')
       call require(size(new) == 1 .and. scan%peek() == '', group%origin//': expected one group%name=value; a text ' &
          & //'with a / stands in quotes within those of the shell: "group%name=''a/b''"', error)
@@ -120,69 +151,6 @@ contains
       call put_assignment(new(1), parsed)
    end subroutine parse_override
 
-   !> Refuses the start of a group with the number or the bearing's name behind it that --set and messages have.
-   subroutine refuse_ending(group, error)
-      type(assignment_type), intent(in) :: group
-      type(error_type), allocatable, intent(inout) :: error
-      character(len=:), allocatable :: kind
-      kind = kind_of(group%group)
-      if (kind == group%group) return
-      call require(.not. is_counted(kind), group%origin//': unknown group &'//shortened(group%group)//'; groups &' &
-         & //kind//' are counted in their order, without a number', error)
-      call require(.not. may_have_bearing(kind), group%origin//': unknown group &'//shortened(group%group) &
-         & //'; the bearing of a group &'//kind//' is named in it: '//naming_variable(kind)//' = ''...''', error)
-   end subroutine refuse_ending
-
-   !> Gives a group and its assignments its number, where it is one of several, or the name of the bearing that one of
-   !> them says, which is taken out. Refuses what is given twice.
-   subroutine name_group(group, own, before, error)
-      type(assignment_type), intent(inout) :: group
-      type(assignment_type), allocatable, intent(inout) :: own(:)
-      type(assignment_type), intent(in) :: before(:)
-      type(error_type), allocatable, intent(inout) :: error
-      character(len=:), allocatable :: kind, ending
-      integer :: i, at
-      kind = group%group
-      ending = ''
-      if (is_counted(kind)) then
-         ending = counted(1 + count([(kind_of(before(i)%group) == kind, i=1, size(before))]))
-      else if (may_have_bearing(kind)) then
-         at = findloc([(own(i)%name == naming_variable(kind), i=1, size(own))], .true., dim=1)
-         if (at > 0) then
-            call read_bearing(own(at), ending, error)
-            own = pack(own, [(i /= at, i=1, size(own))])
-         end if
-      end if
-      if (allocated(error)) return
-      group%group = kind//ending
-      do i = 1, size(own)
-         own(i)%group = group%group
-      end do
-      do i = 1, size(before)
-         if (before(i)%group /= group%group) cycle
-         if (ending /= '') ending = ' of bearing '''//bearing_of(group%group)//''''
-         call raise(error, input_error, group%origin//': group &'//kind//ending//' is given twice, first at ' &
-            & //before(i)%origin)
-         return
-      end do
-   end subroutine name_group
-
-   !> The bearing that an assignment names.
-   subroutine read_bearing(named, ending, error)
-      type(assignment_type), intent(in) :: named
-      character(len=:), allocatable, intent(inout) :: ending
-      type(error_type), allocatable, intent(inout) :: error
-      associate (value => named%values(1))
-         if (size(named%values) == 1 .and. named%subscript == 0 .and. value%quoted &
-            & .and. is_name(lower_case(value%text))) then
-            ending = of_bearing(lower_case(value%text))
-         else
-            call raise(error, input_error, named%origin//': '//assignment_text(named)//': must be one name in ' &
-               & //'quotes, of at most '//to_text(longest_bearing)//' letters, digits and underscores behind a letter')
-         end if
-      end associate
-   end subroutine read_bearing
-
    !> Reads a group from behind its name to behind its end.
    subroutine parse_group(scan, group, assignments, error)
       type(scanner), intent(inout) :: scan
@@ -190,134 +158,112 @@ contains
       type(assignment_type), allocatable, intent(inout) :: assignments(:)
       type(error_type), allocatable, intent(out) :: error
       type(assignment_type) :: new
+      character(len=:), allocatable :: next
       integer :: i
       do
          call scan%skip_blank(',')
-         select case (scan%peek())
-         case ('/')
-            scan%at = scan%at + 1
+         next = lower_case(scan%text(scan%at:min(scan%at + 3, len(scan%text))))
+         if (next == '&end' .or. index(next, '/') == 1) then
+            scan%at = scan%at + merge(1, 4, next(1:1) == '/')
             return
-         case ('&', '')
-            if (scan%peek() == '&' .and. lower_case(scan%text(scan%at:min(scan%at + 3, len(scan%text)))) == '&end') then
-               scan%at = scan%at + 4
-               return
-            end if
-            call raise(error, input_error, group%origin//': group &'//group%group//' is not closed by /')
-            return
-         case default
-            continue
-         end select
+         end if
+         if (next == '' .or. index(next, '&') == 1) call refuse(group%origin//': group &'//group%group &
+            & //' is not closed by /', error)
+         if (allocated(error)) return
          new = group
          new%origin = scan%origin()
-         call parse_target(scan, new, error)
-         if (.not. allocated(error)) call parse_values(scan, new, error)
+         call parse_target()
+         if (.not. allocated(error)) call parse_values()
          if (allocated(error)) return
          do i = 1, size(assignments)
-            if (.not. undoes(new, assignments(i))) cycle
-            call raise(error, input_error, new%origin//': '//new%group//'%'//new%name//' is given twice, first at ' &
-               & //assignments(i)%origin)
-            return
+            if (undoes(new, assignments(i))) call refuse(place_of(new)//' is given twice, first at ' &
+               & //assignments(i)%origin, error)
          end do
-         call require(size(assignments) < most_items, new%origin//': more than '//to_text(most_items) &
-            & //' values given', error)
+         call require(size(assignments) < most_items, new%origin//too_many//'values given', error)
          if (allocated(error)) return
          assignments = [assignments, new]
       end do
-   end subroutine parse_group
-
-   !> Reads "name [(subscript)] =".
-   subroutine parse_target(scan, new, error)
-      type(scanner), intent(inout) :: scan
-      type(assignment_type), intent(inout) :: new
-      type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: found, allowed
-      logical :: ok
-      found = lower_case(scan%word())
-      call split_subscript(found, new%name, new%subscript, ok)
-      allowed = name_characters
-      if (new%group == study_group) allowed = name_characters//'%:()'
-      call scan%skip_blank('')
-      call require(index(found, '(0)') == 0, new%origin//': '//new%group//'%'//shortened(found) &
-         & //': elements count from 1', error)
-      call require(ok .and. len(new%name) > 0 .and. verify(new%name, allowed) == 0 .and. scan%peek() == '=', &
-         & new%origin//': '''//shortened(found)//''' in group &'//new%group//': expected name = value', error)
-      call require(len(new%name) <= longest_name, new%origin//': unknown variable '//new%group//'%' &
-         & //shortened(new%name), error)
-      scan%at = scan%at + 1
-   end subroutine parse_target
-
-   !> Reads values up to the next name, the end of the group or of the text.
-   subroutine parse_values(scan, new, error)
-      type(scanner), intent(inout) :: scan
-      type(assignment_type), intent(inout) :: new
-      type(error_type), allocatable, intent(out) :: error
-      type(token_type) :: token
-      character(len=:), allocatable :: found
-      logical :: comma
-      integer :: at, line
-      allocate (new%values(0))
-      comma = .true.
-      do
+   contains
+      !> Reads "name [(subscript)] =".
+      subroutine parse_target()
+         character(len=:), allocatable :: found, allowed
+         logical :: ok
+         found = lower_case(scan%word())
+         call split_subscript(found, new%name, new%subscript, ok)
+         allowed = name_characters
+         if (new%group == study_group) allowed = name_characters//'%:()'
          call scan%skip_blank('')
-         if (scan%peek() == ',') then
-            if (comma) exit
-            comma = .true.
-            scan%at = scan%at + 1
-            cycle
-         end if
-         if (index('/&', scan%peek()) > 0) exit
-         if (size(new%values) == most_items) then
-            call raise(error, input_error, new%origin//': '//new%group//'%'//new%name//': more than ' &
-               & //to_text(most_items)//' values')
-            return
-         end if
-         if (scan%peek() == '''' .or. scan%peek() == '"') then
-            call quoted(scan, token, new, error)
-            if (allocated(error)) return
-         else
-            at = scan%at
-            line = scan%line
-            found = scan%word()
-            token%text = found
-            token%quoted = .false.
-            call scan%skip_blank('')
-            if (scan%peek() == '=') then
-               ! a word before '=' is the next name; a second '=' is no value
-               if (found == '') exit
-               scan%at = at
-               scan%line = line
-               exit
-            end if
-         end if
-         new%values = [new%values, token]
-         comma = .false.
-      end do
-      call require(size(new%values) > 0 .and. scan%peek() /= ',' .and. scan%peek() /= '=', new%origin//': ' &
-         & //new%group//'%'//new%name//': a value is missing', error)
-   end subroutine parse_values
-
-   !> Reads a text in quotes on one line; a doubled quote means one.
-   subroutine quoted(scan, token, new, error)
-      type(scanner), intent(inout) :: scan
-      type(token_type), intent(out) :: token
-      type(assignment_type), intent(in) :: new
-      type(error_type), allocatable, intent(out) :: error
-      character :: quote
-      quote = scan%peek()
-      token%text = ''
-      token%quoted = .true.
-      do
+         call require(index(found, '(0)') == 0, new%origin//': '//new%group//'%'//shortened(found) &
+            & //': elements count from 1', error)
+         call require(ok .and. len(new%name) > 0 .and. verify(new%name, allowed) == 0 .and. scan%peek() == '=', &
+            & new%origin//': '''//shortened(found)//''' in group &'//new%group//': expected name = value', error)
+         call require(len(new%name) <= longest_name, new%origin//': unknown variable '//new%group//'%' &
+            & //shortened(new%name), error)
          scan%at = scan%at + 1
-         if (len(scan%peek()) == 0 .or. scan%peek() == newline) then
-            call raise(error, input_error, new%origin//': '//new%group//'%'//new%name//': the quote is not closed')
-            return
-         else if (scan%peek() == quote) then
+      end subroutine parse_target
+
+      !> Reads values up to the next name, the end of the group or of the text.
+      subroutine parse_values()
+         type(token_type) :: token
+         character(len=:), allocatable :: found
+         logical :: comma
+         integer :: at, line
+         allocate (new%values(0))
+         comma = .true.
+         do
+            call scan%skip_blank('')
+            if (scan%peek() == ',') then
+               if (comma) exit
+               comma = .true.
+               scan%at = scan%at + 1
+               cycle
+            end if
+            if (index('/&', scan%peek()) > 0) exit
+            if (size(new%values) == most_items) call refuse(place_of(new)//too_many//'values', error)
+            if (allocated(error)) return
+            if (scan%peek() == '''' .or. scan%peek() == '"') then
+               call quoted(token)
+            else
+               at = scan%at
+               line = scan%line
+               found = scan%word()
+               token%text = found
+               token%quoted = .false.
+               call scan%skip_blank('')
+               if (scan%peek() == '=') then
+                  ! a word before '=' is the next name; a second '=' is no value
+                  scan%at = at
+                  scan%line = line
+                  exit
+               end if
+            end if
+            new%values = [new%values, token]
+            comma = .false.
+         end do
+         call require(size(new%values) > 0 .and. scan%peek() /= ',' .and. scan%peek() /= '=', place_of(new) &
+            & //': a value is missing', error)
+      end subroutine parse_values
+
+      !> Reads a text in quotes on one line; a doubled quote means one.
+      subroutine quoted(token)
+         type(token_type), intent(out) :: token
+         character :: quote
+         quote = scan%peek()
+         token%text = ''
+         token%quoted = .true.
+         do
             scan%at = scan%at + 1
-            if (scan%peek() /= quote) return
-         end if
-         token%text = token%text//scan%text(scan%at:scan%at)
-      end do
-   end subroutine quoted
+            if (len(scan%peek()) == 0 .or. scan%peek() == newline) then
+               call refuse(place_of(new)//': the quote is not closed', error)
+               return
+            else if (scan%peek() == quote) then
+               scan%at = scan%at + 1
+               if (scan%peek() /= quote) return
+            end if
+            token%text = token%text//scan%text(scan%at:scan%at)
+         end do
+      end subroutine quoted
+   end subroutine parse_group
 
    ! How the scanner moves.
 

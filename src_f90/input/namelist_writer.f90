@@ -1,16 +1,27 @@
-!> The variables of a case as text: namelist text that reads back to the same bits, and the input reference.
+!> A case as text: namelist text that reads back to the same bits; the same with marks, and what follows from the
+!> values, as --check prints it; and the input reference.
 module namelist_writer
-   use text, only: to_text, exact_text
-   use case_groups, only: is_set, unset
+   use kinds, only: wp
+   use text, only: to_text, behind, newline
+   use errors, only: error_type
+   use case_groups, only: bearing_type, is_set, unset
    use case_inputs, only: case_type
-   use assignments, only: token_type, value_text, group_heading
-   use variable_table, only: variable_type, variable_table_type, logical_words
-   use case_fields, only: list_variables, list_all_variables
+   use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number, &
+      & of_supply
+   use result_size, only: result_bytes, sample_count
+   use oil_properties, only: viscosity, kinematic_points
+   use case_completion, only: complete_case
+   use variable_table, only: variable_type, variable_table_type, lines_of, group_start, word_text, exact
+   use case_fields, only: list_variables, list_all_variables, counting_variables
+   use assignments, only: namelist_type, kind_of
+   use case_namelist, only: fill_case
+   use case_remarks, only: remarks_on_case
    implicit none (type, external)
    private
-   public :: namelist_of, lines_of, group_start, reference_text
+   public :: namelist_of, reference_text, marked_text, derived_text, first_equal
 
-   character(len=*), parameter :: newline = achar(10)
+   !> Temperatures of warm oil, C.
+   real(wp), parameter :: warm(3) = [60.0_wp, 80.0_wp, 100.0_wp]
 
 contains
 
@@ -27,72 +38,6 @@ contains
       end do
       text = text//'/'//newline
    end function namelist_of
-
-   !> What stands before the first variable of a group: the end of the group before it, and its own start.
-   pure function group_start(table, i) result(text)
-      type(variable_table_type), intent(in) :: table
-      integer, intent(in) :: i
-      character(len=:), allocatable :: text
-      text = ''
-      if (i > 1) then
-         if (table%variables(i - 1)%group == table%variables(i)%group) return
-         text = '/'//newline
-      end if
-      text = text//group_heading(table%variables(i)%group)
-   end function group_start
-
-   !> "  name = value", or a line for each element that is set where not all are, each with a mark behind it.
-   pure function lines_of(v, mark) result(text)
-      type(variable_type), intent(in) :: v
-      character(len=*), intent(in) :: mark
-      character(len=:), allocatable :: text, list
-      integer :: i
-      text = ''
-      if (v%is_text) then
-         if (v%word /= '' .or. v%choices == '') call add(v%name, word_text(v))
-      else if (all(is_set(v%values))) then
-         list = exact(v, 1)
-         do i = 2, size(v%values)
-            list = list//', '//exact(v, i)
-         end do
-         call add(v%name, list)
-      else
-         do i = 1, size(v%values)
-            if (is_set(v%values(i))) call add(v%name//'('//to_text(i)//')', exact(v, i))
-         end do
-      end if
-   contains
-      pure subroutine add(name, value)
-         character(len=*), intent(in) :: name, value
-         !> Column of the marks.
-         integer, parameter :: column = 46
-         text = text//'  '//name//' = '//value
-         if (mark /= '') text = text//repeat(' ', max(2, column - len('  '//name//' = '//value)))//mark
-         text = text//newline
-      end subroutine add
-   end function lines_of
-
-   !> The word of a text, in quotes, which a logical value does not need.
-   pure function word_text(v) result(text)
-      type(variable_type), intent(in) :: v
-      character(len=:), allocatable :: text
-      type(token_type) :: token
-      token%text = v%word
-      token%quoted = v%choices /= logical_words
-      text = value_text(token)
-   end function word_text
-
-   !> The i-th number, to the last bit.
-   pure function exact(v, i) result(text)
-      type(variable_type), intent(in) :: v
-      integer, intent(in) :: i
-      character(len=:), allocatable :: text
-      if (v%whole) then
-         text = to_text(nint(v%values(i)))
-      else
-         text = exact_text(v%values(i))
-      end if
-   end function exact
 
    !> The input reference, Markdown tables of all groups: variable, default, unit, allowed values, meaning.
    function reference_text() result(text)
@@ -138,11 +83,146 @@ contains
                default = default//to_text(v%values(i))
             end if
          end do
-         allowed = v%range_text()
+         allowed = to_text(v%low)//' to '//to_text(v%high)
          if (v%whole) allowed = 'whole, '//allowed
          if (v%any_length) meaning = meaning//'; 1 to '//to_text(v%most)//' of them'
          if (v%each /= '') meaning = meaning//'; one for all '//v%each//' or one each'
       end if
       text = '| `'//v%name//'` | '//default//' | '//v%unit//' | '//allowed//' | '//meaning//' |'//newline
    end function row
+
+   ! What --check prints: the resolved case, where each value comes from, and what follows from the values.
+
+   !> The text of a case with a mark behind each value that its assignments do not give: a default, or derived from
+   !> others.
+   function marked_text(inputs, parsed) result(text)
+      type(case_type), intent(in) :: inputs
+      type(namelist_type), intent(in) :: parsed
+      character(len=:), allocatable :: text, mark
+      type(case_type) :: default
+      type(namelist_type) :: given, pivots
+      type(error_type), allocatable :: error
+      type(variable_table_type) :: table, defaults
+      integer :: i, k
+      call fill_case(parsed, default, error, given)
+      ! the paper's bearing with the pivots of the case, a machine with as many sections
+      pivots%file = parsed%file
+      pivots%groups = parsed%groups
+      pivots%assignments = pack(parsed%assignments, [(any(kind_of(parsed%assignments(i)%group)//'%' &
+         & //parsed%assignments(i)%name == counting_variables), i=1, size(parsed%assignments))])
+      call fill_case(pivots, default, error)
+      if (.not. allocated(error)) call complete_case(default, error)
+      call list_variables(inputs, table)
+      call list_variables(default, defaults)
+      text = ''
+      do i = 1, table%count
+         associate (v => table%variables(i))
+            mark = '! derived'
+            if (lines_of(v, '') == lines_of(defaults%variables(i), '')) mark = '! default'
+            do k = 1, size(given%assignments)
+               if (given%assignments(k)%group == v%group .and. given%assignments(k)%name == v%name) mark = ''
+            end do
+            text = text//group_start(table, i)//lines_of(v, mark)
+         end associate
+      end do
+      text = text//'/'//newline
+   end function marked_text
+
+   !> What follows from a complete case, as comments.
+   function derived_text(inputs) result(text)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: text
+      integer :: b
+      text = '! derived values'//newline
+      if (inputs%rotor%station_count() > 0) text = text//said('mass', inputs%rotor%elastic%mass(), &
+         & 'kg, shaft and discs')
+      do b = 1, size(inputs%bearings)
+         if (first_equal(inputs, b) == b) text = text//names_of_equals(inputs, b) &
+            & //derived_of_bearing(inputs%bearings(b))
+      end do
+      if (inputs%rotor%is_rigid()) text = text//derived_of_load(inputs)
+      if (result_bytes(inputs) > 0) text = text//said('result', 0.1_wp*anint(result_bytes(inputs)/1e5_wp), &
+         & 'MB, '//to_text(sample_count(inputs))//' samples')
+      text = text//behind('! remark: ', remarks_on_case(inputs))
+   end function derived_text
+
+   !> What follows for a bearing and its oil, whatever its load.
+   function derived_of_bearing(bearing) result(text)
+      type(bearing_type), intent(in) :: bearing
+      character(len=:), allocatable :: text
+      integer :: i
+      text = said_of_pads('preload', preload(bearing), '1 - c_r/c_m') &
+         & //said('clearance ratio', clearance_ratio(bearing), 'c_r/R_J') &
+         & //said('length ratio', length_over_diameter(bearing), 'L/D')
+      if (bearing%oil%law == 'constant') return
+      associate (oil => bearing%oil, points => kinematic_points(bearing%oil))
+         text = text//said('viscosity', viscosity(oil, oil%supply_temperature), &
+            & 'Pa s at oil%supply_temperature = '//to_text(oil%supply_temperature)//' C')
+         do i = 1, size(warm)
+            text = text//said('viscosity', viscosity(oil, warm(i)), 'Pa s at '//to_text(warm(i))//' C')
+         end do
+         do i = 1, merge(2, 0, is_set(oil%grade))
+            text = text//said('kinematic', points(i), 'm^2/s at '//to_text(oil%at_temperature(i))//' C')
+         end do
+      end associate
+   end function derived_of_bearing
+
+   !> What follows from the rigid journal in the one bearing of a case.
+   function derived_of_load(inputs) result(text)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: text
+      text = ''
+      if (is_set(inputs%rotor%balance_grade)) text = said('unbalance', inputs%unbalance(), &
+         & 'kg m, by rotor%balance_grade')
+      text = text//said('load', load(inputs), 'N, weight and static load') &
+         & //said('specific load', specific_load(inputs), 'Pa, W/(L D)')
+      if (load(inputs) > 0) text = text//said('Sommerfeld number', sommerfeld_number(inputs), &
+         & 'mu N L D/W (R_J/c_r)^2, N in 1/s at the start, mu '//of_supply(inputs%bearings(1)))
+   end function derived_of_load
+
+   !> A value of each pad, one line where all are equal.
+   function said_of_pads(name, values, meaning) result(text)
+      character(len=*), intent(in) :: name, meaning
+      real(wp), intent(in) :: values(:)
+      character(len=:), allocatable :: text
+      integer :: i
+      text = said(name, values(1), meaning)
+      if (all(abs(values - values(1)) <= 0)) return
+      text = ''
+      do i = 1, size(values)
+         text = text//said(name, values(i), meaning//', pad '//to_text(i))
+      end do
+   end function said_of_pads
+
+   function said(name, value, meaning) result(line)
+      character(len=*), intent(in) :: name, meaning
+      real(wp), intent(in) :: value
+      character(len=:), allocatable :: line
+      character(len=18) :: padded
+      padded = name
+      line = '!   '//padded//' '//to_text(value)//'  '//meaning//newline
+   end function said
+
+   !> The first bearing that is as bearing b, wherever they stand: it, or one before it.
+   integer function first_equal(inputs, b) result(first)
+      type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
+      do first = 1, b - 1
+         if (namelist_of(inputs%alone(first)) == namelist_of(inputs%alone(b))) return
+      end do
+   end function first_equal
+
+   !> "! bearings 'left', 'right'", a line: bearing b and those behind it that are as it is; empty for one without name.
+   function names_of_equals(inputs, b) result(text)
+      type(case_type), intent(in) :: inputs
+      integer, intent(in) :: b
+      character(len=:), allocatable :: text
+      integer :: i
+      text = ''
+      if (inputs%bearings(b)%name == '') return
+      do i = b, size(inputs%bearings)
+         if (first_equal(inputs, i) == b) text = text//', '''//inputs%bearings(i)%name//''''
+      end do
+      text = '! '//trim(merge('bearings', 'bearing ', index(text(2:), ',') > 0))//text(2:)//newline
+   end function names_of_equals
 end module namelist_writer

@@ -8,9 +8,8 @@ module parameter_study
    use study_variables, only: study_variables_type
    use namelist_text, only: read_text, parse_case
    use case_namelist, only: case_from_namelist, fill_case
-   use namelist_writer, only: namelist_of
-   use number_columns, only: read_tables
-   use checked_case, only: marked_text, derived_text
+   use namelist_writer, only: namelist_of, marked_text, derived_text
+   use read_files, only: read_tables
    implicit none (type, external)
    private
    public :: study_type, run_tag, read_study, study_from_text
@@ -66,12 +65,11 @@ contains
       type(namelist_type) :: parsed
       character(len=:), allocatable :: origin
       integer :: i
-      call study%varied%begin()
+      allocate (study%varied%variables(0), study%varied%counts(0))
       call parse_case(text, file, overrides, parsed, error)
       if (allocated(error)) return
-      do i = 1, size(parsed%groups)
-         if (parsed%groups(i)%group == study_group) origin = parsed%groups(i)%origin
-      end do
+      i = findloc([(parsed%groups(i)%group == study_group, i=1, size(parsed%groups))], .true., dim=1)
+      if (i > 0) origin = parsed%groups(i)%origin
       study%base = parsed
       study%base%groups = pack(parsed%groups, [(parsed%groups(i)%group /= study_group, i=1, size(parsed%groups))])
       study%base%assignments = pack(parsed%assignments, &
@@ -107,15 +105,11 @@ contains
    !> True where two tags of one number are of studies that have the same runs up to it, or where that is not known.
    pure logical function same_up_to(self, other)
       class(run_tag), intent(in) :: self, other
-      same_up_to = self%marks == '' .or. other%marks == ''
-      if (.not. same_up_to) same_up_to = up_to(self%marks) == up_to(other%marks)
-   contains
-      !> All but the last checksum.
-      pure function up_to(marks)
-         character(len=*), intent(in) :: marks
-         character(len=:), allocatable :: up_to
-         up_to = marks(:index(marks, ' ', back=.true.))
-      end function up_to
+      ! all but the last checksum
+      associate (own => self%marks, others => other%marks)
+         same_up_to = own == '' .or. others == '' &
+            & .or. own(:index(own, ' ', back=.true.)) == others(:index(others, ' ', back=.true.))
+      end associate
    end function same_up_to
 
    !> Number and values of the k-th run.

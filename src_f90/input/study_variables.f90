@@ -1,25 +1,26 @@
 !> The group &sweep: which variables are varied, and their values in each run of a study, from lists, ranges and a
-!> table.
+!> table: a CSV file whose first line names variables; every other line has a value of each.
 module study_variables
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, i8
    use text, only: to_text, exact_text, lower_case, shortened, checksum, newline
-   use errors, only: error_type, raise, require, refuse, add_context, input_error
-   use assignments, only: namelist_type, assignment_type, token_type, undoes, assignment_text, target_text, &
-      & value_text, read_number, study_group
-   use study_table, only: study_table_type, read_table
-   use case_fields, only: title_variable
-   use variable_names, only: meant_variable
+   use errors, only: error_type, require, refuse, add_context
    use files, only: real_path
+   use case_inputs, only: case_type
+   use assignments, only: namelist_type, assignment_type, token_type, undoes, assignment_text, target_text, &
+      & value_text, read_number, study_group, split_subscript, kind_of, is_spelled
+   use variable_table, only: variable_table_type
+   use case_fields, only: title_variable, list_all_variables
+   use case_parameter, only: meant_variable, meant_group, group_names
+   use read_files, only: csv_table_type, read_csv, cell_type, next_cell, content, blanks, tab
    implicit none (type, external)
    private
-   public :: study_variables_type, varied_values_type, read_varied_values
+   public :: study_variables_type, varied_values_type, read_varied_values, study_table_type, read_table
 
-   !> Most runs of a study, and variables that a message lists.
-   integer, parameter :: most_runs = 1000000, most_listed = 8
-
-   !> Most values of a range.
-   integer, parameter :: most_values = 1000000
+   !> Most runs of a study, values of a range, and variables that a message lists.
+   integer, parameter :: most_runs = 1000000, most_values = 1000000, most_listed = 8
+   !> Longest table, bytes: forty columns of a million rows.
+   integer, parameter :: longest_file = 1000000000
+   integer, parameter :: most_columns = 1000
    !> Part of a stride by which the last value of a range may miss its end.
    real(wp), parameter :: rounding = 1e-6_wp
    !> Numbers of a range are 0 or between these in size, so that nothing overflows on the way.
@@ -54,6 +55,15 @@ module study_variables
       integer :: factor = 0
    end type variable_type
 
+   type, extends(csv_table_type) :: study_table_type
+      !> The variables of the columns, without values.
+      type(assignment_type), allocatable :: columns(:)
+      !> Whether they take texts.
+      logical, allocatable, private :: is_text(:)
+   contains
+      procedure :: value => value_in_table
+   end type study_table_type
+
    type :: line_type
       character(len=:), allocatable :: text
    end type line_type
@@ -64,30 +74,20 @@ module study_variables
       logical :: zip = .false.
       type(variable_type), allocatable, public :: variables(:)
       !> How many values each factor has; every list is one, and so is the table.
-      integer, allocatable :: counts(:)
+      integer, allocatable, public :: counts(:)
       type(study_table_type) :: table
    contains
-      procedure, public :: begin
       procedure, public :: read => read_assignment
       procedure, public :: count_runs
-      procedure, public :: targets
       procedure, public :: assignment_of_run
       procedure, public :: value
       procedure, public :: number_of_run
       procedure, public :: values_text
       procedure, public :: find_checksums
       procedure, public :: text => group_text
-      procedure :: add
-      procedure :: line
    end type study_variables_type
 
 contains
-
-   !> Nothing is varied yet.
-   subroutine begin(self)
-      class(study_variables_type), intent(out) :: self
-      allocate (self%variables(0), self%counts(0))
-   end subroutine begin
 
    !> One assignment of the group. `base` has those of the case; its folder is that of a table.
    subroutine read_assignment(self, given, base, error)
@@ -105,93 +105,71 @@ contains
             & given%origin//': '//assignment_text(given)//': must be one of ''product'', ''zip''', error)
          self%zip = order == 'zip'
       case ('file')
-         call read_file(self, given, base, error)
+         call read_file()
       case default
          percent = index(given%name, '%')
          new%target = given
          new%target%group = given%name(:max(0, percent - 1))
          new%target%name = given%name(percent + 1:)
-         if (percent <= 1 .or. new%target%name == '' .or. index(new%target%name, '%') > 0) then
-            call raise(error, input_error, given%origin//': unknown variable '//given%group//'%'//given%name &
-               & //meant_variable('', new%target%name)//'; expected order, file or group%name = values')
-            return
-         end if
-         call read_varied_values(given%values, given%origin//': '//study_group//'%'//given%name, new%values, error)
+         if (percent <= 1 .or. new%target%name == '' .or. index(new%target%name, '%') > 0) call refuse(given%origin &
+            & //': unknown variable '//given%group//'%'//given%name//meant_variable('', new%target%name) &
+            & //'; expected order, file or group%name = values', error)
+         if (.not. allocated(error)) call read_varied_values(given%values, given%origin//': '//study_group//'%' &
+            & //given%name, new%values, error)
          if (allocated(error)) return
          deallocate (new%target%values)
          self%counts = [self%counts, new%values%count()]
-         call self%add(new, base, '; give the study other values with --set sweep%'//given%name//'=...', error)
+         call add(new, '; give the study other values with --set sweep%'//given%name//'=...')
       end select
-   end subroutine read_assignment
-
-   !> Reads the table: in the folder of the case where the case names it, for --set in the working folder.
-   subroutine read_file(self, given, base, error)
-      class(study_variables_type), intent(inout) :: self
-      type(assignment_type), intent(in) :: given
-      type(namelist_type), intent(in) :: base
-      type(error_type), allocatable, intent(out) :: error
-      type(variable_type) :: new
-      character(len=:), allocatable :: path
-      integer :: i
-      path = given%values(1)%text
-      call require(size(given%values) == 1 .and. given%subscript == 0 .and. path /= '' &
-         & .and. (given%values(1)%quoted .or. given%overrides), given%origin//': '//assignment_text(given) &
-         & //': must be the name of one file, in quotes', error)
-      if (allocated(error)) return
-      if (.not. given%overrides .and. path(1:1) /= '/') path = base%file(:index(base%file, '/', back=.true.))//path
-      call read_table(path, self%table, error)
-      if (allocated(error)) then
-         error%message = given%origin//': '//study_group//'%file: '//error%message
-         return
-      end if
-      self%counts = [self%counts, self%table%rows]
-      do i = 1, size(self%table%columns)
-         new%target = self%table%columns(i)
-         new%column = i
-         call self%add(new, base, '', error)
+   contains
+      !> Reads the table: in the folder of the case where the case names it, for --set in the working folder.
+      subroutine read_file()
+         type(variable_type) :: new
+         character(len=:), allocatable :: path
+         integer :: i
+         path = given%values(1)%text
+         call require(size(given%values) == 1 .and. given%subscript == 0 .and. path /= '' &
+            & .and. (given%values(1)%quoted .or. given%overrides), given%origin//': '//assignment_text(given) &
+            & //': must be the name of one file, in quotes', error)
          if (allocated(error)) return
-      end do
-   end subroutine read_file
+         if (.not. given%overrides .and. path(1:1) /= '/') path = base%file(:index(base%file, '/', back=.true.))//path
+         call read_table(path, self%table, error)
+         call add_context(error, given%origin//': '//study_group//'%file')
+         if (allocated(error)) return
+         self%counts = [self%counts, self%table%rows]
+         do i = 1, size(self%table%columns)
+            new%target = self%table%columns(i)
+            new%column = i
+            call add(new, '')
+         end do
+      end subroutine read_file
 
-   !> Adds a variable of the last factor. `advice` is for who gives it another value by --set.
-   subroutine add(self, new, base, advice, error)
-      class(study_variables_type), intent(inout) :: self
-      type(variable_type), intent(inout) :: new
-      type(namelist_type), intent(in) :: base
-      character(len=*), intent(in) :: advice
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: i
-      new%factor = size(self%counts)
-      new%target%overrides = .true.
-      associate (name => new%target%group//'%'//new%target%name)
-         call require(new%target%group /= study_group .and. name /= title_variable, new%target%origin//': '//name &
-            & //' cannot be swept', error)
-         do i = 1, size(self%variables)
-            associate (other => self%variables(i)%target)
-               if (undoes(new%target, other) .or. undoes(other, new%target)) call refuse( &
-                  & new%target%origin//': '//name//' is swept twice, first at '//other%origin, error)
+      !> Adds a variable of the last factor. `advice` is for who gives it another value by --set.
+      subroutine add(new, advice)
+         type(variable_type), intent(inout) :: new
+         character(len=*), intent(in) :: advice
+         integer :: i
+         new%factor = size(self%counts)
+         new%target%overrides = .true.
+         associate (name => new%target%group//'%'//new%target%name)
+            call require(new%target%group /= study_group .and. name /= title_variable, new%target%origin//': '//name &
+               & //' cannot be swept', error)
+            do i = 1, size(self%variables)
+               associate (other => self%variables(i)%target)
+                  if (undoes(new%target, other) .or. undoes(other, new%target)) call refuse( &
+                     & new%target%origin//': '//name//' is swept twice, first at '//other%origin, error)
+               end associate
+            end do
+         end associate
+         do i = 1, size(base%assignments)
+            associate (a => base%assignments(i))
+               if (a%origin == '--set' .and. undoes(new%target, a)) call refuse('--set '//assignment_text(a) &
+                  & //': is swept ('//new%target%origin//')'//advice, error)
             end associate
          end do
-      end associate
-      do i = 1, size(base%assignments)
-         associate (a => base%assignments(i))
-            if (a%origin == '--set' .and. undoes(new%target, a)) call refuse('--set '//assignment_text(a) &
-               & //': is swept ('//new%target%origin//')'//advice, error)
-         end associate
-      end do
-      if (.not. allocated(error)) self%variables = [self%variables, new]
-   end subroutine add
-
-   !> The assignments to the varied variables, without values.
-   function targets(self) result(found)
-      class(study_variables_type), intent(in) :: self
-      type(assignment_type), allocatable :: found(:)
-      integer :: i
-      allocate (found(size(self%variables)))
-      do i = 1, size(found)
-         found(i) = self%variables(i)%target
-      end do
-   end function targets
+         if (.not. allocated(error)) self%variables = [self%variables, new]
+      end subroutine add
+   end subroutine read_assignment
 
    !> How many runs there are; `origin` of the study is for messages.
    subroutine count_runs(self, origin, found, error)
@@ -199,34 +177,25 @@ contains
       character(len=*), intent(in) :: origin
       integer, intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: list
+      character(len=:), allocatable :: list, name
       integer(i8) :: runs
-      integer :: i, first
-      found = 1
-      if (size(self%variables) == 0) then
-         call raise(error, input_error, origin//': &sweep sweeps nothing; expected group%name = values')
-         return
-      end if
+      integer :: i
+      call require(size(self%variables) > 0, origin//': &sweep sweeps nothing; expected group%name = values', error)
       list = ''
       runs = 1
       do i = 1, size(self%counts)
-         if (i > 1 .and. i <= most_listed + 1) list = list//', '
-         first = findloc(self%variables%factor, i, dim=1)
-         if (i == most_listed + 1) then
-            list = list//'...'
-         else if (i <= most_listed .and. self%variables(first)%column > 0) then
-            list = list//self%table%file//' has '//to_text(self%counts(i))
-         else if (i <= most_listed) then
-            list = list//self%variables(first)%target%group//'%'//self%variables(first)%target%name//' has ' &
-               & //to_text(self%counts(i))
-         end if
          runs = merge(int(self%counts(i), i8), min(runs*self%counts(i), 2_i8*most_runs), self%zip)
+         if (i > most_listed) cycle
+         associate (first => self%variables(findloc(self%variables%factor, i, dim=1)))
+            name = first%target%group//'%'//first%target%name
+            if (first%column > 0) name = self%table%file
+         end associate
+         list = list//', '//name//' has '//to_text(self%counts(i))
       end do
-      if (self%zip .and. any(self%counts /= runs)) then
-         call raise(error, input_error, origin//': &sweep with order = ''zip'' needs as many values of each: '//list)
-      else if (runs > most_runs) then
-         call raise(error, input_error, origin//': &sweep has more than '//to_text(most_runs)//' runs: '//list)
-      end if
+      if (size(self%counts) > most_listed) list = list//', ...'
+      call require(.not. self%zip .or. all(self%counts == runs), origin//': &sweep with order = ''zip'' needs as ' &
+         & //'many values of each: '//list(3:), error)
+      call require(runs <= most_runs, origin//': &sweep has more than '//to_text(most_runs)//' runs: '//list(3:), error)
       found = int(runs)
    end subroutine count_runs
 
@@ -234,15 +203,11 @@ contains
    pure integer function row_of(self, i, k) result(row)
       class(study_variables_type), intent(in) :: self
       integer, intent(in) :: i, k
-      integer :: j
-      row = k - 1
-      if (.not. self%zip) then
-         do j = size(self%counts), self%variables(i)%factor + 1, -1
-            row = row/self%counts(j)
-         end do
-         row = mod(row, self%counts(self%variables(i)%factor))
-      end if
-      row = row + 1
+      row = k
+      if (self%zip) return
+      associate (factor => self%variables(i)%factor)
+         row = 1 + mod((k - 1)/product(self%counts(factor + 1:)), self%counts(factor))
+      end associate
    end function row_of
 
    !> The value of the i-th variable in the k-th run.
@@ -294,7 +259,7 @@ contains
       text = ''
       do i = 1, size(self%variables)
          if (i > 1) text = text//newline
-         text = text//self%line(i, k)
+         text = text//line(self, i, k)
       end do
    end function values_text
 
@@ -323,7 +288,7 @@ contains
          marks(k) = marks(k - 1)
          do i = 1, size(lines)
             associate (row => row_of(self, i, k))
-               if (row /= rows(i)) lines(i)%text = self%line(i, k)//newline
+               if (row /= rows(i)) lines(i)%text = line(self, i, k)//newline
                rows(i) = row
             end associate
             marks(k) = checksum(lines(i)%text, marks(k))
@@ -371,17 +336,16 @@ contains
       type(token_type), intent(in) :: token
       type(piece_type), intent(out) :: piece
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: parts(:), word
+      character(len=:), allocatable :: parts(:)
       real(wp) :: numbers(3)
       integer :: first, second, i
       logical :: ok
       piece%token = token
       first = index(token%text, ':')
-      if (token%quoted .or. first == 0) then
-         if (.not. token%quoted .and. index(token%text, '*') > 0) call raise(error, input_error, &
-            & 'n*value is not for a study, where each value is a run''s; a range is first:last:*factor')
-         return
-      end if
+      if (token%quoted) return
+      call require(first > 0 .or. index(token%text, '*') == 0, 'n*value is not for a study, where each value is a ' &
+         & //'run''s; a range is first:last:*factor', error)
+      if (first == 0) return
       piece%is_range = .true.
       second = first + index(token%text(first + 1:), ':')
       parts = [character(len=len(token%text)) :: token%text(:first - 1), token%text(first + 1:second - 1), &
@@ -389,54 +353,38 @@ contains
       piece%geometric = parts(3) (1:1) == '*'
       if (piece%geometric) parts(3) = parts(3) (2:)
       do i = 1, 3
-         word = lower_case(trim(parts(i)))
-         call read_number(word, numbers(i), ok)
-         if (.not. ok .or. second == first) then
-            call raise(error, input_error, 'a range is first:last:stride or first:last:*factor, of numbers')
-            return
-         else if (.not. ieee_is_finite(numbers(i)) .or. abs(numbers(i)) > largest &
-            & .or. abs(numbers(i)) > 0 .and. abs(numbers(i)) < smallest) then
-            call raise(error, input_error, 'numbers of a range must be 1e-100 to 1e100 in size, or 0')
-            return
-         end if
+         call read_number(lower_case(trim(parts(i))), numbers(i), ok)
+         call require(ok .and. second > first, 'a range is first:last:stride or first:last:*factor, of numbers', error)
+         call require(abs(numbers(i)) <= largest .and. (abs(numbers(i)) >= smallest .or. abs(numbers(i)) <= 0), &
+            & 'numbers of a range must be 1e-100 to 1e100 in size, or 0', error)
       end do
+      if (allocated(error)) return
       piece%first = numbers(1)
       piece%step = numbers(3)
-      call count_steps(numbers(2), piece, error)
-   end subroutine read_piece
-
-   !> How many values a range has whose first value, and stride or factor, are known.
-   subroutine count_steps(last, piece, error)
-      real(wp), intent(in) :: last
-      type(piece_type), intent(inout) :: piece
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: steps
-      if (piece%geometric) then
-         if (.not. piece%first*sign(1.0_wp, last) > 0 .or. .not. abs(last) > 0) then
-            call raise(error, input_error, 'first and last must be of one sign, and not 0, for a factor')
-         else if (piece%step <= 0 .or. .not. abs(piece%step - 1) > 0) then
-            call raise(error, input_error, 'the factor must be > 0, and not 1')
-         else if ((abs(last) - abs(piece%first))*(piece%step - 1) < 0) then
-            call raise(error, input_error, 'from first the factor leads away from last; it must be ' &
-               & //trim(merge('> 1', '< 1', piece%step < 1)))
+      call count_steps(numbers(2))
+   contains
+      !> How many values a range has whose first value, and stride or factor, are known.
+      subroutine count_steps(last)
+         real(wp), intent(in) :: last
+         real(wp) :: steps
+         if (piece%geometric) then
+            call require(piece%first*sign(1.0_wp, last) > 0 .and. abs(last) > 0, 'first and last must be of one ' &
+               & //'sign, and not 0, for a factor', error)
+            call require(piece%step > 0 .and. abs(piece%step - 1) > 0, 'the factor must be > 0, and not 1', error)
+            call require((abs(last) - abs(piece%first))*(piece%step - 1) >= 0, 'from first the factor leads away ' &
+               & //'from last; it must be '//trim(merge('> 1', '< 1', piece%step < 1)), error)
+            if (.not. allocated(error)) steps = log(last/piece%first)/log(piece%step)
          else
-            steps = log(last/piece%first)/log(piece%step)
+            call require(abs(piece%step) > 0, 'the stride must not be 0', error)
+            call require((last - piece%first)*piece%step >= 0, 'from first the stride leads away from last; it must ' &
+               & //'be '//trim(merge('> 0', '< 0', piece%step < 0)), error)
+            if (.not. allocated(error)) steps = (last - piece%first)/piece%step
          end if
-      else if (.not. abs(piece%step) > 0) then
-         call raise(error, input_error, 'the stride must not be 0')
-      else if ((last - piece%first)*piece%step < 0) then
-         call raise(error, input_error, 'from first the stride leads away from last; it must be ' &
-            & //trim(merge('> 0', '< 0', piece%step < 0)))
-      else
-         steps = (last - piece%first)/piece%step
-      end if
-      if (allocated(error)) return
-      if (steps >= most_values) then
-         call raise(error, input_error, 'more than '//to_text(most_values)//' values')
-      else
-         piece%count = 1 + floor(steps + rounding)
-      end if
-   end subroutine count_steps
+         if (allocated(error)) return
+         call require(steps < most_values, 'more than '//to_text(most_values)//' values', error)
+         if (.not. allocated(error)) piece%count = 1 + floor(steps + rounding)
+      end subroutine count_steps
+   end subroutine read_piece
 
    pure integer function count_of_list(self)
       class(varied_values_type), intent(in) :: self
@@ -449,11 +397,10 @@ contains
       integer, intent(in) :: n
       type(token_type), intent(out) :: token
       real(wp) :: x
-      integer :: i, before
-      call find_piece(self, n, i, before)
+      integer :: i
+      call find_piece(self, n, i, x)
       token = self%pieces(i)%token
       if (.not. self%pieces(i)%is_range) return
-      x = number_in_range(self%pieces(i), n - before - 1)
       token%text = exact_text(x)
       ! whole numbers without an exponent, as variables that take only these want them
       if (.not. abs(x - anint(x)) > 0 .and. abs(x) < 1e15_wp) token%text = to_text(nint(x, i8))
@@ -465,26 +412,26 @@ contains
       integer, intent(in) :: n
       real(wp), intent(out) :: x
       logical, intent(out) :: ok
-      integer :: i, before
-      call find_piece(self, n, i, before)
-      if (self%pieces(i)%is_range) then
-         x = number_in_range(self%pieces(i), n - before - 1)
-         ok = .true.
-      else
-         call read_number(lower_case(self%pieces(i)%token%text), x, ok)
-      end if
+      integer :: i
+      call find_piece(self, n, i, x)
+      ok = self%pieces(i)%is_range
+      if (.not. ok) call read_number(lower_case(self%pieces(i)%token%text), x, ok)
    end subroutine number_of_list
 
-   !> Which piece has the n-th value, and how many values come before that piece.
-   pure subroutine find_piece(self, n, i, before)
+   !> Which piece has the n-th value, and its number where that is a range.
+   subroutine find_piece(self, n, i, x)
       class(varied_values_type), intent(in) :: self
       integer, intent(in) :: n
-      integer, intent(out) :: i, before
+      integer, intent(out) :: i
+      real(wp), intent(out) :: x
+      integer :: before
       before = 0
+      x = 0
       do i = 1, size(self%pieces)
          if (n <= before + self%pieces(i)%count) exit
          before = before + self%pieces(i)%count
       end do
+      if (self%pieces(i)%is_range) x = number_in_range(self%pieces(i), n - before - 1)
    end subroutine find_piece
 
    !> The number this many steps from the first of a range.
@@ -512,4 +459,115 @@ contains
          text = text//', '//value_text(self%pieces(i)%token)
       end do
    end function text_of_list
+
+   ! A table.
+
+   !> Reads a file: the names, and the rows, which are checked.
+   subroutine read_table(file, table, error)
+      character(len=*), intent(in) :: file
+      type(study_table_type), intent(out) :: table
+      type(error_type), allocatable, intent(out) :: error
+      integer :: k
+      call read_csv(file, longest_file, table, error)
+      if (allocated(error)) return
+      call require(table%rows >= 0, file//': is empty; its first line must name variables, group%name', error)
+      if (.not. allocated(error)) call read_names(table%row(0))
+      do k = 1, table%rows
+         if (allocated(error)) return
+         call check_row(table%row(k), k)
+      end do
+      call require(table%rows > 0, file//': has no rows of values below its first line', error)
+   contains
+      !> Refuses a row that has not one value for each column.
+      subroutine check_row(line, row)
+         character(len=*), intent(in) :: line
+         integer, intent(in) :: row
+         type(cell_type) :: cell
+         integer :: at, cells
+         if (verify(line, blanks) == 0) call refuse(table%origin(row)//': is empty, with others below it', error)
+         at = 1
+         cells = 0
+         do while (at <= len(line) + 1)
+            call next_cell(line, at, cell)
+            cells = cells + 1
+            if (cells > size(table%columns)) cycle
+            if (.not. allocated(cell%fault) .and. cell%last < cell%first) cell%fault = 'a value is missing'
+            if (allocated(cell%fault)) call refuse(table%origin(row)//': '//target_text(table%columns(cells))//': ' &
+               & //cell%fault, error)
+         end do
+         associate (columns => size(table%columns))
+            if (cells < columns) call refuse(table%origin(row)//': has '//to_text(cells)//' values for ' &
+               & //to_text(columns)//' columns; '//target_text(table%columns(cells + 1))//' has none', error)
+            if (cells > columns) call refuse(table%origin(row)//': has '//to_text(cells)//' values for ' &
+               & //to_text(columns)//' columns; a comma ends a value, and decimals have a point', error)
+         end associate
+      end subroutine check_row
+
+      !> Reads the first line.
+      subroutine read_names(line)
+         character(len=*), intent(in) :: line
+         type(variable_table_type) :: known
+         type(assignment_type) :: new
+         type(cell_type) :: cell
+         integer :: at, variable
+         call list_all_variables(case_type(), known)
+         allocate (table%columns(0), table%is_text(0))
+         at = 1
+         do while (at <= len(line) + 1)
+            call next_cell(line, at, cell)
+            new%origin = table%file//' line 1, column '//to_text(size(table%columns) + 1)
+            if (size(table%columns) == most_columns) cell%fault = 'more than '//to_text(most_columns)//' columns'
+            if (.not. allocated(cell%fault)) call read_name(lower_case(content(line, cell)), known, new, variable, &
+               & cell%fault)
+            if (allocated(cell%fault)) call refuse(new%origin//': '//cell%fault, error)
+            if (allocated(error)) return
+            table%columns = [table%columns, new]
+            table%is_text = [table%is_text, known%variables(variable)%is_text]
+         end do
+      end subroutine read_names
+   end subroutine read_table
+
+   !> The variable, "group%name" or "group%name(element)", and its place among the known ones.
+   subroutine read_name(name, known, new, variable, fault)
+      character(len=*), intent(in) :: name
+      type(variable_table_type), intent(in) :: known
+      type(assignment_type), intent(inout) :: new
+      integer, intent(out) :: variable
+      character(len=:), allocatable, intent(inout) :: fault
+      integer :: percent, i
+      logical :: ok
+      variable = 0
+      percent = index(name, '%')
+      call split_subscript(name(percent + 1:), new%name, new%subscript, ok)
+      new%group = name(:max(0, percent - 1))
+      if (scan(name, ';'//tab) > 0) then
+         fault = 'commas must separate the columns, not semicolons or tabs; decimals have a point'
+      else if (.not. ok .or. new%group == '' .or. new%name == '' .or. index(name, ' ') > 0) then
+         fault = ''''//shortened(name)//''': expected a variable, group%name or group%name(element)' &
+            & //meant_variable('', new%name)
+      else if (all([(known%variables(i)%group /= kind_of(new%group), i=1, known%count)]) &
+         & .or. .not. is_spelled(new%group)) then
+         fault = 'unknown group '//shortened(new%group)//meant_group(kind_of(new%group))//'; known:'//group_names()
+      else
+         variable = known%find(kind_of(new%group), new%name)
+         if (variable == 0) fault = 'unknown variable '//shortened(name)//meant_variable(kind_of(new%group), new%name)
+      end if
+   end subroutine read_name
+
+   !> The value of a row in a column. What is no number is a text, which is refused where a number belongs.
+   subroutine value_in_table(self, row, column, token)
+      class(study_table_type), intent(in) :: self
+      integer, intent(in) :: row, column
+      type(token_type), intent(out) :: token
+      character(len=:), allocatable :: line
+      type(cell_type) :: cell
+      integer :: at, i
+      line = self%row(row)
+      at = 1
+      do i = 1, column
+         call next_cell(line, at, cell)
+      end do
+      token%text = content(line, cell)
+      token%quoted = self%is_text(column) .or. verify(token%text, '0123456789.-eE+dD') > 0
+   end subroutine value_in_table
 end module study_variables

@@ -2,11 +2,12 @@
 !> case from it; what reads, writes, describes or changes a case goes along the table.
 module variable_table
    use kinds, only: wp
-   use text, only: to_text
+   use text, only: to_text, exact_text, newline
    use case_groups, only: is_set
+   use assignments, only: token_type, value_text, group_heading
    implicit none (type, external)
    private
-   public :: variable_type, variable_table_type, logical_words
+   public :: variable_type, variable_table_type, lines_of, group_start, word_text, exact, logical_words
 
    !> The words of a variable that is true or false.
    character(len=*), parameter :: logical_words = '.true. .false.'
@@ -33,7 +34,6 @@ module variable_table
       character(len=:), allocatable :: counts, each
       integer :: most = 1
    contains
-      procedure :: range_text
       procedure :: allowed
    end type variable_type
 
@@ -41,20 +41,14 @@ module variable_table
       type(variable_type), allocatable :: variables(:)
       integer :: count = 0
       !> False while the table is filled, true while a case is filled from it.
-      logical, private :: filled = .false.
+      logical :: filled = .false.
       !> The variable just seen, and its group.
-      integer, private :: at = 0
-      character(len=:), allocatable, private :: this_group, group_meaning
-      !> What stands behind the names of groups.
-      character(len=:), allocatable, private :: ending
+      integer :: at = 0
+      character(len=:), allocatable :: this_group, group_meaning
    contains
-      procedure :: begin
       procedure :: find
-      !> The next variable or group of the list.
-      procedure :: behind_group
-      procedure :: group
+      !> The next variable of the list.
       procedure :: word
-      procedure :: flag
       procedure :: whole
       procedure :: number
       procedure :: numbers
@@ -63,19 +57,6 @@ module variable_table
    end type variable_table_type
 
 contains
-
-   !> Readies a table for the list: to fill it, or a case from it.
-   subroutine begin(self, filled)
-      class(variable_table_type), intent(inout) :: self
-      logical, intent(in) :: filled
-      self%filled = filled
-      self%at = 0
-      self%ending = ''
-      if (filled) return
-      if (allocated(self%variables)) deallocate (self%variables)
-      allocate (self%variables(first_room))
-      self%count = 0
-   end subroutine begin
 
    !> Number of a variable in the table; 0 if there is none of this name.
    pure integer function find(self, group, name) result(at)
@@ -86,20 +67,6 @@ contains
       end do
    end function find
 
-   !> The names of the groups to come have this ending, which tells them from others of their kind.
-   subroutine behind_group(self, ending)
-      class(variable_table_type), intent(inout) :: self
-      character(len=*), intent(in) :: ending
-      self%ending = ending
-   end subroutine behind_group
-
-   subroutine group(self, name, meaning)
-      class(variable_table_type), intent(inout) :: self
-      character(len=*), intent(in) :: name, meaning
-      self%this_group = name//self%ending
-      self%group_meaning = meaning
-   end subroutine group
-
    !> Goes on to the next variable; true where it is to be entered in the table.
    logical function next(self, name, meaning) result(new)
       class(variable_table_type), intent(inout) :: self
@@ -107,7 +74,7 @@ contains
       self%at = self%at + 1
       new = .not. self%filled
       if (.not. new) return
-      if (self%at > size(self%variables)) call enlarge(self)
+      call make_room(self)
       self%count = self%at
       associate (v => self%variables(self%at))
          v%group = self%this_group
@@ -120,17 +87,16 @@ contains
       end associate
    end function next
 
-   !> Twice the room.
-   subroutine enlarge(self)
+   !> Room for one more; twice as much where there is none.
+   subroutine make_room(self)
       class(variable_table_type), intent(inout) :: self
       type(variable_type), allocatable :: more(:)
-      integer :: i
-      allocate (more(2*size(self%variables)))
-      do i = 1, self%count
-         more(i) = self%variables(i)
-      end do
+      if (.not. allocated(self%variables)) allocate (self%variables(first_room))
+      if (self%at <= size(self%variables)) return
+      allocate (more(2*self%count))
+      more(:self%count) = self%variables
       call move_alloc(more, self%variables)
-   end subroutine enlarge
+   end subroutine make_room
 
    !> A text: one of the words in `choices`, or any text where `choices` is empty.
    subroutine word(self, value, name, choices, meaning)
@@ -149,17 +115,6 @@ contains
          value = v%word
       end associate
    end subroutine word
-
-   !> A logical, by its words.
-   subroutine flag(self, value, name, meaning)
-      class(variable_table_type), intent(inout) :: self
-      logical, intent(inout) :: value
-      character(len=*), intent(in) :: name, meaning
-      character(len=:), allocatable :: word
-      word = trim(merge('.true. ', '.false.', value))
-      call self%word(word, name, logical_words, meaning)
-      value = word == '.true.'
-   end subroutine flag
 
    !> A fixed number of reals from `low` to `high`.
    subroutine numbers(self, values, name, low, high, unit, meaning)
@@ -237,18 +192,79 @@ contains
       self%variables(self%at)%each = things
    end subroutine each
 
-   !> The same with the unit: "1e-4 to 10 m".
+   !> The allowed numbers with their unit: "1e-4 to 10 m".
    pure function allowed(self) result(string)
       class(variable_type), intent(in) :: self
       character(len=:), allocatable :: string
-      string = self%range_text()
+      string = to_text(self%low)//' to '//to_text(self%high)
       if (self%unit /= '1' .and. self%unit /= '') string = string//' '//self%unit
    end function allowed
 
-   !> The allowed numbers: "0 to 1".
-   pure function range_text(self) result(string)
-      class(variable_type), intent(in) :: self
-      character(len=:), allocatable :: string
-      string = to_text(self%low)//' to '//to_text(self%high)
-   end function range_text
+   ! Variables as namelist text.
+
+   !> What stands before the first variable of a group: the end of the group before it, and its own start.
+   pure function group_start(table, i) result(text)
+      type(variable_table_type), intent(in) :: table
+      integer, intent(in) :: i
+      character(len=:), allocatable :: text
+      text = ''
+      if (i > 1) then
+         if (table%variables(i - 1)%group == table%variables(i)%group) return
+         text = '/'//newline
+      end if
+      text = text//group_heading(table%variables(i)%group)
+   end function group_start
+
+   !> "  name = value", or a line for each element that is set where not all are, each with a mark behind it.
+   pure function lines_of(v, mark) result(text)
+      type(variable_type), intent(in) :: v
+      character(len=*), intent(in) :: mark
+      character(len=:), allocatable :: text, list
+      integer :: i
+      text = ''
+      if (v%is_text) then
+         if (v%word /= '' .or. v%choices == '') call add(v%name, word_text(v))
+      else if (all(is_set(v%values))) then
+         list = exact(v, 1)
+         do i = 2, size(v%values)
+            list = list//', '//exact(v, i)
+         end do
+         call add(v%name, list)
+      else
+         do i = 1, size(v%values)
+            if (is_set(v%values(i))) call add(v%name//'('//to_text(i)//')', exact(v, i))
+         end do
+      end if
+   contains
+      pure subroutine add(name, value)
+         character(len=*), intent(in) :: name, value
+         !> Column of the marks.
+         integer, parameter :: column = 46
+         text = text//'  '//name//' = '//value
+         if (mark /= '') text = text//repeat(' ', max(2, column - len('  '//name//' = '//value)))//mark
+         text = text//newline
+      end subroutine add
+   end function lines_of
+
+   !> The word of a text, in quotes, which a logical value does not need.
+   pure function word_text(v) result(text)
+      type(variable_type), intent(in) :: v
+      character(len=:), allocatable :: text
+      type(token_type) :: token
+      token%text = v%word
+      token%quoted = v%choices /= logical_words
+      text = value_text(token)
+   end function word_text
+
+   !> The i-th number, to the last bit.
+   pure function exact(v, i) result(text)
+      type(variable_type), intent(in) :: v
+      integer, intent(in) :: i
+      character(len=:), allocatable :: text
+      if (v%whole) then
+         text = to_text(nint(v%values(i)))
+      else
+         text = exact_text(v%values(i))
+      end if
+   end function exact
 end module variable_table

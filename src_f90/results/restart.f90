@@ -5,10 +5,9 @@ module restart
    use errors, only: error_type, raise, add_context, system_error, numerics_error
    use case_inputs, only: case_type
    use read_files, only: file_marks, changed_file, marks_name
-   use variable_table, only: variable_type, variable_table_type
+   use variable_table, only: variable_type, variable_table_type, lines_of
    use case_fields, only: list_variables, checkpoint_variable
    use case_namelist, only: case_from_text
-   use namelist_writer, only: lines_of
    use hdf5_file, only: hdf5_type
    use verification_results, only: states_figure
    use guarded_open, only: try_reading, new_reader

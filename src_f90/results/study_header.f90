@@ -197,7 +197,7 @@ contains
       character(len=:), allocatable :: names, suffix
       integer :: i
       call list_all_variables(case_type(), table)
-      targets = study%varied%targets()
+      targets = study%varied%variables%target
       names = taken
       do i = 1, size(targets)
          names = names//short_name(targets(i))//' '

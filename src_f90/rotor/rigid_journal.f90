@@ -60,7 +60,7 @@ contains
       turning = speed**2*direction + point%acceleration*[direction(2), -direction(1)]
       turning(2) = point%sense*turning(2)
       force = point%load + point%unbalance*turning
-      if (allocated(point%excitations)) force = force + point%excitation_force(t)
+      if (allocated(point%excitations)) force = force + sum(point%excitation_forces(t), dim=2)
    end function force
 
    !> The unbalance turns, and excitations change.

@@ -14,7 +14,9 @@ program fuzz_input
    use text, only: printable, to_text
    use case_inputs, only: case_type
    use assignments, only: token_type, target_text, value_text
-   use study_table, only: study_table_type, table_from_text
+   use study_variables, only: study_table_type, read_table
+   use scratch, only: scratch_path, write_bytes
+   use files, only: delete_file
    use parameter_study, only: study_type, study_from_text
    use namelist_writer, only: namelist_of, reference_text
    use processes, only: write_output
@@ -139,15 +141,17 @@ contains
 
    !> Reads one table and says what is in it.
    subroutine answer_table(text)
-      character(len=:), allocatable, intent(inout) :: text
+      character(len=*), intent(in) :: text
       type(study_table_type) :: table
       type(error_type), allocatable :: error
       type(token_type) :: token
       character(len=:), allocatable :: said
       integer :: i, k, news
+      call write_bytes(scratch_path('members.csv'), text)
       call coverage_start()
-      call table_from_text(text, 'members.csv', table, error)
+      call read_table(scratch_path('members.csv'), table, error)
       news = coverage_news()
+      call delete_file(scratch_path('members.csv'))
       if (allocated(error)) then
          call reply(error%status, news, printable(error%message))
          return

@@ -7,7 +7,7 @@ program test_case_completion
    use input_cases, only: case_of, expect_refused
    use case_completion, only: annular_sector_type, new_annular_sector
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
-   use checked_case, only: derived_text
+   use namelist_writer, only: derived_text
    use case_remarks, only: remarks_on_case
    use result_size, only: sample_count, result_bytes, bytes_text, size_note
    use check, only: runs, expect, expect_close, between, report

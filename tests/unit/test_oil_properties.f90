@@ -4,11 +4,10 @@ program test_oil_properties
    use case_groups, only: oil_type, temperature_range, is_set
    use case_inputs, only: case_type
    use input_cases, only: case_of, expect_refused
-   use namelist_writer, only: namelist_of
+   use namelist_writer, only: namelist_of, derived_text
    use oil_properties, only: viscosity, viscosity_slope, density, reference_viscosity, kinematic_points, grades
    use bearing_numbers, only: sommerfeld_number
    use equations_of_motion, only: machine_model, new_machine_model
-   use checked_case, only: derived_text
    use viscosity_history, only: viscosity_history_type, new_viscosity_history
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)

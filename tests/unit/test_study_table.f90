@@ -6,7 +6,7 @@ program test_study_table
    use errors, only: error_type, input_error
    use assignments, only: token_type, target_text, value_text
    use case_inputs, only: case_type
-   use study_table, only: study_table_type, table_from_text, read_table
+   use study_variables, only: study_table_type, read_table
    use parameter_study, only: study_type, run_tag, study_from_text
    use scratch, only: scratch_path, write_bytes
    use files, only: delete_file, real_path
@@ -34,9 +34,9 @@ contains
       character(len=*), intent(in) :: text
       type(study_table_type), intent(out) :: table
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: copy
-      copy = text
-      call table_from_text(copy, 'members.csv', table, error)
+      call write_bytes(scratch_path('members.csv'), text)
+      call read_table(scratch_path('members.csv'), table, error)
+      call delete_file(scratch_path('members.csv'))
    end subroutine read_lines
 
    !> The names and values of a table, those in quotes that are texts: "rotor%mass | 1 | 2".

@@ -4,7 +4,7 @@ program test_text
    use kinds, only: wp, i8
    use text, only: checksum, to_text, exact_text, lower_case, printable, shortened, is_utf8, &
       & did_you_mean, find_similar, unlike
-   use variable_names, only: group_names, names_in, meant_variable, meant_group
+   use case_parameter, only: group_names, names_in, meant_variable, meant_group
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
