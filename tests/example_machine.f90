@@ -5,7 +5,7 @@ module example_machine
    use errors, only: error_type
    use case_inputs, only: case_type
    use case_groups, only: disc_type, unbalance_type
-   use rotor_matrices, only: rotor_matrices_type
+   use rotor_reduction, only: rotor_matrices_type
    use rotor_factory, only: find_rotor
    use check, only: expect_no_error
    implicit none (type, external)

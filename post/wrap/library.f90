@@ -11,7 +11,7 @@ module tiltpad_library
    use read_files, only: read_tables
    use film_oils, only: uneven_oil
    use factories, only: make_law, make_friction
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state
    use tilting_pad_bearing, only: pad_sample
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses

@@ -115,8 +115,7 @@ contains
          if (allocated(error)) return
          call b%begin_oil(run%model, equilibrium_state)
       end if
-      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier_steps()), y, found, &
-         & error, stop_requested)
+      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier_steps()), y, found, error)
       run%counts = found%counts()
       if (.not. allocated(error)) call b%begin_with_orbit(found%orbit, run%inputs%periodic%revolutions)
    end subroutine first_orbit
@@ -130,7 +129,7 @@ contains
       real(wp), allocatable :: y(:)
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
-      call settle_equilibrium(b%static, static, y, error, stop_requested)
+      call settle_equilibrium(b%static, static, y, error)
       call add_context(error, 'with converged films')
       if (allocated(error)) return
       call note_equilibrium(run, static)

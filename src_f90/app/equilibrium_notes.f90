@@ -12,7 +12,7 @@ module equilibrium_notes
    use heat_balance, only: oil_temperatures_type
    use equilibrium_record, only: equilibrium_type, static_figures_type, find_static_figures
    use equations_of_motion, only: machine_model
-   use load_shares, only: bearing_alone, part_of, bearing_loads
+   use equilibrium, only: bearing_alone, part_of, bearing_loads
    use bearing_file, only: bearing_file_type
    use namelist_writer, only: first_equal
    use equilibrium_results, only: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, &

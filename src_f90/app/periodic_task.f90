@@ -8,7 +8,7 @@ module periodic_task
    use orbit_refinement, only: allowed_error
    use march_results, only: put_periodic
    use result_remarks, only: not_closed
-   use stop_signals, only: stop_requested, stop_reason
+   use stop_signals, only: stop_reason
    use case_run, only: case_run_type
    use march_settings, only: march_settings_of
    use run_start, only: make_start, continue_from_checkpoint
@@ -31,8 +31,7 @@ contains
          call make_start(run, y, error)
       end if
       if (allocated(error)) return
-      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier_steps()), y, found, &
-         & error, stop_requested)
+      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier_steps()), y, found, error)
       run%counts = found%counts()
       if (allocated(error)) then
          if (error%status /= stopped) return

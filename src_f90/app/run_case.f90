@@ -16,6 +16,7 @@ module run_case
    use read_files, only: read_tables
    use files, only: is_regular
    use processes, only: can_have
+   use stop_signals, only: stop_requested
    use working_file, only: clear_leftovers
    use case_run, only: case_run_type, begin_run, print_remarks
    use factories, only: march_films, filled_films
@@ -77,6 +78,7 @@ contains
             if (size_note(inputs, 1) /= '') print '(a)', size_note(inputs, 1)
          end if
          run%model = new_machine_model(run%inputs, merge(filled_films, march_films, complete))
+         run%model%give_up => stop_requested
       end if
       if (.not. complete) then
          call move_record(results, run%file%record_type)

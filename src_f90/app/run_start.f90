@@ -21,10 +21,10 @@ module run_start
    use machine_results, only: put_machine
    use march_results, only: put_viscosity_history
    use equilibrium_results, only: read_shape, put_oil, read_oil
-   use stop_signals, only: stop_requested, stop_reason
+   use stop_signals, only: stop_reason
    use case_run, only: case_run_type
    use viscosity_history, only: viscosity_history_type
-   use groove_transient, only: find_groove_transient
+   use thermal_equilibrium, only: find_groove_transient
    implicit none (type, external)
    private
    public :: start_at_equilibrium, seek_equilibrium, make_start, take_oil, restore_shape, restore_oil
@@ -67,7 +67,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call create_file(run, error)
       if (allocated(error)) return
-      call find_equilibrium(run%model, static, error, stop_requested)
+      call find_equilibrium(run%model, static, error)
       call say_nothing_computed(error)
       if (.not. allocated(error)) call take_shapes(run, static%shapes)
    end subroutine seek_equilibrium
@@ -206,9 +206,9 @@ contains
       logical, allocatable :: held(:)
       if (.not. (has_warm_oil(run%model) .or. any(run%inputs%bearings%changes_shape()))) return
       if (partly) then
-         call find_partial_equilibrium(run%model, static, held, error, stop_requested)
+         call find_partial_equilibrium(run%model, static, held, error)
       else
-         call find_equilibrium(run%model, static, error, stop_requested)
+         call find_equilibrium(run%model, static, error)
       end if
       if (.not. allocated(error)) then
          call take_shapes(run, static%shapes)
@@ -258,7 +258,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       type(viscosity_history_type) :: history
       if (.not. oil_takes_course(run)) return
-      call find_groove_transient(run%model, y, run%inputs%operation%duration, history, error, stop_requested)
+      call find_groove_transient(run%model, y, run%inputs%operation%duration, history, error)
       if (allocated(error)) return
       run%model%oil_history = history
    end subroutine let_grooves_warm
@@ -303,7 +303,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_type) :: static
       logical, allocatable :: held(:)
-      call find_partial_equilibrium(run%model, static, held, error, stop_requested)
+      call find_partial_equilibrium(run%model, static, held, error)
       call say_nothing_computed(error)
       if (allocated(error)) return
       rotor(:size(static%rotor)) = static%rotor

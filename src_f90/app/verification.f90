@@ -8,7 +8,7 @@ module verification
    use clock, only: wall_clock
    use case_inputs, only: case_type
    use result_size, only: sample_count
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state
    use equations_of_motion, only: machine_model
    use film_comparison, only: film_comparison_type, film_difference, new_film_comparison

@@ -73,8 +73,8 @@ contains
 
    !> The answer, where somebody is there to ask.
    logical function asked(give_up)
-      procedure(asked_to_stop), optional :: give_up
-      asked = .false.
-      if (present(give_up)) asked = give_up()
+      procedure(asked_to_stop), pointer, intent(in) :: give_up
+      asked = associated(give_up)
+      if (asked) asked = give_up()
    end function asked
 end module errors

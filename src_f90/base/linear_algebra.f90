@@ -3,8 +3,8 @@ module linear_algebra
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv, dgbsv, zgesv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, identity, &
-      & solve_2x2, solve_few, simd_width, padded, apply
+   public :: dgesv, zgesv, dgbsv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, identity, &
+      & solve, solve_complex, solve_2x2, solve_few, simd_width, padded, apply
 
    !> Rows are filled up to a multiple of this, so that loops over them have no remainder.
    integer, parameter :: simd_width = 8
@@ -153,6 +153,35 @@ contains
       end do
    end function identity
 
+   !> x of n equations a x = b with a number of right sides b, which become the solutions. `ok` is false where a is
+   !> singular; then b is lost.
+   subroutine solve(n, sides, a, b, ok)
+      integer, intent(in) :: n, sides
+      real(wp), intent(in) :: a(n, n)
+      real(wp), intent(inout) :: b(n, *)
+      logical, intent(out) :: ok
+      real(wp) :: factors(n, n)
+      integer :: pivots(n), info
+      factors = a
+      info = 0
+      if (n > 0) call dgesv(n, sides, factors, n, pivots, b, n, info)
+      ok = info == 0
+   end subroutine solve
+
+   !> The same of complex numbers.
+   subroutine solve_complex(n, sides, a, b, ok)
+      integer, intent(in) :: n, sides
+      complex(wp), intent(in) :: a(n, n)
+      complex(wp), intent(inout) :: b(n, *)
+      logical, intent(out) :: ok
+      complex(wp), allocatable :: factors(:, :)
+      integer :: pivots(n), info
+      factors = a
+      info = 0
+      if (n > 0) call zgesv(n, sides, factors, n, pivots, b, n, info)
+      ok = info == 0
+   end subroutine solve_complex
+
    !> x of the equations a x = b; 0 where they are singular.
    pure function solve_2x2(a, b) result(x)
       real(wp), intent(in) :: a(2, 2), b(2)
@@ -165,8 +194,8 @@ contains
    !> x of a x = b with few unknowns; 0 where a is singular.
    function solve_few(a, b) result(x)
       real(wp), intent(in) :: a(:, :), b(:)
-      real(wp) :: x(size(b)), factors(size(b), size(b))
-      integer :: pivots(size(b)), info
+      real(wp) :: x(size(b))
+      logical :: ok
       select case (size(b))
       case (1)
          x = 0
@@ -174,10 +203,9 @@ contains
       case (2)
          x = solve_2x2(a, b)
       case default
-         factors = a
          x = b
-         call dgesv(size(b), 1, factors, size(b), pivots, x, size(b), info)
-         if (info /= 0) x = 0
+         call solve(size(b), 1, a, x, ok)
+         if (.not. ok) x = 0
       end select
    end function solve_few
 

@@ -6,7 +6,7 @@ module bearing_losses
    use film_solver, only: film_motion, film_oil, film_ok
    use film_losses, only: film_losses_type, film_loss
    use asperity_contact, only: asperity_load
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state
    use kinematics, only: frame_of, motion_of
    use tilting_pad, only: tilting_pad_type

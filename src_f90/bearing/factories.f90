@@ -19,7 +19,7 @@ module factories
    implicit none (type, external)
    private
    public :: make_film, usual_arc, march_films, static_films, converged_films, quick_films, filled_films, of_march, &
-      & new_losses, make_law, make_friction, new_asperities, new_pads, pad_pivot, make_contacts, make_frictions
+      & new_losses, make_law, make_friction, new_asperities, new_pads, pad_pivot, make_contacts
 
    !> What films are for: a march; the search for an equilibrium, which goes far and stays nowhere; what is linearised
    !> at a single state, with converged films; long ways of which only the end counts; a few states of a march, with
@@ -193,22 +193,6 @@ contains
          & v%poisson_ratio, v%deflection_factor, law)
    end subroutine make_law
 
-   !> The contact of a pad's pivot, with a table where it `moves`: a task without motion looks up too seldom.
-   subroutine make_contact(pivot, pad, moves, contact)
-      type(pivot_type), intent(in) :: pivot
-      integer, intent(in) :: pad
-      logical, intent(in) :: moves
-      type(contact_table_type), intent(out) :: contact
-      class(contact_law_type), allocatable :: law
-      call make_law(pivot, pad, law)
-      ! points are looked up as quickly, and a table would round where their cubics meet
-      if (moves .and. pivot%law /= 'table') then
-         contact = new_contact_table(law)
-      else
-         contact = new_untabulated_contact(law)
-      end if
-   end subroutine make_contact
-
    !> The friction law of a pad's pivot.
    subroutine make_friction(f, pad, law)
       type(friction_type), intent(in) :: f
@@ -268,13 +252,13 @@ contains
       end do
    end function new_pads
 
-   ! Contact and friction of the pivots of a bearing's pads.
-
-   !> The contact of every pivot, which takes time to make: equal ones are made once; for a motion or not.
+   !> The contact of every pivot, which takes time to make: equal ones are made once; with a table where they move: a
+   !> task without motion looks up too seldom.
    subroutine make_contacts(v, moves, pivots)
       type(pivot_type), intent(in) :: v
       logical, intent(in) :: moves
       type(pad_pivot), intent(inout) :: pivots(:)
+      class(contact_law_type), allocatable :: law
       integer :: i, k
       do i = 1, size(pivots)
          do k = 1, i - 1
@@ -283,19 +267,15 @@ contains
          end do
          if (k < i) then
             pivots(i)%contact = pivots(k)%contact
+            cycle
+         end if
+         call make_law(v, i, law)
+         ! points are looked up as quickly, and a table would round where their cubics meet
+         if (moves .and. v%law /= 'table') then
+            pivots(i)%contact = new_contact_table(law)
          else
-            call make_contact(v, i, moves, pivots(i)%contact)
+            pivots(i)%contact = new_untabulated_contact(law)
          end if
       end do
    end subroutine make_contacts
-
-   !> The friction of every pivot.
-   subroutine make_frictions(friction, pivots)
-      type(friction_type), intent(in) :: friction
-      type(pad_pivot), intent(inout) :: pivots(:)
-      integer :: i
-      do i = 1, size(pivots)
-         call make_friction(friction, i, pivots(i)%friction)
-      end do
-   end subroutine make_frictions
 end module factories

@@ -3,7 +3,7 @@
 module kinematics
    use kinds, only: wp
    use film_solver, only: film_motion
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, tilt, pivot_deflection, most_coordinates, of_journal
    implicit none (type, external)
    private

@@ -59,7 +59,6 @@ module tilting_pad
       procedure :: loads
       procedure :: derivatives
       procedure :: masses
-      procedure :: inverse_masses
    end type pad_coordinates_type
 
    !> Loads of one pad at one instant.
@@ -227,7 +226,9 @@ contains
       radial_rates(of_tilt) = radial_rates(of_tilt) + 2*pad%mass*pad%centre_radial*state%v(tilt)
       associate (contact => answer%contact_over_positions, contact_rates => answer%contact_over_rates, &
          & of_deflection => of_journal + self%deflection)
-         call take_contact(self, loads, radial, contact)
+         ! that of a rigid pivot has those of the force on it
+         contact = merge(radial, 0.0_wp, self%deflection == 0 .and. loads%contact > 0)
+         if (self%deflection > 0) contact(of_deflection) = loads%contact_stiffness
          contact_rates = merge(radial_rates, 0.0_wp, self%deflection == 0 .and. loads%contact > 0)
          moment = -over_positions(1, :)*pad%position%centre_distance
          moment(of_tilt) = -over_positions(1, of_tilt)*pad%position%centre_distance &
@@ -256,20 +257,6 @@ contains
          if (asperities%touches) force = force + matmul(asperities%force_slopes, of_motion(1:2, :))
       end subroutine add_film
    end subroutine derivatives
-
-   !> Derivatives of the pivot load over displacements, of which that of a rigid pivot has those of the force on it.
-   pure subroutine take_contact(self, loads, radial, contact)
-      class(pad_coordinates_type), intent(in) :: self
-      type(pad_loads), intent(in) :: loads
-      real(wp), intent(in) :: radial(most)
-      real(wp), intent(out) :: contact(most)
-      if (self%deflection > 0) then
-         contact = 0
-         contact(of_journal + self%deflection) = loads%contact_stiffness
-      else
-         contact = merge(radial, 0.0_wp, loads%contact > 0)
-      end if
-   end subroutine take_contact
 
    !> Adds what the friction of the pivot does to derivatives of the forces, in whose rows of the pad its moment counts
    !> as `per_moment` says, and what it does to these rows per deflection of the bristles.
@@ -320,22 +307,4 @@ contains
       both = reshape([pad%inertia, coupling, coupling, pad%mass], [2, 2])
       masses = both(self%kind(:self%n), self%kind(:self%n))
    end function masses
-
-   !> Its inverse.
-   pure function inverse_masses(self, pad) result(inverse)
-      class(pad_coordinates_type), intent(in) :: self
-      type(tilting_pad_type), intent(in) :: pad
-      real(wp) :: inverse(self%n, self%n), coupling, determinant
-      select case (self%n)
-      case (1)
-         inverse = 1/pad%inertia
-      case (2)
-         ! coupled where C_xi /= 0
-         coupling = pad%mass*pad%centre_tangential
-         determinant = pad%inertia*pad%mass - coupling**2
-         inverse = reshape([pad%mass, -coupling, -coupling, pad%inertia], [2, 2])/determinant
-      case default
-         inverse = 0
-      end select
-   end function inverse_masses
 end module tilting_pad

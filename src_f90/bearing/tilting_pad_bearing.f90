@@ -3,20 +3,20 @@
 module tilting_pad_bearing
    use kinds, only: wp, i8, degree
    use clock, only: wall_clock
+   use linear_algebra, only: identity, solve_few
    use text, only: to_text
-   use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_not_converged
    use asperity_contact, only: asperity_contact_type, asperity_load
    use friction, only: friction_law
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, element_layout_type, new_element_layout, tilt, pivot_deflection, of_journal, &
       & most_coordinates
    use abstract_element, only: element_type
    use kinematics, only: pad_frame, frame_of, motion_of
    use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads, pad_derivatives
    use factories, only: make_film, new_asperities, new_pads, march_films, static_films, of_march, pad_pivot, &
-      & make_contacts, make_frictions
+      & make_contacts, make_friction
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
@@ -129,17 +129,27 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: b
+      integer :: i
       associate (given => inputs%bearings(b))
          self%pads = new_pads(given, inputs%sense(), inputs%rotor%gravity)
          self%clearance = given%clearance()
-         call make_frictions(given%friction, self%pivots)
+         if (.not. allocated(self%natural)) allocate (self%natural(size(self%pads)))
+         do i = 1, size(self%pivots)
+            call make_friction(given%friction, i, self%pivots(i)%friction)
+            ! clearance over pad length for tilts; a thousandth of the clearance for pivot deflections without load; the
+            ! deflection at which bristles yield
+            self%natural(i)%x = self%clearance
+            self%natural(i)%x(tilt) = given%assembled_clearance(i)/((given%journal_radius &
+               & + given%machined_clearance(i))*given%pads%arc_deg(i)*degree)
+            self%natural(i)%x(pivot_deflection) = 1e-3_wp*given%assembled_clearance(i)
+            self%natural(i)%bristle = self%pivots(i)%friction%static_coefficient/given%friction%bristle_stiffness
+         end do
          self%asperities = new_asperities(given%asperity, inputs%highest_speed()*given%journal_radius)
          if (allocated(self%coordinates)) then
             call set_masses(self)
          else
             call self%set_coordinates(new_pad_coordinates(given%pads%motion))
          end if
-         call set_scales(self, given)
       end associate
    end subroutine set_parts
 
@@ -155,29 +165,19 @@ contains
 
    subroutine set_masses(self)
       class(tilting_pad_bearing_type), intent(inout) :: self
-      integer :: i
+      real(wp), allocatable :: one(:, :)
+      integer :: i, k
       if (allocated(self%per_mass)) deallocate (self%per_mass)
       allocate (self%per_mass(most_coordinates, most_coordinates, size(self%pads)), source=0.0_wp)
       do i = 1, size(self%pads)
-         self%per_mass(:self%coordinates%n, :self%coordinates%n, i) = self%coordinates%inverse_masses(self%pads(i))
+         associate (n => self%coordinates%n, masses => self%coordinates%masses(self%pads(i)))
+            one = identity(n)
+            do k = 1, n
+               self%per_mass(:n, k, i) = solve_few(masses, one(:, k))
+            end do
+         end associate
       end do
    end subroutine set_masses
-
-   !> Clearance over pad length for tilts; a thousandth of the clearance for pivot deflections without load; the
-   !> deflection at which bristles yield.
-   pure subroutine set_scales(self, given)
-      class(tilting_pad_bearing_type), intent(inout) :: self
-      type(bearing_type), intent(in) :: given
-      integer :: i
-      if (.not. allocated(self%natural)) allocate (self%natural(size(self%pads)))
-      do i = 1, size(self%pads)
-         self%natural(i)%x = self%clearance
-         self%natural(i)%x(tilt) = given%assembled_clearance(i)/((given%journal_radius + given%machined_clearance(i)) &
-            & *given%pads%arc_deg(i)*degree)
-         self%natural(i)%x(pivot_deflection) = 1e-3_wp*given%assembled_clearance(i)
-         self%natural(i)%bristle = self%pivots(i)%friction%static_coefficient/given%friction%bristle_stiffness
-      end do
-   end subroutine set_scales
 
    pure type(element_layout_type) function layout(self)
       class(tilting_pad_bearing_type), intent(in) :: self
@@ -478,21 +478,26 @@ contains
    end function switching_rates
 
    !> What a sample takes from the films, pad by pad: force and maximum pressure as evaluated last, the force with
-   !> what a change of the displacements of journal and pad, (displacement, pad), and of their rates adds to first
-   !> order.
-   function output(self, of_positions, of_rates)
+   !> what a correction of all states adds to first order.
+   function output(self, layout, correction)
       class(tilting_pad_bearing_type), intent(inout) :: self
-      real(wp), intent(in) :: of_positions(:, :), of_rates(:, :)
+      type(element_layout_type), intent(in) :: layout
+      real(wp), intent(in) :: correction(:)
       real(wp) :: output(pad_outputs*size(self%pads))
       real(wp) :: added(2)
+      integer, dimension(of_journal + layout%coordinates) :: x, v
       integer :: i, k
+      x(:of_journal) = layout%journal
+      v(:of_journal) = layout%journal_rates
       call self%film%take_pressures(self%film_motion, self%oil, self%speed, self%response)
       do i = 1, size(self%pads)
-         associate (film => self%response(i), derivatives => self%derivatives(i))
+         associate (film => self%response(i), over_positions => self%derivatives(i)%film_over_positions, &
+            & over_rates => self%derivatives(i)%film_over_rates)
+            x(of_journal + 1:) = [(layout%before(i) + 2*k - 1, k=1, layout%coordinates)]
+            v(of_journal + 1:) = x(of_journal + 1:) + 1
             added = 0
-            do k = 1, size(of_positions, 1)
-               added = added + derivatives%film_over_positions(:, k)*of_positions(k, i) &
-                  & + derivatives%film_over_rates(:, k)*of_rates(k, i)
+            do k = 1, size(x)
+               added = added + over_positions(:, k)*correction(x(k)) + over_rates(:, k)*correction(v(k))
             end do
             output(pad_outputs*(i - 1) + 1:pad_outputs*i) = [film%force + added, film%max_pressure]
          end associate

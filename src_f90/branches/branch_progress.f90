@@ -16,7 +16,7 @@ module branch_progress
    use varied_bearing, only: varied_bearing_type, bearing_orbits_type
    use heat_balance_equations, only: has_warm_oil
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
-   use linear_algebra, only: dgesv
+   use linear_algebra, only: solve
    implicit none (type, external)
    private
    public :: branch_progress_type, double_period
@@ -109,6 +109,8 @@ contains
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: equilibrium_state(:)
       call make_static(model, model%point%cavitation, self%static)
+      ! Newton's method on the orbit asks
+      nullify (self%static%give_up)
       allocate (self%ode%oil)
       self%ode%oil%bearing = varied_bearing_type(self%static, self%parameter)
       self%ode%start = [equilibrium_state, model%oil%viscosity]
@@ -195,7 +197,7 @@ contains
       length = self%length
       call advance(self%problem, self%options, self%here, length, next, ends, error)
       if (allocated(error)) then
-         call find_oil_error(self, error)
+         call find_oil_error()
          if (error%status == numerics_error .and. .not. self%problem%refused) call add_context(error, 'branch ' &
             & //to_text(self%branch)//' was lost behind '//self%given%parameter//' = ' &
             & //to_text(self%here%parameter)//', its point '//to_text(self%points))
@@ -207,7 +209,7 @@ contains
       if (self%branch > 1 .and. self%points > 0) then
          if (dot_product(split, half_apart(self%orbits)) < 0) then
             at_end = 'it comes back to the branch that it left'
-            call forget_doublings(self%period_doublings, self%here, next, self%orbits%period_multiple)
+            call forget_doublings()
             return
          end if
       end if
@@ -215,7 +217,7 @@ contains
       if (self%points > 0) call find_bifurcations(self%problem, self%options, self%here, next, special, &
          & error)
       if (allocated(error)) return
-      call note_doublings(self, special)
+      call note_doublings()
       found = .true.
       self%here = next
       self%points = self%points + 1
@@ -224,33 +226,47 @@ contains
       if (ends) at_end = trim(merge('the first value', 'the last value ', abs(next%parameter - self%first) <= 0))
       if (self%points >= self%given%max_points .and. .not. ends) at_end = 'after '//to_text(self%given%max_points) &
          & //' points (branch%max_points)'
+
+   contains
+
+      !> Keeps the period doublings among bifurcation points from which a branch is to be followed.
+      subroutine note_doublings()
+         integer :: k
+         if (.not. self%given%switch .or. self%orbits%period_multiple >= self%longest_turns) return
+         do k = 1, size(special)
+            if (special(k)%kind == 'period_doubling') self%period_doublings = [self%period_doublings, &
+               & special(k)%point]
+         end do
+      end subroutine note_doublings
+
+      !> A branch of orbits that is lost where the equilibrium turns back from which its oil takes its viscosities has
+      !> ended: near such an equilibrium nothing is smooth over the parameter.
+      subroutine find_oil_error()
+         type(error_type), allocatable :: lost
+         if (self%problem%refused .or. error%status == stopped .or. .not. allocated(self%ode%oil)) return
+         associate (here => self%here, step => self%options%first_step*self%orbits%unit)
+            call self%ode%set(here%parameter + sign(step_beyond*step, here%tangent(size(here%tangent))), lost)
+         end associate
+         self%problem%refused = allocated(lost)
+         if (allocated(lost)) call move_alloc(lost, error)
+      end subroutine find_oil_error
+
+      !> A branch of double period that ends at another period doubling between two points need not be followed from
+      !> there again.
+      subroutine forget_doublings()
+         logical :: stays(size(self%period_doublings))
+         real(wp) :: step
+         integer :: k
+         step = abs(next%parameter - self%here%parameter)
+         do k = 1, size(stays)
+            associate (one => self%period_doublings(k))
+               stays(k) = abs(one%parameter - next%parameter) > 2*step &
+                  & .or. 2*period_multiple_at(one) /= self%orbits%period_multiple
+            end associate
+         end do
+         self%period_doublings = pack(self%period_doublings, stays)
+      end subroutine forget_doublings
    end subroutine take_step
-
-   !> Keeps the period doublings among bifurcation points from which a branch is to be followed.
-   pure subroutine note_doublings(branches, special)
-      type(branch_progress_type), intent(inout) :: branches
-      type(bifurcation_type), intent(in) :: special(:)
-      integer :: k
-      if (.not. branches%given%switch .or. branches%orbits%period_multiple >= branches%longest_turns) return
-      do k = 1, size(special)
-         if (special(k)%kind == 'period_doubling') branches%period_doublings = [branches%period_doublings, &
-            & special(k)%point]
-      end do
-   end subroutine note_doublings
-
-   !> A branch of orbits that is lost where the equilibrium turns back from which its oil takes its viscosities has
-   !> ended: near such an equilibrium nothing is smooth over the parameter.
-   subroutine find_oil_error(branches, error)
-      type(branch_progress_type), intent(inout) :: branches
-      type(error_type), allocatable, intent(inout) :: error
-      type(error_type), allocatable :: lost
-      if (branches%problem%refused .or. error%status == stopped .or. .not. allocated(branches%ode%oil)) return
-      associate (here => branches%here, step => branches%options%first_step*branches%orbits%unit)
-         call branches%ode%set(here%parameter + sign(step_beyond*step, here%tangent(size(here%tangent))), lost)
-      end associate
-      branches%problem%refused = allocated(lost)
-      if (allocated(lost)) call move_alloc(lost, error)
-   end subroutine find_oil_error
 
    !> Goes to the start of the next branch of double period, if there are `more`.
    subroutine begin_double(self, more)
@@ -279,7 +295,7 @@ contains
       logical, intent(out) :: ok
       type(orbit_type) :: twice
       real(wp) :: direction(problem%n), matrix(problem%n, problem%n)
-      integer :: pivots(problem%n), info, i, n
+      integer :: i, n
       call return_to(problem, period_doubling)
       direction = 1
       do i = 1, 3
@@ -287,8 +303,7 @@ contains
          do n = 1, problem%n
             matrix(n, n) = matrix(n, n) + 1
          end do
-         call dgesv(problem%n, 1, matrix, problem%n, pivots, direction, problem%n, info)
-         ok = info == 0
+         call solve(problem%n, 1, matrix, direction, ok)
          if (.not. ok) return
          direction = direction/sqrt(sum(problem%weight*direction**2))
       end do
@@ -321,18 +336,4 @@ contains
          half_apart = problem%weight*(y - orbit%start)/orbit%scale
       end associate
    end function half_apart
-
-   !> A branch of double period, of orbits of this many revolutions, that ends at another period doubling between two
-   !> points need not be followed from there again.
-   pure subroutine forget_doublings(period_doublings, here, next, period_multiple)
-      type(branch_point_type), allocatable, intent(inout) :: period_doublings(:)
-      type(branch_point_type), intent(in) :: here, next
-      integer, intent(in) :: period_multiple
-      real(wp) :: step
-      integer :: k
-      step = abs(next%parameter - here%parameter)
-      period_doublings = pack(period_doublings, [(abs(period_doublings(k)%parameter - next%parameter) > 2*step &
-         & .or. 2*period_multiple_at(period_doublings(k)) /= period_multiple, &
-         & k=1, size(period_doublings))])
-   end subroutine forget_doublings
 end module branch_progress

@@ -88,7 +88,7 @@ contains
          predicted = here%parameter + problem%unit*length*here%tangent(problem%n + 1)
          ends = beyond(predicted)
          if (ends) then
-            call reach(problem, options, here, next, error)
+            call reach()
          else
             call problem%predict(length*here%tangent)
             call correct(problem, options, next, error, here%tangent)
@@ -96,7 +96,7 @@ contains
             if (.not. allocated(error)) ends = beyond(next%parameter)
             if (ends) then
                call return_to(problem, here)
-               call reach(problem, options, here, next, error)
+               call reach()
             end if
          end if
          again = allocated(error)
@@ -107,12 +107,12 @@ contains
             if (error%status == stopped .or. length <= shortest*options%first_step) return
          end if
          call return_to(problem, here)
-         if (ends) length = min(length, abs(to_bound(problem, options, here)))
+         if (ends) length = min(length, abs(to_bound(here)))
          length = 0.5_wp*length
       end do
       next%arc_length = here%arc_length + next%along
       ! at the bound itself equations that leap may have no solution
-      if (.not. ends) ends = to_bound(problem, options, next) <= shortest*options%first_step
+      if (.not. ends) ends = to_bound(next) <= shortest*options%first_step
       if (next%iterations <= quick) length = longer*length
       if (next%iterations >= slow) length = shorter*length
 
@@ -122,34 +122,27 @@ contains
          real(wp), intent(in) :: parameter
          beyond = parameter >= options%high .or. parameter <= options%low
       end function beyond
+
+      !> Length along the tangent of a point to the bound that it leads to.
+      pure real(wp) function to_bound(point)
+         type(branch_point_type), intent(in) :: point
+         associate (slope => problem%unit*point%tangent(problem%n + 1))
+            to_bound = (merge(options%high, options%low, slope > 0) - point%parameter)/slope
+         end associate
+      end function to_bound
+
+      !> From `here` to the point of its branch at the bound of the parameter to which it leads.
+      subroutine reach()
+         real(wp) :: way
+         logical :: upwards
+         upwards = here%tangent(problem%n + 1) > 0
+         way = to_bound(here)
+         call problem%predict(way*here%tangent)
+         problem%parameter = merge(options%high, options%low, upwards)
+         call correct(problem, options, next, error, across_parameter(problem, upwards))
+         next%along = way
+      end subroutine reach
    end subroutine advance
-
-   !> Length along the tangent of a point to the bound that it leads to.
-   pure real(wp) function to_bound(problem, options, here) result(length)
-      class(branch_problem_type), intent(in) :: problem
-      type(branch_options), intent(in) :: options
-      type(branch_point_type), intent(in) :: here
-      associate (slope => problem%unit*here%tangent(problem%n + 1))
-         length = (merge(options%high, options%low, slope > 0) - here%parameter)/slope
-      end associate
-   end function to_bound
-
-   !> From a point to that of its branch at the bound of the parameter to which it leads.
-   subroutine reach(problem, options, here, next, error)
-      class(branch_problem_type), intent(inout) :: problem
-      type(branch_options), intent(in) :: options
-      type(branch_point_type), intent(in) :: here
-      type(branch_point_type), intent(out) :: next
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: length
-      logical :: upwards
-      upwards = here%tangent(problem%n + 1) > 0
-      length = to_bound(problem, options, here)
-      call problem%predict(length*here%tangent)
-      problem%parameter = merge(options%high, options%low, upwards)
-      call correct(problem, options, next, error, across_parameter(problem, upwards))
-      next%along = length
-   end subroutine reach
 
    ! Where a branch changes its stability or turns: between two points of it the value that crosses is followed until
    ! the parameter is known closely.
@@ -172,34 +165,68 @@ contains
       ! each value that crosses is one of the order of growths
       k = first
       do while (k /= last .and. size(found) < most_points)
-         call locate(problem, options, here, next, max(k, k + sign(1, last - first)), one, ok, error)
+         call locate(max(k, k + sign(1, last - first)))
          if (allocated(error)) return
          if (ok) then
             one%destabilises = last > first
             one%kind = problem%kind(one%value)
             if (one%kind == 'fold' .and. .not. turns_back) one%kind = 'branch_point'
-            call put(one, found)
+            call put()
          end if
          k = k + sign(merge(2, 1, abs(one%value%im) > 0 .and. ok), last - first)
          if ((last - first)*(last - k) < 0) exit
       end do
       if (turns_back .and. .not. any(found%kind == 'fold')) then
-         call locate(problem, options, here, next, 0, one, ok, error)
+         call locate(0)
          if (allocated(error)) return
          one%kind = 'fold'
-         if (ok) call put(one, found)
+         if (ok) call put()
       end if
       if (first /= last .or. turns_back) call return_to(problem, next)
-   end subroutine find_bifurcations
+   contains
 
-   !> Adds a point where it belongs along the branch.
-   pure subroutine put(one, found)
-      type(bifurcation_type), intent(in) :: one
-      type(bifurcation_type), allocatable, intent(inout) :: found(:)
-      integer :: before, k
-      before = count([(found(k)%point%along <= one%point%along, k=1, size(found))])
-      found = [found(:before), one, found(before + 1:)]
-   end subroutine put
+      !> Adds a point where it belongs along the branch.
+      subroutine put()
+         integer :: before, l
+         before = count([(found(l)%point%along <= one%point%along, l=1, size(found))])
+         found = [found(:before), one, found(before + 1:)]
+      end subroutine put
+
+      !> Where, along the tangent of `here`, the k-th growth (0: the tangent's component along the parameter) is zero.
+      !> Not ok where Newton's method fails on the way.
+      subroutine locate(k)
+         integer, intent(in) :: k
+         type(root_bracket) :: bracket
+         type(branch_point_type) :: point
+         real(wp) :: along, value
+         integer :: cut
+         one = bifurcation_type()
+         bracket = root_bracket([0.0_wp, next%along], [watched(here, k), watched(next, k)])
+         call return_to(problem, next)
+         point = next
+         do cut = 1, most_cuts
+            along = bracket%estimate()
+            associate (tangent => point%tangent/problem%dot(here%tangent, point%tangent))
+               call problem%move((along - point%along)*tangent, .false.)
+            end associate
+            call correct(problem, options, point, error, here%tangent)
+            ok = .not. allocated(error)
+            if (.not. ok) then
+               if (error%status /= stopped) deallocate (error)
+               return
+            end if
+            point%along = along
+            value = watched(point, k)
+            call bracket%narrow(along, value)
+            if (abs(value) <= 0) exit
+            if (bracket%width() <= closeness*next%along .and. bracket%width()*problem%unit &
+               & *abs(parameter_part(point)) <= accuracy*max(abs(point%parameter), problem%unit)) exit
+         end do
+         point%arc_length = here%arc_length + point%along
+         one%point = point
+         one%value = point%values(max(1, k))
+      end subroutine locate
+   end subroutine find_bifurcations
 
    pure integer function unstable(point)
       type(branch_point_type), intent(in) :: point
@@ -210,46 +237,6 @@ contains
       type(branch_point_type), intent(in) :: point
       parameter_part = point%tangent(size(point%tangent))
    end function parameter_part
-
-   !> Where, along the tangent of the first of two points, the k-th growth (0: the tangent's component along the
-   !> parameter) is zero. `ok` is false where Newton's method fails on the way.
-   subroutine locate(problem, options, here, next, k, found, ok, error)
-      class(branch_problem_type), intent(inout) :: problem
-      type(branch_options), intent(in) :: options
-      type(branch_point_type), intent(in) :: here, next
-      integer, intent(in) :: k
-      type(bifurcation_type), intent(out) :: found
-      logical, intent(out) :: ok
-      type(error_type), allocatable, intent(out) :: error
-      type(root_bracket) :: bracket
-      type(branch_point_type) :: point
-      real(wp) :: along, value
-      integer :: cut
-      bracket = root_bracket([0.0_wp, next%along], [watched(here, k), watched(next, k)])
-      call return_to(problem, next)
-      point = next
-      do cut = 1, most_cuts
-         along = bracket%estimate()
-         associate (tangent => point%tangent/problem%dot(here%tangent, point%tangent))
-            call problem%move((along - point%along)*tangent, .false.)
-         end associate
-         call correct(problem, options, point, error, here%tangent)
-         ok = .not. allocated(error)
-         if (.not. ok) then
-            if (error%status /= stopped) deallocate (error)
-            return
-         end if
-         point%along = along
-         value = watched(point, k)
-         call bracket%narrow(along, value)
-         if (abs(value) <= 0) exit
-         if (bracket%width() <= closeness*next%along .and. bracket%width()*problem%unit*abs(parameter_part(point)) &
-            & <= accuracy*max(abs(point%parameter), problem%unit)) exit
-      end do
-      point%arc_length = here%arc_length + point%along
-      found%point = point
-      found%value = point%values(max(1, k))
-   end subroutine locate
 
    pure real(wp) function watched(point, k)
       type(branch_point_type), intent(in) :: point

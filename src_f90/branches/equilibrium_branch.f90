@@ -15,9 +15,8 @@ module equilibrium_branch
    use force_balance, only: forces, force_derivatives
    use static_model, only: clearances, reference_force
    use linear_bearing, only: linear_bearing_of, pivot_name, rotor_eigenvalues
-   use film_network, only: warm_films_type, new_warm_films
+   use film_network, only: warm_films_type, new_warm_films, film_field_type
    use fixed_point, only: field_reference, balance_type, solve_fields
-   use film_field, only: film_field_type
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_residual, find_residual_slopes, &
       & find_force_slopes, find_temperatures, check_heat

@@ -3,7 +3,7 @@
 module stability_threshold
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_is_nan, ieee_quiet_nan
    use kinds, only: wp
-   use errors, only: error_type, asked_to_stop, stopped
+   use errors, only: error_type, stopped
    use equations_of_motion, only: machine_model
    use film_network, only: warm_films_type
    use case_parameter, only: case_parameter_type, find_parameter
@@ -26,13 +26,12 @@ contains
 
    !> For each linearised bearing the lowest speed, rpm, from that of the model up to that of its case at which an
    !> eigenvalue crosses the imaginary axis; no number where none does. The model, a static one, is in equilibrium in y.
-   !> An error only of status `stopped`, where `give_up` says so.
-   subroutine find_thresholds(model, y, found, error, give_up, films)
+   !> An error only of status `stopped`, where `give_up` of the model says so.
+   subroutine find_thresholds(model, y, found, error, films)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(bearing_coefficients_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       !> Of each bearing, where films have temperatures along and across.
       type(warm_films_type), allocatable, intent(in), optional :: films(:)
       type(machine_model), target :: moving
@@ -48,7 +47,7 @@ contains
          problem%cross_stiffness = model%point%sense*given%cross_stiffness
          allocate (found%thresholds(size(found%bearings)), source=ieee_value(first, ieee_quiet_nan))
          options = branch_options(first_step=longest, max_step=longest, high=given%threshold_up_to_rpm)
-         if (present(give_up)) options%give_up => give_up
+         options%give_up => model%give_up
          call follow(problem, options, found%bearings%pivot, found%thresholds, found%sought_up_to, error)
       end associate
       if (.not. allocated(error)) return

@@ -14,7 +14,7 @@ module varied_bearing
    use marching, only: march_options
    use cvode_integrator, only: integrator_type
    use orbit_polynomials, only: orbit_type
-   use orbit_march, only: march_period, mesh_options
+   use march_settings, only: march_period, mesh_options
    use orbit_problem, only: parametric_ode_type
    implicit none (type, external)
    private

@@ -7,7 +7,7 @@
 module bearing_equilibrium
    use kinds, only: wp, degree, pi
    use text, only: to_text
-   use errors, only: error_type, raise, numerics_error, stopped, asked_to_stop, asked
+   use errors, only: error_type, raise, numerics_error, stopped, asked
    use state_layout, only: tilt
    use equations_of_motion, only: machine_model
    use pad_elimination, only: eliminate_pads, search_pads
@@ -56,13 +56,12 @@ module bearing_equilibrium
 contains
 
    !> The equilibrium of a model under its load at its initial speed, stable or of oscillatory instability, with the
-   !> temperatures of warm oil; an error where none is found, or, of status `stopped`, where `give_up`, asked between
-   !> evaluations of the films, says so.
-   recursive subroutine find_bearing_equilibrium(model, found, error, give_up, by_heat)
+   !> temperatures of warm oil; an error where none is found, or, of status `stopped`, where its `give_up`, asked
+   !> between evaluations of the films, says so.
+   recursive subroutine find_bearing_equilibrium(model, found, error, by_heat)
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       !> Whether the error is that of the temperatures: with oil that keeps its viscosities there is an equilibrium.
       logical, intent(out), optional :: by_heat
       type(machine_model) :: warm, static
@@ -72,19 +71,19 @@ contains
       logical :: at_rest
       if (present(by_heat)) by_heat = .false.
       if (.not. has_warm_oil(model)) then
-         call find_isothermal(model, found, error, give_up)
+         call find_isothermal(model, found, error)
          return
       end if
       warm = model
       do guess = 1, guesses
          call guess_oil(warm, guess)
-         call find_isothermal(warm, found, error, give_up)
+         call find_isothermal(warm, found, error)
          at_rest = .not. allocated(error)
          if (at_rest) then
             call make_static(warm, warm%point%cavitation, static)
             y = static%static_state(found%rotor, found%pads)
-            call solve_thermal_equilibrium(static, y, found%residual, error, give_up, films=found%films)
-            if (allocated(error) .and. .not. allocated(found%films)) call name_start(model, error)
+            call solve_thermal_equilibrium(static, y, found%residual, error, films=found%films)
+            if (allocated(error) .and. .not. allocated(found%films)) call name_start()
          end if
          if (allocated(error)) then
             if (error%status == stopped) return
@@ -95,47 +94,45 @@ contains
       end do
       if (present(by_heat)) by_heat = at_rest .and. allocated(error)
       if (.not. allocated(error)) then
-         call note_partial(model, traces, give_up)
+         call note_partial(model, traces)
          call raise(error, numerics_error, refusal(model, traces))
       end if
-      if (model%inputs%thermal%model == 'film') call offer_pads(model, error, give_up)
-   end subroutine find_bearing_equilibrium
+      if (model%inputs%thermal%model == 'film') call offer_pads(model, error)
 
-   !> Says of an error that it is that of the temperatures with which the search for those of films begins.
-   subroutine name_start(model, error)
-      type(machine_model), intent(in) :: model
-      type(error_type), intent(inout) :: error
-      if (model%inputs%thermal%model /= 'film' .or. error%status == stopped) return
-      error%message = error%message//' (so it is with one temperature a pad, with which the search begins)'
-   end subroutine name_start
+   contains
+
+      !> Says of an error that it is that of the temperatures with which the search for those of films begins.
+      subroutine name_start()
+         if (model%inputs%thermal%model /= 'film' .or. error%status == stopped) return
+         error%message = error%message//' (so it is with one temperature a pad, with which the search begins)'
+      end subroutine name_start
+   end subroutine find_bearing_equilibrium
 
    !> Says in a refusal of a model whose films have temperatures along and across whether it has an equilibrium with a
    !> temperature for each pad.
-   recursive subroutine offer_pads(model, error, give_up)
+   recursive subroutine offer_pads(model, error)
       type(machine_model), intent(in) :: model
       type(error_type), allocatable, intent(inout) :: error
-      procedure(asked_to_stop), optional :: give_up
       type(machine_model) :: other
       type(equilibrium_type) :: found
       type(error_type), allocatable :: other_error
       other = model
       other%inputs%thermal%model = 'pad'
-      call find_bearing_equilibrium(other, found, other_error, give_up)
+      call find_bearing_equilibrium(other, found, other_error)
       if (.not. allocated(other_error)) error%message = error%message//'; thermal%model = ''pad'' has an equilibrium'
    end subroutine offer_pads
 
    !> The equilibrium with the viscosities that the model has.
-   subroutine find_isothermal(model, found, error, give_up)
+   subroutine find_isothermal(model, found, error)
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       type(machine_model) :: static
       type(search_traces) :: traces
       real(wp), allocatable :: y(:)
       logical :: by_full_films
       call make_static(model, model%point%cavitation, static)
-      call search_first(model, static, y, found%residual, by_full_films, traces%films_fail, error, give_up)
+      call search_first()
       if (.not. allocated(error)) then
          found%search = trim(merge('full films', 'first     ', by_full_films))
          if (is_usable(static, y, found, traces)) return
@@ -148,78 +145,100 @@ contains
             return
          end if
       end if
-      call search_wider(static, found, traces, give_up)
+      call search_wider()
       if (allocated(error)) deallocate (error)
-      if (asked(give_up)) then
+      if (asked(model%give_up)) then
          call raise(error, stopped, 'stopped while the equilibrium was sought')
       else if (.not. allocated(found%pads)) then
-         call note_partial(model, traces, give_up)
+         call note_partial(model, traces)
          call raise(error, numerics_error, refusal(model, traces))
       end if
+
+   contains
+
+      !> From the best start along the load; with films that cavitate also from the equilibrium with full films: on the
+      !> way a pad may lose its film and with it all stiffness.
+      subroutine search_first()
+         type(machine_model) :: whole
+         type(error_type), allocatable :: second_error
+         real(wp), allocatable :: y_whole(:)
+         y = best_start(static)
+         call follow_motion(static, y, found%residual, error, &
+            & most=merge(first_iterations, huge(first_iterations), static%bearings(1)%film%cavitates()))
+         traces%films_fail = .not. static%bearings(1)%films_converge()
+         by_full_films = .false.
+         if (.not. allocated(error) .or. .not. static%bearings(1)%film%cavitates()) return
+         if (error%status == stopped) return
+         call make_static(model, .false., whole)
+         y_whole = best_start(whole)
+         call follow_motion(whole, y_whole, found%residual, second_error)
+         if (.not. allocated(second_error)) then
+            call make_static(model, model%point%cavitation, static)
+            call follow_motion(static, y_whole, found%residual, second_error)
+         end if
+         if (.not. allocated(second_error)) then
+            y = y_whole
+            deallocate (error)
+            traces%films_fail = .false.
+            by_full_films = .true.
+         else if (second_error%status == stopped) then
+            call move_alloc(second_error, error)
+         end if
+      end subroutine search_first
+
+      !> From every start by every method, up to the first stable equilibrium; where there is none, `found` is the one
+      !> that grows least, or has no pads. All is sought with quick films; their equilibrium leads to the model's own.
+      subroutine search_wider()
+         type(machine_model) :: quick
+         type(equilibrium_type) :: candidate
+         type(error_type), allocatable :: ignored
+         integer :: method, k
+         logical :: ok
+         if (allocated(found%pads)) deallocate (found%pads)
+         call make_quick(static, quick)
+         do method = 1, size(methods)
+            do k = 1, starts
+               if (asked(static%give_up)) return
+               y = start(quick, k)
+               call approach(quick, methods(method), y, traces, ok)
+               if (.not. ok) cycle
+               ! quick films leap by their error: where they do, nothing comes to equilibrium
+               call follow_motion(quick, y, candidate%residual, ignored, first_step=newtons)
+               if (candidate%residual > quick_residual) cycle
+               call solve_equilibrium(static, y, candidate%residual, ignored, most=last_iterations)
+               if (allocated(ignored)) cycle
+               if (.not. is_usable(static, y, candidate, traces)) cycle
+               if (.not. is_better(candidate, found)) cycle
+               found = candidate
+               found%search = trim(methods(method))
+               if (found%stability%name == 'stable' .and. found%residual <= residual_limit) return
+            end do
+         end do
+      end subroutine search_wider
    end subroutine find_isothermal
 
    !> Notes whether a march can start from a partial equilibrium, and which pads are held there.
-   subroutine note_partial(model, traces, give_up)
+   subroutine note_partial(model, traces)
       type(machine_model), intent(in) :: model
       type(search_traces), intent(inout) :: traces
-      procedure(asked_to_stop), optional :: give_up
       type(equilibrium_type) :: partial
       type(error_type), allocatable :: error
       logical, allocatable :: held(:)
       if (.not. model%layout%elements(1)%has(tilt)) return
-      call find_partial_equilibrium(model, partial, held, error, give_up)
+      call find_partial_equilibrium(model, partial, held, error)
       if (.not. allocated(error)) traces%held = held
    end subroutine note_partial
 
-   !> From the best start along the load; with films that cavitate also from the equilibrium with full films: on the way
-   !> a pad may lose its film and with it all stiffness.
-   subroutine search_first(model, static, y, residual, by_full_films, films_fail, error, give_up)
-      type(machine_model), intent(in) :: model
-      type(machine_model), intent(inout) :: static
-      real(wp), allocatable, intent(out) :: y(:)
-      real(wp), intent(out) :: residual
-      !> Whether full films led there; whether the search from the best start ended at a film that did not converge.
-      logical, intent(out) :: by_full_films, films_fail
-      type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      type(machine_model) :: whole
-      type(error_type), allocatable :: second_error
-      real(wp), allocatable :: y_whole(:)
-      y = best_start(static, give_up)
-      call follow_motion(static, y, residual, error, give_up, &
-         & most=merge(first_iterations, huge(first_iterations), static%bearings(1)%film%cavitates()))
-      films_fail = .not. static%bearings(1)%films_converge()
-      by_full_films = .false.
-      if (.not. allocated(error) .or. .not. static%bearings(1)%film%cavitates()) return
-      if (error%status == stopped) return
-      call make_static(model, .false., whole)
-      y_whole = best_start(whole, give_up)
-      call follow_motion(whole, y_whole, residual, second_error, give_up)
-      if (.not. allocated(second_error)) then
-         call make_static(model, model%point%cavitation, static)
-         call follow_motion(static, y_whole, residual, second_error, give_up)
-      end if
-      if (.not. allocated(second_error)) then
-         y = y_whole
-         deallocate (error)
-         films_fail = .false.
-         by_full_films = .true.
-      else if (second_error%status == stopped) then
-         call move_alloc(second_error, error)
-      end if
-   end subroutine search_first
-
    !> The start, among positions along the load, with the smallest unbalanced force.
-   function best_start(model, give_up) result(y)
+   function best_start(model) result(y)
       type(machine_model), intent(inout) :: model
-      procedure(asked_to_stop), optional :: give_up
       real(wp) :: y(model%n), trial(model%n), smallest, force
       integer :: k
       logical :: ok
       smallest = huge(smallest)
       y = start(model, 3)
       do k = 1, starts
-         if (asked(give_up)) exit
+         if (asked(model%give_up)) exit
          trial = start(model, k)
          call model%evaluate(0.0_wp, trial, .false., ok)
          if (.not. ok) cycle
@@ -230,41 +249,6 @@ contains
          end if
       end do
    end function best_start
-
-   !> From every start by every method, up to the first stable equilibrium; where there is none, `found` is the one that
-   !> grows least, or has no pads. All is sought with quick films; their equilibrium leads to the model's own.
-   subroutine search_wider(static, found, traces, give_up)
-      type(machine_model), intent(inout) :: static
-      type(equilibrium_type), intent(inout) :: found
-      type(search_traces), intent(inout) :: traces
-      procedure(asked_to_stop), optional :: give_up
-      type(machine_model) :: quick
-      type(equilibrium_type) :: candidate
-      type(error_type), allocatable :: error
-      real(wp) :: y(static%n)
-      integer :: method, k
-      logical :: ok
-      if (allocated(found%pads)) deallocate (found%pads)
-      call make_quick(static, quick)
-      do method = 1, size(methods)
-         do k = 1, starts
-            if (asked(give_up)) return
-            y = start(quick, k)
-            call approach(quick, methods(method), y, traces, ok, give_up)
-            if (.not. ok) cycle
-            ! quick films leap by their error: where they do, nothing comes to equilibrium
-            call follow_motion(quick, y, candidate%residual, error, give_up, first_step=newtons)
-            if (candidate%residual > quick_residual) cycle
-            call solve_equilibrium(static, y, candidate%residual, error, give_up, most=last_iterations)
-            if (allocated(error)) cycle
-            if (.not. is_usable(static, y, candidate, traces)) cycle
-            if (.not. is_better(candidate, found)) cycle
-            found = candidate
-            found%search = trim(methods(method))
-            if (found%stability%name == 'stable' .and. found%residual <= residual_limit) return
-         end do
-      end do
-   end subroutine search_wider
 
    !> Whether an equilibrium is to be kept instead of another one, which may have no pads: first the one that no leap of
    !> the films disturbs, then the one that grows less.
@@ -281,28 +265,27 @@ contains
 
    !> Brings y near an equilibrium by one of the methods. Pads that find no equilibrium of their own are sought from
    !> many tilts, once.
-   subroutine approach(model, method, y, traces, ok, give_up)
+   subroutine approach(model, method, y, traces, ok)
       type(machine_model), intent(inout) :: model
       character(len=*), intent(in) :: method
       real(wp), intent(inout) :: y(:)
       type(search_traces), intent(inout) :: traces
       logical, intent(out) :: ok
-      procedure(asked_to_stop), optional :: give_up
       type(error_type), allocatable :: error
       logical :: in_equilibrium(model%layout%pads)
       real(wp) :: residual, y_of_pads(size(y))
       if (method == 'newton') then
-         call follow_motion(model, y, residual, error, give_up)
+         call follow_motion(model, y, residual, error)
          ok = residual <= quick_residual
          return
       end if
-      call eliminate_pads(model, y, in_equilibrium, ok, give_up)
+      call eliminate_pads(model, y, in_equilibrium, ok)
       if (.not. ok .or. all(in_equilibrium)) return
       call search_pads(model, y, in_equilibrium)
       if (.not. all(in_equilibrium)) traces%without_equilibrium = .not. in_equilibrium
       ! where a pad finds no equilibrium Newton's method on the whole may still find one, with the journal elsewhere
       y_of_pads = y
-      call eliminate_pads(model, y_of_pads, in_equilibrium, ok, give_up)
+      call eliminate_pads(model, y_of_pads, in_equilibrium, ok)
       if (ok .and. all(in_equilibrium)) y = y_of_pads
       ok = .true.
    end subroutine approach
@@ -322,14 +305,13 @@ contains
    end function is_usable
 
    !> The partial equilibrium of a model under its load at its initial speed, and which pads are held; none where all
-   !> find their equilibrium. An error where the journal finds none, or, of status `stopped`, where `give_up`, asked
+   !> find their equilibrium. An error where the journal finds none, or, of status `stopped`, where its `give_up`, asked
    !> between evaluations of the films, says so. The record has no stability.
-   subroutine find_partial_equilibrium(model, found, held, error, give_up)
+   subroutine find_partial_equilibrium(model, found, held, error)
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       logical, allocatable, intent(out) :: held(:)
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       type(machine_model) :: static, quick
       real(wp) :: y(model%n)
       logical :: in_equilibrium(model%layout%pads), ok
@@ -339,14 +321,14 @@ contains
       call make_quick(static, quick)
       do k = 1, starts
          y = start(quick, k)
-         call eliminate_pads(quick, y, in_equilibrium, ok, give_up)
-         if (asked(give_up)) then
+         call eliminate_pads(quick, y, in_equilibrium, ok)
+         if (asked(model%give_up)) then
             call raise(error, stopped, 'stopped while the equilibrium was sought')
             return
          end if
          if (.not. ok) cycle
          held = .not. in_equilibrium
-         call solve_thermal_equilibrium(static, y, found%residual, error, give_up, held, films=found%films)
+         call solve_thermal_equilibrium(static, y, found%residual, error, held, films=found%films)
          if (.not. allocated(error)) then
             call describe(static, y, found)
             return
@@ -359,19 +341,18 @@ contains
 
    !> Brings an equilibrium that another model has found to that of this one, whose films differ a little; y is its
    !> state.
-   subroutine settle(model, found, y, error, give_up)
+   subroutine settle(model, found, y, error)
       type(machine_model), intent(inout) :: model
       type(equilibrium_type), intent(inout) :: found
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       y = model%static_state(found%rotor, found%pads)
       model%oil = found%oil
       if (any(model%oil%varies)) then
          ! the temperatures of films stay what they are
-         call solve_equilibrium(model, y, found%residual, error, give_up)
+         call solve_equilibrium(model, y, found%residual, error)
       else
-         call solve_thermal_equilibrium(model, y, found%residual, error, give_up)
+         call solve_thermal_equilibrium(model, y, found%residual, error)
       end if
       if (.not. allocated(error)) call describe_with_stability(model, y, found, error)
    end subroutine settle
@@ -388,7 +369,7 @@ contains
          message = message//traces%last_words
          return
       end if
-      message = message//cause(model, traces)
+      message = message//cause()
       if (traces%divergence > 0) then
          message = message//' (an equilibrium that was found is statically unstable (divergence): a small motion '
          if (any(traces%leaving)) message = message//'of '//listed(traces%leaving)//' '
@@ -396,6 +377,68 @@ contains
       else if (allocated(traces%last_words)) then
          message = message//' ('//traces%last_words//')'
       end if
+
+   contains
+
+      !> The most likely cause with what helps.
+      function cause()
+         character(len=:), allocatable :: cause
+         integer :: pads
+         pads = model%layout%pads
+         if (.not. norm2(model%point%load) > 0 .and. pads <= 2) then
+            cause = 'without load '//to_text(pads)//trim(merge(' pad pushes', ' pads push ', pads == 1)) &
+               & //' the journal away; give it a load or pads on all sides'
+         else if (.not. model%layout%elements(1)%has(tilt) .and. load_on_pads(model)) then
+            cause = 'the films do not hold the journal; try another load ('//of_load//') or clearance'
+         else if (pads == 1 .and. .not. load_on_pads(model)) then
+            cause = 'the load points past the only pad; turn the load ('//of_load//') or the pad ' &
+               & //'(pads%pivot_angle_deg)'
+         else if (pads == 1) then
+            cause = 'one pad: the journal rolls off it; add a second pad (pads%pivot_angle_deg) or fix ' &
+               & //'it (pads%motion = ''fixed'')'
+         else if (.not. load_on_pads(model)) then
+            ! the angle counted as that of a pivot
+            associate (load => model%point%load)
+               cause = 'the load points to '//to_text(anint(10*atan2(load(1), load(2))/degree)/10) &
+                  & //' deg, where no pad is; turn the load ('//of_load//') or add a pad there ' &
+                  & //'(pads%pivot_angle_deg)'
+            end associate
+         else if (allocated(traces%without_equilibrium)) then
+            cause = listed(traces%without_equilibrium) &
+               & //trim(merge(' has ', ' have', count(traces%without_equilibrium) == 1)) &
+               & //' no equilibrium (unloaded)'//help()
+         else if (pads == 2) then
+            cause = 'two pads that push the journal away; try another angle between them (pads%pivot_angle_deg) ' &
+               & //'or another pads%pivot_ratio'
+         else if (traces%divergence > 0) then
+            cause = 'the motion leaves every equilibrium that was found'//help()
+         else if (any_held()) then
+            cause = listed(traces%held)//' (unloaded) did not come to equilibrium'//help()
+         else
+            cause = 'the search did not end; try another load or clearance'
+            if (model%layout%elements(1)%has(tilt)) cause = cause//', or'//other_start()
+         end if
+      end function cause
+
+      !> What helps pads that no film holds.
+      function help()
+         character(len=:), allocatable :: help
+         help = '; try more preload, or'//other_start()
+      end function help
+
+      !> Where a march can start without an equilibrium.
+      function other_start()
+         character(len=:), allocatable :: other_start
+         other_start = ' (but not in a machine) a march from another start ('
+         if (model%inputs%about%task /= 'march') other_start = other_start//'case%task = ''march'', '
+         other_start = other_start//'start%from = '''//merge('partial', 'centred', allocated(traces%held))//''')'
+      end function other_start
+
+      !> Whether pads are held in a partial equilibrium.
+      pure logical function any_held()
+         any_held = .false.
+         if (allocated(traces%held)) any_held = any(traces%held)
+      end function any_held
    end function refusal
 
    !> Notes how a statically unstable equilibrium is left, in which the derivatives of the model were taken last.
@@ -420,75 +463,6 @@ contains
       end do
       traces%leaving = edge >= moves*max(maxval(edge), norm2(abs(shapes(:2, k))))
    end subroutine note_divergence
-
-   !> The most likely cause with what helps.
-   function cause(model, traces)
-      type(machine_model), intent(in) :: model
-      type(search_traces), intent(in) :: traces
-      character(len=:), allocatable :: cause
-      integer :: pads
-      pads = model%layout%pads
-      if (.not. norm2(model%point%load) > 0 .and. pads <= 2) then
-         cause = 'without load '//to_text(pads)//trim(merge(' pad pushes', ' pads push ', pads == 1)) &
-            & //' the journal away; give it a load or pads on all sides'
-      else if (.not. model%layout%elements(1)%has(tilt) .and. load_on_pads(model)) then
-         cause = 'the films do not hold the journal; try another load ('//of_load//') or clearance'
-      else if (pads == 1 .and. .not. load_on_pads(model)) then
-         cause = 'the load points past the only pad; turn the load ('//of_load//') or the pad ' &
-            & //'(pads%pivot_angle_deg)'
-      else if (pads == 1) then
-         cause = 'one pad: the journal rolls off it; add a second pad (pads%pivot_angle_deg) or fix ' &
-            & //'it (pads%motion = ''fixed'')'
-      else if (.not. load_on_pads(model)) then
-         cause = 'the load points to '//to_text(load_angle(model))//' deg, where no pad is; turn the load ' &
-            & //'('//of_load//') or add a pad there (pads%pivot_angle_deg)'
-      else if (allocated(traces%without_equilibrium)) then
-         cause = listed(traces%without_equilibrium) &
-            & //trim(merge(' has ', ' have', count(traces%without_equilibrium) == 1)) &
-            & //' no equilibrium (unloaded)'//help(model, traces)
-      else if (pads == 2) then
-         cause = 'two pads that push the journal away; try another angle between them (pads%pivot_angle_deg) ' &
-            & //'or another pads%pivot_ratio'
-      else if (traces%divergence > 0) then
-         cause = 'the motion leaves every equilibrium that was found'//help(model, traces)
-      else if (any_held(traces)) then
-         cause = listed(traces%held)//' (unloaded) did not come to equilibrium'//help(model, traces)
-      else
-         cause = 'the search did not end; try another load or clearance'
-         if (model%layout%elements(1)%has(tilt)) cause = cause//', or'//other_start(model, traces)
-      end if
-   end function cause
-
-   !> What helps pads that no film holds.
-   function help(model, traces)
-      type(machine_model), intent(in) :: model
-      type(search_traces), intent(in) :: traces
-      character(len=:), allocatable :: help
-      help = '; try more preload, or'//other_start(model, traces)
-   end function help
-
-   !> Where a march can start without an equilibrium.
-   function other_start(model, traces)
-      type(machine_model), intent(in) :: model
-      type(search_traces), intent(in) :: traces
-      character(len=:), allocatable :: other_start
-      other_start = ' (but not in a machine) a march from another start ('
-      if (model%inputs%about%task /= 'march') other_start = other_start//'case%task = ''march'', '
-      other_start = other_start//'start%from = '''//merge('partial', 'centred', allocated(traces%held))//''')'
-   end function other_start
-
-   !> Whether pads are held in a partial equilibrium.
-   pure logical function any_held(traces)
-      type(search_traces), intent(in) :: traces
-      any_held = .false.
-      if (allocated(traces%held)) any_held = any(traces%held)
-   end function any_held
-
-   !> The angle to which the load points, deg, counted as that of a pivot.
-   real(wp) function load_angle(model)
-      type(machine_model), intent(in) :: model
-      load_angle = anint(10*atan2(model%point%load(1), model%point%load(2))/degree)/10
-   end function load_angle
 
    !> True where pads can carry the load: a pad that tilts carries through its pivot, so that the load must lie between
    !> pivots less than half a turn apart (or, of one pad, point through it); a fixed pad carries with all its arc.

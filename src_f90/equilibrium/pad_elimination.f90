@@ -3,9 +3,9 @@
 !> holds up no other.
 module pad_elimination
    use kinds, only: wp
-   use errors, only: asked_to_stop, asked
+   use errors, only: asked
    use linear_algebra, only: solve_few
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, tilt, pivot_deflection, of_journal
    use kinematics, only: pad_frame, frame_of, motion_of
    use equations_of_motion, only: machine_model
@@ -37,12 +37,11 @@ contains
 
    !> Moves journal and pads from y to equilibrium, nearly. Pads that find no equilibrium stand at zero tilt on their
    !> pivots.
-   subroutine eliminate_pads(model, y, in_equilibrium, ok, give_up)
+   subroutine eliminate_pads(model, y, in_equilibrium, ok)
       type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       !> Which pads are in equilibrium; whether the journal is.
       logical, intent(out) :: in_equilibrium(:), ok
-      procedure(asked_to_stop), optional :: give_up
       type(journal_motion) :: journal
       type(pad_state) :: pads(model%layout%pads)
       real(wp) :: time_step, unbalanced, last
@@ -53,10 +52,10 @@ contains
       time_step = 1/model%point%speed(0.0_wp)
       last = 0
       do iteration = 1, journal_iterations
-         ok = .not. asked(give_up)
+         ok = .not. asked(model%give_up)
          in_equilibrium = .false.
          if (ok) call settle_pads(model, journal, pads, in_equilibrium, ok)
-         if (ok .and. .not. all(in_equilibrium)) call put_down(model, journal, pads, in_equilibrium, ok)
+         if (ok .and. .not. all(in_equilibrium)) call put_down()
          if (.not. ok) exit
          force = forces(model, 0.0_wp, model%state(journal, pads))
          force(of_journal + 1:) = 0
@@ -64,12 +63,67 @@ contains
          if (unbalanced <= journal_limit*reference_force(model)) exit
          if (iteration > 1) time_step = next_time_step(time_step, last, unbalanced)
          last = unbalanced
-         call find_step(model, in_equilibrium, force, time_step, step, ok)
+         call find_step()
          if (.not. ok) exit
-         call move_journal(model, journal, pads, time_step, step)
+         call move_journal()
       end do
       ok = ok .and. iteration <= journal_iterations
       y = model%state(journal, pads)
+
+   contains
+
+      !> Puts the pads that are not in equilibrium at zero tilt on their pivots, where their films are open there, and
+      !> evaluates.
+      subroutine put_down()
+         integer :: i
+         do i = 1, size(pads)
+            if (in_equilibrium(i)) cycle
+            if (film_of(model, i, journal, pad_state()) > 0) pads(i) = pad_state()
+         end do
+         call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. in_equilibrium)
+      end subroutine put_down
+
+      !> The step of the journal, in a time step that is shortened until it does not move too far, and of the pads that
+      !> follow to their own equilibrium at once.
+      subroutine find_step()
+         real(wp), dimension(size(force), size(force)) :: stiffness, damping
+         logical :: free(size(force))
+         call static_derivatives(model, stiffness, damping)
+         damping(of_journal + 1:, :) = 0
+         damping(:, of_journal + 1:) = 0
+         call set_free(model, .not. in_equilibrium, free)
+         associate (longest => longest_move*model%bearings(1)%clearance)
+            do
+               call newton_step(stiffness, damping, force, free, time_step, step, ok)
+               ! what is no number ends here too, and the films refuse it
+               if (.not. (ok .and. norm2(step(:of_journal)) > longest)) exit
+               time_step = time_step*min(0.5_wp, longest/norm2(step(:of_journal)))
+            end do
+         end associate
+      end subroutine find_step
+
+      !> Moves journal and pads by the step, or by a part that leaves the films open.
+      subroutine move_journal()
+         type(journal_motion) :: moved
+         type(pad_state) :: trial(size(pads))
+         real(wp) :: there(model%n)
+         integer :: i
+         logical :: open
+         do
+            there = model%state(journal, pads)
+            there(model%layout%positions()) = there(model%layout%positions()) + step
+            moved = model%rotor%journal(there(:model%rotor%states), 1)
+            trial = model%layout%elements(1)%pad_states(there)
+            open = all([(film_of(model, i, moved, trial(i)) >= least_film*film_of(model, i, journal, pads(i)), &
+               & i=1, size(pads))])
+            ! a film that is closed already, or nearly, stops no journal for ever
+            if (open .or. .not. norm2(step(:of_journal)) > shortest_move*model%bearings(1)%clearance) exit
+            step = 0.5_wp*step
+            time_step = 0.5_wp*time_step
+         end do
+         journal = moved
+         pads = trial
+      end subroutine move_journal
    end subroutine eliminate_pads
 
    !> Every pad to its own equilibrium with the journal where it is; which of them found it.
@@ -81,12 +135,14 @@ contains
       logical, intent(out) :: ok
       real(wp), dimension(size(pads)) :: time_step, unbalanced, last
       real(wp) :: limit
-      integer :: iteration, i
+      integer :: iteration, i, k
       time_step = 1/model%point%speed(0.0_wp)
       do iteration = 0, pad_iterations
          call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. in_equilibrium)
          if (.not. ok) return
-         unbalanced = unbalanced_forces(model)
+         associate (bearing => model%bearings(1), n => model%layout%elements(1)%coordinates)
+            unbalanced = [(maxval([(abs(bearing%own_force(i, k))/bearing%length(i, k), k=1, n)]), i=1, size(pads))]
+         end associate
          limit = pad_limit*reference_force(model)
          in_equilibrium = in_equilibrium .or. unbalanced <= limit
          if (all(in_equilibrium) .or. iteration == pad_iterations) exit
@@ -159,16 +215,6 @@ contains
       end associate
    end function leaning
 
-   !> Unbalanced force of every pad, N.
-   pure function unbalanced_forces(model) result(forces)
-      type(machine_model), intent(in) :: model
-      real(wp) :: forces(model%layout%pads)
-      integer :: i, k
-      associate (bearing => model%bearings(1), n => model%layout%elements(1)%coordinates)
-         forces = [(maxval([(abs(bearing%own_force(i, k))/bearing%length(i, k), k=1, n)]), i=1, size(forces))]
-      end associate
-   end function unbalanced_forces
-
    !> One step of a pad alone, shortened until nothing moves too far and its film stays open.
    subroutine move_pad(model, i, journal, pad, time_step)
       type(machine_model), intent(in) :: model
@@ -177,11 +223,17 @@ contains
       type(pad_state), intent(inout) :: pad
       real(wp), intent(inout) :: time_step
       type(pad_state) :: trial
-      real(wp), allocatable, dimension(:, :) :: stiffness, damping
+      real(wp), allocatable, dimension(:, :) :: over_positions, over_rates, stiffness, damping
       real(wp), allocatable :: force(:), step(:)
       real(wp) :: clearance, film
+      integer :: k
       clearance = model%bearings(1)%clearance
-      call pad_balance(model, i, force, stiffness, damping)
+      associate (bearing => model%bearings(1), n => model%layout%elements(1)%coordinates, own => of_journal + 1)
+         force = [(bearing%own_force(i, k), k=1, n)]
+         call part_derivatives(bearing, i, n, over_positions, over_rates)
+         stiffness = over_positions(own:, own:)
+         damping = over_rates(own:, own:) - trace*model%point%speed(0.0_wp)*bearing%coordinates%masses(bearing%pads(i))
+      end associate
       film = film_of(model, i, journal, pad)
       do
          step = solve_few(stiffness + damping/time_step, -force)
@@ -197,90 +249,6 @@ contains
       end do
       pad = trial
    end subroutine move_pad
-
-   !> A pad's own forces and their derivatives over its positions and, with the trace of damping, rates, in the state
-   !> evaluated last.
-   pure subroutine pad_balance(model, i, force, stiffness, damping)
-      type(machine_model), intent(in) :: model
-      integer, intent(in) :: i
-      real(wp), allocatable, intent(out) :: force(:), stiffness(:, :), damping(:, :)
-      real(wp), allocatable, dimension(:, :) :: over_positions, over_rates
-      integer :: k
-      associate (bearing => model%bearings(1), n => model%layout%elements(1)%coordinates, own => of_journal + 1)
-         force = [(bearing%own_force(i, k), k=1, n)]
-         call part_derivatives(bearing, i, n, over_positions, over_rates)
-         stiffness = over_positions(own:, own:)
-         damping = over_rates(own:, own:) - trace*model%point%speed(0.0_wp)*bearing%coordinates%masses(bearing%pads(i))
-      end associate
-   end subroutine pad_balance
-
-   !> Puts the pads that are not in equilibrium at zero tilt on their pivots, where their films are open there, and
-   !> evaluates.
-   subroutine put_down(model, journal, pads, in_equilibrium, ok)
-      type(machine_model), intent(inout) :: model
-      type(journal_motion), intent(in) :: journal
-      type(pad_state), intent(inout) :: pads(:)
-      logical, intent(in) :: in_equilibrium(:)
-      logical, intent(out) :: ok
-      integer :: i
-      do i = 1, size(pads)
-         if (in_equilibrium(i)) cycle
-         if (film_of(model, i, journal, pad_state()) > 0) pads(i) = pad_state()
-      end do
-      call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. in_equilibrium)
-   end subroutine put_down
-
-   !> The step of the journal, in a time step that is shortened until it does not move too far, and of the pads that
-   !> follow to their own equilibrium at once.
-   subroutine find_step(model, in_equilibrium, force, time_step, step, ok)
-      type(machine_model), intent(in) :: model
-      logical, intent(in) :: in_equilibrium(:)
-      real(wp), intent(in) :: force(:)
-      real(wp), intent(inout) :: time_step
-      real(wp), allocatable, intent(out) :: step(:)
-      logical, intent(out) :: ok
-      real(wp), dimension(size(force), size(force)) :: stiffness, damping
-      logical :: free(size(force))
-      call static_derivatives(model, stiffness, damping)
-      damping(of_journal + 1:, :) = 0
-      damping(:, of_journal + 1:) = 0
-      call set_free(model, .not. in_equilibrium, free)
-      associate (longest => longest_move*model%bearings(1)%clearance)
-         do
-            call newton_step(stiffness, damping, force, free, time_step, step, ok)
-            ! what is no number ends here too, and the films refuse it
-            if (.not. (ok .and. norm2(step(:of_journal)) > longest)) exit
-            time_step = time_step*min(0.5_wp, longest/norm2(step(:of_journal)))
-         end do
-      end associate
-   end subroutine find_step
-
-   !> Moves journal and pads by the step, or by a part that leaves the films open.
-   subroutine move_journal(model, journal, pads, time_step, step)
-      type(machine_model), intent(in) :: model
-      type(journal_motion), intent(inout) :: journal
-      type(pad_state), intent(inout) :: pads(:)
-      real(wp), intent(inout) :: time_step, step(:)
-      type(journal_motion) :: moved
-      type(pad_state) :: trial(size(pads))
-      real(wp) :: y(model%n)
-      integer :: i
-      logical :: open
-      do
-         y = model%state(journal, pads)
-         y(model%layout%positions()) = y(model%layout%positions()) + step
-         moved = model%rotor%journal(y(:model%rotor%states), 1)
-         trial = model%layout%elements(1)%pad_states(y)
-         open = all([(film_of(model, i, moved, trial(i)) >= least_film*film_of(model, i, journal, pads(i)), &
-            & i=1, size(pads))])
-         ! a film that is closed already, or nearly, stops no journal for ever
-         if (open .or. .not. norm2(step(:of_journal)) > shortest_move*model%bearings(1)%clearance) exit
-         step = 0.5_wp*step
-         time_step = 0.5_wp*time_step
-      end do
-      journal = moved
-      pads = trial
-   end subroutine move_journal
 
    !> Least thickness of a pad's film, m.
    pure real(wp) function film_of(model, i, journal, pad)

@@ -1,15 +1,26 @@
 !> The shape of a bearing in operation: radii and clearances after its pads have bent and shaft, pads and housing have
-!> expanded (docs/theory/heat.md, *Bent pads* and *Warm clearances*).
+!> expanded; and this shape as a coupled field, as pressures and temperatures want other lengths (docs/theory/heat.md,
+!> *Bent pads* and *Warm clearances*).
 module bearing_shape
    use kinds, only: wp
-   use text, only: filled
+   use text, only: filled, to_text
    use errors, only: error_type, raise, add_context, numerics_error
    use case_groups, only: bearing_type, is_set
    use case_inputs, only: case_type
+   use tilting_pad_bearing, only: tilting_pad_bearing_type
+   use film_energy, only: solid_layers
+   use film_oils, only: film_oil
+   use film_network, only: warm_films_type, film_field_type
+   use heat_balance, only: oil_temperatures_type
+   use heat_balance_equations, only: state_balance_type, find_temperatures
+   use equations_of_motion, only: machine_model
+   use fixed_point, only: coupled_field, most_rounds
+   use pad_gap, only: pad_gap_type
    implicit none (type, external)
    private
-   public :: bearing_shape_type, bending_type, part_temperatures_type, new_shape
-   public :: cold_shapes, apply_shapes, check_shapes, all_lengths, set_all_lengths
+   public :: bearing_shape_type, bending_type, part_temperatures_type, new_shape, cold_shapes, apply_shapes, &
+      & check_shape, shape_field_type, points_along, points_across, bending_points, bent_by_pressure, bent_by_heat
+
 
    !> By how much bending changes the clearance of each pad, m.
    type :: bending_type
@@ -30,11 +41,32 @@ module bearing_shape
       type(bending_type) :: bending
       type(part_temperatures_type) :: temperatures
    contains
-      procedure, private :: apply
       procedure :: lengths
-      procedure, private :: set_lengths
-      procedure :: check
    end type bearing_shape_type
+
+
+   !> Its values are the lengths of the shapes, over the least clearance that the case gives the bearing.
+   type, extends(coupled_field) :: shape_field_type
+      !> The case with the shapes that it gives, and the shapes that are wanted; the largest change to these.
+      type(case_type), private :: cold
+      type(bearing_shape_type), allocatable :: wanted(:)
+      real(wp), private :: change = 0
+      !> The temperatures of the films, where they have some.
+      type(film_field_type), pointer, private :: films => null()
+   contains
+      procedure :: begin
+      procedure :: apply
+      procedure :: find_wanted
+      procedure :: check
+      procedure :: explain
+   end type shape_field_type
+
+   !> Largest change of a length at the end, and longest step, over the clearance.
+   real(wp), parameter :: agreement = 1e-7_wp, longest = 0.25_wp
+
+   !> Intervals from the pivot to an edge and along half the width, of Simpson's rule.
+   integer, parameter :: intervals = 64, intervals_across = 16
+   integer, parameter :: points_along = 2*intervals + 1, points_across = intervals_across + 1
 
 contains
 
@@ -65,16 +97,6 @@ contains
       shape%temperatures = temperatures
    end function new_shape
 
-   !> Gives a bearing the shape.
-   pure subroutine apply(self, bearing)
-      class(bearing_shape_type), intent(in) :: self
-      type(bearing_type), intent(inout) :: bearing
-      bearing%journal_radius = self%journal_radius
-      bearing%machined_clearance = self%machined_clearance
-      bearing%assembled_clearance = self%assembled_clearance
-      bearing%pads%pivot_distance = self%pivot_distance
-   end subroutine apply
-
    !> Its lengths in a row, m.
    pure function lengths(self)
       class(bearing_shape_type), intent(in) :: self
@@ -82,21 +104,9 @@ contains
       lengths = [self%journal_radius, self%machined_clearance, self%assembled_clearance, self%pivot_distance]
    end function lengths
 
-   !> Gives it lengths in this order.
-   pure subroutine set_lengths(self, lengths)
-      class(bearing_shape_type), intent(inout) :: self
-      real(wp), intent(in) :: lengths(:)
-      associate (n => size(self%pivot_distance))
-         self%journal_radius = lengths(1)
-         self%machined_clearance = lengths(2:n + 1)
-         self%assembled_clearance = lengths(n + 2:2*n + 1)
-         self%pivot_distance = lengths(2*n + 2:)
-      end associate
-   end subroutine set_lengths
-
    !> Refuses a shape of a bearing whose clearance is gone, or of which a pad bends by more than its clearance.
-   subroutine check(self, bearing, error)
-      class(bearing_shape_type), intent(in) :: self
+   subroutine check_shape(self, bearing, error)
+      type(bearing_shape_type), intent(in) :: self
       type(bearing_type), intent(in) :: bearing
       type(error_type), allocatable, intent(out) :: error
       integer :: i
@@ -141,7 +151,7 @@ contains
                & [t%shaft, t%pads(i), t%housing])
          end associate
       end function gone
-   end subroutine check
+   end subroutine check_shape
 
    !> The shapes of all bearings of a case before anything bends or expands.
    function cold_shapes(inputs) result(shapes)
@@ -162,18 +172,24 @@ contains
       type(case_type), intent(inout) :: inputs
       integer :: b
       do b = 1, size(shapes)
-         if (inputs%bearings(b)%changes_shape()) call shapes(b)%apply(inputs%bearings(b))
+         if (.not. inputs%bearings(b)%changes_shape()) cycle
+         associate (bearing => inputs%bearings(b), shape => shapes(b))
+            bearing%journal_radius = shape%journal_radius
+            bearing%machined_clearance = shape%machined_clearance
+            bearing%assembled_clearance = shape%assembled_clearance
+            bearing%pads%pivot_distance = shape%pivot_distance
+         end associate
       end do
    end subroutine apply_shapes
 
-   !> Refuses shapes of a case as `check` does.
+   !> Refuses shapes of a case as `check_shape` does.
    subroutine check_shapes(shapes, inputs, error)
       type(bearing_shape_type), intent(in) :: shapes(:)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
       integer :: b
       do b = 1, size(shapes)
-         call shapes(b)%check(inputs%bearings(b), error)
+         call check_shape(shapes(b), inputs%bearings(b), error)
          call add_context(error, inputs%bearings(b)%label())
          if (allocated(error)) return
       end do
@@ -196,12 +212,16 @@ contains
       type(bearing_shape_type), intent(inout) :: shapes(:)
       real(wp), intent(in) :: lengths(:)
       type(case_type), intent(in) :: inputs
-      integer :: b, first, last
-      last = 0
+      integer :: b, at
+      at = 1
       do b = 1, size(shapes)
-         first = last + 1
-         last = last + size(shapes(b)%lengths())
-         call shapes(b)%set_lengths(lengths(first:last)*least_clearance(inputs, b))
+         associate (n => size(shapes(b)%pivot_distance), of => shapes(b), unit => least_clearance(inputs, b))
+            of%journal_radius = lengths(at)*unit
+            of%machined_clearance = lengths(at + 1:at + n)*unit
+            of%assembled_clearance = lengths(at + n + 1:at + 2*n)*unit
+            of%pivot_distance = lengths(at + 2*n + 1:at + 3*n)*unit
+            at = at + 3*n + 1
+         end associate
       end do
    end subroutine set_all_lengths
 
@@ -213,4 +233,236 @@ contains
          least_clearance = minval([own%machined_clearance, own%assembled_clearance])
       end associate
    end function least_clearance
+
+   !> Begins with the shapes of a case, whose films may have temperatures.
+   subroutine begin(self, cold, films)
+      class(shape_field_type), intent(inout) :: self
+      type(case_type), intent(in) :: cold
+      type(film_field_type), intent(in), target :: films
+      self%agreement = agreement
+      self%longest = longest
+      self%cold = cold
+      self%values = all_lengths(cold_shapes(cold), cold)
+      self%films => films
+   end subroutine begin
+
+   subroutine apply(self, model)
+      class(shape_field_type), intent(inout) :: self
+      type(machine_model), intent(inout) :: model
+      type(bearing_shape_type), allocatable :: shapes(:)
+      type(case_type) :: inputs
+      type(film_oil) :: oil(size(model%oil))
+      shapes = cold_shapes(self%cold)
+      call set_all_lengths(shapes, self%values, self%cold)
+      inputs = self%cold
+      call apply_shapes(shapes, inputs)
+      oil = model%oil
+      call model%adopt(inputs, .true.)
+      model%oil = oil
+   end subroutine apply
+
+   subroutine find_wanted(self, model, y, wanted, error)
+      class(shape_field_type), intent(inout) :: self
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(out) :: wanted(:)
+      type(error_type), allocatable, intent(out) :: error
+      call find_shapes(self%cold, model, y, self%films%films, self%wanted)
+      wanted = all_lengths(self%wanted, self%cold)
+      self%change = maxval(abs(wanted - self%values))
+   end subroutine find_wanted
+
+   !> Refuses shapes in which a bearing cannot run, and those that do not settle.
+   subroutine check(self, model, agrees, error)
+      class(shape_field_type), intent(in) :: self
+      type(machine_model), intent(in) :: model
+      logical, intent(in) :: agrees
+      type(error_type), allocatable, intent(out) :: error
+      call check_shapes(self%wanted, self%cold, error)
+      if (.not. (allocated(error) .or. agrees)) call raise(error, numerics_error, 'the shape of the bearing does not ' &
+         & //'settle: after '//to_text(most_rounds)//' rounds its clearances still change by ' &
+         & //to_text(100*self%change)//' %')
+   end subroutine check
+
+   !> The reason of a shape, where a search in one on the way to it has failed.
+   subroutine explain(self, model, y, first, error)
+      class(shape_field_type), intent(in) :: self
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      logical, intent(in) :: first
+      type(error_type), allocatable, intent(inout) :: error
+      type(error_type), allocatable :: reason
+      if (allocated(self%wanted)) call check_shapes(self%wanted, self%cold, reason)
+      if (allocated(reason)) then
+         call move_alloc(reason, error)
+      else
+         call add_context(error, 'while pads bend and parts expand')
+      end if
+   end subroutine explain
+
+   !> The shapes of a case to which the state y of a model leads, where it was evaluated last.
+   subroutine find_shapes(cold, static, y, films, shapes)
+      type(case_type), intent(in) :: cold
+      type(machine_model), intent(inout) :: static
+      real(wp), intent(in) :: y(:)
+      !> Of each bearing, where films have temperatures.
+      type(warm_films_type), allocatable, intent(in) :: films(:)
+      type(bearing_shape_type), allocatable, intent(out) :: shapes(:)
+      type(part_temperatures_type) :: parts(size(static%bearings))
+      type(bending_type) :: bending
+      integer :: b, i
+      shapes = cold_shapes(cold)
+      call find_part_temperatures()
+      do b = 1, size(shapes)
+         associate (own => cold%bearings(b))
+            if (.not. own%changes_shape()) cycle
+            bending = shapes(b)%bending
+            if (any(own%pads%bending == ['elastic', 'both   '])) call bend_elastically(own, static%bearings(b), &
+               & bending%elastic)
+            if (any(own%pads%bending == ['thermal', 'both   '])) then
+               associate (pads => own%pads, fields => films(b)%fields)
+                  bending%thermal = [(bent_by_heat(static%bearings(b)%pads(i)%gap, pads%thickness(i), &
+                     & pads%expansion(i), (fields(solid_layers, :, i) - fields(1, :, i)) &
+                     & /(pads%thickness(i)*(1 - 1.0_wp/solid_layers))), i=1, size(bending%thermal))]
+               end associate
+            end if
+            shapes(b) = new_shape(own, bending, parts(b))
+         end associate
+      end do
+
+   contains
+
+      !> Temperatures of shaft, pads and housing of each bearing, given or of the state y; those of pads are not
+      !> allocated where nothing expands.
+      subroutine find_part_temperatures()
+         type(state_balance_type) :: balance
+         type(oil_temperatures_type) :: oil(size(parts))
+         integer :: b
+         do b = 1, size(parts)
+            if (.not. is_set(cold%bearings(b)%clearance_temperature)) cycle
+            associate (housing => cold%bearings(b)%housing_temperature, given => cold%bearings(b)%pads%temperature, &
+               & oil_given => cold%bearings(b)%oil, part => parts(b))
+               part%housing = merge(housing, oil_given%supply_temperature, is_set(housing))
+               part%pads = given
+               if (allocated(films)) then
+                  associate (solid => films(b)%fields(:solid_layers, :, :))
+                     where (.not. is_set(given)) part%pads = sum(sum(solid, 1), 1)/(size(solid, 1)*size(solid, 2))
+                  end associate
+                  part%shaft = films(b)%oil%shaft
+               else if (is_set(oil_given%shaft_temperature)) then
+                  part%shaft = oil_given%shaft_temperature
+               else
+                  if (.not. allocated(oil(b)%mean)) call find_temperatures(static, y, balance, oil)
+                  part%shaft = oil(b)%shaft
+               end if
+            end associate
+         end do
+      end subroutine find_part_temperatures
+   end subroutine find_shapes
+
+   !> Changes of the clearances of a bearing by the pressure of its films, m.
+   subroutine bend_elastically(cold, bearing, elastic)
+      type(bearing_type), intent(in) :: cold
+      type(tilting_pad_bearing_type), intent(inout) :: bearing
+      real(wp), intent(out) :: elastic(:)
+      real(wp) :: phi(points_along, size(elastic)), z(points_across, size(elastic))
+      real(wp) :: pressure(points_across, points_along, size(elastic))
+      integer :: i
+      do i = 1, size(elastic)
+         call bending_points(bearing%pads(i)%gap, phi(:, i), z(:, i))
+      end do
+      call bearing%pressure_field(phi, z, pressure)
+      do i = 1, size(elastic)
+         associate (gap => bearing%pads(i)%gap, p => cold%pads)
+            elastic(i) = bent_by_pressure(gap, p%thickness(i), p%young_modulus(i), p%poisson_ratio(i), &
+               & pressure(:, :, i) - gap%ambient_pressure)
+         end associate
+      end do
+   end subroutine bend_elastically
+
+   ! How far pads bend: the change of the radius of a pad's bore by the pressure of its film, and by the heat that flows
+   ! through it (docs/theory/heat.md, *Bent pads*).
+   !
+   ! A pad is a curved beam on its pivot, of the radius R_m in the middle of its thickness t. Where its curvature
+   ! changes by k, its bore moves outward by w, w'' + w = R_m^2 k over the angle from the pivot. A pressure p per area
+   ! bends it by k = M/(E' I), E' = E/(1 - nu^2), I = t^3/12, with the moment M(phi) of what acts from phi to the edge,
+   ! a gradient of temperature by k = alpha dT/dr. The bore that counts goes through the pivot and both edges.
+
+   !> Where the pressure is asked for: angles from the pivot, from the trailing to the leading edge, rad, and distances
+   !> from the middle plane, m.
+   pure subroutine bending_points(gap, phi, z)
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(out) :: phi(:), z(:)
+      integer :: i
+      do i = 0, intervals
+         phi(intervals + 1 + i) = gap%leading_angle*i/intervals
+         phi(intervals + 1 - i) = -gap%trailing_angle*i/intervals
+      end do
+      z = [(0.5_wp*gap%axial_length*i/intervals_across, i=0, intervals_across)]
+   end subroutine bending_points
+
+   !> Change of the bore's radius, m, by pressures above ambient at these points, Pa, (axial position, angle), of a pad
+   !> of this thickness, m, Young's modulus, Pa, and Poisson's ratio.
+   pure real(wp) function bent_by_pressure(gap, thickness, modulus, poisson, pressure) result(change)
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: thickness, modulus, poisson, pressure(:, :)
+      real(wp) :: along(-intervals:intervals), unit, middle
+      along = matmul(simpson(intervals_across), pressure)
+      middle = gap%pad_radius() + thickness/2
+      unit = gap%pad_radius()*middle**3/(modulus/(1 - poisson**2)*thickness**3/12)
+      change = radius_change(gap, unit*edge(along(0:), gap%leading_angle), &
+         & unit*edge(along(0:-intervals:-1), gap%trailing_angle))
+   contains
+      !> The integral of the pressure, from the pivot to an edge at this angle, times what a force of 1 moves that edge:
+      !> the integral over s from 0 to phi of sin(edge - s) sin(phi - s).
+      pure real(wp) function edge(pressure, angle)
+         real(wp), intent(in) :: pressure(0:), angle
+         real(wp) :: phi(0:intervals)
+         integer :: i
+         phi = [(angle*i/intervals, i=0, intervals)]
+         edge = angle*sum(simpson(intervals)*pressure*0.5_wp*(phi*cos(angle - phi) - cos(angle)*sin(phi)))
+      end function edge
+   end function bent_by_pressure
+
+   !> The same by gradients of the temperature from back to bore, K/m, at even stations from the leading edge on, of a
+   !> pad of this thickness, m, and linear expansion, 1/K.
+   pure real(wp) function bent_by_heat(gap, thickness, expansion, gradient) result(change)
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: thickness, expansion, gradient(:)
+      real(wp) :: unit
+      integer :: n
+      n = size(gradient)
+      unit = expansion*(gap%pad_radius() + thickness/2)**2
+      change = radius_change(gap, unit*edge(gradient, gap%leading_angle), &
+         & unit*edge(gradient(n:1:-1), gap%trailing_angle))
+   contains
+      !> The integral of the gradient times sin(edge - phi), from the pivot to the edge before the first station.
+      pure real(wp) function edge(gradient, angle)
+         real(wp), intent(in) :: gradient(:), angle
+         real(wp) :: from_edge(0:size(gradient))
+         integer :: i
+         from_edge = [(min(gap%arc()*i/size(gradient), angle), i=0, size(gradient))]
+         edge = sum(gradient*(cos(from_edge(:size(gradient) - 1)) - cos(from_edge(1:))))
+      end function edge
+   end function bent_by_heat
+
+   !> Of the circle through the pivot and both edges where the edges move outward: w = change (1 - cos phi)
+   !> + turn sin phi.
+   pure real(wp) function radius_change(gap, leading, trailing) result(change)
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: leading, trailing
+      associate (a => gap%leading_angle, b => gap%trailing_angle)
+         change = (leading*sin(b) + trailing*sin(a))/((1 - cos(a))*sin(b) + (1 - cos(b))*sin(a))
+      end associate
+   end function radius_change
+
+   !> Weights of Simpson's rule for the mean over an even number of intervals.
+   pure function simpson(intervals) result(weights)
+      integer, intent(in) :: intervals
+      real(wp) :: weights(intervals + 1)
+      integer :: i
+      weights = [(real(2 + 2*mod(i, 2), wp), i=0, intervals)]
+      weights([1, intervals + 1]) = 1
+      weights = weights/(3*intervals)
+   end function simpson
 end module bearing_shape

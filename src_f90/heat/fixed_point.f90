@@ -10,7 +10,7 @@
 module fixed_point
    use kinds, only: wp
    use errors, only: error_type, stopped
-   use linear_algebra, only: dgesv
+   use linear_algebra, only: solve
    use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
@@ -156,7 +156,7 @@ contains
       end do
       allocate (wanted(size(x)))
       do
-         call take_step(balance, y, fields, first, x, mixer, error)
+         call take_step()
          if (allocated(error)) then
             if (error%status == stopped .or. balance%refused) return
             do f = 1, size(fields)
@@ -184,41 +184,35 @@ contains
          integer, intent(in) :: f
          lacks = any(abs(mixer%residual(first(f):first(f + 1) - 1)) > 1)
       end function lacks
-   end subroutine solve_fields
 
-   !> Brings the state y in equilibrium with the present values of the fields to equilibrium with the values x, or with
-   !> those of the longest part of this step that it can follow. An error where that is next to nothing.
-   subroutine take_step(balance, y, fields, first, x, mixer, error)
-      class(balance_type), intent(inout) :: balance
-      real(wp), intent(inout) :: y(:), x(:)
-      type(field_reference), intent(in) :: fields(:)
-      integer, intent(in) :: first(:)
-      type(mixer_type), intent(inout) :: mixer
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: before(size(x)), last(size(y)), length
-      integer :: f
-      before = x
-      last = y
-      if (mixer%rounds > 0) then
-         before = mixer%x*mixer%agreement
-         last = mixer%y
-      end if
-      length = maxval(abs(x - before)/mixer%longest)
-      do
-         do f = 1, size(fields)
-            fields(f)%field%values = x(first(f):first(f + 1) - 1)
-            call fields(f)%field%apply(balance%model)
+      !> Brings the state y in equilibrium with the present values of the fields to equilibrium with the values x, or
+      !> with those of the longest part of this step that it can follow. An error where that is next to nothing.
+      subroutine take_step()
+         real(wp) :: before(size(x)), last(size(y)), length
+         integer :: f
+         before = x
+         last = y
+         if (mixer%rounds > 0) then
+            before = mixer%x*mixer%agreement
+            last = mixer%y
+         end if
+         length = maxval(abs(x - before)/mixer%longest)
+         do
+            do f = 1, size(fields)
+               fields(f)%field%values = x(first(f):first(f + 1) - 1)
+               call fields(f)%field%apply(balance%model)
+            end do
+            call balance%settle(last, y, mixer%rounds == 0, length <= shortest, error)
+            if (.not. allocated(error)) exit
+            y = last
+            if (error%status == stopped .or. balance%refused .or. length <= shortest) return
+            x = before + shorter*(x - before)
+            length = shorter*length
+            mixer%reach = length
          end do
-         call balance%settle(last, y, mixer%rounds == 0, length <= shortest, error)
-         if (.not. allocated(error)) exit
-         y = last
-         if (error%status == stopped .or. balance%refused .or. length <= shortest) return
-         x = before + shorter*(x - before)
-         length = shorter*length
-         mixer%reach = length
-      end do
-      mixer%reach = min(1.0_wp, longer*mixer%reach)
-   end subroutine take_step
+         mixer%reach = min(1.0_wp, longer*mixer%reach)
+      end subroutine take_step
+   end subroutine solve_fields
 
    !> Begins with the values of a field, behind those of others.
    pure subroutine begin(self, field)
@@ -313,7 +307,8 @@ contains
       real(wp), intent(out) :: step(:)
       real(wp), intent(inout) :: y(:)
       real(wp) :: matrix(depth, depth), part(depth), largest
-      integer :: i, pivots(depth), info
+      integer :: i
+      logical :: ok
       step = residual
       if (any(abs(residual)*self%agreement > self%longest)) call self%forget()
       associate (n => self%known)
@@ -326,8 +321,8 @@ contains
          do i = 1, n
             matrix(i, i) = matrix(i, i) + regularity*largest
          end do
-         call dgesv(n, 1, matrix, depth, pivots, part, depth, info)
-         if (info == 0) then
+         call solve(n, 1, matrix(:n, :n), part, ok)
+         if (ok) then
             step = residual - matmul(self%steps(:, :n) + self%differences(:, :n), part(:n))
             if (any_balance .or. dot_product(step, residual) > 0) then
                if (any(abs(residual) > far)) y = y - matmul(self%moves(:, :n), part(:n))

@@ -10,7 +10,7 @@ module heat_balance
    use kinds, only: wp, degree
    use text, only: to_text
    use errors, only: error_type, raise, numerics_error
-   use linear_algebra, only: dgesv
+   use linear_algebra, only: solve, identity
    use case_groups, only: bearing_type, oil_type, is_set
    use oil_properties, only: viscosity, viscosity_slope
    use bearing_losses, only: pad_loss
@@ -164,7 +164,7 @@ contains
       type(heat_network) :: net
       real(wp), dimension(size(losses)) :: base, mean, slope, step
       real(wp), dimension(size(losses), size(losses)) :: by_heat, matrix
-      integer :: i, round, pivots(size(losses)), info
+      integer :: i, round
       call self%network(losses, films, speed, net, kept)
       ok = net%solved
       if (.not. ok) return
@@ -184,8 +184,8 @@ contains
             do i = 1, n
                matrix(i, i) = matrix(i, i) + 1
             end do
-            call dgesv(n, 1, matrix, n, pivots, step, n, info)
-            ok = info == 0 .and. all(ieee_is_finite(step))
+            call solve(n, 1, matrix, step, ok)
+            ok = ok .and. all(ieee_is_finite(step))
             if (.not. ok) return
             mean = max(mean + step, base)
             if (maxval(abs(slope/wanted*step)) <= settled) exit
@@ -248,7 +248,7 @@ contains
       type(oil_temperatures_type), intent(in), optional :: kept
       real(wp) :: matrix(size(losses) + 1, size(losses) + 1), right(size(losses) + 1, 0:size(losses))
       real(wp) :: part(size(losses))
-      integer :: i, last, pivots(size(losses) + 1), info
+      integer :: i, last
       if (.not. all(ieee_is_finite(losses%power()) .and. ieee_is_finite(losses%inlet + losses%outlet))) return
       last = size(losses) + 1
       allocate (net%left, net%f, net%g, mold=part)
@@ -283,15 +283,12 @@ contains
          end if
       end associate
       if (present(kept)) then
-         matrix = 0
-         do i = 1, last
-            matrix(i, i) = 1
-         end do
+         matrix = identity(last)
          right = 0
          right(:, 0) = [kept%inlet, kept%shaft]
       end if
-      call dgesv(last, last, matrix, last, pivots, right, last, info)
-      net%solved = info == 0 .and. all(ieee_is_finite(right))
+      call solve(last, last, matrix, right, net%solved)
+      net%solved = net%solved .and. all(ieee_is_finite(right))
       net%cold = right(:, 0)
       net%per_watt = right(:, 1:)
    end subroutine network

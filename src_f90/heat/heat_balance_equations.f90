@@ -3,14 +3,13 @@
 !> Derivatives are differences.
 module heat_balance_equations
    use kinds, only: wp
-   use errors, only: error_type, raise, numerics_error
+   use errors, only: error_type, raise, add_context, numerics_error
    use pad_gap, only: pad_gap_type
    use bearing_losses, only: bearing_losses_type, pad_loss, new_bearing_losses
    use heat_balance, only: heat_balance_type, oil_temperatures_type, new_heat_balance, check_boiling
    use equations_of_motion, only: machine_model
    use bearing_samples, only: bearing_sample, take_sample
    use force_balance, only: forces
-   use static_model, only: name_bearing
    implicit none (type, external)
    private
    public :: state_balance_type, has_warm_oil, find_losses, find_residual, find_residual_slopes, find_force_slopes, &
@@ -77,9 +76,8 @@ contains
       type(pad_loss), intent(out) :: losses(:)
       integer :: b
       do b = 1, size(model%bearings)
-         associate (of => model%layout%elements(b), &
-            & first => model%layout%elements(b)%other_pads + 1, &
-            & last => model%layout%elements(b)%other_pads + model%layout%elements(b)%pads)
+         associate (of => model%layout%elements(b), first => model%layout%elements(b)%first_pad, &
+            & last => model%layout%elements(b)%last_pad)
             call balance%bearings(b)%finder%find(model%bearings(b), model%rotor%journal(y(:model%rotor%states), b), &
                & of%pad_states(y), model%oil(first:last), model%point%speed(0.0_wp), losses(first:last))
          end associate
@@ -106,18 +104,15 @@ contains
       real(wp), intent(out) :: residual(:)
       logical, intent(out) :: ok
       type(oil_temperatures_type), intent(in), optional :: kept(:)
+      type(oil_temperatures_type), allocatable :: kept_here
       real(wp) :: wanted(size(films))
       integer :: b
       residual = 0
       do b = 1, size(model%bearings)
-         associate (first => model%layout%elements(b)%other_pads + 1, &
-            & last => model%layout%elements(b)%other_pads + model%layout%elements(b)%pads, &
-            & heat => balance%bearings(b)%heat, speed => model%point%speed(0.0_wp))
-            if (present(kept)) then
-               call heat%viscosities(losses(first:last), films(first:last), speed, wanted(first:last), ok, kept(b))
-            else
-               call heat%viscosities(losses(first:last), films(first:last), speed, wanted(first:last), ok)
-            end if
+         associate (first => model%layout%elements(b)%first_pad, last => model%layout%elements(b)%last_pad)
+            if (present(kept)) kept_here = kept(b)
+            call balance%bearings(b)%heat%viscosities(losses(first:last), films(first:last), &
+               & model%point%speed(0.0_wp), wanted(first:last), ok, kept_here)
          end associate
          if (.not. ok) return
       end do
@@ -161,7 +156,7 @@ contains
                own = k + [(of%first_position(i), i=1, of%pads)]
                call find_moved(own)
                do i = 1, size(own)
-                  call set_slope(own(i), merge_loss(of%other_pads + i), films, change)
+                  call set_slope(own(i), merge_loss(of%first_pad + i - 1), films, change)
                end do
             end do
          end associate
@@ -241,15 +236,13 @@ contains
       type(oil_temperatures_type), intent(out) :: oil(:)
       logical, intent(out) :: ok
       type(oil_temperatures_type), intent(in), optional :: kept(:)
+      type(oil_temperatures_type), allocatable :: kept_here
       integer :: b
       do b = 1, size(model%bearings)
-         associate (pads => model%layout%elements(b)%all_pads(), heat => balance%bearings(b)%heat, &
-            & speed => model%point%speed(0.0_wp))
-            if (present(kept)) then
-               call heat%temperatures(balance%losses(pads), model%oil(pads)%viscosity, speed, oil(b), ok, kept(b))
-            else
-               call heat%temperatures(balance%losses(pads), model%oil(pads)%viscosity, speed, oil(b), ok)
-            end if
+         if (present(kept)) kept_here = kept(b)
+         associate (pads => model%layout%elements(b)%all_pads())
+            call balance%bearings(b)%heat%temperatures(balance%losses(pads), model%oil(pads)%viscosity, &
+               & model%point%speed(0.0_wp), oil(b), ok, kept_here)
          end associate
          if (.not. ok) return
       end do
@@ -282,7 +275,7 @@ contains
       integer :: b
       do b = 1, size(oil)
          call check_boiling(oil(b), error)
-         call name_bearing(model, b, error)
+         call add_context(error, model%inputs%bearings(b)%label())
          if (allocated(error)) return
       end do
    end subroutine check_oil

@@ -1,26 +1,25 @@
 !> Thermal equilibrium: forces, heat and, where pads bend or parts expand, the shape of the bearing are in balance
 !> together. The bearing comes to equilibrium with the oil and in the shape that fields have, which says what they are
-!> to be, until they agree (fixed_point).
+!> to be, until they agree (fixed_point). And the oil of a run-up, which follows from such equilibria.
 module thermal_equilibrium
-   use kinds, only: wp
-   use errors, only: error_type, stopped, asked_to_stop, raise, numerics_error
+   use kinds, only: wp, rpm
+   use errors, only: error_type, stopped, raise, numerics_error, add_context
    use text, only: to_text
    use film_oils, only: even_oil
-   use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
    use oil_properties, only: viscosity
    use equations_of_motion, only: machine_model
-   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_temperatures, &
-      & find_residual, check_heat
-   use static_model, only: solve_equilibrium, start, follow_motion
-   use film_network, only: warm_films_type, new_warm_films
-   use bearing_shape, only: bearing_shape_type
+   use heat_balance_equations, only: state_balance_type, has_warm_oil, find_losses, find_temperatures, find_residual, &
+      & check_heat
+   use static_model, only: solve_equilibrium, start, follow_motion, make_static
+   use film_network, only: warm_films_type, new_warm_films, film_field_type
+   use bearing_shape, only: bearing_shape_type, shape_field_type
    use fixed_point, only: field_reference, balance_type, solve_fields, coupled_field, most_rounds
-   use film_field, only: film_field_type
-   use shape_field, only: shape_field_type
+   use viscosity_history, only: viscosity_history_type, new_viscosity_history
    implicit none (type, external)
    private
-   public :: guess_oil, guesses, solve_thermal_equilibrium, solve_warm_films, solve_shape
+   public :: guess_oil, guesses, solve_thermal_equilibrium, solve_warm_films, solve_shape, find_groove_transient
+
 
    !> Its values are the logarithms over those of the viscosities with which it began, Pa s.
    type, extends(coupled_field) :: oil_field_type
@@ -44,7 +43,6 @@ module thermal_equilibrium
    type, extends(balance_type) :: static_balance
       real(wp) :: residual = 0
       logical, allocatable :: held(:)
-      procedure(asked_to_stop), pointer, nopass :: give_up => never
    contains
       procedure :: settle
    end type static_balance
@@ -56,6 +54,13 @@ module thermal_equilibrium
    real(wp), parameter :: some_warming = 20
    !> Guesses of viscosities; the start of a search at which the first is made.
    integer, parameter :: guesses = 3, middle_start = 3
+
+
+   !> Change of the speed between two nodes, over itself, at most; least nodes.
+   real(wp), parameter :: change_of_speed = 0.03_wp
+   integer, parameter :: least_nodes = 24
+   !> Least speed over the first that is followed.
+   real(wp), parameter :: least_ratio = 0.01_wp
 
 contains
 
@@ -124,20 +129,20 @@ contains
       model%oil = even_oil(wanted)
    end subroutine guess_oil
 
-   !> A static model, with the reason to give up and pads that are held, where there are such.
-   type(static_balance) function new_balance(model, give_up, held) result(balance)
+   !> Brings the state y of a static model, some of whose pads may be held where they are, and fields to equilibrium.
+   subroutine settle_fields(model, y, fields, residual, error, held)
       type(machine_model), intent(inout), target :: model
-      procedure(asked_to_stop), optional :: give_up
+      real(wp), intent(inout) :: y(:)
+      type(field_reference), intent(in) :: fields(:)
+      real(wp), intent(out) :: residual
+      type(error_type), allocatable, intent(out) :: error
       logical, intent(in), optional :: held(:)
+      type(static_balance) :: balance
       balance%model => model
-      if (present(give_up)) balance%give_up => give_up
       if (present(held)) balance%held = held
-   end function new_balance
-
-   !> The answer where nothing may ask to stop.
-   logical function never()
-      never = .false.
-   end function never
+      call solve_fields(balance, y, fields, error)
+      residual = balance%residual
+   end subroutine settle_fields
 
    !> By Newton's method, which goes astray where an unloaded pad has lost its stiffness at the last place: then anew
    !> from there, and in the end by the motion from the last place.
@@ -147,25 +152,24 @@ contains
       real(wp), intent(inout) :: y(:)
       logical, intent(in) :: first, final
       type(error_type), allocatable, intent(out) :: error
-      call solve_equilibrium(self%model, y, self%residual, error, self%give_up, self%held, &
+      call solve_equilibrium(self%model, y, self%residual, error, self%held, &
          & merge(huge(1), most_iterations, first))
       if (first .or. .not. allocated(error)) return
       if (error%status == stopped) return
-      call solve_equilibrium(self%model, y, self%residual, error, self%give_up, self%held, more_iterations)
+      call solve_equilibrium(self%model, y, self%residual, error, self%held, more_iterations)
       if (.not. (final .and. allocated(error))) return
       if (error%status == stopped) return
       y = last
-      call follow_motion(self%model, y, self%residual, error, self%give_up, self%held, most=most_motion)
+      call follow_motion(self%model, y, self%residual, error, self%held, most=most_motion)
    end subroutine settle
 
    !> Brings a state that is near equilibrium to equilibrium, as solve_equilibrium does, and the oil, where it is warm,
    !> to the temperatures of this equilibrium: the model then has its viscosities.
-   subroutine solve_thermal_equilibrium(model, y, residual, error, give_up, held, kept, films)
+   subroutine solve_thermal_equilibrium(model, y, residual, error, held, kept, films)
       type(machine_model), intent(inout), target :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       !> Pads that are held where they are.
       logical, intent(in), optional :: held(:)
       !> Where grooves and shaft keep their temperatures: these, of each bearing.
@@ -174,63 +178,58 @@ contains
       type(warm_films_type), allocatable, intent(out), optional :: films(:)
       type(warm_films_type), allocatable :: found(:)
       type(oil_field_type), target :: pads
-      type(static_balance) :: balance
       type(field_reference) :: fields(1)
       type(oil_temperatures_type) :: oil(size(model%bearings))
+      integer :: b
       if (.not. has_warm_oil(model)) then
-         call solve_equilibrium(model, y, residual, error, give_up, held)
+         call solve_equilibrium(model, y, residual, error, held)
          return
       end if
       ! one temperature for each pad leads to those along and across
       model%oil = even_oil(model%oil%viscosity)
       call pads%begin(model, kept)
       fields(1)%field => pads
-      balance = new_balance(model, give_up, held)
-      call solve_fields(balance, y, fields, error)
-      residual = balance%residual
+      call settle_fields(model, y, fields, residual, error, held)
       if (allocated(error) .or. model%inputs%thermal%model /= 'film') return
       call find_temperatures(model, y, pads%balance, oil)
-      call make_films(model%inputs, oil, found)
-      call solve_warm_films(model, y, found, residual, error, give_up, held)
+      allocate (found(size(oil)))
+      do b = 1, size(oil)
+         found(b) = new_warm_films(model%inputs%bearings(b), model%inputs%thermal, oil(b)%mean)
+      end do
+      call solve_warm_films(model, y, found, residual, error, held)
       if (present(films)) call move_alloc(found, films)
    end subroutine solve_thermal_equilibrium
 
    !> The same of a model whose films have temperatures already, and whose oil is theirs.
-   subroutine solve_warm_films(model, y, films, residual, error, give_up, held)
+   subroutine solve_warm_films(model, y, films, residual, error, held)
       type(machine_model), intent(inout), target :: model
       real(wp), intent(inout) :: y(:)
       type(warm_films_type), allocatable, intent(inout) :: films(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       logical, intent(in), optional :: held(:)
       type(film_field_type), target :: field
-      type(static_balance) :: balance
       type(field_reference) :: fields(1)
       call field%begin(model, films)
       fields(1)%field => field
-      balance = new_balance(model, give_up, held)
-      call solve_fields(balance, y, fields, error)
-      residual = balance%residual
+      call settle_fields(model, y, fields, residual, error, held)
       call move_alloc(field%films, films)
    end subroutine solve_warm_films
 
    !> Brings the state y of a static model that is in equilibrium in the shapes of its case to equilibrium in the shapes
    !> that this leads to, of each bearing, with their temperatures; an error where there is none.
-   subroutine solve_shape(model, y, films, shapes, residual, error, give_up)
+   subroutine solve_shape(model, y, films, shapes, residual, error)
       type(machine_model), intent(inout), target :: model
       real(wp), intent(inout) :: y(:)
       !> Of each bearing, where films have temperatures.
       type(warm_films_type), allocatable, intent(inout) :: films(:)
       type(bearing_shape_type), allocatable, intent(out) :: shapes(:)
-      real(wp), intent(inout) :: residual
+      real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       type(shape_field_type), target :: shape
       type(film_field_type), target :: field
       type(oil_field_type), target :: pads
       type(field_reference) :: fields(2)
-      type(static_balance) :: balance
       call shape%begin(model%inputs, field)
       ! a shape needs the temperatures that its own values change
       fields(2)%field => shape
@@ -241,22 +240,79 @@ contains
          call pads%begin(model)
          fields(1)%field => pads
       end if
-      balance = new_balance(model, give_up)
-      call solve_fields(balance, y, fields(merge(1, 2, has_warm_oil(model)):), error)
-      residual = balance%residual
+      call settle_fields(model, y, fields(merge(1, 2, has_warm_oil(model)):), residual, error)
       if (allocated(field%films)) call move_alloc(field%films, films)
       if (.not. allocated(error)) call move_alloc(shape%wanted, shapes)
    end subroutine solve_shape
 
-   !> Films of all bearings of a case that have the mean temperatures of this oil.
-   subroutine make_films(inputs, oil, films)
-      type(case_type), intent(in) :: inputs
-      type(oil_temperatures_type), intent(in) :: oil(:)
-      type(warm_films_type), allocatable, intent(out) :: films(:)
-      integer :: b
-      allocate (films(size(oil)))
-      do b = 1, size(oil)
-         films(b) = new_warm_films(inputs%bearings(b), inputs%thermal, oil(b)%mean)
+   !> The history of the viscosities in a march of a model from its equilibrium y, whose viscosities it has, over a
+   !> duration, s. An error where a speed has no equilibrium.
+   subroutine find_groove_transient(model, y, duration, history, error)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: y(:), duration
+      type(viscosity_history_type), intent(out) :: history
+      type(error_type), allocatable, intent(out) :: error
+      type(machine_model) :: static
+      type(state_balance_type) :: balance
+      type(oil_temperatures_type), dimension(size(model%bearings)) :: oil, next
+      real(wp), dimension(model%layout%pads) :: entering, before, rate, time_constant
+      real(wp), allocatable :: time(:), viscosity(:, :)
+      real(wp) :: state(size(y)), residual
+      integer :: b, k
+      call set_nodes()
+      allocate (viscosity(size(entering), 0:ubound(time, 1)))
+      call make_static(model, model%point%cavitation, static)
+      state = y
+      entering = 0
+      do k = 0, ubound(time, 1)
+         static%point%speed_rpm = model%point%speed(time(k))/rpm
+         if (k > 0) then
+            do b = 1, size(oil)
+               associate (pads => model%layout%elements(b)%all_pads())
+                  call renew(oil(b)%inlet, entering(pads), rate(pads), time_constant(pads), time(k) - time(k - 1))
+               end associate
+            end do
+            call solve_thermal_equilibrium(static, state, residual, error, kept=oil)
+            call add_context(error, 'oil of the run-up at '//to_text(static%point%speed_rpm)//' rpm')
+            if (allocated(error)) return
+         end if
+         viscosity(:, k) = static%oil%viscosity
+         if (k == 0) then
+            call find_temperatures(static, state, balance, oil)
+            next = oil
+         else
+            call find_temperatures(static, state, balance, next, kept=oil)
+         end if
+         before = entering
+         do b = 1, size(next)
+            associate (first => model%layout%elements(b)%first_pad, last => model%layout%elements(b)%last_pad)
+               call balance%bearings(b)%heat%renewal(balance%losses(first:last), next(b), &
+                  & static%point%speed(0.0_wp), entering(first:last), time_constant(first:last))
+            end associate
+         end do
+         rate = 0
+         if (k > 0) rate = (entering - before)/(time(k) - time(k - 1))
       end do
-   end subroutine make_films
+      history = new_viscosity_history(time, viscosity)
+
+   contains
+
+      !> Times, s, between which the speed changes by equal factors; near standstill nothing is followed.
+      subroutine set_nodes()
+         real(wp) :: ratio, first
+         integer :: n
+         first = model%point%speed(0.0_wp)
+         ratio = max(model%point%speed(duration)/first, least_ratio)
+         n = max(least_nodes, ceiling(abs(log(ratio))/change_of_speed))
+         allocate (time(0:n))
+         time(:) = [(first*(ratio**(real(k, wp)/n) - 1)/model%point%acceleration, k=0, n)]
+      end subroutine set_nodes
+   end subroutine find_groove_transient
+
+   !> Temperatures of grooves after a time step, s, in which what enters changes at this rate, K/s.
+   elemental subroutine renew(inlet, entering, rate, time_constant, step)
+      real(wp), intent(inout) :: inlet
+      real(wp), intent(in) :: entering, rate, time_constant, step
+      inlet = entering + rate*(step - time_constant) + (inlet - entering + rate*time_constant)*exp(-step/time_constant)
+   end subroutine renew
 end module thermal_equilibrium

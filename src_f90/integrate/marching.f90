@@ -2,7 +2,7 @@
 module marching
    use kinds, only: wp, i8
    use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error
+   use errors, only: error_type, raise, add_context, numerics_error, asked_to_stop
    use ode_model, only: ode_model_type, integrator_counts_type
    use cvode_integrator, only: integrator_type, integrator_options
    use linear_algebra, only: find_eigenvalues
@@ -47,6 +47,8 @@ module marching
       integer(i8) :: max_steps = huge(1_i8)
       !> Mean step, s, below which low orders are tried; 0: they never are.
       real(wp) :: short_step = 0
+      !> Asked now and then by who marches period by period (march_settings), where it is set.
+      procedure(asked_to_stop), pointer, nopass :: give_up => null()
    end type march_options
 
    !> When the observer sees the state: at first + k interval, k = 0 .. count - 1; those before `next` it has seen.
@@ -117,6 +119,7 @@ contains
       type(integrator_counts_type) :: earlier
       type(order_control_type) :: watch
       real(wp) :: t
+      !> Number of the sample that comes next; the highest order in force.
       integer(i8) :: next
       integer :: order
 
@@ -127,7 +130,7 @@ contains
       call integrator%start(model, options, t, y, t_end, error)
       if (allocated(error)) call add_context(error, stopped_at(t, counts%steps))
       do while (.not. allocated(error))
-         call give_samples(integrator, model, plan, t_end, next, observer, error)
+         call give_samples()
          if (allocated(error) .or. observer%satisfied .or. t >= t_end) exit
          if (observer%wants_state()) call observer%take_state(t, integrator%state(), earlier + integrator%counts(), &
             & error)
@@ -137,8 +140,7 @@ contains
                & //to_text(counts%steps)//' steps (integration%max_steps)')
             exit
          end if
-         if (watch%changes(t, counts%steps)) call change_orders(integrator, model, options, watch, t_end, order, &
-            & earlier, error)
+         if (watch%changes(t, counts%steps)) call change_orders()
          if (.not. allocated(error)) call integrator%step(error)
          t = integrator%time()
          if (allocated(error)) then
@@ -150,57 +152,39 @@ contains
       end do
       y = integrator%state()
       counts = earlier + integrator%counts()
+   contains
+
+      !> Goes on from the state reached, whose samples are given, with all orders, or with those that are stable in
+      !> every vibration.
+      subroutine change_orders()
+         type(march_options) :: changed
+         real(wp) :: rates(model%n), jacobian(model%n, model%n)
+         logical :: ok
+         changed = options
+         if (watch%low) then
+            call model%rhs_and_jacobian(integrator%time(), integrator%state(), rates, jacobian, ok)
+            if (ok) changed%max_order = min(options%max_order, stable_order(jacobian, watch%mean_step))
+         end if
+         if (changed%max_order == order) return
+         order = changed%max_order
+         earlier = earlier + integrator%counts()
+         call integrator%start(model, changed, integrator%time(), integrator%state(), t_end, error)
+      end subroutine change_orders
+
+      !> Gives the observer the samples that the time reached has passed. They never shorten a step.
+      subroutine give_samples()
+         real(wp) :: values(model%n + model%outputs), at
+         do while (next < plan%count)
+            if (plan%time(next) > t .and. t < t_end) return
+            ! the last sample may lie a rounding error past the end
+            at = min(plan%time(next), t)
+            call integrator%interpolate(at, values)
+            call observer%sample(at, values(:model%n), values(model%n + 1:), error)
+            if (allocated(error) .or. observer%satisfied) return
+            next = next + 1
+         end do
+      end subroutine give_samples
    end subroutine march
-
-   !> Goes on from the state reached, whose samples are given, with all orders, or with those that are stable in every
-   !> vibration.
-   subroutine change_orders(integrator, model, options, watch, t_end, order, earlier, error)
-      type(integrator_type), intent(inout) :: integrator
-      class(ode_model_type), intent(inout), target :: model
-      class(march_options), intent(in) :: options
-      type(order_control_type), intent(in) :: watch
-      real(wp), intent(in) :: t_end
-      !> The highest in force.
-      integer, intent(inout) :: order
-      !> What the integrations before this one cost.
-      type(integrator_counts_type), intent(inout) :: earlier
-      type(error_type), allocatable, intent(out) :: error
-      type(march_options) :: changed
-      real(wp) :: rates(model%n), jacobian(model%n, model%n)
-      logical :: ok
-      changed = options
-      if (watch%low) then
-         call model%rhs_and_jacobian(integrator%time(), integrator%state(), rates, jacobian, ok)
-         if (ok) changed%max_order = min(options%max_order, stable_order(jacobian, watch%mean_step))
-      end if
-      if (changed%max_order == order) return
-      order = changed%max_order
-      earlier = earlier + integrator%counts()
-      call integrator%start(model, changed, integrator%time(), integrator%state(), t_end, error)
-   end subroutine change_orders
-
-   !> Gives the observer the samples that the time reached has passed. They never shorten a step.
-   subroutine give_samples(integrator, model, plan, t_end, next, observer, error)
-      type(integrator_type), intent(in) :: integrator
-      class(ode_model_type), intent(in) :: model
-      type(sample_plan), intent(in) :: plan
-      real(wp), intent(in) :: t_end
-      !> Number of the sample that comes next.
-      integer(i8), intent(inout) :: next
-      class(march_observer_type), intent(inout) :: observer
-      type(error_type), allocatable, intent(out) :: error
-      real(wp) :: values(model%n + model%outputs), reached, t
-      reached = integrator%time()
-      do while (next < plan%count)
-         if (plan%time(next) > reached .and. reached < t_end) return
-         ! the last sample may lie a rounding error past the end
-         t = min(plan%time(next), reached)
-         call integrator%interpolate(t, values)
-         call observer%sample(t, values(:model%n), values(model%n + 1:), error)
-         if (allocated(error) .or. observer%satisfied) return
-         next = next + 1
-      end do
-   end subroutine give_samples
 
    function stopped_at(t, steps) result(context)
       real(wp), intent(in) :: t

@@ -4,12 +4,12 @@
 module linear_bearing
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
-   use linear_algebra, only: zgesv
+   use linear_algebra, only: solve_complex
    use errors, only: error_type, raise, numerics_error
    use state_layout, only: tilt, of_journal
    use equations_of_motion, only: machine_model
-   use mode_names, only: mode_name, mode_name_length, position_lengths, at_stations
-   use force_balance, only: force_derivatives, bearing_derivatives, add_sticking, masses, find_vibrations
+   use force_balance, only: mode_name, mode_name_length, position_lengths, at_stations, force_derivatives, &
+      & bearing_derivatives, add_sticking, masses, find_vibrations
    use operating_point, only: operating_point_type
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
@@ -185,26 +185,17 @@ contains
       real(wp), intent(in) :: ratio, speed
       real(wp), intent(out) :: stiffness(of_journal, of_journal), damping(of_journal, of_journal)
       logical, intent(out) :: ok
-      complex(wp), allocatable :: z(:, :), of_pads(:, :), response(:, :)
+      complex(wp), allocatable :: z(:, :), response(:, :)
       complex(wp) :: left(of_journal, of_journal)
       real(wp) :: frequency
-      integer, allocatable :: kept(:), pivots(:)
-      integer :: info, n
+      integer, allocatable :: kept(:)
       kept = pack(places, self%moves(places))
       frequency = max(slowest, ratio)*speed
       z = cmplx(self%stiffness(kept, kept) - frequency**2*self%mass(kept, kept), &
          & frequency*self%damping(kept, kept), wp)
-      n = size(kept) - of_journal
-      left = z(:of_journal, :of_journal)
-      info = 0
-      if (n > 0) then
-         allocate (pivots(n))
-         of_pads = z(of_journal + 1:, of_journal + 1:)
-         response = z(of_journal + 1:, :of_journal)
-         call zgesv(n, of_journal, of_pads, n, pivots, response, n, info)
-         left = left - matmul(z(:of_journal, of_journal + 1:), response)
-      end if
-      ok = info == 0
+      response = z(of_journal + 1:, :of_journal)
+      call solve_complex(size(response, 1), of_journal, z(of_journal + 1:, of_journal + 1:), response, ok)
+      left = z(:of_journal, :of_journal) - matmul(z(:of_journal, of_journal + 1:), response)
       stiffness = left%re
       damping = left%im/frequency
    end subroutine condense
@@ -232,7 +223,8 @@ contains
       allocate (modes%eigenvalue(n), modes%shape(size(bearing%moves), n))
       modes%shape = 0
       do i = 1, n
-         next = least(ratio, abs(values), waiting)
+         ! the one of least ratio, and of these the one of least size
+         next = minloc(abs(values), dim=1, mask=waiting .and. ratio <= minval(ratio, mask=waiting))
          waiting(next) = .false.
          modes%eigenvalue(i) = values(next)
          modes%shape(kept, i) = normalised(shapes(:, next), lengths(kept))
@@ -262,15 +254,6 @@ contains
       stiffness(2, 1) = stiffness(2, 1) - cross_stiffness
       call find_vibrations(bearing%mass(kept, kept), -stiffness, -bearing%damping(kept, kept), values, ok, shapes)
    end subroutine rotor_eigenvalues
-
-   !> The one of least ratio, and of these the one of least size.
-   pure integer function least(ratio, length, waiting)
-      real(wp), intent(in) :: ratio(:), length(:)
-      logical, intent(in) :: waiting(:)
-      real(wp) :: lowest
-      lowest = minval(ratio, mask=waiting)
-      least = minloc(length, dim=1, mask=waiting .and. ratio <= lowest)
-   end function least
 
    !> 1 where nothing moves.
    elemental real(wp) function damping_ratio(value)
@@ -308,8 +291,8 @@ contains
          found%shapes = 0
          found%of_reduction = 0
          do i = 1, pivots
-            call whirl(model, coefficients%with_rotor(i), found%unbalance(:, :, i), ok)
-            if (ok) call reduce(model, coefficients%bearings(i), found%synchronous(i), ok)
+            call whirl(coefficients%with_rotor(i), found%unbalance(:, :, i))
+            if (ok) call reduce(coefficients%bearings(i), found%synchronous(i))
             if (.not. ok) then
                call raise(error, numerics_error, 'the linear equations of the rotor with ' &
                   & //trim(coefficients%with_rotor(i)%pivot)//' pivots are singular')
@@ -322,6 +305,66 @@ contains
             end do
          end do
       end associate
+
+   contains
+
+      !> The steady whirl under the unbalance: (K + i Omega C - Omega^2 M) x = f.
+      subroutine whirl(linear, stations)
+         type(linear_bearing_type), intent(in) :: linear
+         complex(wp), intent(out) :: stations(:, :)
+         complex(wp), allocatable :: z(:, :), x(:), positions(:)
+         type(operating_point_type) :: point
+         real(wp) :: turning(model%rotor%positions), speed
+         integer, allocatable :: kept(:)
+         integer :: i
+         speed = model%point%speed(0.0_wp)
+         kept = pack([(i, i=1, size(linear%moves))], linear%moves)
+         z = cmplx(linear%stiffness(kept, kept) - speed**2*linear%mass(kept, kept), &
+            & speed*linear%damping(kept, kept), wp)
+         allocate (positions(size(linear%moves)))
+         positions = 0
+         point = operating_point_type(model%inputs)
+         point%speed_rpm = model%point%speed_rpm
+         point%acceleration = 0
+         if (allocated(point%excitations)) deallocate (point%excitations)
+         associate (n => model%rotor%positions)
+            ! f = Re(F exp(i phi)): F from f at phi = 0 and from df/dt = Re(i Omega F) there
+            turning = model%rotor%turn(point, 0.0_wp)/speed
+            positions(:n) = cmplx(model%rotor%force(spread(0.0_wp, 1, 2*n), point, 0.0_wp) &
+               & - model%rotor%force(spread(0.0_wp, 1, 2*n), point%static(), 0.0_wp), -turning, wp)
+         end associate
+         x = positions(kept)
+         call solve_complex(size(kept), 1, z, x, ok)
+         positions = 0
+         positions(kept) = x
+         stations = at_stations(model, positions)
+      end subroutine whirl
+
+      !> The modes of the rotor on the stiffness and damping of bearings at the synchronous frequency.
+      subroutine reduce(bearings, modes)
+         type(linear_bearing_type), intent(in) :: bearings
+         type(vibration_modes_type), intent(out) :: modes
+         type(linear_bearing_type) :: linear
+         real(wp) :: stiffness(2, 2), damping(2, 2)
+         integer :: b, n
+         n = model%rotor%positions
+         linear%pivot = bearings%pivot
+         linear%mass = model%rotor%masses()
+         allocate (linear%stiffness(n, n), linear%damping(n, n))
+         allocate (linear%moves(n), source=.true.)
+         call model%rotor%force_derivatives(model%point%speed(0.0_wp), linear%stiffness, linear%damping)
+         linear%stiffness = -linear%stiffness
+         linear%damping = -linear%damping
+         do b = 1, size(model%bearings)
+            associate (of => model%layout%elements(b), at => model%layout%elements(b)%journal)
+               call bearings%condense(of%all_positions(), 1.0_wp, model%point%speed(0.0_wp), stiffness, damping, ok)
+               if (.not. ok) return
+               linear%stiffness(at, at) = linear%stiffness(at, at) + stiffness
+               linear%damping(at, at) = linear%damping(at, at) + damping
+            end associate
+         end do
+         call find_modes(linear, 0.0_wp, spread(1.0_wp, 1, n), modes, ok)
+      end subroutine reduce
    end subroutine find_rotor_response
 
    !> Part of the damping of a mode that the reduction gives to the high modes of the shaft: the power of this damping
@@ -338,66 +381,4 @@ contains
             & 2*abs(eigenvalue%re)*real(dot_product(shape, matmul(linear%mass, shape))))
       end select
    end function part_of_reduction
-
-   !> The steady whirl under the unbalance: (K + i Omega C - Omega^2 M) x = f.
-   subroutine whirl(model, linear, stations, ok)
-      type(machine_model), intent(in) :: model
-      type(linear_bearing_type), intent(in) :: linear
-      complex(wp), intent(out) :: stations(:, :)
-      logical, intent(out) :: ok
-      complex(wp), allocatable :: z(:, :), x(:), positions(:)
-      type(operating_point_type) :: point
-      real(wp) :: turning(model%rotor%positions), speed
-      integer, allocatable :: kept(:), pivots(:)
-      integer :: i, info
-      speed = model%point%speed(0.0_wp)
-      kept = pack([(i, i=1, size(linear%moves))], linear%moves)
-      z = cmplx(linear%stiffness(kept, kept) - speed**2*linear%mass(kept, kept), speed*linear%damping(kept, kept), wp)
-      allocate (positions(size(linear%moves)), pivots(size(kept)))
-      positions = 0
-      point = operating_point_type(model%inputs)
-      point%speed_rpm = model%point%speed_rpm
-      point%acceleration = 0
-      if (allocated(point%excitations)) deallocate (point%excitations)
-      associate (n => model%rotor%positions)
-         ! f = Re(F exp(i phi)): F from f at phi = 0 and from df/dt = Re(i Omega F) there
-         turning = model%rotor%turn(point, 0.0_wp)/speed
-         positions(:n) = cmplx(model%rotor%force(spread(0.0_wp, 1, 2*n), point, 0.0_wp) &
-            & - model%rotor%force(spread(0.0_wp, 1, 2*n), point%static(), 0.0_wp), -turning, wp)
-      end associate
-      x = positions(kept)
-      call zgesv(size(kept), 1, z, size(kept), pivots, x, size(kept), info)
-      ok = info == 0
-      positions = 0
-      positions(kept) = x
-      stations = at_stations(model, positions)
-   end subroutine whirl
-
-   !> The modes of the rotor on the stiffness and damping of bearings at the synchronous frequency.
-   subroutine reduce(model, bearings, modes, ok)
-      type(machine_model), intent(in) :: model
-      type(linear_bearing_type), intent(in) :: bearings
-      type(vibration_modes_type), intent(out) :: modes
-      logical, intent(out) :: ok
-      type(linear_bearing_type) :: linear
-      real(wp) :: stiffness(2, 2), damping(2, 2)
-      integer :: b, n
-      n = model%rotor%positions
-      linear%pivot = bearings%pivot
-      linear%mass = model%rotor%masses()
-      allocate (linear%stiffness(n, n), linear%damping(n, n))
-      allocate (linear%moves(n), source=.true.)
-      call model%rotor%force_derivatives(model%point%speed(0.0_wp), linear%stiffness, linear%damping)
-      linear%stiffness = -linear%stiffness
-      linear%damping = -linear%damping
-      do b = 1, size(model%bearings)
-         associate (of => model%layout%elements(b), at => model%layout%elements(b)%journal)
-            call bearings%condense(of%all_positions(), 1.0_wp, model%point%speed(0.0_wp), stiffness, damping, ok)
-            if (.not. ok) return
-            linear%stiffness(at, at) = linear%stiffness(at, at) + stiffness
-            linear%damping(at, at) = linear%damping(at, at) + damping
-         end associate
-      end do
-      call find_modes(linear, 0.0_wp, spread(1.0_wp, 1, n), modes, ok)
-   end subroutine reduce
 end module linear_bearing

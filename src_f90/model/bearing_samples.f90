@@ -1,7 +1,7 @@
 !> What is sampled of bearings and other elements in a motion.
 module bearing_samples
    use kinds, only: wp
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, of_journal
    use tilting_pad, only: pad_coordinates_type
    use tilting_pad_bearing, only: pad_sample, pad_outputs
@@ -41,7 +41,7 @@ contains
          if (.not. allocated(sample%states)) allocate (sample%states(of%pads), sample%loads(of%pads))
          sample%states(:) = of%pad_states(y)
          call bearing%take_samples(sample%journal, sample%states, sample%speed, &
-            & output(pad_outputs*of%other_pads + 1:pad_outputs*(of%other_pads + of%pads)), sample%loads)
+            & output(pad_outputs*(of%first_pad - 1) + 1:pad_outputs*of%last_pad), sample%loads)
       end associate
    end subroutine take_sample
 

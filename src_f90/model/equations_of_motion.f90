@@ -2,12 +2,13 @@
 !> their linearisation.
 module equations_of_motion
    use kinds, only: wp
+   use errors, only: asked_to_stop
    use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use oil_properties, only: reference_viscosity
    use film_solver, only: film_oil
    use tilting_pad_bearing, only: tilting_pad_bearing_type, new_tilting_pad_bearing, pad_outputs
-   use abstract_rotor, only: rotor_type, journal_motion
+   use rigid_rotor, only: rotor_type, journal_motion
    use rotor_factory, only: make_rotor
    use ode_model, only: ode_model_type
    use viscosity_history, only: viscosity_history_type
@@ -31,6 +32,8 @@ module equations_of_motion
       type(viscosity_history_type) :: oil_history
       !> Characteristic scale of each state.
       real(wp), allocatable :: scale(:)
+      !> Asked by searches between evaluations of the films whether they are to be given up, where it is set.
+      procedure(asked_to_stop), pointer, nopass :: give_up => null()
       type(newton_system_type), private :: newton
    contains
       procedure :: rhs
@@ -171,7 +174,9 @@ contains
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
       real(wp) :: y(self%n)
-      y(:self%rotor%states) = self%rotor%with_journals([journal])
+      y(:self%rotor%states) = 0
+      y(:of_journal) = journal%position
+      y(self%rotor%positions + 1:self%rotor%positions + of_journal) = journal%velocity
       call self%layout%put_all_pads(pads, y)
    end function state
 
@@ -213,34 +218,22 @@ contains
       logical, intent(in) :: want_derivatives
       logical, intent(out) :: ok
       logical, intent(in), optional :: chosen(:)
-      call evaluate_these(self, self%elements(), t, y, want_derivatives, ok, chosen)
-   end subroutine evaluate
-
-   !> The same with all elements given.
-   subroutine evaluate_these(self, elements, t, y, want_derivatives, ok, chosen)
-      class(machine_model), intent(inout), target :: self
-      type(element_pointer), intent(in) :: elements(:)
-      real(wp), intent(in) :: t, y(:)
-      logical, intent(in) :: want_derivatives
-      logical, intent(out) :: ok
-      logical, intent(in), optional :: chosen(:)
+      type(element_pointer) :: elements(size(self%layout%elements))
+      !> Not allocated: all.
+      logical, allocatable :: chosen_here(:)
       integer :: e
+      elements = self%elements()
       if (self%oil_history%runs()) call self%oil_history%at(t, self%oil%viscosity)
       do e = 1, size(elements)
-         associate (of => self%layout%elements(e), &
-            & first => self%layout%elements(e)%other_pads + 1, &
-            & last => self%layout%elements(e)%other_pads + self%layout%elements(e)%pads)
-            if (present(chosen)) then
-               call elements(e)%to%evaluate(self%rotor%journal(y(:self%rotor%states), of%pair()), of%pad_states(y), &
-                  & self%oil(first:last), self%point%speed(t), want_derivatives, self%refusal, ok, chosen(first:last))
-            else
-               call elements(e)%to%evaluate(self%rotor%journal(y(:self%rotor%states), of%pair()), of%pad_states(y), &
-                  & self%oil(first:last), self%point%speed(t), want_derivatives, self%refusal, ok)
-            end if
+         associate (of => self%layout%elements(e))
+            if (present(chosen)) chosen_here = chosen(of%first_pad:of%last_pad)
+            call elements(e)%to%evaluate(self%rotor%journal(y(:self%rotor%states), of%pair()), of%pad_states(y), &
+               & self%oil(of%first_pad:of%last_pad), self%point%speed(t), want_derivatives, self%refusal, ok, &
+               & chosen_here)
          end associate
          if (.not. ok) return
       end do
-   end subroutine evaluate_these
+   end subroutine evaluate
 
    !> Rates of all states at (t, y).
    subroutine rhs(self, t, y, dydt, ok)
@@ -248,10 +241,8 @@ contains
       real(wp), intent(in) :: t, y(:)
       real(wp), intent(out) :: dydt(:)
       logical, intent(out) :: ok
-      associate (elements => self%elements())
-         call evaluate_these(self, elements, t, y, .false., ok)
-         if (ok) call set_rates(self, elements, t, y, dydt)
-      end associate
+      call self%evaluate(t, y, .false., ok)
+      if (ok) call set_rates(self, self%elements(), t, y, dydt)
    end subroutine rhs
 
    !> Rates of all states at (t, y), where the elements were evaluated.
@@ -280,10 +271,8 @@ contains
       class(machine_model), intent(inout), target :: self
       real(wp), intent(in) :: t, y(:)
       logical, intent(out) :: ok
-      associate (elements => self%elements())
-         call evaluate_these(self, elements, t, y, .true., ok)
-         if (ok) call self%newton%linearize(self%rotor, elements, self%point%speed(t))
-      end associate
+      call self%evaluate(t, y, .true., ok)
+      if (ok) call self%newton%linearize(self%rotor, self%elements(), self%point%speed(t))
    end subroutine linearize
 
    !> b := (1 - gamma J)^(-1) b, with film and contact as linearised last and friction as evaluated last: Newton's
@@ -306,21 +295,11 @@ contains
       integer :: b
       do b = 1, size(self%bearings)
          associate (of => self%layout%elements(b))
-            output(pad_outputs*of%other_pads + 1:pad_outputs*(of%other_pads + of%pads)) &
-               & = bearing_output(self%bearings(b), of, correction)
+            output(pad_outputs*(of%first_pad - 1) + 1:pad_outputs*of%last_pad) &
+               & = self%bearings(b)%output(of, correction)
          end associate
       end do
    end function output
-
-   function bearing_output(bearing, layout, correction) result(output)
-      type(tilting_pad_bearing_type), intent(inout) :: bearing
-      type(element_layout_type), intent(in) :: layout
-      real(wp), intent(in) :: correction(:)
-      real(wp) :: output(pad_outputs*layout%pads)
-      real(wp), dimension(of_journal + layout%coordinates, layout%pads) :: of_positions, of_rates
-      call layout%changes(correction, of_positions, of_rates)
-      output = bearing%output(of_positions, of_rates)
-   end function bearing_output
 
    !> What may soon stop a motion from the state evaluated last, as a film that is nearly closed.
    function warning(self)

@@ -2,8 +2,8 @@
 !> last.
 module newton_system
    use kinds, only: wp
-   use linear_algebra, only: dgesv, identity
-   use abstract_rotor, only: rotor_type
+   use linear_algebra, only: solve_equations => solve, identity
+   use rigid_rotor, only: rotor_type
    use state_layout, only: state_layout_type, of_journal
    use abstract_element, only: element_type, element_pointer
    use bordered_system, only: bordered_matrix, new_bordered_matrix
@@ -112,7 +112,7 @@ contains
       do e = 1, size(elements)
          associate (of => self%layout%elements(e))
             do i = 1, of%parts
-               n = min(of%other_pads + i, size(bristle, 2))
+               n = min(of%first_pad + i - 1, size(bristle, 2))
                if (of%bristles) bristle(:, n) = bristle_of(elements(e)%to%bristle_slopes(i), gamma, b(of%bristle(i)))
                call put_part(self, e, elements(e)%to, i, gamma, x, bristle(:, n), u)
             end do
@@ -129,7 +129,7 @@ contains
          associate (of => self%layout%elements(e))
             if (.not. of%bristles) cycle
             do i = 1, of%pads
-               n = of%other_pads + i
+               n = of%first_pad + i - 1
                b(of%bristle(i)) = bristle(1, n) + bristle(2, n)*u(of%first_position(i))
             end do
          end associate
@@ -167,16 +167,11 @@ contains
       class(rotor_type), intent(in) :: rotor
       real(wp), intent(in) :: gamma
       logical, intent(out) :: ok
-      real(wp) :: a(self%rotor, self%rotor), inner(self%rotor - self%journals, self%rotor - self%journals)
-      integer :: pivots(size(inner, 1)), info
+      real(wp) :: a(self%rotor, self%rotor)
       a = rotor%newton_matrix(gamma, self%speed)
-      associate (n => self%journals, of => self%condensed)
-         inner = a(n + 1:, n + 1:)
-         of%inverse = identity(size(inner, 1))
-         info = 0
-         if (size(inner, 1) > 0) call dgesv(size(inner, 1), size(inner, 1), inner, size(inner, 1), pivots, &
-            & of%inverse, size(inner, 1), info)
-         ok = info == 0
+      associate (n => self%journals, inner => self%rotor - self%journals, of => self%condensed)
+         of%inverse = identity(inner)
+         call solve_equations(inner, inner, a(n + 1:, n + 1:), of%inverse, ok)
          if (.not. ok) return
          of%follow = matmul(of%inverse, a(n + 1:, :n))
          of%onto = matmul(a(:n, n + 1:), of%inverse)

@@ -3,8 +3,8 @@
 module newton_method
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop
-   use linear_algebra, only: dgesv
+   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop, asked
+   use linear_algebra, only: solve
    implicit none (type, external)
    private
    public :: branch_problem_type, place_part_type, branch_point_type, newton_options, correct, newton_iterations
@@ -188,6 +188,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp), intent(in), optional :: normal(:)
       real(wp), allocatable :: matrix(:, :), b(:, :)
+      !> The last correction and what is left of this one; the shortest up to now, and when this was looked at last.
       real(wp) :: before, left, best, best_before
       integer :: n, unknowns
       n = problem%n
@@ -197,7 +198,7 @@ contains
       best = huge(best)
       best_before = best
       do
-         call check_progress(options, point, best, best_before, error)
+         call check_progress()
          if (.not. allocated(error)) call take_step()
          if (allocated(error)) return
          left = point%correction
@@ -212,7 +213,26 @@ contains
 
    contains
 
+      !> Whether to go on: not where it is asked to stop, after too many iterations, or where the correction stays long.
+      subroutine check_progress()
+         if (asked(options%give_up)) then
+            call raise(error, stopped, 'asked to stop')
+         else if (point%iterations == options%max_iterations) then
+            call raise(error, numerics_error, 'Newton''s method stopped after '//to_text(point%iterations) &
+               & //' iterations at a correction of '//to_text(point%correction) &
+                  & //' of the characteristic scale of the states')
+         else if (point%iterations > 0 .and. mod(point%iterations, looked_at_iterations) == 0) then
+            if (best > max(longest, 0.5_wp*best_before)) then
+               call raise(error, numerics_error, 'Newton''s method does not converge: its correction is still ' &
+                  & //to_text(best)//' of the characteristic scale of the states after ' &
+                  & //to_text(point%iterations)//' iterations')
+            end if
+            best_before = best
+         end if
+      end subroutine check_progress
+
       subroutine take_step()
+         logical :: ok
          point%iterations = point%iterations + 1
          call problem%get_place(point%place)
          b = 0
@@ -222,7 +242,11 @@ contains
             matrix(n + 1, n + 1) = normal(n + 1)
             b(n + 1, 2) = 1
          end if
-         if (.not. allocated(error)) call solve(matrix, b, error)
+         if (.not. allocated(error)) then
+            call solve(unknowns, size(b, 2), matrix, b, ok)
+            if (ok) ok = all(abs(b) <= huge(b))
+            if (.not. ok) call raise(error, numerics_error, 'the equations have no solution')
+         end if
          if (.not. allocated(error) .and. present(normal)) then
             if (maxval(abs(b(:, 1))) > longest) call raise(error, numerics_error, 'the correction is ' &
                & //to_text(maxval(abs(b(:, 1))))//' of the characteristic scale of the states')
@@ -251,43 +275,4 @@ contains
       problem%parameter = point%parameter
       if (present(refusal)) call move_alloc(error, refusal)
    end subroutine return_to
-
-   !> Whether to go on: not where it is asked to stop, after too many iterations, or where the correction stays long.
-   subroutine check_progress(options, point, best, best_before, error)
-      class(newton_options), intent(in) :: options
-      type(branch_point_type), intent(in) :: point
-      !> Shortest correction up to now, and when this was asked last.
-      real(wp), intent(in) :: best
-      real(wp), intent(inout) :: best_before
-      type(error_type), allocatable, intent(out) :: error
-      logical :: stops
-      stops = associated(options%give_up)
-      if (stops) stops = options%give_up()
-      if (stops) then
-         call raise(error, stopped, 'asked to stop')
-      else if (point%iterations == options%max_iterations) then
-         call raise(error, numerics_error, 'Newton''s method stopped after '//to_text(point%iterations) &
-            & //' iterations at a correction of '//to_text(point%correction) &
-               & //' of the characteristic scale of the states')
-      else if (point%iterations > 0 .and. mod(point%iterations, looked_at_iterations) == 0) then
-         if (best > max(longest, 0.5_wp*best_before)) then
-            call raise(error, numerics_error, 'Newton''s method does not converge: its correction is still ' &
-               & //to_text(best)//' of the characteristic scale of the states after ' &
-               & //to_text(point%iterations)//' iterations')
-         end if
-         best_before = best
-      end if
-   end subroutine check_progress
-
-   !> b := matrix^(-1) b.
-   subroutine solve(matrix, b, error)
-      real(wp), intent(inout) :: matrix(:, :), b(:, :)
-      type(error_type), allocatable, intent(out) :: error
-      integer :: pivots(size(b, 1)), info
-      logical :: ok
-      call dgesv(size(b, 1), size(b, 2), matrix, size(b, 1), pivots, b, size(b, 1), info)
-      ok = info == 0
-      if (ok) ok = all(abs(b) <= huge(b))
-      if (.not. ok) call raise(error, numerics_error, 'the equations have no solution')
-   end subroutine solve
 end module newton_method

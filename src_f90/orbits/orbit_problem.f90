@@ -133,7 +133,10 @@ contains
       call self%ode%set(self%parameter, error)
       self%refused = allocated(error)
       if (self%refused) return
-      call set_period(self%orbit, self%period())
+      ! the same phases at another period
+      associate (orbit => self%orbit, last => self%orbit%time(self%orbit%intervals()))
+         if (abs(last - self%period()) > 0) orbit%time = orbit%time*(self%period()/last)
+      end associate
       call follow_switching_points(self%ode%model, self%orbit)
       if (size(matrix, 2) > self%n) then
          allocate (shift)
@@ -144,15 +147,6 @@ contains
       call condense(self%ode%model, self%orbit, self%equations, matrix, b, self%refused, error, shift)
       self%tangents = self%tangents + points*self%orbit%intervals()
    end subroutine linearize
-
-   !> The same phases at another period, s.
-   pure subroutine set_period(orbit, period)
-      type(orbit_type), intent(inout) :: orbit
-      real(wp), intent(in) :: period
-      associate (last => orbit%time(orbit%intervals()))
-         if (abs(last - period) > 0) orbit%time = orbit%time*(period/last)
-      end associate
-   end subroutine set_period
 
    !> The rates for another value of the parameter, at the same phases; the model is then as before.
    subroutine set_shift(self, shift, error)

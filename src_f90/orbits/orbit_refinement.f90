@@ -86,13 +86,62 @@ contains
          call move_alloc(closed%values, found%multipliers)
          found%errors = distances(found%multipliers, before%multipliers)
          closed%values = found%multipliers
-         changes = changes_by(problem, before, found%multipliers(1))
+         changes = changes_by()
          found%errors(1) = error_left(sum(changes), change)
          change = sum(changes)
          if (found%errors(1) <= allowed_error(found%multipliers(1))) return
-         chosen = chosen_intervals(problem, before, changes)
+         call choose_intervals()
          if (problem%orbit%intervals() + 3*count(chosen) > most .or. .not. any(chosen)) return
       end do
+
+   contains
+
+      !> By how much each interval of the mesh before changes the leading multiplier, mu, now that it is cut. To first
+      !> order this is w (Phi - Phi_before) v / (w v), with the left and the right eigenvector of mu that have come to
+      !> its end and to its start.
+      function changes_by() result(changes)
+         real(wp) :: changes(size(before%transition, 3))
+         real(wp), allocatable :: transition(:, :, :)
+         complex(wp), allocatable :: v(:, :), w(:, :)
+         integer, allocatable :: ends(:)
+         integer :: k, n
+         n = problem%orbit%intervals()
+         transition = problem%equations%transitions()
+         ends = same_ends()
+         allocate (v(problem%n, 0:n), w(problem%n, 0:n))
+         v(:, 0) = eigenvector(problem%orbit%monodromy, found%multipliers(1))
+         w(:, n) = eigenvector(transpose(problem%orbit%monodromy), found%multipliers(1))
+         do k = 1, n
+            v(:, k) = matmul(transition(:, :, k), v(:, k - 1))
+         end do
+         do k = n, 1, -1
+            w(:, k - 1) = matmul(w(:, k), transition(:, :, k))
+         end do
+         do k = 1, size(changes)
+            associate (first => ends(k), last => ends(k + 1))
+               changes(k) = abs(sum(w(:, last)*(v(:, last) - matmul(before%transition(:, :, k), v(:, first)))) &
+                  & /sum(w(:, n)*v(:, 0)))
+            end associate
+         end do
+      end function changes_by
+
+      !> The intervals in those of the mesh before that change the leading multiplier most: all others together change
+      !> it by less than the error that is allowed.
+      subroutine choose_intervals()
+         integer :: ends(size(before%time)), k
+         ends = same_ends()
+         deallocate (chosen)
+         allocate (chosen(problem%orbit%intervals()))
+         do k = 1, size(changes)
+            chosen(ends(k) + 1:ends(k + 1)) = .not. changes(k) < allowed/size(changes)
+         end do
+      end subroutine choose_intervals
+
+      !> The ends of intervals, from 0 on, that are nearest to those of the mesh before.
+      function same_ends() result(ends)
+         integer :: ends(size(before%time)), k
+         ends = [(minloc(abs(problem%orbit%time - before%time(k)), dim=1) - 1, k=1, size(ends))]
+      end function same_ends
    end subroutine close_on_meshes
 
    !> What is left of an error by a mesh that made a change, where the mesh before made another (0: none), as the limit
@@ -107,7 +156,7 @@ contains
    !> many intervals.
    subroutine linearize_along(problem, found, error)
       type(orbit_problem_type), intent(in) :: problem
-      type(refined_orbit_type), intent(out) :: found
+      type(refined_orbit_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       type(orbit_problem_type) :: along
       complex(wp), allocatable :: before(:)
@@ -174,60 +223,6 @@ contains
       integer :: i
       distances = [(minval(abs(numbers(i) - others)), i=1, size(numbers))]
    end function distances
-
-   !> By how much each interval of the mesh before changes the leading multiplier, mu, now that it is cut. To first
-   !> order this is w (Phi - Phi_before) v / (w v), with the left and the right eigenvector of mu that have come to its
-   !> end and to its start.
-   function changes_by(problem, before, mu) result(changes)
-      type(orbit_problem_type), intent(in) :: problem
-      type(mesh_type), intent(in) :: before
-      complex(wp), intent(in) :: mu
-      real(wp) :: changes(size(before%transition, 3))
-      real(wp), allocatable :: transition(:, :, :)
-      complex(wp), allocatable :: v(:, :), w(:, :)
-      integer, allocatable :: ends(:)
-      integer :: k, n
-      n = problem%orbit%intervals()
-      transition = problem%equations%transitions()
-      ends = same_ends(problem, before)
-      allocate (v(problem%n, 0:n), w(problem%n, 0:n))
-      v(:, 0) = eigenvector(problem%orbit%monodromy, mu)
-      w(:, n) = eigenvector(transpose(problem%orbit%monodromy), mu)
-      do k = 1, n
-         v(:, k) = matmul(transition(:, :, k), v(:, k - 1))
-      end do
-      do k = n, 1, -1
-         w(:, k - 1) = matmul(w(:, k), transition(:, :, k))
-      end do
-      do k = 1, size(changes)
-         associate (first => ends(k), last => ends(k + 1))
-            changes(k) = abs(sum(w(:, last)*(v(:, last) - matmul(before%transition(:, :, k), v(:, first)))) &
-               & /sum(w(:, n)*v(:, 0)))
-         end associate
-      end do
-   end function changes_by
-
-   !> The intervals in those of the mesh before that change the leading multiplier most: all others together change it
-   !> by less than the error that is allowed.
-   function chosen_intervals(problem, before, changes) result(chosen)
-      type(orbit_problem_type), intent(in) :: problem
-      type(mesh_type), intent(in) :: before
-      real(wp), intent(in) :: changes(:)
-      logical :: chosen(problem%orbit%intervals())
-      integer :: ends(size(before%time)), k
-      ends = same_ends(problem, before)
-      do k = 1, size(changes)
-         chosen(ends(k) + 1:ends(k + 1)) = .not. changes(k) < allowed/size(changes)
-      end do
-   end function chosen_intervals
-
-   !> The ends of intervals, from 0 on, that are nearest to those of the mesh before.
-   pure function same_ends(problem, before) result(ends)
-      type(orbit_problem_type), intent(in) :: problem
-      type(mesh_type), intent(in) :: before
-      integer :: ends(size(before%time)), k
-      ends = [(minloc(abs(problem%orbit%time - before%time(k)), dim=1) - 1, k=1, size(ends))]
-   end function same_ends
 
    !> The eigenvector of a matrix whose eigenvalue is nearest to mu.
    function eigenvector(matrix, mu) result(vector)

@@ -4,7 +4,7 @@ module periodic_orbit
    ! heap: arrays as long as a run
    use kinds, only: wp, i8, pi
    use text, only: to_text
-   use errors, only: error_type, add_context, numerics_error, asked_to_stop
+   use errors, only: error_type, add_context, numerics_error
    use marching, only: march_options
    use ode_model, only: integrator_counts_type
    use cvode_integrator, only: integrator_type
@@ -13,8 +13,8 @@ module periodic_orbit
    use newton_method, only: newton_options
    use orbit_refinement, only: refined_orbit_type, close_on_meshes, linearize_along
    use orbit_problem, only: parametric_ode_type, orbit_problem_type, begin_orbits
-   use orbit_march, only: march_period, mesh_options
-   use linear_algebra, only: zgesv, find_eigenvalues
+   use march_settings, only: march_period, mesh_options
+   use linear_algebra, only: solve_complex, find_eigenvalues
    use operating_point, only: operating_point_type
    implicit none (type, external)
    private
@@ -28,16 +28,14 @@ module periodic_orbit
    !> Largest amplitude of a displacement, over its scale: of a longer response only a part is taken.
    real(wp), parameter :: largest = 0.3_wp
 
-   type :: periodic_orbit_type
+   !> With the multipliers, their errors by the changes from mesh to mesh, and the iterations of Newton's method on the
+   !> meshes that closed the orbit.
+   type, extends(refined_orbit_type) :: periodic_orbit_type
       type(orbit_type) :: orbit
       !> Period, s.
       real(wp) :: period = 0
       !> How far the equations are from being satisfied, over the scales.
       real(wp) :: residual = huge(1.0_wp)
-      !> Eigenvalues of the monodromy matrix, that of largest modulus first.
-      complex(wp), allocatable :: multipliers(:)
-      !> Their errors, by the changes from mesh to mesh.
-      real(wp), allocatable :: errors(:)
       !> Whether Newton's method closed the orbit. Else it is a period of a march that repeats, and by how much the
       !> displacements change in a period, over the scales.
       logical :: closed = .true.
@@ -45,9 +43,7 @@ module periodic_orbit
       !> Periods marched, and what this cost.
       integer :: marched = 0
       type(integrator_counts_type) :: march
-      !> Iterations of Newton's method on the meshes that closed the orbit; evaluations of the equations with their
-      !> derivatives in all iterations.
-      integer :: iterations = 0
+      !> Evaluations of the equations with their derivatives in all iterations.
       integer(i8) :: evaluations = 0
    contains
       procedure :: counts
@@ -88,15 +84,14 @@ contains
    !> The periodic orbit that the motion from state y leads to; from a state in equilibrium, that to which the motion
    !> near the answer of the linearised equations to the unbalance leads. Where Newton's method does not close it from
    !> there, the motion from y itself as the case is marched. A numerics error where the march ends, or where it does
-   !> not repeat and Newton's method finds no orbit; one of status `stopped`, where `give_up` says so.
-   subroutine find_periodic_orbit(model, march, y, found, error, give_up)
+   !> not repeat and Newton's method finds no orbit; one of status `stopped`, where `give_up` of the model says so.
+   subroutine find_periodic_orbit(model, march, y, found, error)
       type(machine_model), intent(inout), target :: model
       !> Tolerances of a march; they choose the mesh.
       type(march_options), intent(in) :: march
       real(wp), intent(in) :: y(:)
       type(periodic_orbit_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       type(integrator_type) :: integrator
       type(march_options) :: options
       type(orbit_type) :: before
@@ -109,13 +104,14 @@ contains
       found%orbit%start = y
       found%orbit%scale = model%scale
       options = mesh_options(march, found%period/revolutions)
+      options%give_up => model%give_up
       near_by = .true.
       if (revolutions == 1) call go_to_response(model, found%orbit%start)
       call integrator%start(model, options, 0.0_wp, found%orbit%start, last_try*found%period, error)
       next_try = first_try
       do while (.not. allocated(error))
          before = found%orbit
-         call march_period(integrator, options, found%marched, found%period, found%orbit, error, give_up)
+         call march_period(integrator, options, found%marched, found%period, found%orbit, error)
          found%march = earlier + integrator%counts()
          if (.not. allocated(error)) then
             found%marched = found%marched + 1
@@ -123,7 +119,7 @@ contains
             if (found%marched < next_try .and. (found%evaluations > 0 .or. found%marched < fewest_periods &
                & .or. .not. nearly_closed(found%orbit, revolutions))) cycle
             next_try = 2*found%marched
-            call close_or_accept(model, before, repetition, found, error, give_up)
+            call close_or_accept()
             if (.not. allocated(error)) return
             if (next_try > last_try) call add_context(error, repetition%cause(revolutions))
             near_by = near_by .and. next_try <= last_try
@@ -138,25 +134,39 @@ contains
          near_by = .false.
          earlier = found%march
          repetition = march_repetition_type()
-         call start_march(integrator, model, march, y, found, options, error)
+         call start_march()
       end do
       call add_context(error, 'no periodic orbit was found: after '//to_text(found%marched)//' periods')
-   end subroutine find_periodic_orbit
 
-   !> Starts at state y as the case is marched.
-   subroutine start_march(integrator, model, march, y, found, options, error)
-      type(integrator_type), intent(inout) :: integrator
-      type(machine_model), intent(inout), target :: model
-      type(march_options), intent(in) :: march
-      real(wp), intent(in) :: y(:)
-      type(periodic_orbit_type), intent(in) :: found
-      type(march_options), intent(inout) :: options
-      type(error_type), allocatable, intent(out) :: error
-      options%relative_tolerance = march%relative_tolerance
-      options%absolute_tolerance = march%absolute_tolerance
-      options%max_steps = march%max_steps - found%march%steps
-      call integrator%start(model, options, found%marched*found%period, y, last_try*found%period, error)
-   end subroutine start_march
+   contains
+
+      !> Starts at state y as the case is marched.
+      subroutine start_march()
+         options%relative_tolerance = march%relative_tolerance
+         options%absolute_tolerance = march%absolute_tolerance
+         options%max_steps = march%max_steps - found%march%steps
+         call integrator%start(model, options, found%marched*found%period, y, last_try*found%period, error)
+      end subroutine start_march
+
+      !> Closes the last period of a march by Newton's method, or its mean with the period before where these are far
+      !> from each other. Where that fails, but the march repeats this period, it is the orbit.
+      subroutine close_or_accept()
+         type(orbit_type) :: marched
+         marched = found%orbit
+         if (.not. nearly_closed(marched, revolutions)) then
+            ! a motion that alternates between two orbits does so about an unstable one of one period
+            call before%change_mesh(found%orbit%time)
+            found%orbit%at = 0.5_wp*(found%orbit%at + before%at)
+            found%orbit%start = 0.5_wp*(found%orbit%start + before%start)
+         end if
+         call close_orbit(model, found, error)
+         if (.not. allocated(error)) return
+         found%orbit = marched
+         if (error%status /= numerics_error .or. found%marched < first_try .or. .not. repetition%repeats(1)) return
+         found%change = repetition%change(1)
+         call follow_march(model, found, error)
+      end subroutine close_or_accept
+   end subroutine find_periodic_orbit
 
    !> Whether an orbit is so close to itself a period later that Newton's method may begin.
    pure logical function nearly_closed(orbit, revolutions)
@@ -164,26 +174,6 @@ contains
       integer, intent(in) :: revolutions
       nearly_closed = maxval(abs(orbit%gap())) <= merge(small_change, small_change_of_several, revolutions == 1)
    end function nearly_closed
-
-   !> Closes the last period of a march by Newton's method, or its mean with the period before where these are far from
-   !> each other. Where that fails, but the march repeats this period, it is the orbit.
-   subroutine close_or_accept(model, before, repetition, found, error, give_up)
-      type(machine_model), intent(inout), target :: model
-      type(orbit_type), intent(inout) :: before
-      type(march_repetition_type), intent(in) :: repetition
-      type(periodic_orbit_type), intent(inout) :: found
-      type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
-      type(orbit_type) :: marched
-      marched = found%orbit
-      if (.not. nearly_closed(marched, model%inputs%periodic%revolutions)) call average(found%orbit, before)
-      call close_orbit(model, found, error, give_up)
-      if (.not. allocated(error)) return
-      found%orbit = marched
-      if (error%status /= numerics_error .or. found%marched < first_try .or. .not. repetition%repeats(1)) return
-      found%change = repetition%change(1)
-      call follow_march(model, found, error)
-   end subroutine close_or_accept
 
    !> What the march and Newton's method cost together.
    pure type(integrator_counts_type) function counts(self)
@@ -193,49 +183,44 @@ contains
       counts%jacobian_evaluations = counts%jacobian_evaluations + self%evaluations
    end function counts
 
-   !> Puts an orbit half way to that of the period before: a motion that alternates between two does so about an
-   !> unstable orbit of one period.
-   pure subroutine average(orbit, before)
-      type(orbit_type), intent(inout) :: orbit
-      type(orbit_type), intent(inout) :: before
-      call before%change_mesh(orbit%time)
-      orbit%at = 0.5_wp*(orbit%at + before%at)
-      orbit%start = 0.5_wp*(orbit%start + before%start)
-   end subroutine average
-
    !> Newton's method on the collocation of an orbit.
-   subroutine close_orbit(model, found, error, give_up)
+   subroutine close_orbit(model, found, error)
       type(machine_model), intent(inout), target :: model
       type(periodic_orbit_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       type(parametric_ode_type), target :: ode
       type(orbit_problem_type) :: problem
       type(newton_options) :: newton
-      type(refined_orbit_type) :: refined
       associate (given => model%inputs%periodic)
          newton = newton_options(given%tolerance, given%max_iterations)
-         if (present(give_up)) newton%give_up => give_up
+         newton%give_up => model%give_up
          if (found%marched < first_try) newton%max_iterations = min(newton%max_iterations, early_rounds)
-         ode%model => model
-         ode%period = found%period/given%revolutions
-         call begin_orbits(problem, ode, found%orbit, given%revolutions)
       end associate
+      call begin_problem(model, found, ode, problem)
       problem%longest = longest
-      call close_on_meshes(problem, newton, longest_interval(model, found%orbit%start, found%period), refined, error)
-      found%iterations = refined%iterations
+      call close_on_meshes(problem, newton, longest_interval(model, found%orbit%start, found%period), &
+         & found%refined_orbit_type, error)
       found%evaluations = found%evaluations + problem%tangents
       if (allocated(error)) then
-         if (refined%exhausted .and. newton%max_iterations == model%inputs%periodic%max_iterations) then
+         if (found%exhausted .and. newton%max_iterations == model%inputs%periodic%max_iterations) then
             call add_context(error, 'periodic%max_iterations')
          end if
          return
       end if
       found%orbit = problem%orbit
-      call move_alloc(refined%multipliers, found%multipliers)
-      call move_alloc(refined%errors, found%errors)
       found%residual = problem%residual()
    end subroutine close_orbit
+
+   !> The problem of an orbit of a model, of this ODE.
+   subroutine begin_problem(model, found, ode, problem)
+      type(machine_model), intent(inout), target :: model
+      type(periodic_orbit_type), intent(in) :: found
+      type(parametric_ode_type), intent(inout), target :: ode
+      type(orbit_problem_type), intent(out) :: problem
+      ode%model => model
+      ode%period = found%period/model%inputs%periodic%revolutions
+      call begin_orbits(problem, ode, found%orbit, model%inputs%periodic%revolutions)
+   end subroutine begin_problem
 
    !> Takes the last period of a march that repeats as the orbit, with the multipliers along it.
    subroutine follow_march(model, found, error)
@@ -244,16 +229,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(parametric_ode_type), target :: ode
       type(orbit_problem_type) :: problem
-      type(refined_orbit_type) :: refined
-      ode%model => model
-      ode%period = found%period/model%inputs%periodic%revolutions
-      call begin_orbits(problem, ode, found%orbit, model%inputs%periodic%revolutions)
-      call linearize_along(problem, refined, error)
+      call begin_problem(model, found, ode, problem)
+      call linearize_along(problem, found%refined_orbit_type, error)
       found%evaluations = found%evaluations + problem%tangents
       if (allocated(error)) return
       found%closed = .false.
-      call move_alloc(refined%multipliers, found%multipliers)
-      call move_alloc(refined%errors, found%errors)
       found%residual = problem%residual()
    end subroutine follow_march
 
@@ -295,7 +275,7 @@ contains
       type(operating_point_type) :: point, free
       complex(wp) :: matrix(model%n, model%n), response(model%n, 2)
       real(wp) :: rates(model%n, 0:2), jacobian(model%n, model%n), speed, amplitude
-      integer :: pivots(model%n), info, i
+      integer :: i
       logical :: ok
       point = model%point
       speed = point%speed(0.0_wp)
@@ -317,8 +297,8 @@ contains
          matrix(:, i) = -jacobian(:, i)*model%scale(i)/(speed*model%scale)
          matrix(i, i) = matrix(i, i) + (0.0_wp, 1.0_wp)
       end do
-      call zgesv(model%n, 2, matrix, model%n, pivots, response, model%n, info)
-      if (info /= 0 .or. .not. all(abs(response) <= huge(speed))) return
+      call solve_complex(model%n, 2, matrix, response, ok)
+      if (.not. (ok .and. all(abs(response) <= huge(speed)))) return
       if (maxval(abs(response(:, 1))) > still) return
       amplitude = maxval(abs(response(model%layout%positions(), 2)))
       y = y + model%scale*response(:, 2)%re*largest/max(largest, amplitude)

@@ -4,7 +4,7 @@ module coefficient_results
    use kinds, only: wp, pi
    use record, only: record_type
    use summary_group, only: put_figure
-   use mode_names, only: mode_name_length
+   use force_balance, only: mode_name_length
    use state_layout, only: element_layout_type
    use linear_bearing, only: bearing_coefficients_type, vibration_modes_type, rotor_response_type
    implicit none (type, external)

@@ -7,7 +7,7 @@ module equilibrium_results
    use case_inputs, only: case_type
    use heat_balance, only: oil_temperatures_type
    use film_network, only: warm_films_type
-   use film_conduction, only: solid_layers
+   use film_energy, only: solid_layers
    use film_oils, only: film_oil, uneven_oil, weights_degree, polynomials
    use bearing_shape, only: bearing_shape_type
    use bearing_numbers, only: load, specific_load, sommerfeld_number

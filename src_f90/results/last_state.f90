@@ -7,7 +7,7 @@ module last_state
    use growing_file, only: growing_file_type
    use case_groups, only: bearing_type
    use case_inputs, only: case_type
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, element_layout_type
    use tilting_pad, only: pad_coordinates_type, new_pad_coordinates
    use equations_of_motion, only: machine_model
@@ -55,7 +55,7 @@ contains
          do b = 1, size(model%bearings)
             associate (own => model%layout%elements(b))
                call read_states(file, bearing_group(inputs%bearings(b)), model%bearings(b)%coordinates, own%bristles, &
-                  & at, journal, pads(own%other_pads + 1:own%other_pads + own%pads))
+                  & at, journal, pads(own%first_pad:own%last_pad))
             end associate
          end do
          if (inputs%rotor%is_rigid()) then

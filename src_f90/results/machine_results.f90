@@ -5,7 +5,7 @@ module machine_results
    use record, only: record_type
    use case_inputs, only: case_type
    use case_groups, only: bearing_type, shaft_type
-   use abstract_rotor, only: rotor_type
+   use rigid_rotor, only: rotor_type
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
    private

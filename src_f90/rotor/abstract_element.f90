@@ -6,17 +6,20 @@
 module abstract_element
    use kinds, only: wp
    use film_oils, only: film_oil
-   use abstract_rotor, only: journal_motion
-   use state_layout, only: element_layout_type, pad_state, of_journal
+   use rigid_rotor, only: journal_motion
+   use state_layout, only: element_layout_type, new_element_layout, pad_state, of_journal
    implicit none (type, external)
    private
    public :: element_type, element_slot, element_pointer
 
+   !> As it is, without displacements of its own.
    type, abstract :: element_type
+      !> Force on the pair in the state evaluated last, N.
+      real(wp), private :: force(of_journal) = 0
    contains
-      procedure(layout), deferred :: layout
-      procedure(evaluate), deferred :: evaluate
-      procedure(add_force), deferred :: add_force
+      procedure :: layout
+      procedure :: evaluate
+      procedure :: add_force
       procedure(part_derivatives), deferred :: part_derivatives
       procedure :: add_late
       procedure :: bristle_slopes
@@ -46,36 +49,6 @@ module abstract_element
    end type element_pointer
 
    abstract interface
-      !> Its parts and their displacements.
-      pure type(element_layout_type) function layout(self)
-         import :: element_type, element_layout_type
-         class(element_type), intent(in) :: self
-      end function layout
-
-      !> Sets the forces in a state and, where they are wanted, their derivatives: with the motion of its pair, the
-      !> states of its parts, the oil of each, and the speed of the rotor, rad/s. Where it refuses a state, `refusal`
-      !> says why. Forces of parts that are not chosen stay what they are.
-      subroutine evaluate(self, journal, pads, oil, speed, want_derivatives, refusal, ok, chosen)
-         import :: element_type, journal_motion, pad_state, film_oil, wp
-         class(element_type), intent(inout) :: self
-         type(journal_motion), intent(in) :: journal
-         type(pad_state), intent(in) :: pads(:)
-         type(film_oil), intent(in) :: oil(:)
-         real(wp), intent(in) :: speed
-         logical, intent(in) :: want_derivatives
-         character(len=:), allocatable, intent(inout) :: refusal
-         logical, intent(out) :: ok
-         !> Left out: all.
-         logical, intent(in), optional :: chosen(:)
-      end subroutine evaluate
-
-      !> Adds its force on the pair, N, in the state evaluated last.
-      pure subroutine add_force(self, force)
-         import :: element_type, wp, of_journal
-         class(element_type), intent(in) :: self
-         real(wp), intent(inout) :: force(of_journal)
-      end subroutine add_force
-
       !> What a part adds to the derivatives of the forces on the pair and along its own n displacements, over these
       !> displacements and over their rates, as they were taken last and without what add_late adds: m = 2 + n.
       pure subroutine part_derivatives(self, part, m, accelerations, over_positions, over_rates)
@@ -89,6 +62,37 @@ module abstract_element
    end interface
 
 contains
+
+   !> Its parts and their displacements.
+   pure type(element_layout_type) function layout(self)
+      class(element_type), intent(in) :: self
+      layout = new_element_layout(0, [integer ::], .false.)
+   end function layout
+
+   !> Sets the forces in a state and, where they are wanted, their derivatives: with the motion of its pair, the
+   !> states of its parts, the oil of each, and the speed of the rotor, rad/s. Where it refuses a state, `refusal`
+   !> says why. Forces of parts that are not chosen stay what they are.
+   subroutine evaluate(self, journal, pads, oil, speed, want_derivatives, refusal, ok, chosen)
+      class(element_type), intent(inout) :: self
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: pads(:)
+      type(film_oil), intent(in) :: oil(:)
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: want_derivatives
+      character(len=:), allocatable, intent(inout) :: refusal
+      logical, intent(out) :: ok
+      !> Left out: all.
+      logical, intent(in), optional :: chosen(:)
+      self%force = self%sampled_force(journal, pads, speed)
+      ok = .true.
+   end subroutine evaluate
+
+   !> Adds its force on the pair, N, in the state evaluated last.
+   pure subroutine add_force(self, force)
+      class(element_type), intent(in) :: self
+      real(wp), intent(inout) :: force(of_journal)
+      force = force + self%force
+   end subroutine add_force
 
    !> Adds to such derivatives what acts as evaluated last, not as linearised last: friction; and gives what bristles
    !> do to the part's own rows, per deflection.

@@ -1,10 +1,10 @@
 !> A shaft that bends in several bearings, by the matrices of its equations on its journals.
 module elastic_rotor
    use kinds, only: wp
-   use linear_algebra, only: dgesv, identity
+   use linear_algebra, only: solve, identity
    use operating_point, only: operating_point_type
-   use rotor_matrices, only: rotor_matrices_type
-   use abstract_rotor, only: rotor_type
+   use rotor_reduction, only: rotor_matrices_type
+   use rigid_rotor, only: rotor_type
    implicit none (type, external)
    private
    public :: elastic_rotor_type, new_elastic_rotor
@@ -42,18 +42,20 @@ contains
       real(wp), intent(in) :: unbalance
       type(elastic_rotor_type), intent(out) :: rotor
       logical, intent(out) :: ok
-      real(wp), allocatable :: bent(:, :)
+      real(wp), allocatable :: bent(:)
       rotor%matrices = matrices
       rotor%unbalance = unbalance
       rotor%journals = matrices%journals
       rotor%positions = size(matrices%load)
       rotor%states = 2*rotor%positions
       rotor%stations = size(matrices%station, 1)/2
-      call solve(matrices%mass, identity(rotor%positions), rotor%per_mass, ok)
+      rotor%per_mass = identity(rotor%positions)
+      call solve(rotor%positions, rotor%positions, matrices%mass, rotor%per_mass, ok)
       if (.not. ok) return
       associate (n => 2*rotor%journals, f => matrices%load, k => matrices%stiffness)
-         call solve(k(n + 1:, n + 1:), reshape(f(n + 1:), [size(f) - n, 1]), bent, ok)
-         if (ok) rotor%borne = reshape(f(:n) - matmul(k(:n, n + 1:), bent(:, 1)), [2, rotor%journals])
+         bent = f(n + 1:)
+         call solve(size(bent), 1, k(n + 1:, n + 1:), bent, ok)
+         if (ok) rotor%borne = reshape(f(:n) - matmul(k(:n, n + 1:), bent), [2, rotor%journals])
       end associate
    end subroutine new_elastic_rotor
 
@@ -204,19 +206,4 @@ contains
       real(wp) :: accelerations(self%positions, size(rows, 2))
       accelerations = matmul(self%per_mass(:, 2*journal - 1:2*journal), rows)
    end function row_accelerations
-
-   !> x of a x = b; `ok` is false where a is singular, and x is 0 then.
-   subroutine solve(a, b, x, ok)
-      real(wp), intent(in) :: a(:, :), b(:, :)
-      real(wp), allocatable, intent(out) :: x(:, :)
-      logical, intent(out) :: ok
-      real(wp) :: factors(size(a, 1), size(a, 1))
-      integer :: pivots(size(a, 1)), info
-      factors = a
-      x = b
-      info = 0
-      if (size(a) > 0) call dgesv(size(a, 1), size(b, 2), factors, size(a, 1), pivots, x, size(a, 1), info)
-      ok = info == 0
-      if (.not. ok) x = 0
-   end subroutine solve
 end module elastic_rotor

@@ -3,9 +3,8 @@
 !> well be part of the rotor's matrices, where it costs nothing in a motion: a support is.
 module linear_element
    use kinds, only: wp
-   use film_oils, only: film_oil
-   use abstract_rotor, only: journal_motion
-   use state_layout, only: element_layout_type, new_element_layout, pad_state, of_journal
+   use rigid_rotor, only: journal_motion
+   use state_layout, only: pad_state, of_journal
    use abstract_element, only: element_type
    use case_groups, only: bearing_type, support_type
    implicit none (type, external)
@@ -15,44 +14,13 @@ module linear_element
    type, extends(element_type) :: linear_element_type
       !> N/m, N s/m and kg, over y and z.
       real(wp), dimension(of_journal, of_journal) :: stiffness = 0, damping = 0, mass = 0
-      !> Force in the state evaluated last, N.
-      real(wp), private :: force(of_journal) = 0
    contains
-      procedure :: layout
-      procedure :: evaluate
-      procedure :: add_force
       procedure :: part_derivatives
       procedure :: sampled_force
       procedure :: add_to
    end type linear_element_type
 
 contains
-
-   !> It has no displacements of its own.
-   pure type(element_layout_type) function layout(self)
-      class(linear_element_type), intent(in) :: self
-      layout = new_element_layout(0, [integer ::], .false.)
-   end function layout
-
-   subroutine evaluate(self, journal, pads, oil, speed, want_derivatives, refusal, ok, chosen)
-      class(linear_element_type), intent(inout) :: self
-      type(journal_motion), intent(in) :: journal
-      type(pad_state), intent(in) :: pads(:)
-      type(film_oil), intent(in) :: oil(:)
-      real(wp), intent(in) :: speed
-      logical, intent(in) :: want_derivatives
-      character(len=:), allocatable, intent(inout) :: refusal
-      logical, intent(out) :: ok
-      logical, intent(in), optional :: chosen(:)
-      self%force = self%sampled_force(journal, pads, speed)
-      ok = .true.
-   end subroutine evaluate
-
-   pure subroutine add_force(self, force)
-      class(linear_element_type), intent(in) :: self
-      real(wp), intent(inout) :: force(of_journal)
-      force = force + self%force
-   end subroutine add_force
 
    pure subroutine part_derivatives(self, part, m, accelerations, over_positions, over_rates)
       class(linear_element_type), intent(in) :: self
@@ -93,7 +61,7 @@ contains
       real(wp), allocatable :: into(:, :)
       integer :: journals, b, i, p
       journals = 2*size(bearings)
-      allocate (into(n, n + 2*count(has_support(bearings))), source=0.0_wp)
+      allocate (into(n, n + 2*count([(allocated(bearings(b)%support), b=1, size(bearings))])), source=0.0_wp)
       do i = 1, n
          into(i, merge(i, i + size(into, 2) - n, i <= journals)) = 1
       end do
@@ -135,11 +103,4 @@ contains
          i = i + 2
       end do
    end subroutine add_supports
-
-   pure function has_support(bearings) result(has)
-      type(bearing_type), intent(in) :: bearings(:)
-      logical :: has(size(bearings))
-      integer :: b
-      has = [(allocated(bearings(b)%support), b=1, size(bearings))]
-   end function has_support
 end module linear_element

@@ -6,14 +6,12 @@ module rotor_factory
    use text, only: to_text, list_text
    use errors, only: error_type, input_error, raise, require
    use case_inputs, only: case_type
-   use rotor_matrices, only: rotor_matrices_type, reduced_rotor
-   use abstract_rotor, only: rotor_type
-   use rigid_journal, only: new_rigid_journal
+   use rigid_rotor, only: rotor_type, new_rigid_rotor
    use elastic_rotor, only: elastic_rotor_type, new_elastic_rotor
    use case_groups, only: bearing_type
    use rotor_component, only: rotor_component_type, shaft_component
-   use fixed_interface, only: fixed_interface_type, find_fixed_interface
-   use mode_selection, only: mode_selection_type, select_modes, most_modes
+   use rotor_reduction, only: fixed_interface_type, find_fixed_interface, mode_selection_type, select_modes, &
+      & most_modes, rotor_matrices_type, reduced_rotor
    use linear_algebra, only: dpotrf, dpotrs
    implicit none (type, external)
    private
@@ -40,7 +38,7 @@ contains
       integer, allocatable :: modes
       logical :: ok
       if (inputs%rotor%is_rigid()) then
-         allocate (rotor, source=new_rigid_journal(inputs%rotor%mass))
+         allocate (rotor, source=new_rigid_rotor(inputs%rotor%mass))
          return
       end if
       if (present(before)) then
@@ -94,7 +92,9 @@ contains
       associate (rotor => inputs%rotor%elastic)
          if (rotor%rotor_file == '') then
             component = shaft_component(rotor)
-            call check_numbers(component, error)
+            call require(all(ieee_is_finite(component%mass)) .and. all(ieee_is_finite(component%stiffness)) &
+               & .and. all(ieee_is_finite(component%gyroscopic)), 'shaft: its mass or stiffness is too large for a ' &
+               & //'number: lengths and diameters are in m, moduli in Pa', error)
          else if (allocated(rotor%given)) then
             component%given_rotor_type = rotor%given
             call check_component(inputs, component, error)
@@ -119,9 +119,7 @@ contains
             & //' modes are below it, those of both planes; a machine keeps at most '//to_text(most_modes))
          if (allocated(error)) return
       end if
-      matrices = reduced_rotor(inputs, component, fixed, selection%modes)
-      matrices%truncation_error = selection%truncation_error
-      matrices%damping_error = selection%damping_error
+      matrices = reduced_rotor(inputs, component, fixed, selection)
    end subroutine find_rotor
 
    !> Displacements y and z of each journal among those of the rotor.
@@ -135,14 +133,6 @@ contains
          end do
       end do
    end function journal_displacements
-
-   subroutine check_numbers(component, error)
-      type(rotor_component_type), intent(in) :: component
-      type(error_type), allocatable, intent(inout) :: error
-      if (.not. (all(ieee_is_finite(component%mass)) .and. all(ieee_is_finite(component%stiffness)) &
-         & .and. all(ieee_is_finite(component%gyroscopic)))) call raise(error, input_error, 'shaft: its mass or ' &
-         & //'stiffness is too large for a number: lengths and diameters are in m, moduli in Pa')
-   end subroutine check_numbers
 
    ! What matrices that another program made must be so that they are those of a rotor.
 
@@ -162,63 +152,61 @@ contains
             & file//'its numbers must be finite', error)
          if (allocated(error)) return
          call require(symmetric(c%mass, 1.0_wp), file//'mass: must be symmetric', error)
-         call check_translation(c, file, error)
+         call check_translation()
          call require(symmetric(c%stiffness, 1.0_wp), file//'stiffness: must be symmetric', error)
          call require(symmetric(c%gyroscopic, -1.0_wp), file//'gyroscopic: must change its sign when it ' &
             & //'is transposed', error)
-         call check_stations(inputs, c%station, file, error)
+         call check_stations()
       end associate
-   end subroutine check_component
 
-   !> The mass matrix is that of a body whose translation along y moves all stations, weighs `weighed` and has its mass.
-   subroutine check_translation(component, file, error)
-      type(rotor_component_type), intent(in) :: component
-      character(len=*), intent(in) :: file
-      type(error_type), allocatable, intent(inout) :: error
-      real(wp), allocatable :: factor(:, :), translation(:, :), moved(:, :)
-      integer :: n, info
-      n = size(component%weighed)
-      factor = component%mass
-      call dpotrf('U', n, factor, n, info)
-      call require(info == 0, file//'mass: must be positive definite', error)
-      if (allocated(error)) return
-      translation = reshape(component%weighed, [n, 1])
-      call dpotrs('U', n, 1, factor, n, translation, n, info)
-      moved = reshape(matmul(component%station, translation(:, 1)), [2, size(component%station, 1)/2])
-      call require(all(abs(moved(1, :) - 1) <= alike) .and. all(abs(moved(2, :)) <= alike), file//'weighed: must be ' &
-         & //'mass times a translation that moves all stations by 1 along y', error)
-      associate (mass => dot_product(component%weighed, translation(:, 1)))
-         call require(abs(component%total_mass - mass) <= alike*mass, file//'total_mass = ' &
-            & //to_text(component%total_mass)//': must be that of the translation in weighed, '//to_text(mass)//' kg', &
-            & error)
-      end associate
-   end subroutine check_translation
+   contains
 
-   !> Stations of the case exist; those of bearings are displacements of their own.
-   subroutine check_stations(inputs, station, file, error)
-      type(case_type), intent(in) :: inputs
-      real(wp), intent(in) :: station(:, :)
-      character(len=*), intent(in) :: file
-      type(error_type), allocatable, intent(inout) :: error
-      integer :: stations, highest, b, row
-      stations = size(station, 1)/2
-      highest = max(maxval(inputs%bearings%station), 0)
-      associate (rotor => inputs%rotor%elastic)
-         if (size(rotor%unbalances) > 0) highest = max(highest, maxval(rotor%unbalances%station))
-         if (size(rotor%loads) > 0) highest = max(highest, maxval(rotor%loads%station))
-      end associate
-      call require(highest <= stations, file//'has '//to_text(stations)//' stations, but station = '//to_text(highest) &
-         & //' is asked for', error)
-      call require(size(inputs%rotor%elastic%discs) == 0, file//'a group disc has no effect: its matrices contain ' &
-         & //'the discs', error)
-      if (allocated(error)) return
-      do b = 1, size(inputs%bearings)
-         do row = 2*inputs%bearings(b)%station - 1, 2*inputs%bearings(b)%station
-            call require(abs(maxval(station(row, :)) - 1) <= 0 .and. count(abs(station(row, :)) > 0) == 1, file &
-               & //'station: row '//to_text(row)//', of a bearing, must have one element 1 and otherwise 0', error)
+      !> The mass matrix is that of a body whose translation along y moves all stations, weighs `weighed` and has its
+      !> mass.
+      subroutine check_translation()
+         real(wp), allocatable :: factor(:, :), translation(:, :), moved(:, :)
+         integer :: n, info
+         n = size(component%weighed)
+         factor = component%mass
+         call dpotrf('U', n, factor, n, info)
+         call require(info == 0, file//'mass: must be positive definite', error)
+         if (allocated(error)) return
+         translation = reshape(component%weighed, [n, 1])
+         call dpotrs('U', n, 1, factor, n, translation, n, info)
+         moved = reshape(matmul(component%station, translation(:, 1)), [2, size(component%station, 1)/2])
+         call require(all(abs(moved(1, :) - 1) <= alike) .and. all(abs(moved(2, :)) <= alike), file &
+            & //'weighed: must be mass times a translation that moves all stations by 1 along y', error)
+         associate (mass => dot_product(component%weighed, translation(:, 1)))
+            call require(abs(component%total_mass - mass) <= alike*mass, file//'total_mass = ' &
+               & //to_text(component%total_mass)//': must be that of the translation in weighed, '//to_text(mass) &
+               & //' kg', error)
+         end associate
+      end subroutine check_translation
+
+      !> Stations of the case exist; those of bearings are displacements of their own.
+      subroutine check_stations()
+         integer :: stations, highest, b, row
+         stations = size(component%station, 1)/2
+         highest = max(maxval(inputs%bearings%station), 0)
+         associate (rotor => inputs%rotor%elastic)
+            if (size(rotor%unbalances) > 0) highest = max(highest, maxval(rotor%unbalances%station))
+            if (size(rotor%loads) > 0) highest = max(highest, maxval(rotor%loads%station))
+         end associate
+         call require(highest <= stations, file//'has '//to_text(stations)//' stations, but station = ' &
+            & //to_text(highest)//' is asked for', error)
+         call require(size(inputs%rotor%elastic%discs) == 0, file//'a group disc has no effect: its matrices contain ' &
+            & //'the discs', error)
+         if (allocated(error)) return
+         do b = 1, size(inputs%bearings)
+            do row = 2*inputs%bearings(b)%station - 1, 2*inputs%bearings(b)%station
+               associate (numbers => component%station(row, :))
+                  call require(abs(maxval(numbers) - 1) <= 0 .and. count(abs(numbers) > 0) == 1, file//'station: row ' &
+                     & //to_text(row)//', of a bearing, must have one element 1 and otherwise 0', error)
+               end associate
+            end do
          end do
-      end do
-   end subroutine check_stations
+      end subroutine check_stations
+   end subroutine check_component
 
    !> Whether a matrix is `sign` times its transpose.
    pure logical function symmetric(matrix, sign)

@@ -38,8 +38,9 @@ module state_layout
       integer :: kind(most_coordinates) = 0
       !> Whether there are bristles.
       logical :: bristles = .false.
-      !> Pads of the elements before; states and displacements before those of the first pad.
-      integer :: other_pads = 0, states_before = 0, positions_before = 0
+      !> Numbers of its first and last pad among those of all elements; states and displacements before those of its
+      !> first pad.
+      integer :: first_pad = 1, last_pad = 0, states_before = 0, positions_before = 0
       !> Places of the displacements y and z on which it acts, those of its journal, among those of the rotor, and of
       !> the rates among its states.
       integer :: journal(of_journal) = [1, 2], journal_rates(of_journal) = [3, 4]
@@ -55,7 +56,6 @@ module state_layout
       procedure :: all_pads
       procedure :: pad_states
       procedure :: put_pads
-      procedure :: changes
    end type element_layout_type
 
    type :: state_layout_type
@@ -106,12 +106,13 @@ contains
       positions = rotor/2
       do e = 1, size(elements)
          associate (of => layout%elements(e))
-            of%other_pads = layout%pads
+            of%first_pad = layout%pads + 1
+            of%last_pad = layout%pads + of%pads
             of%states_before = layout%n
             of%positions_before = positions
             of%journal = [2*pairs(e) - 1, 2*pairs(e)]
             of%journal_rates = rotor/2 + of%journal
-            layout%pads = layout%pads + of%pads
+            layout%pads = of%last_pad
             layout%n = layout%n + of%pads*of%per_pad
             positions = positions + of%pads*of%coordinates
          end associate
@@ -181,7 +182,7 @@ contains
    pure function all_pads(self) result(numbers)
       class(element_layout_type), intent(in) :: self
       integer :: numbers(self%pads), i
-      numbers = [(self%other_pads + i, i=1, self%pads)]
+      numbers = [(i, i=self%first_pad, self%last_pad)]
    end function all_pads
 
    !> Indices of all displacements: of the rotor, and of the pads in the order of the states.
@@ -273,22 +274,4 @@ contains
          call self%elements(b)%put_pads(pads(self%elements(b)%all_pads()), y)
       end do
    end subroutine put_all_pads
-
-   !> Of a change of the state those of the displacements of the journal and of each pad, (displacement, pad), and those
-   !> of their rates.
-   pure subroutine changes(self, y, of_positions, of_rates)
-      class(element_layout_type), intent(in) :: self
-      real(wp), intent(in) :: y(:)
-      real(wp), dimension(of_journal + self%coordinates, self%pads), intent(out) :: of_positions, of_rates
-      integer :: i, k, o
-      do i = 1, self%pads
-         o = self%before(i)
-         of_positions(:of_journal, i) = y(self%journal)
-         of_rates(:of_journal, i) = y(self%journal_rates)
-         do k = 1, self%coordinates
-            of_positions(of_journal + k, i) = y(o + 2*k - 1)
-            of_rates(of_journal + k, i) = y(o + 2*k)
-         end do
-      end do
-   end subroutine changes
 end module state_layout

@@ -80,10 +80,14 @@ contains
    function full_amplitude(signal) result(amplitude)
       complex(wp), intent(in) :: signal(:)
       real(wp) :: amplitude(-((size(signal) - 1)/2):size(signal)/2)
-      complex(wp) :: spectrum(0:size(signal) - 1)
+      complex(wp) :: spectrum(0:size(signal) - 1), work(size(signal))
+      type(c_ptr) :: plan
       integer :: k, n
       n = size(signal)
-      spectrum = transformed(signal)
+      plan = fftw_plan_dft_1d(n, work, spectrum, fftw_forward, fftw_estimate)
+      work = signal
+      call fftw_execute_dft(plan, work, spectrum)
+      call fftw_destroy_plan(plan)
       do k = lbound(amplitude, 1), ubound(amplitude, 1)
          amplitude(k) = abs(spectrum(modulo(k, n)))/n
       end do
@@ -100,15 +104,4 @@ contains
       call fftw_execute_dft_r2c(plan, work, spectrum)
       call fftw_destroy_plan(plan)
    end function half_transformed
-
-   !> sum_j signal(j) exp(-2 pi i j k / n).
-   function transformed(signal) result(spectrum)
-      complex(wp), intent(in) :: signal(:)
-      complex(wp) :: spectrum(size(signal)), work(size(signal))
-      type(c_ptr) :: plan
-      plan = fftw_plan_dft_1d(size(signal), work, spectrum, fftw_forward, fftw_estimate)
-      work = signal
-      call fftw_execute_dft(plan, work, spectrum)
-      call fftw_destroy_plan(plan)
-   end function transformed
 end module spectra

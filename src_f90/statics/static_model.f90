@@ -5,18 +5,18 @@ module static_model
    use kinds, only: wp
    use operating_point, only: operating_point_type
    use factories, only: converged_films, quick_films
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, tilt, pivot_deflection
    use kinematics, only: pad_frame, frame_of, in_mirror
    use equations_of_motion, only: machine_model, new_machine_model
-   use errors, only: error_type, add_context, stopped, asked_to_stop, raise, numerics_error, asked
+   use errors, only: error_type, stopped, raise, numerics_error, asked
    use text, only: to_text
-   use linear_algebra, only: dgesv
+   use linear_algebra, only: solve
    use abstract_element, only: element_pointer
    use force_balance, only: forces, force_derivatives, masses
    implicit none (type, external)
    private
-   public :: make_static, make_quick, make_fine, solve_equilibrium, start, starts, name_bearing, follow_motion, &
+   public :: make_static, make_quick, make_fine, solve_equilibrium, start, starts, follow_motion, &
       & unbalanced, reference_force, clearances, next_time_step, residual_limit, newtons, longest_move, &
       & shortest_move, trace, set_free, static_derivatives, newton_step
 
@@ -72,6 +72,7 @@ contains
       type(machine_model), intent(in) :: static
       type(machine_model), intent(out) :: quick
       quick = new_machine_model(static%inputs, quick_films, static%others)
+      quick%give_up => static%give_up
       call stand_still(quick, static%point%cavitation)
       quick%oil%viscosity = static%oil%viscosity
    end subroutine make_quick
@@ -81,25 +82,23 @@ contains
       type(machine_model), intent(in) :: model
       type(machine_model), intent(out) :: fine
       fine = new_machine_model(model%inputs, converged_films, model%others)
+      fine%give_up => model%give_up
       call stand_still(fine, model%point%cavitation)
    end subroutine make_fine
 
    !> Brings a state that is near equilibrium to equilibrium by Newton's method. Volumes of cavitated films make their
    !> force leap by less than its error; where the equilibrium lies in a leap, y ends beside it.
-   subroutine solve_equilibrium(model, y, residual, error, give_up, held, most, enough)
+   subroutine solve_equilibrium(model, y, residual, error, held, most)
       type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       !> Pads that are held where they are.
       logical, intent(in), optional :: held(:)
       !> Iterations at most, if they are fewer than usual.
       integer, intent(in), optional :: most
-      !> Residual at which it ends, if that is larger than usual.
-      real(wp), intent(in), optional :: enough
       logical :: ok
-      call follow_motion(model, y, residual, error, give_up, held, newtons, most, enough)
+      call follow_motion(model, y, residual, error, held, newtons, most)
       if (.not. allocated(error) .or. residual > largest_leap) return
       if (error%status == stopped) return
       call model%evaluate(0.0_wp, y, .false., ok)
@@ -152,43 +151,31 @@ contains
       end associate
    end function middle_of_bores
 
-   !> Puts the name of the bearing in front of the message of a set error, where it has one.
-   subroutine name_bearing(model, b, error)
-      type(machine_model), intent(in) :: model
-      integer, intent(in) :: b
-      type(error_type), allocatable, intent(inout) :: error
-      call add_context(error, model%inputs%bearings(b)%label())
-   end subroutine name_bearing
-
    ! Pseudo-transient continuation: brings a model to equilibrium by Newton's method, damped by the film's own squeeze
    ! damping: each iteration is one linearly implicit Euler step of the motion without inertia, f(x, dx/dt) = 0, with a
    ! time step that grows as the residual falls, so that it starts as a stable motion and ends as Newton's method.
 
    !> Follows the motion without inertia from y to equilibrium, where y is then. An error says why it did not come to
-   !> equilibrium, or, of status `stopped`, that `give_up`, asked between evaluations of the films, said so.
-   subroutine follow_motion(model, y, residual, error, give_up, held, first_step, most, enough)
+   !> equilibrium, or, of status `stopped`, that `give_up` of the model, asked between evaluations of films, said so.
+   subroutine follow_motion(model, y, residual, error, held, first_step, most)
       type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       !> Largest unbalanced force over the reference force.
       real(wp), intent(out) :: residual
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       !> Pads that are held where they are.
       logical, intent(in), optional :: held(:)
       !> Time step to begin with, in radians of the shaft; 1 if it is left out.
       real(wp), intent(in), optional :: first_step
       !> Iterations at most, if they are fewer than usual.
       integer, intent(in), optional :: most
-      !> Residual at which it ends, if that is larger than usual.
-      real(wp), intent(in), optional :: enough
-      real(wp) :: time_step, force, next, move, smallest
+      !> Largest unbalanced force, N, and the next; longest move of a step, in bearing clearances.
+      real(wp) :: time_step, force, next, move
       real(wp), allocatable :: step(:)
       logical :: ok, stuck, free(model%layout%n_positions())
       integer :: iterations, limit
       limit = max_iterations
       if (present(most)) limit = min(limit, most)
-      smallest = residual_limit
-      if (present(enough)) smallest = max(smallest, enough)
       call set_free(model, held, free)
       stuck = .false.
       time_step = 1/model%point%speed(0.0_wp)
@@ -200,43 +187,73 @@ contains
       force = unbalanced(model, y, free)
       residual = force/reference_force(model)
       iterations = 0
-      do while (.not. residual <= smallest)
+      do while (.not. residual <= residual_limit)
          if (iterations == limit .or. stuck) then
-            call raise(error, numerics_error, last_words(model, iterations, force))
-            return
-         end if
-         iterations = iterations + 1
-         if (asked(give_up)) then
+            call raise(error, numerics_error, last_words())
+         else if (asked(model%give_up)) then
             call raise(error, stopped, 'stopped while the equilibrium was sought')
-            return
+         else
+            iterations = iterations + 1
+            call find_step()
          end if
-         call find_step(model, y, free, time_step, step, move, ok)
-         if (.not. ok) then
-            call raise(error, numerics_error, 'the equations are singular, the unbalanced force is still ' &
-               & //shown(model, force))
-            return
-         end if
-         call take_step(model, y, time_step, step, ok)
-         if (.not. ok) call raise(error, numerics_error, model%refusal)
-         if (.not. ok) return
+         if (.not. allocated(error)) call take_step()
+         if (allocated(error)) return
          next = unbalanced(model, y, free)
          stuck = move < shortest_move .and. next > 0.5_wp*force
          time_step = next_time_step(time_step, force, next)
          force = next
          residual = force/reference_force(model)
       end do
-   end subroutine follow_motion
 
-   !> What is said of a search that does not end.
-   function last_words(model, iterations, force)
-      type(machine_model), intent(in) :: model
-      integer, intent(in) :: iterations
-      !> Largest unbalanced force, N.
-      real(wp), intent(in) :: force
-      character(len=:), allocatable :: last_words
-      last_words = 'after '//to_text(iterations)//' iterations the unbalanced force is still '//shown(model, force)
-      if (model%warning() /= '') last_words = last_words//'; '//model%warning()
-   end function last_words
+   contains
+
+      !> What is said of a search that does not end.
+      function last_words()
+         character(len=:), allocatable :: last_words
+         last_words = 'after '//to_text(iterations)//' iterations the unbalanced force is still '//shown(model, force)
+         if (model%warning() /= '') last_words = last_words//'; '//model%warning()
+      end function last_words
+
+      !> The step of the positions from y, in a time step that is shortened until nothing moves too far. An error
+      !> where the equations are singular.
+      subroutine find_step()
+         real(wp), dimension(size(free), size(free)) :: stiffness, damping
+         move = 0
+         call model%evaluate(0.0_wp, y, .true., ok)
+         if (ok) call static_derivatives(model, stiffness, damping)
+         do while (ok)
+            call newton_step(stiffness, damping, forces(model, 0.0_wp, y), free, time_step, step, ok)
+            if (.not. all(ieee_is_finite(step))) ok = .false.
+            if (.not. ok) exit
+            move = maxval(abs(step/clearances(model)))
+            if (move <= longest_move) exit
+            ! a shorter time step follows the path of the motion; a part of the step would leave it
+            time_step = time_step*min(0.5_wp, longest_move/move)
+         end do
+         if (.not. ok) call raise(error, numerics_error, 'the equations are singular, the unbalanced force is still ' &
+            & //shown(model, force))
+      end subroutine find_step
+
+      !> Moves y by the step, or by a part of it that the model admits, and evaluates the model there. An error where it
+      !> admits none.
+      subroutine take_step()
+         real(wp) :: trial(model%n)
+         integer, allocatable :: x(:)
+         x = model%layout%positions()
+         do
+            trial = y
+            trial(x) = y(x) + step
+            call model%evaluate(0.0_wp, trial, .false., ok)
+            if (ok) exit
+            step = 0.5_wp*step
+            time_step = 0.5_wp*time_step
+            if (.not. maxval(abs(step/clearances(model))) < epsilon(step)) cycle
+            call raise(error, numerics_error, model%refusal)
+            return
+         end do
+         y = trial
+      end subroutine take_step
+   end subroutine follow_motion
 
    !> "12.5 N, 0.02 of the load".
    function shown(model, force)
@@ -273,58 +290,11 @@ contains
       do b = 1, size(model%layout%elements)
          associate (of => model%layout%elements(b))
             do i = 1, of%pads
-               free(of%own_positions(i)) = .not. held(of%other_pads + i)
+               free(of%own_positions(i)) = .not. held(of%first_pad + i - 1)
             end do
          end associate
       end do
    end subroutine set_free
-
-   !> The step of the positions from y, in a time step that is shortened until nothing moves too far. `ok` is false
-   !> where the equations are singular.
-   subroutine find_step(model, y, free, time_step, step, move, ok)
-      type(machine_model), intent(inout) :: model
-      real(wp), intent(in) :: y(:)
-      logical, intent(in) :: free(:)
-      real(wp), intent(inout) :: time_step
-      real(wp), allocatable, intent(out) :: step(:)
-      !> Longest move, in bearing clearances.
-      real(wp), intent(out) :: move
-      logical, intent(out) :: ok
-      real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: stiffness, damping
-      move = 0
-      call model%evaluate(0.0_wp, y, .true., ok)
-      if (ok) call static_derivatives(model, stiffness, damping)
-      do while (ok)
-         call newton_step(stiffness, damping, forces(model, 0.0_wp, y), free, time_step, step, ok)
-         if (.not. all(ieee_is_finite(step))) ok = .false.
-         if (.not. ok) exit
-         move = maxval(abs(step/clearances(model)))
-         if (move <= longest_move) exit
-         ! a shorter time step follows the path of the motion; a part of the step would leave it
-         time_step = time_step*min(0.5_wp, longest_move/move)
-      end do
-   end subroutine find_step
-
-   !> Moves y by the step, or by a part of it that the model admits, and evaluates the model there. `ok` is false
-   !> where it admits none.
-   subroutine take_step(model, y, time_step, step, ok)
-      type(machine_model), intent(inout) :: model
-      real(wp), intent(inout) :: y(:), time_step, step(:)
-      logical, intent(out) :: ok
-      real(wp) :: trial(model%n)
-      integer, allocatable :: x(:)
-      x = model%layout%positions()
-      do
-         trial = y
-         trial(x) = y(x) + step
-         call model%evaluate(0.0_wp, trial, .false., ok)
-         if (ok) exit
-         step = 0.5_wp*step
-         time_step = 0.5_wp*time_step
-         if (maxval(abs(step/clearances(model))) < epsilon(step)) return
-      end do
-      y = trial
-   end subroutine take_step
 
    !> Bearing clearance in the unit of each position (tilt: at the pad's edge).
    function clearances(model)
@@ -361,7 +331,7 @@ contains
       real(wp), allocatable, intent(out) :: step(:)
       logical, intent(out) :: ok
       real(wp) :: matrix(size(f), size(f))
-      integer :: pivots(size(f)), info, i
+      integer :: i
       matrix = stiffness + damping/time_step
       step = -f
       do i = 1, size(f)
@@ -370,8 +340,7 @@ contains
          matrix(i, i) = 1
          step(i) = 0
       end do
-      call dgesv(size(f), 1, matrix, size(f), pivots, step, size(f), info)
-      ok = info == 0
+      call solve(size(f), 1, matrix, step, ok)
    end subroutine newton_step
 
    !> Largest unbalanced force in the state y, which was evaluated last, N, at positions that are free; those of a rotor

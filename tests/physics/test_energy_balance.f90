@@ -4,7 +4,7 @@ module energy_ledger
    use kinds, only: wp
    use ode_model, only: ode_model_type
    use film_solver, only: film_motion
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, tilt, pivot_deflection
    use kinematics, only: frame_of, motion_of
    use tilting_pad_bearing, only: pad_sample

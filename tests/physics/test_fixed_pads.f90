@@ -12,7 +12,7 @@ program test_fixed_pads
    use factories, only: make_film, march_films
    use paper_bearing, only: paper_oil
    use random_films, only: film_state, volumes_type, new_volumes, extrapolated, shaft_speed
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state
    use kinematics, only: frame_of, motion_of
    use equilibrium_record, only: equilibrium_type

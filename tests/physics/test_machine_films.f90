@@ -6,7 +6,7 @@ program test_machine_films
    use input_cases, only: case_of
    use equations_of_motion, only: machine_model
    use equilibrium_record, only: equilibrium_type
-   use load_shares, only: bearing_loads, part_of
+   use equilibrium, only: bearing_loads, part_of
    use linear_bearing, only: bearing_coefficients_type
    use linear_analysis, only: analyse
    use check, only: runs, expect, report

@@ -9,7 +9,7 @@ program test_machine_invariants
    use state_layout, only: pad_state, tilt, pivot_deflection
    use equations_of_motion, only: machine_model
    use equilibrium_record, only: equilibrium_type
-   use load_shares, only: bearing_loads
+   use equilibrium, only: bearing_loads
    use linear_bearing, only: bearing_coefficients_type, rotor_response_type, find_rotor_response
    use linear_analysis, only: analyse
    use periodic_orbit, only: periodic_orbit_type

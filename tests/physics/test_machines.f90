@@ -8,7 +8,7 @@ program test_machines
    use equations_of_motion, only: machine_model
    use equilibrium_record, only: equilibrium_type
    use static_model, only: make_static
-   use load_shares, only: bearing_loads
+   use equilibrium, only: bearing_loads
    use force_balance, only: forces
    use linear_bearing, only: bearing_coefficients_type, rotor_response_type, find_rotor_response
    use linear_analysis, only: analyse

@@ -11,7 +11,7 @@ program test_thermal_equilibrium
    use equilibrium, only: find_equilibrium
    use linear_bearing, only: bearing_coefficients_type
    use viscosity_history, only: viscosity_history_type
-   use groove_transient, only: find_groove_transient
+   use thermal_equilibrium, only: find_groove_transient
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
 

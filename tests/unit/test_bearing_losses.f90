@@ -8,7 +8,7 @@ program test_bearing_losses
    use case_namelist, only: case_from_text
    use film_solver, only: film_motion, cavitation_reynolds
    use film_losses, only: film_losses_type, film_loss, new_film_losses
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, tilt
    use kinematics, only: pad_frame, frame_of, motion_of
    use equations_of_motion, only: machine_model, new_machine_model

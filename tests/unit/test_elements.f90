@@ -15,8 +15,7 @@ program test_elements
    use force_balance, only: forces, force_derivatives, masses
    use equilibrium_record, only: equilibrium_type
    use static_model, only: make_static, solve_equilibrium
-   use load_shares, only: bearing_loads
-   use equilibrium, only: find_equilibrium, settle_equilibrium
+   use equilibrium, only: bearing_loads, find_equilibrium, settle_equilibrium
    use linear_bearing, only: bearing_coefficients_type, find_coefficients
    use input_cases, only: case_of
    use machine_cases, only: symmetric_rotor

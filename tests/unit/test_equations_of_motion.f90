@@ -4,7 +4,7 @@ program test_equations_of_motion
    use text, only: to_text
    use case_groups, only: unset
    use case_inputs, only: case_type
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use operating_point, only: operating_point_type
    use tilting_pad_bearing, only: pad_sample
    use state_layout, only: pad_state, tilt, pivot_deflection

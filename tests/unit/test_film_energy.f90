@@ -6,9 +6,8 @@ program test_film_energy
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use elimination_film, only: elimination_film_type
    use film_streams, only: film_stream, new_stream_volumes, find_stream
-   use film_profiles, only: film_profile, layer_faces, new_profile, fitted_oil
-   use film_conduction, only: film_heat_type, solid_layers, by_nothing, by_inlet, by_shaft
-   use film_energy, only: pad_heat, solve_energy
+   use film_energy, only: film_profile, layer_faces, new_profile, fitted_oil, film_heat_type, solid_layers, &
+      & by_nothing, by_inlet, by_shaft, pad_heat, solve_energy
    use paper_bearing, only: offset_pad, paper_oil, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)

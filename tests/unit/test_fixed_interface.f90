@@ -3,7 +3,7 @@ program test_fixed_interface
    use kinds, only: wp, pi
    use case_inputs, only: case_type
    use rotor_component, only: rotor_component_type, shaft_component, beam_section_type
-   use fixed_interface, only: fixed_interface_type, find_fixed_interface
+   use rotor_reduction, only: fixed_interface_type, find_fixed_interface
    use example_machine, only: plain_shaft
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)

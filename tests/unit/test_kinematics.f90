@@ -4,7 +4,7 @@ program test_kinematics
    use text, only: to_text
    use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state
    use kinematics, only: pad_position, frame_of, motion_of
    use paper_bearing, only: offset_pad

@@ -3,7 +3,7 @@ program test_mode_selection
    use kinds, only: wp, pi
    use text, only: to_text
    use case_inputs, only: case_type
-   use rotor_matrices, only: rotor_matrices_type
+   use rotor_reduction, only: rotor_matrices_type
    use example_machine, only: plain_shaft, put_bearings, put_disc, put_unbalance, rotor_of, response_error, &
       & damping_error
    use check, only: runs, expect, between, report

@@ -3,8 +3,8 @@
 program test_pad_bending
    use kinds, only: wp, degree
    use pad_gap, only: pad_gap_type
-   use shape_field, only: points_along, points_across, bending_points, bent_by_pressure, bent_by_heat
-   use bearing_shape, only: bearing_shape_type, bending_type, part_temperatures_type, new_shape
+   use bearing_shape, only: check_shape, points_along, points_across, bending_points, bent_by_pressure, bent_by_heat, &
+      & bearing_shape_type, bending_type, part_temperatures_type, new_shape
    use case_inputs, only: case_type
    use errors, only: error_type
    use check, only: runs, expect, expect_close, report
@@ -152,13 +152,13 @@ contains
       bending%elastic = [0.0_wp, 90e-6_wp]
       bending%thermal = [0.0_wp, 11e-6_wp]
       shape = new_shape(inputs%bearings(1), bending, part_temperatures_type(20.0_wp, 20.0_wp, [20.0_wp, 20.0_wp]))
-      call shape%check(inputs%bearings(1), error)
+      call check_shape(shape, inputs%bearings(1), error)
       call expect(allocated(error), 'a pad that bends by more than its clearance')
       if (allocated(error)) call expect(index(error%message, 'pad 2 bends by 101.0 um, more than its clearance of ' &
          & //'100.0 um') > 0, error%message)
       bending%elastic = [0.0_wp, 0.0_wp]
       shape = new_shape(inputs%bearings(1), bending, part_temperatures_type(220.0_wp, 20.0_wp, [120.0_wp, 120.0_wp]))
-      call shape%check(inputs%bearings(1), error)
+      call check_shape(shape, inputs%bearings(1), error)
       call expect(allocated(error), 'a shaft that fills its clearance')
       if (allocated(error)) call expect(index(error%message, 'the clearance of pad 1 is gone') > 0, error%message)
    end subroutine refusals

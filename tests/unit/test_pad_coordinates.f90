@@ -25,7 +25,6 @@ module oscillating_pads
       procedure :: loads
       procedure :: derivatives
       procedure :: masses
-      procedure :: inverse_masses
       procedure :: oscillation
    end type oscillating_pads_type
 
@@ -81,15 +80,6 @@ contains
       masses(self%n, self%n) = self%share*pad%mass
    end function masses
 
-   pure function inverse_masses(self, pad) result(inverse)
-      class(oscillating_pads_type), intent(in) :: self
-      type(tilting_pad_type), intent(in) :: pad
-      real(wp) :: inverse(self%n, self%n)
-      inverse = 0
-      inverse(:self%own%n, :self%own%n) = self%own%inverse_masses(pad)
-      inverse(self%n, self%n) = 1/(self%share*pad%mass)
-   end function inverse_masses
-
    !> Eigenvalue of the oscillator of a pad, 1/s: it vibrates.
    pure complex(wp) function oscillation(self, pad)
       class(oscillating_pads_type), intent(in) :: self
@@ -108,11 +98,10 @@ program test_pad_coordinates
    use files, only: delete_file
    use case_inputs, only: case_type
    use factories, only: converged_films
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, tilt, pivot_deflection
    use equations_of_motion, only: machine_model, new_machine_model
-   use force_balance, only: forces, force_derivatives, masses
-   use mode_names, only: mode_name, position_names, position_lengths
+   use force_balance, only: forces, force_derivatives, masses, mode_name, position_names, position_lengths
    use equilibrium_record, only: equilibrium_type
    use static_model, only: make_static
    use linear_bearing, only: bearing_coefficients_type, find_coefficients

@@ -5,7 +5,7 @@ program test_rotor_file
    use case_groups, only: unset, given_rotor_type
    use case_inputs, only: case_type
    use rotor_component, only: rotor_component_type, shaft_component
-   use rotor_matrices, only: rotor_matrices_type
+   use rotor_reduction, only: rotor_matrices_type
    use rotor_factory, only: find_rotor
    use rotor_file, only: read_rotor
    use hdf5_file, only: hdf5_type

@@ -3,7 +3,7 @@ program test_rotor_matrices
    use kinds, only: wp, pi, rpm
    use errors, only: error_type, input_error
    use case_inputs, only: case_type
-   use rotor_matrices, only: rotor_matrices_type
+   use rotor_reduction, only: rotor_matrices_type
    use rotor_factory, only: find_rotor
    use example_machine, only: turbine, plain_shaft, put_bearings, put_disc, put_unbalance, rotor_of, all_modes, &
       & unbalance_response, response_error, static_stations, whirl_frequencies

@@ -2,9 +2,9 @@
 program test_state_layout
    use kinds, only: wp
    use text, only: to_text
-   use abstract_rotor, only: journal_motion
+   use rigid_rotor, only: journal_motion
    use state_layout, only: state_layout_type, element_layout_type, new_element_layout, new_state_layout, pad_state, &
-      & tilt, pivot_deflection, most_coordinates, of_journal
+      & tilt, pivot_deflection, most_coordinates
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: forces, force_derivatives, masses
@@ -46,7 +46,6 @@ contains
       type(state_layout_type), intent(in) :: layout
       if (runs('indices')) call indices(layout)
       if (runs('states_of_pads')) call states_of_pads(layout)
-      if (runs('changes_of_pads')) call changes_of_pads(layout)
    end subroutine check_layout
 
    !> Of pads that tilt, on rigid or on flexible pivots.
@@ -108,39 +107,11 @@ contains
       end associate
    end subroutine indices
 
-   !> A change of a state over the displacements of a pad, those of its journal and its own, and over their rates.
-   subroutine changes_of_pads(layout)
-      type(state_layout_type), intent(in) :: layout
-      real(wp), allocatable, dimension(:, :) :: of_positions, of_rates
-      real(wp) :: y(layout%n)
-      integer :: b, i, k
-      y = [(real(i, wp), i=1, layout%n)]
-      do b = 1, size(layout%elements)
-         associate (of => layout%elements(b))
-            allocate (of_positions(of_journal + of%coordinates, of%pads))
-            allocate (of_rates, mold=of_positions)
-            call of%changes(y, of_positions, of_rates)
-            do i = 1, of%pads
-               associate (journal => [2*of%pair() - 1, 2*of%pair()])
-                  call expect(all(nint(of_positions(:2, i)) == journal) &
-                     & .and. all(nint(of_rates(:2, i)) == layout%rotor/2 + journal), 'journal'//what(layout))
-               end associate
-               call expect(all(nint(of_positions(3:, i)) == of%before(i) + [(2*k - 1, k=1, of%coordinates)]), &
-                  & 'displacements'//what(layout))
-               call expect(all(nint(of_rates(3:, i)) == of%before(i) + [(2*k, k=1, of%coordinates)]), &
-                  & 'rates'//what(layout))
-            end do
-            deallocate (of_positions, of_rates)
-         end associate
-      end do
-   end subroutine changes_of_pads
-
-   !> Fixed pads have no states: those of the rotor are all, what is put is lost, and only the journal changes.
+   !> Fixed pads have no states: those of the rotor are all, and what is put is lost.
    subroutine fixed_pads(layout)
       type(state_layout_type), intent(in) :: layout
       type(pad_state) :: states(pads)
       real(wp) :: y(layout%n)
-      real(wp), dimension(of_journal, pads) :: of_positions, of_rates
       integer :: i
       call expect(layout%n == layout%rotor .and. layout%n_positions() == layout%rotor/2, 'the rotor''s alone')
       call expect(all([layout%positions(), layout%rates()] == [(i, i=1, layout%n)]), 'positions and rates of the rotor')
@@ -152,9 +123,6 @@ contains
       do i = 1, pads
          call expect(all(abs([states(i)%x, states(i)%v, states(i)%bristle]) <= 0), 'all is 0')
       end do
-      call layout%elements(1)%changes([1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp], of_positions, of_rates)
-      call expect(all(nint(of_positions) == spread([1, 2], 2, pads)) &
-         & .and. all(nint(of_rates) == spread([3, 4], 2, pads)), 'the journal''s')
    end subroutine fixed_pads
 
    subroutine expect_each_once(layout, found, name)

@@ -5,8 +5,8 @@ program test_tilting_pad_bearing
    use text, only: to_text
    use case_inputs, only: case_type
    use film_solver, only: film_oil
-   use abstract_rotor, only: journal_motion
-   use state_layout, only: pad_state, element_layout_type, tilt, of_journal
+   use rigid_rotor, only: journal_motion
+   use state_layout, only: pad_state, element_layout_type, state_layout_type, new_state_layout, tilt, of_journal
    use tilting_pad_bearing, only: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing
    use input_cases, only: case_of
    use check, only: runs, expect, expect_close, between, report
@@ -252,7 +252,8 @@ contains
       type(pad_state) :: pads(2)
       type(pad_sample) :: evaluated(2), completed(2)
       real(wp) :: output(6)
-      real(wp), allocatable, dimension(:, :) :: nothing, change
+      real(wp), allocatable :: nothing(:)
+      type(state_layout_type) :: layout
       character(len=:), allocatable :: refusal
       logical :: ok
       character(len=:), allocatable :: friction
@@ -266,8 +267,9 @@ contains
       call bearing%evaluate(journal, pads, oil, speed, .true., refusal, ok)
       call expect(ok, 'a state with films')
       evaluated = bearing%sampled()
-      allocate (nothing(of_journal + bearing%coordinates%n, 2), source=0.0_wp)
-      output = bearing%output(nothing, nothing)
+      layout = new_state_layout(4, [bearing%layout()], [1])
+      allocate (nothing(layout%n), source=0.0_wp)
+      output = bearing%output(layout%elements(1), nothing)
       call bearing%take_samples(journal, pads, speed, output, completed)
       do i = 1, 2
          associate (a => completed(i), b => evaluated(i))
@@ -280,25 +282,39 @@ contains
             call expect((a%asperity_force > 0) .eqv. rough, 'is there in contact alone')
          end associate
       end do
-      change = nothing
-      change(1, 2) = 1e-6_wp
-      call expect_change(output, bearing%output(change, nothing), &
-         & bearing%derivatives(2)%film_over_positions(:, 1)*1e-6_wp)
-      call expect_change(output, bearing%output(nothing, change), &
-         & bearing%derivatives(2)%film_over_rates(:, 1)*1e-6_wp)
+      associate (first => bearing%derivatives(1), second => bearing%derivatives(2))
+         call try_change(bearing, layout, 1, first%film_over_positions(:, 1), second%film_over_positions(:, 1))
+         call try_change(bearing, layout, 3, first%film_over_rates(:, 1), second%film_over_rates(:, 1))
+         if (motion /= 'fixed') then
+            i = layout%elements(1)%before(2)
+            call try_change(bearing, layout, i + 1, [0.0_wp, 0.0_wp], second%film_over_positions(:, 3))
+            call try_change(bearing, layout, i + 2, [0.0_wp, 0.0_wp], second%film_over_rates(:, 3))
+         end if
+      end associate
       output = -1e9_wp
       call bearing%take_samples(journal, pads, speed, output, completed)
       call expect_close(maxval(abs(completed%max_pressure)), 0.0_wp, 0.0_wp, 'no pressure below that of the edges')
    end subroutine samples
 
-   !> Outputs change by this in the force of the second pad, and else do not.
-   subroutine expect_change(before, after, force)
-      real(wp), intent(in) :: before(6), after(6), force(2)
-      call expect_close(norm2(after([1, 2, 3, 6]) - before([1, 2, 3, 6])), 0.0_wp, 0.0_wp, &
-         & 'a change of the other pad does not count')
-      call expect_close(norm2(after(4:5) - before(4:5) - force), 0.0_wp, 1e-9_wp*norm2(force), &
-         & 'what a change adds to the force')
-   end subroutine expect_change
+   !> A change of a state by 1e-6 changes the forces of both pads by as much as these slopes say, and no pressure.
+   subroutine try_change(bearing, layout, state, first, second)
+      type(tilting_pad_bearing_type), intent(in) :: bearing
+      type(state_layout_type), intent(in) :: layout
+      integer, intent(in) :: state
+      real(wp), intent(in) :: first(2), second(2)
+      type(tilting_pad_bearing_type) :: same
+      real(wp) :: change(layout%n), before(6), after(6)
+      same = bearing
+      change = 0
+      before = same%output(layout%elements(1), change)
+      change(state) = 1e-6_wp
+      after = same%output(layout%elements(1), change)
+      call expect_close(norm2(after(1:2) - before(1:2) - 1e-6_wp*first), 0.0_wp, 1e-15_wp*norm2(first), &
+         & 'what a change adds to the force of the first pad')
+      call expect_close(norm2(after(4:5) - before(4:5) - 1e-6_wp*second), 0.0_wp, 1e-15_wp*norm2(second), &
+         & 'what a change adds to the force of the second pad')
+      call expect_close(norm2(after([3, 6]) - before([3, 6])), 0.0_wp, 0.0_wp, 'pressures')
+   end subroutine try_change
 
    !> Friction off and films kept whole, and both back.
    subroutine operating_point()

@@ -1,15 +1,38 @@
-!> A march that brings a periodic orbit near: period after period, and the last one as intervals of a collocation.
-module orbit_march
+!> How a rotor is marched: the tolerances of its input, and what pivots and friction of its bearings ask for; and the
+!> march that brings a periodic orbit near, period after period, and the last one as intervals of a collocation.
+module march_settings
    ! heap: arrays as long as a run
-   use kinds, only: wp, i8
-   use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked_to_stop, asked
+   use kinds, only: wp, i8, pi
    use marching, only: march_options
+   use state_layout, only: pivot_deflection
+   use abstract_element, only: element_pointer
+   use equations_of_motion, only: machine_model
+   use text, only: to_text
+   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked
    use cvode_integrator, only: integrator_type
    use orbit_polynomials, only: orbit_type, points, place
    implicit none (type, external)
    private
-   public :: march_period, mesh_options
+   public :: march_settings_of, march_period, mesh_options
+
+
+   !> Steps after which the derivatives are taken anew without friction: the motion is smooth, the steps are long.
+   integer, parameter :: smooth_derivatives_age = 2
+   !> Absolute tolerances of rigid pivots over those of pivots that yield: without their damping the errors of the steps
+   !> live longer.
+   real(wp), parameter :: rigid_tolerance = 0.3_wp
+   !> And with friction over those without: what its moment errs by is above what the states do.
+   real(wp), parameter :: friction_tolerance = 0.5_wp
+   !> And of an elastic rotor: in its light vibrations above the speed BDF of the orders 3 to 5 is unstable, so that
+   !> they go on as large as the error test lets them. The run-up of tests/bench/machines.py errs by 3e-3 of its largest
+   !> amplitude with 1, and by 3e-4 with 0.1, for a quarter more steps.
+   real(wp), parameter :: elastic_tolerance = 0.1_wp
+
+   !> Steps in a revolution from which on low orders are tried. Of 70 cases of the stress test (seed 1) with lightly
+   !> damped modes or many steps, 100 completes all that any way completes; 300 and 1000 leave one, and take up to 3 and
+   !> 11 times as many steps in others.
+   real(wp), parameter :: many_steps = 100
+
 
    !> Tolerance of the march over what is asked for: on its steps the collocation is that much more accurate.
    !> Not so where the march would become too coarse to start from.
@@ -20,6 +43,34 @@ module orbit_march
    integer(i8), parameter :: steps_between_questions = 64
 
 contains
+
+   !> Those of a model after this many steps.
+   type(march_options) function march_settings_of(model, steps) result(options)
+      type(machine_model), intent(in), target :: model
+      integer(i8), intent(in) :: steps
+      logical :: smooth
+      type(element_pointer), allocatable :: elements(:)
+      integer :: e
+      associate (integration => model%inputs%integration)
+         options%relative_tolerance = integration%relative_tolerance
+         options%absolute_tolerance = integration%relative_tolerance*integration%tolerance_scale*model%scale
+         options%max_step = integration%max_step
+         options%max_steps = integration%max_steps - steps
+         options%short_step = 2*pi/(model%inputs%highest_speed()*many_steps)
+      end associate
+      associate (tolerance => options%absolute_tolerance)
+         elements = model%elements()
+         smooth = all([(elements(e)%to%is_smooth(), e=1, size(elements))])
+         if (smooth) options%derivatives_age = smooth_derivatives_age
+         if (.not. model%rotor%is_identity) then
+            tolerance = elastic_tolerance*tolerance
+         else if (.not. all([(model%layout%elements(e)%has(pivot_deflection), e=1, size(model%bearings))])) then
+            tolerance = rigid_tolerance*tolerance
+         else if (.not. smooth) then
+            tolerance = friction_tolerance*tolerance
+         end if
+      end associate
+   end function march_settings_of
 
    !> How to march for a mesh, where a march would be so, and a revolution takes this time, s.
    pure type(march_options) function mesh_options(march, revolution) result(options)
@@ -37,7 +88,7 @@ contains
 
    !> Marches over period number `period` = 0, 1, .., in whose first step the integrator stands; its steps become the
    !> intervals of the orbit. An error says why, where and when the march ended.
-   subroutine march_period(integrator, options, period, length, orbit, error, give_up)
+   subroutine march_period(integrator, options, period, length, orbit, error)
       type(integrator_type), intent(inout) :: integrator
       type(march_options), intent(in) :: options
       integer, intent(in) :: period
@@ -45,7 +96,6 @@ contains
       real(wp), intent(in) :: length
       type(orbit_type), intent(inout) :: orbit
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       real(wp), allocatable :: ends(:), at(:, :, :)
       real(wp) :: t, before
       integer :: n, i
@@ -68,22 +118,21 @@ contains
             before = t
          end if
          if (t >= length) exit
-         call do_step(integrator, options, error, give_up)
+         call do_step(integrator, options, error)
          if (allocated(error)) return
       end do
       call orbit%set_mesh([0.0_wp, ends(:n)], at(:, :, :n))
    end subroutine march_period
 
-   !> A step, unless there were too many or `give_up` says so.
-   subroutine do_step(integrator, options, error, give_up)
+   !> A step, unless there were too many or `give_up` of the options says so.
+   subroutine do_step(integrator, options, error)
       type(integrator_type), intent(inout) :: integrator
       type(march_options), intent(in) :: options
       type(error_type), allocatable, intent(out) :: error
-      procedure(asked_to_stop), optional :: give_up
       logical :: stops
       associate (counts => integrator%counts())
          stops = .false.
-         if (mod(counts%steps, steps_between_questions) == 0) stops = asked(give_up)
+         if (mod(counts%steps, steps_between_questions) == 0) stops = asked(options%give_up)
          if (stops) then
             call raise(error, stopped, 'asked to stop')
          else if (counts%steps >= options%max_steps) then
@@ -96,4 +145,4 @@ contains
             & //' s, after '//to_text(counts%steps)//' steps')
       end associate
    end subroutine do_step
-end module orbit_march
+end module march_settings
