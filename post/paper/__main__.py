@@ -6,7 +6,6 @@ Writes the pictures, checks.csv and README.md, the page, into the docs folder.
 """
 
 import argparse
-import csv
 import io
 import os
 import subprocess
@@ -19,7 +18,7 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 from tiltpad.draw.plots import STYLE
 from tiltpad.files.processes import begin_worker
-from tiltpad.files.writing import write
+from tiltpad.files.writing import write, write_csv
 
 from paper import laws, lost, settings, sticking, studies
 from paper.claims import check
@@ -39,11 +38,11 @@ FOLDERS = {
     "studies": (*studies.CASES, *sticking.CASES, *lost.CASES),
 }
 #: Pictures by their file's name, with the folder of their runs.
-PICTURES: dict[str, tuple[Callable, str]] = (
-    {f"fig{name}": (draw, "paper") for name, draw in (laws.FIGURES | FIGURES).items()}
-    | {name: (draw, "paper") for name, draw in studies.REUSED.items()}
-    | {name: (draw, "studies") for name, draw in (studies.FIGURES | sticking.FIGURES | lost.FIGURES).items()}
-)
+PICTURES: dict[str, tuple[Callable, str]] = {
+    **{f"fig{name}": (draw, "paper") for name, draw in (laws.FIGURES | FIGURES).items()},
+    **{name: (draw, "paper") for name, draw in studies.REUSED.items()},
+    **{name: (draw, "studies") for name, draw in (studies.FIGURES | sticking.FIGURES | lost.FIGURES).items()},
+}
 
 
 def arguments() -> argparse.Namespace:
@@ -70,17 +69,14 @@ def draw(name: str, folder: Path, docs: Path) -> None:
 
 def write_checks(checked: list[Checked], path: Path) -> None:
     """The check table, a row a claim."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    head = "where", "claim", "measured", "number", "sense", "limit", "holds", "refined", "rule_26"
-    writer.writerow(head)
+    rows = [("where", "claim", "measured", "number", "sense", "limit", "holds", "refined", "rule_26")]
     for each in checked:
         claim, verdict = each.claim, each.verdict
         holds = "pass" if verdict.holds else "fail"
         numbers = f"{verdict.value:.6g}", verdict.sense, f"{verdict.limit:g}", holds
         others = (f"{other.value:.6g}" for other in (each.refined, each.rule))
-        writer.writerow([claim.where, claim.statement, claim.measure, *numbers, *others])
-    write(path, text.getvalue())
+        rows.append((claim.where, claim.statement, claim.measure, *numbers, *others))
+    write_csv(path, rows)
 
 
 def main() -> None:

@@ -19,20 +19,19 @@ from paper.runs import Runs
 #: Words of the legend, the run, and what its line looks like.
 Line = tuple[str, tiltpad.Run, dict[str, Any]]
 VELOCITY = "sliding velocity (mm/s)"
+TILTS = ("pad_tilt", "pad_tilt_rate")
 
 
 def figure_7(runs: Runs) -> Figure:
     """Tilt rate for several critical velocities."""
-    return tilt_rates(
-        [(f"$v_c$ = {scientific(text)} m/s", runs[name]) for text, name in settings.VELOCITIES.items()]
-    )
+    lines = [(f"$v_c$ = {scientific(text)} m/s", runs[name]) for text, name in settings.VELOCITIES.items()]
+    return tilt_rates(lines)
 
 
 def figure_8(runs: Runs) -> Figure:
     """Tilt rate for several bristle stiffnesses."""
-    return tilt_rates(
-        [(f"$\\sigma_0$ = {scientific(text)} 1/m", runs[name]) for text, name in settings.STIFFNESSES.items()]
-    )
+    named = ((f"$\\sigma_0$ = {scientific(text)} 1/m", name) for text, name in settings.STIFFNESSES.items())
+    return tilt_rates([(text, runs[name]) for text, name in named])
 
 
 def figure_9(runs: Runs) -> Figure:
@@ -62,14 +61,12 @@ def figure_10(runs: Runs) -> Figure:
 def friction_pairs(runs: Runs, model: str) -> Figure:
     """Orbit, tilt rate and hysteresis for the friction pairs of one model."""
     fig, (axes,) = panels(1)
-    lines = [
-        (f"$f_s/f_d$ = {pair}", runs[name], {"color": f"C{color}"})
-        for color, (pair, name) in enumerate(zip(settings.PAIRS, settings.MODELS[model], strict=True))
-    ]
+    pairs = enumerate(zip(settings.PAIRS, settings.MODELS[model], strict=True))
+    lines = [(f"$f_s/f_d$ = {pair}", runs[name], {"color": f"C{color}"}) for color, (pair, name) in pairs]
     for _, run, look in lines:
-        orbit(run, axes[0], **look)
-        tiltpad.plots.waveform(run, axes[1], "pad_tilt_rate", 1, settings.PAD, **look)
         part = tiltpad.last_revolutions(run, 1)
+        trajectory(run, axes[0], part, **look)
+        tiltpad.plots.waveform(run, axes[1], "pad_tilt_rate", 1, settings.PAD, **look)
         tilt, moment = of_pad(run, "pad_tilt", part), of_pad(run, "friction_moment", part)
         axes[2].plot(SHOWN["pad_tilt"].factor * tilt, moment, **look)
     axes[2].set(xlabel=SHOWN["pad_tilt"].label, ylabel=SHOWN["friction_moment"].label)
@@ -86,9 +83,9 @@ def figure_14(runs: Runs) -> Figure:
             ax.plot(1e3 * velocity, coefficient, color=f"C{color}", label=f"$f_s/f_d$ = {pair}")
             span = np.abs(velocity).max()
             steady = np.concatenate([-np.geomspace(span, 1e-9, 300), np.geomspace(1e-9, span, 300)])
-            label = "steady law" if color == len(settings.PAIRS) - 1 else None
-            look = {"color": "black", "linestyle": ":", "linewidth": 0.7, "label": label}
-            ax.plot(1e3 * steady, stribeck_curve(run, steady), **look)
+            look = {"color": "black", "linestyle": ":", "linewidth": 0.7}
+            (line,) = ax.plot(1e3 * steady, stribeck_curve(run, steady), **look)
+        line.set_label("steady law")
         ax.set(title=named(model), xlabel=VELOCITY)
         ax.locator_params(axis="x", nbins=5)
         ax.sharey(axes[0])
@@ -100,11 +97,9 @@ def figure_14(runs: Runs) -> Figure:
 def figure_15(runs: Runs) -> Figure:
     """Run-up: the whole of it, and revolutions at low and at high speed."""
     fig, axes = panels(3)
-    lines = [
-        (named(model), runs[name], {"color": f"C{i}"})
-        for i, (model, name) in enumerate(settings.RUNUPS.items())
-    ]
-    for ax, name in zip(axes[0][1:], ("pad_tilt", "pad_tilt_rate"), strict=True):
+    runups = enumerate(settings.RUNUPS.items())
+    lines = [(named(model), runs[name], {"color": f"C{i}"}) for i, (model, name) in runups]
+    for ax, name in zip(axes[0][1:], TILTS, strict=True):
         for _, run, look in lines:
             tiltpad.plots.history(run, ax, name, settings.PAD, **look)
         speed = SHOWN["speed"].factor * run.values("speed")[[0, -1]]
@@ -118,7 +113,7 @@ def figure_15(runs: Runs) -> Figure:
             part = speed_window(run, rpm, settings.DETAIL)
             trajectory(run, axes[row][0], part, **look)
             turns = tiltpad.revolutions(run, part)
-            for ax, name in zip(axes[row][1:], ("pad_tilt", "pad_tilt_rate"), strict=True):
+            for ax, name in zip(axes[row][1:], TILTS, strict=True):
                 ax.plot(turns - turns[0], SHOWN[name].factor * of_pad(run, name, part), **look)
                 ax.set(xlabel="shaft revolutions", ylabel=SHOWN[name].label, xlim=(0, settings.DETAIL))
         axes[row][1].set_title(f"from {rpm} rpm" if rpm < settings.HIGH_SPEED else f"up to {rpm} rpm")
@@ -149,8 +144,7 @@ FIGURES = {
 
 def tilt_rates(lines: Sequence[tuple[str, tiltpad.Run]]) -> Figure:
     """Tilt rates of the first pad over a revolution, the frictionless amplitude told by the runs alone."""
-    fig = plt.figure(figsize=(PAGE / 2 + 1, 2.7))
-    ax = fig.subplots()
+    fig, ax = plt.subplots(figsize=(PAGE / 2 + 1, 2.7))
     for color, (text, run) in enumerate(lines):
         tiltpad.plots.waveform(run, ax, "pad_tilt_rate", 1, settings.PAD, color=f"C{color}", label=text)
     ax.set_ylabel(f"{SHOWN['pad_tilt_rate'].text} of pad {settings.PAD} ({SHOWN['pad_tilt_rate'].unit})")
@@ -161,14 +155,9 @@ def tilt_rates(lines: Sequence[tuple[str, tiltpad.Run]]) -> Figure:
 def orbit_tilt_rate(axes: Sequence[Axes], lines: Sequence[Line]) -> None:
     """Orbit, tilt and tilt rate of the first pad over a revolution."""
     for _, run, look in lines:
-        orbit(run, axes[0], **look)
-        for ax, name in zip(axes[1:], ("pad_tilt", "pad_tilt_rate"), strict=True):
+        trajectory(run, axes[0], tiltpad.last_revolutions(run, 1), **look)
+        for ax, name in zip(axes[1:], TILTS, strict=True):
             tiltpad.plots.waveform(run, ax, name, 1, settings.PAD, **look)
-
-
-def orbit(run: tiltpad.Run, ax: Axes, **look: Any) -> None:
-    """The last orbit."""
-    trajectory(run, ax, tiltpad.last_revolutions(run, 1), **look)
 
 
 def trajectory(run: tiltpad.Run, ax: Axes, part: slice, **look: Any) -> None:
@@ -189,8 +178,7 @@ def orbit_centres(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray]:
 
 def panels(rows: int) -> tuple[Figure, Any]:
     """Rows of three panels across a page."""
-    fig = plt.figure(figsize=(PAGE, 0.4 + 2.2 * rows))
-    return fig, fig.subplots(rows, 3, squeeze=False)
+    return plt.subplots(rows, 3, squeeze=False, figsize=(PAGE, 0.4 + 2.2 * rows))
 
 
 def legend(fig: Figure, lines: Sequence[Line], columns: int = 4) -> Figure:

@@ -20,7 +20,7 @@ FANG_PIVOT, FANG_LOAD, FANG_DIFFERENCES, FANG_DEFLECTION = 0.1, 1e4, (0, 15, 30,
 LAWS = {
     "Fang, factor 4": (),
     r"Fang, factor 2 pi": (f"pivot%deflection_factor={2 * pi:.15g}",),
-    "Hertz": ("pivot%law=hertz",),
+    "Hertz": ("pivot%law='hertz'",),
 }
 LAW_DIFFERENCES = (15, 30)
 
@@ -29,13 +29,7 @@ def pivot(difference: float, *overrides: str, socket_radius: float | None = None
     """A namelist of a pivot with the radius difference, um; overrides as pivot%name=value."""
     words = [f"radius_difference={1e-6 * difference:g}", *(each.partition("%")[2] for each in overrides)]
     words += [f"socket_radius={socket_radius:g}"] if socket_radius else []
-    return f"&pivot {', '.join(quoted(word) for word in words)} /"
-
-
-def quoted(word: str) -> str:
-    """name=value with a text value in quotes."""
-    name, _, value = word.partition("=")
-    return f"{name}='{value}'" if value.isalpha() else word
+    return f"&pivot {', '.join(words)} /"
 
 
 def fang_force(difference: float) -> tuple[np.ndarray, np.ndarray]:
@@ -52,12 +46,10 @@ def figure_3(runs: Runs) -> Figure:
     radius = float(tiltpad.contact(pivot_deflection, case).radius)
     r, angle = np.meshgrid(radius * np.sqrt(1 - np.linspace(1, 0, 80) ** 4), np.linspace(0, 2 * np.pi, 121))
     pressure = tiltpad.contact_pressure(pivot_deflection, r, case)
-    fig = plt.figure(figsize=(COLUMN + 0.6, 2.8))
-    ax = fig.subplots(subplot_kw={"projection": "3d"})
+    fig, ax = plt.subplots(subplot_kw={"projection": "3d"}, figsize=(COLUMN + 0.6, 2.8))
     place = 1e3 * r * np.cos(angle), 1e3 * r * np.sin(angle)
-    ax.plot_surface(
-        *place, 1e-6 * pressure, cmap="viridis", rcount=121, ccount=80, linewidth=0, antialiased=False
-    )
+    look = {"cmap": "viridis", "rcount": 121, "ccount": 80, "linewidth": 0, "antialiased": False}
+    ax.plot_surface(*place, 1e-6 * pressure, **look)
     ax.set(xlabel=r"$\tilde x$ (mm)", ylabel=r"$\tilde y$ (mm)", zlabel="pressure (MPa)")
     ax.set_title(f"$\\Delta R$ = 0, $F_{{bs}}$ = {FORCE.factor * FANG_LOAD:g} kN", y=0.95)
     for axis in (ax.xaxis, ax.yaxis):
@@ -70,15 +62,11 @@ def figure_3(runs: Runs) -> Figure:
 
 def figure_4(runs: Runs) -> Figure:
     """Force over pivot deflection for several radius differences."""
-    fig = plt.figure(figsize=(COLUMN, 2.6))
-    ax = fig.subplots()
+    fig, ax = plt.subplots(figsize=(COLUMN, 2.6))
     for difference in FANG_DIFFERENCES:
         pivot_deflection, force = fang_force(difference)
-        ax.plot(
-            DEFLECTION.factor * pivot_deflection,
-            FORCE.factor * force,
-            label=f"$\\Delta R$ = {difference} µm",
-        )
+        label = f"$\\Delta R$ = {difference} µm"
+        ax.plot(DEFLECTION.factor * pivot_deflection, FORCE.factor * force, label=label)
     ax.set(xlabel=DEFLECTION.label, ylabel=FORCE.label, xlim=(0, None), ylim=(0, None))
     ax.legend()
     return fig
@@ -113,8 +101,7 @@ def steady_friction(run: tiltpad.Run, velocity: np.ndarray) -> np.ndarray:
 
 def laws4(runs: Runs) -> Figure:
     """Fig. 4 for the bearing's pivot by other contact laws."""
-    fig = plt.figure(figsize=(PAGE - 1, 2.8))
-    ax = fig.subplots()
+    fig, ax = plt.subplots(figsize=(PAGE - 1, 2.8))
     load = runs["steady_tr"].values("pivot_load", tiltpad.last_revolutions(runs["steady_tr"]))
     ax.axhspan(*(FORCE.factor * each for each in (load.min(), load.max())), color="0.93", zorder=0)
     pivot_deflection = np.linspace(0, 15e-6, 201)

@@ -36,15 +36,9 @@ LOST_SPEEDS = (2000, 14000)
 
 def over_speed(first: float, last: float, *, step: float, longest: float) -> tuple[str, ...]:
     """Overrides of a branch of orbits over the speed."""
-    return (
-        "case%task=branch",
-        'branch%parameter="operation%speed_rpm"',
-        f"operation%speed_rpm={first:g}",
-        f"branch%last={last:g}",
-        f"branch%step={step:g}",
-        f"branch%max_step={longest:g}",
-        "branch%switch=.false.",
-    )
+    over = ("case%task=branch", 'branch%parameter="operation%speed_rpm"', f"operation%speed_rpm={first:g}")
+    steps = (f"branch%last={last:g}", f"branch%step={step:g}", f"branch%max_step={longest:g}")
+    return *over, *steps, "branch%switch=.false."
 
 
 def lost_name(law: str, unbalance: float, coefficient: float) -> str:
@@ -56,22 +50,19 @@ def lost_name(law: str, unbalance: float, coefficient: float) -> str:
 FOUR = "input/examples/four_pads.nml"
 FOUR_SPEEDS = (4000, 8500)
 DOUBLED = ("periodic%revolutions=2", "branch%max_points=125", 'case%title="two revolutions"')
+LOST = over_speed(*LOST_SPEEDS, step=100, longest=500)
 CASES = (
     *(
         Case(
             lost_name(law, unbalance, f),
             case,
-            (
-                f"rotor%unbalance={unbalance:g}",
-                *coefficients(f, f / 2),
-                *over_speed(*LOST_SPEEDS, step=100, longest=500),
-            ),
+            (f"rotor%unbalance={unbalance:g}", *coefficients(f, f / 2), *LOST),
         )
         for law, case in LOST_LAWS.items()
         for unbalance in LOST_UNBALANCES
         for f in LOST_COEFFICIENTS
     ),
-    Case("lost_none", FRICTIONLESS, over_speed(*LOST_SPEEDS, step=100, longest=500)),
+    Case("lost_none", FRICTIONLESS, LOST),
     Case("four_once", FOUR, (*over_speed(*FOUR_SPEEDS, step=50, longest=250), 'case%title="one revolution"')),
     Case("four_twice", FOUR, (*over_speed(6700, 5000, step=-50, longest=250), *DOUBLED)),
 )
@@ -132,38 +123,32 @@ def lost_table(runs: Runs) -> str:
     cases = [(law, unbalance) for law in LOST_LAWS for unbalance in LOST_UNBALANCES]
     rows = []
     for f in LOST_COEFFICIENTS:
-        cells = []
-        for law, unbalance in cases:
-            run = runs[lost_name(law, unbalance, f)]
-            cells.append("; ".join(part_words(run, *part) for part in unstable(run)) or "never")
-        rows.append((f"{f:g}", *cells))
+        those = (runs[lost_name(*case, f)] for case in cases)
+        rows.append((f"{f:g}", *(unstable_words(run) or "never" for run in those)))
     return table(("f_s", *(f"{law}, unbalance {unbalance:g} kg m" for law, unbalance in cases)), rows)
 
 
-def part_words(run: tiltpad.Run, low: float, high: float) -> str:
-    """Speeds of an unstable part, and what happens at its ends."""
+def unstable_words(run: tiltpad.Run) -> str:
+    """Speeds of the unstable parts, and what happens at their ends."""
     kinds = {round(each.parameter, 6): each.kind for each in branches.bifurcations(run)}
-    ends = []
-    for speed in (low, high):
-        kind = HAPPENS.get(kinds.get(round(speed, 6), ""), "")
-        ends.append(f"{speed:.0f} rpm" + (f" ({kind})" if kind else " (end of the branch)"))
-    return " to ".join(ends)
+
+    def end(speed: float) -> str:
+        happens = HAPPENS.get(kinds.get(round(speed, 6), ""), "end of the branch")
+        return f"{speed:.0f} rpm ({happens})"
+
+    return "; ".join(" to ".join(map(end, part)) for part in unstable(run))
 
 
 def lost_words(runs: Runs) -> str:
     """Whether the frictionless orbit is lost, and how the two unbalances differ."""
-    parts = unstable(runs["lost_none"])
-    first, last = LOST_SPEEDS
-    where = "; ".join(part_words(runs["lost_none"], *part) for part in parts)
-    stable = f"the orbit is stable from {first} to {last} rpm"
-    said = [f"Without friction {f'it is unstable {where}' if parts else stable}."]
+    where = unstable_words(runs["lost_none"])
+    stable = "the orbit is stable from {} to {} rpm".format(*LOST_SPEEDS)
+    said = [f"Without friction {f'it is unstable {where}' if where else stable}."]
     for law, unbalance in product(LOST_LAWS, LOST_UNBALANCES):
         kept = [f for f in LOST_COEFFICIENTS if not unstable(runs[lost_name(law, unbalance, f)])]
         if kept:
-            said.append(
-                f"With {law} and the unbalance of {unbalance:g} kg m it is never lost in this range for "
-                f"f_s = {', '.join(f'{f:g}' for f in kept)}."
-            )
+            never = f"With {law} and the unbalance of {unbalance:g} kg m it is never lost in this range"
+            said.append(f"{never} for f_s = {', '.join(f'{f:g}' for f in kept)}.")
     return " ".join(said)
 
 
@@ -176,11 +161,11 @@ def doubling_figure(runs: Runs) -> Figure:
 def doubling_words(runs: Runs) -> str:
     """Where the orbits of the four-pad bearing are lost and appear, and what marches find."""
     once, twice = runs["four_once"], runs["four_twice"]
-    crossed = [
-        f"{each.parameter:.0f} rpm ({HAPPENS.get(each.kind, each.kind)}, "
-        f"multiplier {digits(each.value.real, 4)} +- {digits(abs(each.value.imag), 2)} i)"
-        for each in branches.bifurcations(once)
-    ]
+    crossed = []
+    for each in branches.bifurcations(once):
+        multiplier = f"{digits(each.value.real, 4)} +- {digits(abs(each.value.imag), 2)} i"
+        happens = HAPPENS.get(each.kind, each.kind)
+        crossed.append(f"{each.parameter:.0f} rpm ({happens}, multiplier {multiplier})")
     folds = [each.parameter for each in branches.bifurcations(twice) if each.kind == "fold"]
     leading = np.abs(branches.multipliers(twice)[:, 0])
     calm = bool(twice["stable"].any())

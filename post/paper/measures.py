@@ -69,9 +69,8 @@ def rms_deviation(run: Run, other: Run, name: str) -> float:
 def acceleration(run: Run) -> float:
     """Highest angular acceleration of the first pad between two samples, rad/s^2."""
     part = tiltpad.last_revolutions(run, LAST)
-    return float(
-        np.abs(np.diff(of_pad(run, "pad_tilt_rate", part)) / np.diff(run.values("time", part))).max()
-    )
+    steps = np.diff(of_pad(run, "pad_tilt_rate", part)) / np.diff(run.values("time", part))
+    return float(np.abs(steps).max())
 
 
 def stribeck_curve(run: Run, velocity: np.ndarray) -> np.ndarray:
@@ -79,10 +78,8 @@ def stribeck_curve(run: Run, velocity: np.ndarray) -> np.ndarray:
     law, speed = run.input["friction"], np.abs(velocity)
     static, dynamic = (np.max(law[name]) for name in ("static_coefficient", "dynamic_coefficient"))
     if law["model"] == "lugre":
-        curve = dynamic + (static - dynamic) * np.exp(
-            -((speed / law["stribeck_velocity"]) ** law["stribeck_exponent"])
-        )
-        return curve * np.sign(velocity)
+        exponent = -((speed / law["stribeck_velocity"]) ** law["stribeck_exponent"])
+        return (dynamic + (static - dynamic) * np.exp(exponent)) * np.sign(velocity)
     critical = law["critical_velocity"]
     rising = static - static * (speed / critical - 1) ** 2
     falling = dynamic + (static - dynamic) * np.exp(-law["decay"] * np.maximum(0, speed - critical))

@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 
-from paper import lost, sticking, studies
+from paper import lost, settings, sticking, studies
 from paper.judging import Checked
 from paper.reasons import WHY
 from paper.runs import Runs
 from paper.sections import SECTIONS, Section
-from paper.settings import AGREEMENT, LAST, REFINED, RESOLUTION, SHORT, STICKS
 from paper.tables import digits, table
 
+#: Of the settings `s` it takes the numbers themselves.
 PAGE = """\
 # The paper, reproduced
 
@@ -23,13 +23,13 @@ numbers are calculated from runs of the program, except those that are quoted fr
 **The page checks {count} claims: {good} hold, {bad} do not.** *Claims that do not hold* gives the reasons.
 {failed}
 
-One number decides a claim. It is taken over the last {last} revolutions, for pad 1, and from runs of 2 s at
+One number decides a claim. It is taken over the last {s.LAST} revolutions, for pad 1, and from runs of 2 s at
 6500 rpm, unless the claim names others. A number counts as larger or smaller if the difference is more than
-{resolution}, ten times the limit of the error of the default settings ([benchmarks](../benchmarks.md)).
-Orbits agree if their maximum distance at the same shaft angle is below {agreement} of their size. A pad
+{s.RESOLUTION:.0%}, ten times the limit of the error of the default settings ([benchmarks](../benchmarks.md)).
+Orbits agree if their maximum distance at the same shaft angle is below {s.AGREEMENT:.0%} of their size. A pad
 sticks while its pivot slides slower than 5 % of the Stribeck velocity; it comes to rest if it sticks
-{sticks:g} times as long as a sinusoid of the same amplitude would. Two columns have the same number from
-other runs: *refined* with {refined} and, except for the run-ups, {short}; *rule (26)* with the unbalance
+{s.STICKS:g} times as long as a sinusoid of the same amplitude would. Two columns have the same number from
+other runs: *refined* with {refined} and, except for the run-ups, `{s.SHORT}`; *rule (26)* with the unbalance
 that the rule of the paper gives for G 6.3, {unbalance} kg m at 6500 rpm. All pictures and verdicts have the
 unbalance of Table 1 of the paper, 0.010 kg m.
 
@@ -125,7 +125,7 @@ right pictures are the speeds at which the orbit is unstable.
 
 ![Leading multiplier over speed; unstable speeds over friction coefficient](lost.png)
 
-{lost}
+{lost_table}
 
 {lost_words} A small unbalance leaves the pads sticking, and the orbit is lost near the threshold speed of
 stability of pads that stick (above). A larger one makes them slide in each revolution, and may keep its
@@ -159,12 +159,8 @@ def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -
         good=len(checked) - len(failed),
         bad=len(failed),
         failed=failed_words(failed),
-        last=LAST,
-        resolution=f"{RESOLUTION:.0%}",
-        agreement=f"{AGREEMENT:.0%}",
-        sticks=STICKS,
-        refined=", ".join(f"`{word}`" for word in REFINED),
-        short=f"`{SHORT}`",
+        s=settings,
+        refined=", ".join(f"`{word}`" for word in settings.REFINED),
         sections="\n\n".join(section_text(each, checked) for each in SECTIONS),
         why=why(failed, paper),
         rule=rule_changes(checked),
@@ -183,7 +179,7 @@ def page(checked: Sequence[Checked], paper: Runs, studied: Runs, machine: str) -
         whirl_words=sticking.whirl_words(studied),
         first=lost.LOST_SPEEDS[0],
         last_speed=lost.LOST_SPEEDS[1],
-        lost=lost.lost_table(studied),
+        lost_table=lost.lost_table(studied),
         lost_words=lost.lost_words(studied),
         doubling_words=lost.doubling_words(studied),
         grade=digits(studies.equivalent_grade(paper["steady_tr"]), 2),
@@ -240,9 +236,7 @@ def rule_changes(checked: Sequence[Checked]) -> str:
     changed = [each for each in checked if each.rule.holds != each.verdict.holds]
     if not changed:
         return "With the unbalance of rule (26) no verdict changes."
-    lines = [
-        f"- {short(each)}, by the rule {digits(each.rule.value)} "
-        f"(must be {each.rule.sense} {each.rule.limit:g})"
-        for each in changed
-    ]
+    limits = (f"(must be {each.rule.sense} {each.rule.limit:g})" for each in changed)
+    found = (f"- {short(each)}, by the rule {digits(each.rule.value)}" for each in changed)
+    lines = map(" ".join, zip(found, limits, strict=True))
     return "\n".join([RULE_WORDS, "", *lines])

@@ -10,9 +10,8 @@ from paper.settings import LAST, MODELS, STIFFNESSES
 def why_amplitude(runs: Runs) -> str:
     """Evidence for amplitude_below_frictionless."""
     free, equal, half = (runs[name] for name in ("steady_tr", "steady_tr_ba", "steady_ba_10_05"))
-    rates = [
-        peak_to_peak(run, "pad_tilt_rate") / peak_to_peak(free, "pad_tilt_rate") for run in (equal, half)
-    ]
+    rate, *rates = (peak_to_peak(run, "pad_tilt_rate") for run in (free, equal, half))
+    rates = [each / rate for each in rates]
     sizes = [size(run) / size(free) for run in (equal, half)]
     return (
         "The reason is the model, not the numerics. Friction holds the pad, but it also enlarges the "

@@ -14,13 +14,7 @@ from paper.settings import ROOT, Case
 LIMIT = 300
 #: The longest runs come first, so that no core idles at the end.
 SLOWEST = (
-    "four_twice",
-    "four_once",
-    "runup_ba",
-    "runup_lugre5",
-    "runup_lugre",
-    "lugre100",
-    "ba_slow",
+    *("four_twice", "four_once", "runup_ba", "runup_lugre5", "runup_lugre", "lugre100", "ba_slow"),
     "four_pads",
 )
 
@@ -49,9 +43,8 @@ def run_all(program: Path, jobs: Iterable[tuple[Case, Path]], cores: int | None 
     """Runs cases, each into its folder and a process of its own, as many at once as there are cores; raises
     RuntimeError for one that fails.
     """
-    queue = sorted(
-        jobs, key=lambda job: SLOWEST.index(job[0].name) if job[0].name in SLOWEST else len(SLOWEST)
-    )
+    order = {name: k for k, name in enumerate(SLOWEST)}
+    queue = sorted(jobs, key=lambda job: order.get(job[0].name, len(order)))
     for folder in {folder for _, folder in queue}:
         folder.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(cores or os.cpu_count()) as pool:

@@ -14,6 +14,13 @@ class Case:
     case: str
     overrides: tuple[str, ...] = ()
 
+    def changed(self, *overrides: str) -> "Case":
+        return Case(self.name, self.case, (*self.overrides, *overrides))
+
+    @property
+    def is_runup(self) -> bool:
+        return self.name in RUNUPS.values()
+
 
 #: Pad that is shown and measured, the paper's first; revolutions that numbers are taken over.
 PAD, LAST = 1, 5
@@ -23,11 +30,9 @@ DETAIL = 3
 #: Every case of input/paper, by its file's name.
 PAPER = tuple(Case(path.stem, str(path.relative_to(ROOT))) for path in sorted(ROOT.glob("input/paper/*.nml")))
 
-BA, LUGRE, FRICTIONLESS = (
-    f"input/paper/{name}.nml" for name in ("steady_ba_10_05", "steady_lugre", "steady_tr")
+BA, LUGRE, FRICTIONLESS, BA_10_10 = (
+    f"input/paper/{name}.nml" for name in ("steady_ba_10_05", "steady_lugre", "steady_tr", "steady_tr_ba")
 )
-#: Bengisu-Akay f = 0.1, the friction of Figs. 9 and 10.
-BA_10_10 = "input/paper/steady_tr_ba.nml"
 
 #: Friction pairs f_s/f_d of Figs. 11 to 13, and the runs of a pair: Bengisu-Akay, LuGre 1e6, LuGre 5e6.
 PAIRS = ("0.1/0.05", "0.1/0.1", "0.2/0.1", "0.2/0.2")
@@ -101,11 +106,7 @@ STICKS = 2.0
 #: Part of f_s within which friction coefficients lie on one curve.
 ON_CURVE = 0.01
 #: The same runs again, to tell numerics from physics: finer film, tighter tolerance, and a shorter march.
-REFINED = (
-    "film%circumferential_cells=32",
-    "film%axial_modes=8",
-    "integration%relative_tolerance=1e-6",
-)
+REFINED = ("film%circumferential_cells=32", "film%axial_modes=8", "integration%relative_tolerance=1e-6")
 #: Rule (26) with the grade of section 3 instead of the unbalance of Table 1.
 RULE = f"rotor%balance_grade={GRADE:g}"
 #: Long enough to be periodic; it ends at the same shaft angle as 2 s at 6500 rpm.
@@ -116,29 +117,23 @@ KEPT = 0.25
 
 def refined(case: Case) -> Case:
     """The case with the settings REFINED."""
-    return shorter(Case(case.name, case.case, (*case.overrides, *REFINED)))
+    return shorter(case.changed(*REFINED))
 
 
 def balanced(case: Case) -> Case:
     """The case with the unbalance of rule (26)."""
     own = any("balance_grade" in word for word in case.overrides)
-    return shorter(Case(case.name, case.case, case.overrides if own else (*case.overrides, RULE)))
+    return shorter(case if own else case.changed(RULE))
 
 
 def shorter(case: Case) -> Case:
     """The case with the duration SHORT, unless it is a run-up; of which the end is kept."""
-    return changed_unless_runup(case, SHORT, f"output%start_time={0.8 - KEPT:g}")
+    return case if case.is_runup else case.changed(SHORT, f"output%start_time={0.8 - KEPT:g}")
 
 
 def kept(case: Case) -> Case:
     """The case, of which the end is kept unless it is a run-up."""
-    return changed_unless_runup(case, f"output%start_time={2 - KEPT:g}")
-
-
-def changed_unless_runup(case: Case, *overrides: str) -> Case:
-    if case.name in RUNUPS.values():
-        return case
-    return Case(case.name, case.case, (*case.overrides, *overrides))
+    return case if case.is_runup else case.changed(f"output%start_time={2 - KEPT:g}")
 
 
 def coefficients(static: float, dynamic: float) -> tuple[str, ...]:

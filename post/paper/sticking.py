@@ -49,13 +49,14 @@ def stick_name(mass: float, speed: float) -> str:
     return f"stick_{mass}_{speed}"
 
 
+def at_rest(mass: float, speed: float) -> tuple[str, ...]:
+    """Overrides: small vibrations of a rotor of this mass at a speed."""
+    return "case%task=coefficients", f"rotor%mass={mass}", f"operation%speed_rpm={speed}"
+
+
 CASES = (
     *(
-        Case(
-            stick_name(mass, speed),
-            LUGRE,
-            ("case%task=coefficients", f"rotor%mass={mass}", f"operation%speed_rpm={speed}"),
-        )
+        Case(stick_name(mass, speed), LUGRE, at_rest(mass, speed))
         for mass, speed in (*product(STICK_MASSES, STICK_SPEEDS), *product([ROTOR_MASS], WHIRL_SPEEDS))
     ),
     *(Case(f"threshold_mass_{mass}", LUGRE, (*THRESHOLD, f"rotor%mass={mass}")) for mass in STICK_MASSES),
@@ -79,15 +80,10 @@ def stability_figure(runs: Runs) -> Figure:
     draw_ratios(axes[0], runs)
     over_mass = thresholds(runs, "mass", STICK_MASSES)
     over_stiffness = thresholds(runs, "stiffness", STICK_STIFFNESSES)
+    stiffnesses = [float(word) for word in STICK_STIFFNESSES]
     for pivot, dashes in LINES.items():
         axes[0].plot(over_mass[pivot], STICK_MASSES, dashes, color="black", label=pivot)
-        axes[1].plot(
-            [float(word) for word in STICK_STIFFNESSES],
-            over_stiffness[pivot],
-            dashes,
-            color="C0",
-            label=pivot,
-        )
+        axes[1].plot(stiffnesses, over_stiffness[pivot], dashes, color="C0", label=pivot)
     axes[0].set(xlim=(STICK_SPEEDS[0], STICK_SPEEDS[-1]))
     axes[1].set(xscale="log", xlabel=r"bristle stiffness $\sigma_0$ (1/m)", ylabel="threshold speed (rpm)")
     for ax in axes:
@@ -98,7 +94,8 @@ def stability_figure(runs: Runs) -> Figure:
 def draw_ratios(ax: Axes, runs: Runs) -> None:
     """Filled contours of the least damping ratio on pads that stick, in per cent."""
     ratios = [
-        [100 * least_ratio(runs[stick_name(mass, speed)]) for speed in STICK_SPEEDS] for mass in STICK_MASSES
+        [100 * least_damped(runs[stick_name(mass, speed)])[0] for speed in STICK_SPEEDS]
+        for mass in STICK_MASSES
     ]
     limit = np.abs(ratios).max()
     shades = ax.contourf(STICK_SPEEDS, STICK_MASSES, ratios, 20, cmap="RdBu", vmin=-limit, vmax=limit)
@@ -107,9 +104,11 @@ def draw_ratios(ax: Axes, runs: Runs) -> None:
     ax.grid(visible=False)
 
 
-def least_ratio(run: tiltpad.Run) -> float:
-    """Damping ratio of the first mode on pads that stick."""
-    return float(np.nanmin(tiltpad.modes(run, "stuck").damping_ratio))
+def least_damped(run: tiltpad.Run) -> tuple[float, float]:
+    """Damping ratio of the first mode on pads that stick, and its growth, 1/s."""
+    found = tiltpad.modes(run, "stuck")
+    k = np.nanargmin(found.damping_ratio)
+    return float(found.damping_ratio[k]), float(found.eigenvalue[k].real)
 
 
 def stuck_stiffness(runs: Runs, row: int, column: int) -> float:
@@ -160,7 +159,7 @@ def whirl_words(runs: Runs) -> str:
     k = STICK_MASSES.index(ROTOR_MASS)
     stuck = thresholds(runs, "mass", STICK_MASSES)["stuck"][k]
     below, above = (runs[f"whirl_{speed}"] for speed in WHIRL_SPEEDS)
-    modes = [digits(first_growth(runs[stick_name(ROTOR_MASS, speed)])) for speed in WHIRL_SPEEDS]
+    modes = [digits(least_damped(runs[stick_name(ROTOR_MASS, speed)])[1]) for speed in WHIRL_SPEEDS]
     end = envelope(above)[1][-1]
     return (
         f"For the rotor of the paper, {ROTOR_MASS} kg, the threshold speed on pads that stick "
@@ -171,12 +170,6 @@ def whirl_words(runs: Runs) -> str:
         f"moments reach their limit and the pads break away in every turn of the whirl: the journal then "
         f"whirls steadily, with {digits(1e6 * end)} um from peak to peak, without any unbalance."
     )
-
-
-def first_growth(run: tiltpad.Run) -> float:
-    """Growth of the least damped mode on pads that stick, 1/s."""
-    found = tiltpad.modes(run, "stuck")
-    return float(found.eigenvalue[np.nanargmin(found.damping_ratio)].real)
 
 
 #: Pictures of this module.

@@ -1,5 +1,7 @@
 """Beyond the paper: friction work, stick maps, contact laws, rule of the unbalance; pictures and tables."""
 
+from itertools import product
+
 import matplotlib.pyplot as plt
 import numpy as np
 import tiltpad
@@ -8,26 +10,12 @@ from matplotlib.figure import Figure
 from tiltpad.draw.layout import PAGE
 from tiltpad.files.units import SHOWN
 
-from paper.figures import legend, named, orbit, panels
+from paper import settings
+from paper.figures import TILTS, legend, named, orbit_tilt_rate, panels
 from paper.laws import LAW_DIFFERENCES, LAWS, law_text, laws4
 from paper.measures import height, of_pad, peak_to_peak, size
 from paper.runs import Runs
-from paper.settings import (
-    BA,
-    BA_10_10,
-    FRICTIONLESS,
-    GRADE,
-    LAST,
-    LUGRE,
-    MODELS,
-    PAD,
-    PAIRS,
-    RUNUPS,
-    Case,
-    at_speed,
-    coefficients,
-    shorter,
-)
+from paper.settings import BA, BA_10_10, FRICTIONLESS, LUGRE, Case, at_speed, coefficients, shorter
 from paper.tables import digits, table
 
 RPM = SHOWN["speed"].label
@@ -38,7 +26,7 @@ def work_figure(runs: Runs) -> Figure:
     """Friction work per revolution and mean power of each pad over the speed of the run-ups."""
     fig, axes = plt.subplots(1, 2, figsize=(PAGE, 2.6))
     lines = []
-    for color, (model, name) in enumerate(RUNUPS.items()):
+    for color, (model, name) in enumerate(settings.RUNUPS.items()):
         run = runs[name]
         speed, duration, work = work_by_revolution(run)
         for pad, dashes in ((0, "-"), (1, "--")):
@@ -69,17 +57,16 @@ def work_by_revolution(run: tiltpad.Run) -> tuple[np.ndarray, np.ndarray, np.nda
 def work_table(runs: Runs) -> str:
     """Work per revolution and mean power over each pivot of the steady runs."""
     rows = []
-    for model, names in MODELS.items():
-        for pair, name in zip(PAIRS, names, strict=True):
+    for model, names in settings.MODELS.items():
+        for pair, name in zip(settings.PAIRS, names, strict=True):
             run = runs[name]
             pads = range(1, run.pads + 1)
-            work = [digits(1e3 * tiltpad.friction_work(run, pad, LAST)) for pad in pads]
-            power = [digits(tiltpad.friction_power(run, pad, LAST)) for pad in pads]
-            share = [f"{100 * tiltpad.stick_fraction(run, pad, LAST):.0f}" for pad in pads]
+            work = [digits(1e3 * tiltpad.friction_work(run, pad, settings.LAST)) for pad in pads]
+            power = [digits(tiltpad.friction_power(run, pad, settings.LAST)) for pad in pads]
+            share = [f"{100 * tiltpad.stick_fraction(run, pad, settings.LAST):.0f}" for pad in pads]
             rows.append((model, pair, *work, *power, *share))
-    head = ("model", "f_s/f_d", "work, pad 1, mJ", "pad 2", "power, pad 1, W", "pad 2", "stick, pad 1, %",
-            "pad 2")  # fmt: skip
-    return table(head, rows)
+    measured = ("work, pad 1, mJ", "power, pad 1, W", "stick, pad 1, %")
+    return table(("model", "f_s/f_d", *(word for each in measured for word in (each, "pad 2"))), rows)
 
 
 # ---- stick map -------------------------------------------------------------------------------------------
@@ -104,10 +91,11 @@ MAP = tuple(
 def map_figure(runs: Runs) -> Figure:
     """Stick fraction and friction power over speed and friction coefficient."""
     fig, axes = plt.subplots(1, 2, figsize=(PAGE, 2.9))
-    power = sum(
-        map_values(runs, lambda run, pad=pad: tiltpad.friction_power(run, pad, LAST)) for pad in (1, 2)
+    power = map_values(
+        runs, lambda run: sum(tiltpad.friction_power(run, pad, settings.LAST) for pad in (1, 2))
     )
-    draw_map(axes[0], 100 * stick_map(runs), f"time in which pad {PAD} sticks (%)", np.arange(0, 101, 10))
+    sticks = f"time in which pad {settings.PAD} sticks (%)"
+    draw_map(axes[0], 100 * stick_map(runs), sticks, np.arange(0, 101, 10))
     draw_map(axes[1], power, "friction power, both pads (W)", 10)
     return fig
 
@@ -119,7 +107,7 @@ def map_values(runs: Runs, measure) -> np.ndarray:
 
 def stick_map(runs: Runs) -> np.ndarray:
     """Stick fraction of the first pad, (coefficient, speed)."""
-    return map_values(runs, lambda run: tiltpad.stick_fraction(run, PAD, LAST))
+    return map_values(runs, lambda run: tiltpad.stick_fraction(run, settings.PAD, settings.LAST))
 
 
 def draw_map(ax: Axes, values: np.ndarray, label: str, levels: int | np.ndarray) -> None:
@@ -134,10 +122,8 @@ def draw_map(ax: Axes, values: np.ndarray, label: str, levels: int | np.ndarray)
 
 def map_table(runs: Runs) -> str:
     """Stick fraction, %."""
-    rows = [
-        (f"{f:g}", *(f"{100 * share:.0f}" for share in shares))
-        for f, shares in zip(MAP_COEFFICIENTS, stick_map(runs), strict=True)
-    ]
+    those = zip(MAP_COEFFICIENTS, stick_map(runs), strict=True)
+    rows = [(f"{f:g}", *(f"{100 * share:.0f}" for share in shares)) for f, shares in those]
     return table(("f_s", *(f"{speed} rpm" for speed in MAP_SPEEDS)), rows)
 
 
@@ -158,28 +144,24 @@ def law_name(law: str, difference: int, friction: bool) -> str:
 
 
 LAW_CASES = tuple(
-    shorter(Case(law_name(law, difference, friction), BA_10_10 if friction else FRICTIONLESS,
-                  (*overrides, f"pivot%radius_difference={difference}e-6")))
+    shorter(Case(law_name(law, um, friction), case, (*overrides, f"pivot%radius_difference={um}e-6")))
     for law, overrides in LAWS.items()
-    for difference in LAW_DIFFERENCES
-    for friction in (False, True)
-)  # fmt: skip
+    for um in LAW_DIFFERENCES
+    for friction, case in ((False, FRICTIONLESS), (True, BA_10_10))
+)
 
 
 def laws_figure(runs: Runs) -> Figure:
     """Fig. 10 by other contact laws: without friction above, with it below."""
     fig, axes = panels(2)
-    dashes = ("-", "--")
     lines = []
     for row, friction in enumerate((False, True)):
         for color, law in enumerate(LAWS):
-            for difference, dash in zip(LAW_DIFFERENCES, dashes, strict=True):
+            for difference, dash in zip(LAW_DIFFERENCES, ("-", "--"), strict=True):
                 run = runs[law_name(law, difference, friction)]
                 look = {"color": f"C{color}", "linestyle": dash}
                 lines.append((f"{law_text(law)}, $\\Delta R$ = {difference} µm", run, look))
-                orbit(run, axes[row][0], **look)
-                for ax, name in zip(axes[row][1:], ("pad_tilt", "pad_tilt_rate"), strict=True):
-                    tiltpad.plots.waveform(run, ax, name, 1, PAD, **look)
+                orbit_tilt_rate(axes[row], lines[-1:])
         axes[row][1].set_title("Bengisu-Akay, $f$ = 0.1" if friction else "frictionless")
     return legend(fig, lines[: len(lines) // 2], 3)
 
@@ -187,18 +169,15 @@ def laws_figure(runs: Runs) -> Figure:
 def laws_table(runs: Runs) -> str:
     """The influence of the laws on Fig. 10."""
     rows = []
-    for friction in (False, True):
-        for law in LAWS:
-            for difference in LAW_DIFFERENCES:
-                run = runs[law_name(law, difference, friction)]
-                part = tiltpad.last_revolutions(run, LAST)
-                pivot_deflection = of_pad(run, "pivot_deflection", part).mean()
-                tilts = (1e3 * peak_to_peak(run, name) for name in ("pad_tilt", "pad_tilt_rate"))
-                numbers = 1e6 * pivot_deflection, 1e6 * height(run), 1e6 * size(run), *tilts
-                rows.append((law, difference, "0.1" if friction else "none", *map(digits, numbers)))
-    head = ("law", "dR, um", "friction", "mean pivot deflection, um", "mean journal y, um", "orbit size, um",
-            "tilt, mrad", "tilt rate, mrad/s")  # fmt: skip
-    return table(head, rows)
+    for friction, law, difference in product((False, True), LAWS, LAW_DIFFERENCES):
+        run = runs[law_name(law, difference, friction)]
+        part = tiltpad.last_revolutions(run, settings.LAST)
+        pivot_deflection = of_pad(run, "pivot_deflection", part).mean()
+        tilts = (1e3 * peak_to_peak(run, name) for name in TILTS)
+        numbers = 1e6 * pivot_deflection, 1e6 * height(run), 1e6 * size(run), *tilts
+        rows.append((law, difference, "0.1" if friction else "none", *map(digits, numbers)))
+    measured = ("mean pivot deflection, um", "mean journal y, um", "orbit size, um")
+    return table(("law", "dR, um", "friction", *measured, "tilt, mrad", "tilt rate, mrad/s"), rows)
 
 
 # ---- unbalance rule --------------------------------------------------------------------------------------
@@ -250,9 +229,9 @@ def rule_table(runs: Runs) -> str:
     sizes = [rule_sizes(runs, model, kind) for kind in ("own", "highest") for model in ("none", "lugre")]
     numbers = np.transpose([*(1e6 * each for each in sizes), sizes[1] / sizes[0]])
     rows = [(speed, *map(digits, these)) for speed, these in zip(RULE_SPEEDS, numbers, strict=True)]
-    head = ("speed, rpm", "its own: frictionless, um", "LuGre 0.1/0.05, um", "6500 rpm: frictionless, um",
-            "LuGre 0.1/0.05, um", "its own: LuGre over frictionless")  # fmt: skip
-    return table(head, rows)
+    heads = (f"{which}: frictionless, um" for which in ("its own", "6500 rpm"))
+    both = (word for each in heads for word in (each, "LuGre 0.1/0.05, um"))
+    return table(("speed, rpm", *both, "its own: LuGre over frictionless"), rows)
 
 
 def rule_words(runs: Runs) -> str:
@@ -271,12 +250,12 @@ def rule_words(runs: Runs) -> str:
 
 def ruled_unbalance(run: tiltpad.Run) -> float:
     """Unbalance that rule (26) gives for the paper's grade at the speed of a run, kg m."""
-    return 1e-6 * 9549 * GRADE * run.input["rotor"]["mass"] / run.input["operation"]["speed_rpm"]
+    return 1e-6 * 9549 * settings.GRADE * run.input["rotor"]["mass"] / run.input["operation"]["speed_rpm"]
 
 
 def equivalent_grade(run: tiltpad.Run) -> float:
     """Grade for which rule (26) gives the unbalance of Table 1 at the speed of a run, mm/s."""
-    return GRADE * run.input["rotor"]["unbalance"] / ruled_unbalance(run)
+    return settings.GRADE * run.input["rotor"]["unbalance"] / ruled_unbalance(run)
 
 
 #: Pictures from the runs of the studies, and from those of the figures.

@@ -68,6 +68,8 @@ WITHOUT_LAST = (
 WITHOUT_PAD = (BEARING, MOVIE, *VIBRATIONS, RESPONSE, *OF_MACHINES)
 #: Plots without the option --bearing.
 WITHOUT_BEARING = (STUDY, *SAMPLES, *OF_MACHINES)
+#: What the speeds are for from which critical speeds must keep away.
+OPERATING = "critical speeds: operating speed, or LOW:HIGH, that they keep a margin from"
 #: Exit status, as the program's own.
 INPUT_ERROR, FILE_ERROR = 1, 3
 
@@ -167,20 +169,16 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
             warnings.simplefilter("ignore")
             for category in (IncompleteRunWarning, RunWarning):
                 warnings.simplefilter("always", category)
-            warnings.showwarning = lambda message, *_: print(
-                f"{command}: warning: {message}", file=sys.stderr
-            )
+            warnings.showwarning = lambda message, *_: tell_error(command, f"warning: {message}")
             work()
     except ArgumentError as error:
         return complain(command, error.of_command(), INPUT_ERROR)
     except (ValueError, NotInRunError) as error:
         return complain(command, error, INPUT_ERROR)
-    except RunError as error:
+    except (RunError, MissingLibraryError) as error:
         return complain(command, error, FILE_ERROR)
     except LibraryError as error:
         return complain(command, error, error.status)
-    except MissingLibraryError as error:
-        return complain(command, error, FILE_ERROR)
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else error
         return complain(command, f"{output}: cannot be written: {reason}", FILE_ERROR)
@@ -234,38 +232,45 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         write_table(options, output)
         return
     mpl = matplotlib_for_files()
-    alone = {STUDY: draw_study, BEARING: draw_scheme, MACHINE: draw_scheme, MOVIE: draw_movie}
-    if options.plot in alone:
-        alone[options.plot](options, output, form)
-        return
-    from tiltpad.draw import figures, layout, plots
+    from tiltpad.draw import bearing, plots
 
-    with ExitStack() as stack:
-        of_study = options.plot in SAMPLES
-        either = options.plot in (BRANCH, *OF_EITHER)
-        opened: Callable[[str], Run | Study] = read_study if of_study else read_either if either else read
-        sources: list[Run | Study] = []
-        runs: list[Run | Study] = []
-        for path in options.files:
-            source = opened(path)
-            stack.enter_context(source)
-            sources.append(source)
-            runs += bearings_of(source, options)
-        stack.enter_context(mpl.style.context(plots.STYLE))
-        if options.pad is not None and not (either or of_study):
-            layout.shown_pads([run for run in runs if isinstance(run, Run)], options.pad)
-        own = (name for name, plots_with in OWN_OPTIONS.items() if options.plot in plots_with)
-        more = {name: getattr(options, name) for name in own if getattr(options, name) is not None}
-        if options.plot in (*OF_EITHER, *SAMPLES):
-            more |= {"where": kept(options)}
-        if options.plot == RESPONSE and options.station is not None:
-            if len(options.station) > 1:
-                raise ValueError("--station: the response is that of one station")
-            more["station"] = options.station[0]
-        figure = figures.FIGURES[options.plot](runs, options.last, options.pad, **more)
+    with ExitStack() as stack, mpl.style.context(plots.STYLE):
+        if options.plot == MOVIE:
+            run = stack.enter_context(read(one_file(options)))
+            bearing.movie(one_bearing(run, options), output, options.last)
+            tell_remarks([run])
+            return
+        make = scheme if options.plot in (BEARING, MACHINE) else picture
+        figure, told = make(options, stack)
         stack.callback(plots.plt.close, figure)
-        save(figure, output, form)
-        tell_remarks(sources)
+        content = io.BytesIO()
+        figure.savefig(content, format=form)
+        write(output, content.getbuffer())
+        tell_remarks(told)
+
+
+def picture(options: argparse.Namespace, stack: ExitStack) -> tuple[Any, list[Run | Study]]:
+    """Reads results and studies and draws them; gives those whose remarks are told, too."""
+    from tiltpad.draw import figures, layout
+
+    of_study = options.plot in (STUDY, *SAMPLES)
+    either = options.plot in (BRANCH, *OF_EITHER)
+    opened: Callable[[str], Run | Study] = read_study if of_study else read_either if either else read
+    sources: list[Any] = [stack.enter_context(opened(path)) for path in options.files]
+    runs: list[Any] = [each for source in sources for each in bearings_of(source, options)]
+    if options.pad is not None and not (either or of_study):
+        layout.shown_pads([run for run in runs if isinstance(run, Run)], options.pad)
+    own = (name for name, plots_with in OWN_OPTIONS.items() if options.plot in plots_with)
+    more = {name: getattr(options, name) for name in own if getattr(options, name) is not None}
+    if options.plot in OWN_OPTIONS["where"]:
+        more |= {"where": kept(options)}
+    if options.plot == RESPONSE and options.station is not None:
+        if len(options.station) > 1:
+            raise ValueError("--station: the response is that of one station")
+        more["station"] = options.station[0]
+    if options.plot == STUDY:
+        return figures.study(runs, pad=options.pad, **more), []
+    return figures.FIGURES[options.plot](runs, options.last, options.pad, **more), sources
 
 
 def bearings_of(source: Run | Study, options: argparse.Namespace) -> list[Run | Study]:
@@ -290,17 +295,9 @@ def one_bearing(run: Run, options: argparse.Namespace) -> Run:
     if options.bearing is not None:
         return run.bearings[options.bearing]
     if run.bearings:
-        raise ValueError(
-            f"{run.path}: {options.plot}: of one bearing: {run.bearings.in_words()}; choose by --bearing"
-        )
+        known = f"of one bearing: {run.bearings.in_words()}"
+        raise ValueError(f"{run.path}: {options.plot}: {known}; choose by --bearing")
     return run
-
-
-def save(figure: Any, output: Path, form: str) -> None:
-    """Writes a picture, made in memory."""
-    content = io.BytesIO()
-    figure.savefig(content, format=form)
-    write(output, content.getbuffer())
 
 
 def write_table(options: argparse.Namespace, output: Path) -> None:
@@ -320,51 +317,24 @@ def write_table(options: argparse.Namespace, output: Path) -> None:
         tell_remarks([source])
 
 
-def draw_scheme(options: argparse.Namespace, output: Path, form: str) -> None:
+def scheme(options: argparse.Namespace, stack: ExitStack) -> tuple[Any, list[Run | Study]]:
     """Draws the bearing or the machine of a case or a result."""
-    from tiltpad.draw import bearing, machines, plots
+    from tiltpad.draw import bearing, machines
 
     path, whole = one_file(options), options.plot == MACHINE
-    with ExitStack() as stack:
-        stack.enter_context(plots.plt.style.context(plots.STYLE))
-        case: Any
-        if path.suffix == ".nml":
-            case = resolved(path, None if whole else options.bearing)
-        else:
-            found = stack.enter_context(read(path))
-            case = found if whole else one_bearing(found, options)
-        figure = machines.machine(case) if whole else bearing.bearing(case)
-        stack.callback(plots.plt.close, figure)
-        save(figure, output, form)
-
-
-def draw_movie(options: argparse.Namespace, output: Path, form: str) -> None:
-    """Reads a run and writes its movie."""
-    from tiltpad.draw import bearing
-
-    with read(one_file(options)) as run:
-        bearing.movie(one_bearing(run, options), output, options.last)
-        tell_remarks([run])
+    case: Any
+    if path.suffix == ".nml":
+        case = resolved(path, None if whole else options.bearing)
+    else:
+        found = stack.enter_context(read(path))
+        case = found if whole else one_bearing(found, options)
+    return machines.machine(case) if whole else bearing.bearing(case), []
 
 
 def one_file(options: argparse.Namespace) -> Path:
     if len(options.files) > 1:
         raise ValueError(f"{options.plot}: one file")
     return Path(options.files[0])
-
-
-def draw_study(options: argparse.Namespace, output: Path, form: str) -> None:
-    """Reads studies, draws them and writes the picture."""
-    from tiltpad.draw import figures, plots
-
-    with ExitStack() as stack, plots.plt.style.context(plots.STYLE):
-        studies = [stack.enter_context(read_study(path)) for path in options.files]
-        where = kept(options)
-        figure = figures.study(
-            studies, options.show, options.over, options.kind, where, options.pad, options.pivot
-        )
-        save(figure, output, form)
-        plots.plt.close(figure)
 
 
 def kept(options: argparse.Namespace) -> dict[str, str]:
@@ -410,99 +380,84 @@ def matplotlib_for_files() -> Any:
     return mpl
 
 
+def tell_error(command: str, message: str) -> None:
+    print(f"{command}: {message}", file=sys.stderr)
+
+
 def complain(command: str, message: object, status: int) -> int:
-    print(f"{command}: error: {message}", file=sys.stderr)
+    tell_error(command, f"error: {message}")
     return status
 
 
+def parser_of(command: str, description: str, wrong: str, output: tuple[str, str], **more: Any) -> Parser:
+    """The parser of a command with its `output`, name and default; `wrong` is what else has the status 1."""
+    ends = f"exit status: 0 done; 1 usage{wrong}; 3 a file cannot be read or written"
+    parser = Parser(prog=command, description=description, epilog=ends, **more)
+    parser.add_argument("-o", "--output", metavar=output[0], help=output[1])
+    return parser
+
+
 def report_parser() -> Parser:
-    parser = Parser(
-        prog="tiltpad-report",
-        description="Writes one HTML page about a result or study of tiltpad: key figures, pictures, input.",
-        epilog="exit status: 0 done; 1 usage; 3 a file cannot be read or written",
+    parser = parser_of(
+        "tiltpad-report",
+        "Writes one HTML page about a result or study of tiltpad: key figures, pictures, input.",
+        "",
+        ("HTML", "default: FILE's name with .html, in this folder"),
     )
     parser.add_argument("file", metavar="FILE", help="result file or study (.h5)")
-    parser.add_argument(
-        "-o", "--output", metavar="HTML", help="default: FILE's name with .html, in this folder"
-    )
-    parser.add_argument("--operating", **OPERATING)
+    parser.add_argument("--operating", type=speeds, metavar="RPM", help=OPERATING)
     return parser
 
 
 def collect_parser() -> Parser:
-    parser = Parser(
-        prog="tiltpad-collect",
-        description="Puts the results of many runs, such as the runs of a study, into one file: their "
+    parser = parser_of(
+        "tiltpad-collect",
+        "Puts the results of many runs, such as the runs of a study, into one file: their "
         "parameters, orbits, films, friction, Poincare points, cost, and links to the runs.",
-        epilog="exit status: 0 done; 1 usage, or runs of two studies; 3 a file cannot be read or written",
+        ", or runs of two studies",
+        ("STUDY", "default: the folder's name with .h5, in this folder"),
     )
     parser.add_argument("paths", nargs="+", metavar="FOLDER|FILE", help="folder of results, or result files")
-    parser.add_argument(
-        "-o", "--output", metavar="STUDY", help="default: the folder's name with .h5, in this folder"
-    )
     return parser
 
 
 def plot_parser() -> Parser:
     plots = "\n".join(f"  {name:<14}{meaning}" for name, meaning in PLOTS.items())
-    parser = Parser(
-        prog="tiltpad-plot",
+    stations = "stations, response: those of the shaft that are shown (1, 2, ...)"
+    formats = ".png, .pdf or .svg (movie: .gif or .mp4)"
+    parser = parser_of(
+        "tiltpad-plot",
+        f"Draws result files of tiltpad, several in one picture.\n\nplots:\n{plots}",
+        ", or no such data in the run",
+        ("PICTURE", f"{formats}; default: FILE's name with -PLOT.png, in this folder"),
         usage="tiltpad-plot PLOT FILE... [options]",
-        description=f"Draws result files of tiltpad, several in one picture.\n\nplots:\n{plots}",
-        epilog="exit status: 0 done; 1 usage, or no such data in the run; 3 a file cannot be read or written",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("plot", type=plot_name, metavar="PLOT", help="one of the plots above")
     parser.add_argument("files", nargs="+", metavar="FILE", help="result files (.h5)")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="PICTURE",
-        help=".png, .pdf or .svg (movie: .gif or .mp4); default: FILE's name with -PLOT.png, in this folder",
+    options: Any = (
+        ("--last", positive, "N", "shows the last N shaft revolutions of the run"),
+        ("--pad", int, "K", "shows this pad only (1, 2, ...)"),
+        ("--time", float, "T", "time of the film in s; the nearest sample is taken"),
+        ("--pivot", str, "NAME", "coefficients and modes of pivots free, stuck or locked"),
+        ("--operating", speeds, "RPM", OPERATING),
+        ("--orders", positive, "N", "spectrum, waterfall: up to N times the shaft speed"),
+        ("--scale", str, ("linear", "log"), "orders: of the amplitudes (linear)"),
+        ("--by", str, ("frequency", "order"), "waterfall: vertical axis (frequency)"),
+        ("--decades", positive, "N", "waterfall: how far down the colours reach (3)"),
+        ("--bearing", str, "NAME", "shows this bearing of a machine only; without it all that go together"),
+        ("--station", station_numbers, "K,...", stations),
     )
-    parser.add_argument(
-        "--last", type=positive, metavar="N", help="shows the last N shaft revolutions of the run"
-    )
-    parser.add_argument("--pad", type=int, metavar="K", help="shows this pad only (1, 2, ...)")
-    parser.add_argument(
-        "--time", type=float, metavar="T", help="time of the film in s; the nearest sample is taken"
-    )
-    parser.add_argument(
-        "--pivot", metavar="NAME", help="coefficients and modes of pivots free, stuck or locked"
-    )
-    parser.add_argument("--operating", **OPERATING)
-    parser.add_argument(
-        "--orders", type=positive, metavar="N", help="spectrum, waterfall: up to N times the shaft speed"
-    )
-    parser.add_argument("--scale", choices=("linear", "log"), help="orders: of the amplitudes (linear)")
-    parser.add_argument("--by", choices=("frequency", "order"), help="waterfall: vertical axis (frequency)")
-    parser.add_argument(
-        "--decades", type=positive, metavar="N", help="waterfall: how far down the colours reach (3)"
-    )
-    parser.add_argument(
-        "--bearing",
-        metavar="NAME",
-        help="shows this bearing of a machine only; without it all that go together",
-    )
-    parser.add_argument(
-        "--station",
-        type=station_numbers,
-        metavar="K,...",
-        help="stations, response: those of the shaft that are shown (1, 2, ...)",
-    )
+    for name, kind, values, text in options:
+        taken: dict[str, Any] = {"metavar" if isinstance(values, str) else "choices": values}
+        parser.add_argument(name, type=kind, help=text, **taken)
     study = parser.add_argument_group("options for studies")
-    study.add_argument(
-        "--show", metavar="RESULT", help="result to draw (orbit_size, max_pressure, steps, ...)"
-    )
+    shown = "result to draw (orbit_size, max_pressure, steps, ...)"
+    study.add_argument("--show", metavar="RESULT", help=shown)
     study.add_argument("--over", metavar="PARAMETER", help="parameter of the axis (speed_rpm, ...)")
     study.add_argument("--as", dest="kind", choices=("lines", "map", "bifurcation", "points"))
-    study.add_argument(
-        "--where",
-        action="append",
-        type=assignment,
-        metavar="PARAMETER=VALUE",
-        help="takes only the runs with this value; may be repeated",
-    )
+    kept = "takes only the runs with this value; may be repeated"
+    study.add_argument("--where", action="append", type=assignment, metavar="PARAMETER=VALUE", help=kept)
     return parser
 
 
@@ -510,26 +465,16 @@ def speeds(text: str) -> tuple[float, float]:
     """Operating speeds: "4000", or the lowest and the highest, "3600:4200"."""
     with suppress(ValueError):
         return operating_range([float(each) for each in text.split(":")])
-    raise argparse.ArgumentTypeError(
-        f"{text}: must be a speed in rpm, or the lowest and the highest, LOW:HIGH"
-    )
-
-
-#: The option for the speeds from which critical speeds must keep away.
-OPERATING: dict[str, Any] = {
-    "type": speeds,
-    "metavar": "RPM",
-    "help": "critical speeds: operating speed, or LOW:HIGH, that they keep a margin from",
-}
+    must = "must be a speed in rpm, or the lowest and the highest, LOW:HIGH"
+    raise argparse.ArgumentTypeError(f"{text}: {must}")
 
 
 def plot_name(text: str) -> str:
     if text in PLOTS:
         return text
     if Path(text).exists():
-        raise argparse.ArgumentTypeError(
-            f"{text}: a file, where the plot's name belongs: tiltpad-plot PLOT {text}"
-        )
+        belongs = f"where the plot's name belongs: tiltpad-plot PLOT {text}"
+        raise argparse.ArgumentTypeError(f"{text}: a file, {belongs}")
     raise argparse.ArgumentTypeError(f"{text}: no plot{meant(text, PLOTS)}: {', '.join(PLOTS)}")
 
 

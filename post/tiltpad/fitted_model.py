@@ -48,14 +48,11 @@ class FittedModel:
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         found = [self.of_test(test, points) for test in self.tests]
-        rows = []
-        for own in zip(*found, strict=True):
-            values = [
-                np.full(test.size, np.nan) if each is None else test.compared(each)
-                for test, each in zip(self.tests, own, strict=True)
-            ]
-            rows.append(np.concatenate(values)[self.known] - self.target)
-        return np.array(rows)
+        parts = [
+            [np.full(test.size, np.nan) if each is None else test.compared(each) for each in own]
+            for test, own in zip(self.tests, found, strict=True)
+        ]
+        return np.array([np.concatenate(own)[self.known] - self.target for own in zip(*parts, strict=True)])
 
     def single(self, point: np.ndarray) -> list[Values]:
         """What the model has at a point, by name, for each test. Raises RunError where a run fails."""
@@ -82,12 +79,8 @@ class FittedModel:
         with tempfile.TemporaryDirectory(prefix="tiltpad-") as folder:
             table = self.table(Path(folder, "points.csv"), test, points)
             case, overrides = self.case_of(test)
-            overrides = {
-                **overrides,
-                "sweep": {"file": table},
-                "output": {**overrides.get("output", {}), "keep": "all"},
-            }
-            study = run(case, **overrides)
+            kept = {**overrides.get("output", {}), "keep": "all"}
+            study = run(case, **{**overrides, "sweep": {"file": table}, "output": kept})
         assert isinstance(study, Study)
         self.runs += len(points) * repeats
         with study:
@@ -123,9 +116,8 @@ class FittedModel:
 
     def check(self, begin: np.ndarray) -> None:
         """Raises ValueError for a case that is wrong, at the start or with a parameter at a bound."""
-        ends = np.concatenate(
-            [np.diag(bound - begin) + begin for bound in np.array([each[1:] for each in self.parameters]).T]
-        )
+        bounds = np.array([each[1:] for each in self.parameters]).T
+        ends = np.concatenate([np.diag(bound - begin) + begin for bound in bounds])
         for test in self.tests:
             with tempfile.TemporaryDirectory(prefix="tiltpad-") as folder:
                 table = self.table(Path(folder, "points.csv"), test, np.vstack([begin, ends]))

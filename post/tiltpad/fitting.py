@@ -74,25 +74,21 @@ class Fit:
     def remarks(self) -> list[str]:
         """What the measurements cannot tell, and whether the model describes them, in sentences."""
         found = []
-        for name, value, deviation, (low, high) in zip(
-            self.names, self.values, self.deviations, self.bounds, strict=True
-        ):
+        known = zip(self.names, self.values, self.deviations, self.bounds, strict=True)
+        for name, value, deviation, (low, high) in known:
             width = value * np.log(high / low) if low > 0 else high - low
             if deviation > EVEN * width:
                 found.append(f"{name}: what was measured tells no more of it than its bounds")
             elif min(value - low, high - value) < 1e-3 * (high - low):
                 found.append(f"{name}: is at its bound {value:.4g}")
         pairs = np.argwhere(np.triu(np.abs(self.correlation) > TOGETHER, 1))
-        found += [
-            f"{self.names[i]} and {self.names[j]} are known together only "
-            f"(correlation {self.correlation[i, j]:.3f})"
-            for i, j in pairs
-        ]
+        for i, j in pairs:
+            how = f"(correlation {self.correlation[i, j]:.3f})"
+            found.append(f"{self.names[i]} and {self.names[j]} are known together only {how}")
         free = len(self.residuals) - len(self.values)
         if free > 0 and self.misfit > 1 + 5 * np.sqrt(2 / free):
-            found.append(
-                f"the residuals are {np.sqrt(self.misfit):.2g} times the noise: the model misses something"
-            )
+            times = f"{np.sqrt(self.misfit):.2g} times the noise"
+            found.append(f"the residuals are {times}: the model misses something")
         return found
 
     def __repr__(self) -> str:
@@ -119,10 +115,7 @@ class Fit:
 
 
 def fit(
-    case: Case,
-    measured: Measured | Sequence[Measured],
-    free: Free,
-    start: Mapping[str, float] | None = None,
+    case: Case, measured: Measured | Sequence[Measured], free: Free, start: Mapping[str, float] | None = None
 ) -> Fit:
     """Fits numbers of a case to what was measured, by least squares.
 
@@ -164,22 +157,20 @@ def fit(
         found = estimation.estimate(model, model.parameters, begin)
     except NoInfluenceError as name:
         value = begin[model.names.index(f"{name}")]
-        raise ValueError(
-            f"{name}: nothing that was measured depends on it at {value:.6g}, where the fit starts"
-        ) from None
+        start_there = f"at {value:.6g}, where the fit starts"
+        raise ValueError(f"{name}: nothing that was measured depends on it {start_there}") from None
     except ArithmeticError as error:
         raise RunError(f"{error}{model.why and f': {model.why}'}") from None
     pairs = list(zip(model.parameters, found.place, strict=True))
     values = np.array([float(each.value(place)) for each, place in pairs])
     slopes = np.array([each.slope(place) for each, place in pairs])
     half = NORMAL * np.sqrt(np.diag(found.covariance))
+    interval = np.column_stack([found.place - half, found.place + half])
     return Fit(
         names=model.names,
         values=values,
         deviations=slopes * half / NORMAL,
-        interval=np.array(
-            [each.value(place + h * np.array([-1, 1])) for (each, place), h in zip(pairs, half, strict=True)]
-        ),
+        interval=np.array([each.value(ends) for each, ends in zip(model.parameters, interval, strict=True)]),
         covariance=found.covariance * np.outer(slopes, slopes),
         residuals=-found.residuals,
         runs=model.runs,
@@ -199,8 +190,7 @@ def variables(free: Free) -> Bounds:
     for names, bounds in free.items():
         own = (names,) if isinstance(names, str) else tuple(names)
         for name in own:
-            if not isinstance(name, str) or not namelist.VARIABLE.fullmatch(name):
-                raise ValueError(f"free: {name!r}: must be a variable, group%name or group%name(element)")
+            namelist.needs_variable(name, "free: ")
         try:
             low, high = (float(each) for each in bounds)
         except (TypeError, ValueError):

@@ -122,25 +122,26 @@ def distribution(name: str, given: Any) -> Any:
     """A distribution of scipy.stats; ValueError with the variable where there is none."""
     from scipy import stats
 
-    if not isinstance(name, str) or not namelist.VARIABLE.fullmatch(name):
-        raise ValueError(f"{name!r}: must be a variable, group%name or group%name(element)")
+    namelist.needs_variable(name)
     if callable(getattr(given, "ppf", None)):
         return given
     kind, numbers = parts(name, given)
     mean, deviation, low, high = (numbers.get(each, math.nan) for each in DISTRIBUTIONS["truncated normal"])
-    if deviation <= 0:
-        raise ValueError(f"{name}: {given!r}: the deviation must be > 0")
-    if low >= high:
-        raise ValueError(f"{name}: {given!r}: low must be less than high")
+    median = numbers.get("median", math.nan)
+    for wrong, rule in (
+        (deviation <= 0, "the deviation must be > 0"),
+        (low >= high, "low must be less than high"),
+        (median <= 0, "the median must be > 0"),
+    ):
+        if wrong:
+            raise ValueError(f"{name}: {given!r}: {rule}")
     if kind == "normal":
         return stats.norm(mean, deviation)
     if kind == "uniform":
         return stats.uniform(low, high - low)
     if kind == "truncated normal":
         return stats.truncnorm((low - mean) / deviation, (high - mean) / deviation, mean, deviation)
-    if numbers["median"] <= 0:
-        raise ValueError(f"{name}: {given!r}: the median must be > 0")
-    return stats.lognorm(deviation, scale=numbers["median"])
+    return stats.lognorm(deviation, scale=median)
 
 
 def parts(name: str, given: Any) -> tuple[str, dict[str, float]]:

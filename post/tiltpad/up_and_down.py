@@ -43,13 +43,12 @@ def brute_force(
     rising = sorted(float(value) for value in values)
     if not rising or settle < 0 or not 0 < revolutions <= REVOLUTIONS:
         raise ValueError(f"it needs values, settle from 0 on, and revolutions from 1 to {REVOLUTIONS}")
+    march = partial(marched, case, parameter, rising, (settle, revolutions), overrides)
     if output is None:
-        return in_temporary_folder(
-            partial(marched, case, parameter, rising, (settle, revolutions), overrides)
-        )
+        return in_temporary_folder(march)
     folder = Path(output)
     folder.mkdir(parents=True, exist_ok=True)
-    return marched(case, parameter, rising, (settle, revolutions), overrides, folder)
+    return march(folder)
 
 
 def marched(

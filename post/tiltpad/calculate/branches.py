@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tiltpad.files.archive import NotInRunError
+from tiltpad.files.archive import not_in_run
 from tiltpad.files.read import Run
 
 #: Kinds of bifurcation points: letters in a picture, and words.
@@ -81,10 +81,10 @@ def multipliers(run: Run) -> np.ndarray:
     """Floquet multipliers along branches, complex, (point, multiplier), those of largest modulus first."""
     needs_branch(run)
     if "multiplier_real" not in run:
-        raise NotInRunError(f"{run.path}: no multipliers in this run: its branch is one of equilibria")
+        raise not_in_run(run, "multipliers", "its branch is one of equilibria")
     return run["multiplier_real"] + 1j * run["multiplier_imag"]
 
 
 def needs_branch(run: Run) -> None:
     if not run.is_branch:
-        raise NotInRunError(f"{run.path}: no branch in this run: its task is '{run.task}'")
+        raise not_in_run(run, "branch", f"its task is '{run.task}'")

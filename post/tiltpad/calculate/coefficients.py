@@ -1,12 +1,12 @@
 """Stiffness and damping coefficients of the bearing, of a run or over the runs of a study."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from tiltpad.calculate import rotation
-from tiltpad.calculate.selection import selected
+from tiltpad.calculate.selection import Where, selected
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
@@ -54,25 +54,19 @@ class Coefficients(NamedTuple):
 
 
 class Series(NamedTuple):
-    """Datasets of some runs, (run, ...) each; a run is one run. Its fields:
+    """Datasets of some runs, (run, ...) each; a run is one run."""
 
-    pivot         that they are of
-    speed_rpm     shaft speed, (run,), rising
-    values        by the names that the datasets have in a study
-    parameters    of the study, (run,) each
-    """
-
-    pivot: str
-    speed_rpm: np.ndarray
-    values: dict[str, np.ndarray]
-    parameters: dict[str, np.ndarray]
+    pivot: str  # that they are of
+    speed_rpm: np.ndarray  # shaft speed, (run,), rising
+    values: dict[str, np.ndarray]  # by the names that the datasets have in a study
+    parameters: dict[str, np.ndarray]  # of the study, (run,) each
 
 
 def coefficients(
     source: Run | Study,
     pivot: str | None = None,
     frequency_ratio: Sequence[float] | float | None = None,
-    where: Mapping[str, Any] | None = None,
+    where: Where = None,
 ) -> Coefficients:
     """Stiffness and damping of a run of the task coefficients, or of a study of such runs.
 
@@ -99,8 +93,8 @@ def at_frequencies(found: Series, frequency: np.ndarray) -> tuple[np.ndarray, np
     """Coefficients at whirl frequencies in rad/s, (run, frequency): (run, frequency, row, column)."""
     matrices = (found.values[name] for name in ("full_stiffness", "full_damping", "full_mass"))
     each = [condensed(k, c, m, at) for k, c, m, at in zip(*matrices, frequency, strict=True)]
-    stiffness, damping = zip(*each, strict=True)
-    return np.stack(stiffness), np.stack(damping)
+    stiffness, damping = map(np.stack, zip(*each, strict=True))
+    return stiffness, damping
 
 
 def condensed(
@@ -124,22 +118,15 @@ def condensed(
 
 
 def series(
-    source: Run | Study,
-    group: str,
-    pivot: str | None = None,
-    where: Mapping[str, Any] | None = None,
-    over: str | None = None,
+    source: Run | Study, group: str, pivot: str | None = None, where: Where = None, over: str | None = None
 ) -> Series:
     """A group of a run, or of the chosen runs of a study at rising speed or parameter."""
     own, k = chosen_pivot(source, group, pivot)
     if single := isinstance(source, Run):
         if where:
             raise ValueError(f"{source.path}: where: for a study, this is one run")
-        place, speed, parameters = (
-            np.array([0]),
-            np.array([source.input["operation"]["speed_rpm"]], float),
-            {},
-        )
+        speed = np.array([source.input["operation"]["speed_rpm"]], float)
+        place, parameters = np.array([0]), {}
     else:
         chosen = np.flatnonzero(selected(source, where or {}) & np.isfinite(source.speed))
         speed = np.round(source.speed * 30 / np.pi, 9)
@@ -158,9 +145,8 @@ def series(
 def chosen_pivot(source: Run | Study, group: str, pivot: str | None) -> tuple[str, int]:
     """Name of the pivots that are chosen, and their place; the first ones by default."""
     if not isinstance(source, Run | Study):
-        raise TypeError(
-            f"{source!r}: not a result or study, as tiltpad.read and tiltpad.read_study open them"
-        )
+        opens = "as tiltpad.read and tiltpad.read_study open them"
+        raise TypeError(f"{source!r}: not a result or study, {opens}")
     if (missing := group if isinstance(source, Run) else GROUPS[group][0]) not in source:
         raise NotInRunError(source.without(missing))
     return place_of_pivot(source, pivot)

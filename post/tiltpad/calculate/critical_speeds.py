@@ -4,18 +4,17 @@ Amplification factors and margins are those of API RP 684 (2nd edition, 2005) an
 2.6.2).
 """
 
-import csv
-import io
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tiltpad.calculate.response import STATION, Peak, response
+from tiltpad.calculate.selection import Where
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
-from tiltpad.files.writing import write
+from tiltpad.files.writing import write_csv
 
 #: Columns of the table of critical speeds; required margins are those below and above the operating speeds,
 #: and that of the side on which the critical speed is.
@@ -44,7 +43,7 @@ class CriticalSpeed(NamedTuple):
 
 def critical_speeds(
     source: Run | Study,
-    where: Mapping[str, Any] | None = None,
+    where: Where = None,
     pivot: str | None = None,
     operating: Sequence[float] | float | None = None,
 ) -> list[CriticalSpeed]:
@@ -57,11 +56,11 @@ def critical_speeds(
     stations: list[int | None] = [None]
     if isinstance(source, Study) and STATION in source:
         stations = list(range(1, source.length(STATION) + 1))
-    found = []
-    for station in stations:
-        for peak in response(source, where, station=station, pivot=pivot).peaks:
-            found.append(CriticalSpeed(station, peak, *margins(peak, *ends)))
-    return found
+    return [
+        CriticalSpeed(station, peak, *margins(peak, *ends))
+        for station in stations
+        for peak in response(source, where, station=station, pivot=pivot).peaks
+    ]
 
 
 def operating_range(operating: Sequence[float] | float) -> tuple[float, float]:
@@ -81,12 +80,10 @@ def margins(peak: Peak, lowest: float, highest: float) -> tuple[float, float]:
 
 def write_critical_speeds(found: Sequence[CriticalSpeed], path: str | os.PathLike) -> None:
     """Writes critical speeds to a table, .csv, a row each."""
-    text = io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(COLUMNS)
+    rows: list[Sequence[Any]] = [COLUMNS]
     for station, peak, margin, required in found:
         edges = (peak.below_rpm, peak.above_rpm, peak.amplification_factor)
         sides = (peak.margin_below, peak.margin_above)
         own = "" if station is None else station
-        rows.writerow([own, peak.direction, peak.speed_rpm, peak.amplitude, *edges, *sides, margin, required])
-    write(path, text.getvalue())
+        rows.append([own, peak.direction, peak.speed_rpm, peak.amplitude, *edges, *sides, margin, required])
+    write_csv(path, rows)

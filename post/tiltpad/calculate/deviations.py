@@ -42,8 +42,7 @@ def deviations(run: Run, reference: Run, part: slice | None = None) -> dict[str,
     for name in (name for name in SIGNALS if name in reference):
         values, true = run.values(name, part), reference.values(name, part)
         if values.shape != true.shape:
-            raise RunError(
-                f"{run.path} and {reference.path}: not the same samples, {name} cannot be compared"
-            )
+            both = f"{run.path} and {reference.path}"
+            raise RunError(f"{both}: not the same samples, {name} cannot be compared")
         found[name] = deviation(values, true, characteristic_scale(reference, name))
     return {name: value for name, value in found.items() if value is not None}

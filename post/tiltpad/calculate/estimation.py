@@ -53,16 +53,11 @@ class Parameter(NamedTuple):
 
 
 class Estimate(NamedTuple):
-    """Fitted parameters; its fields, of (parameter,) unless said otherwise:
+    """Fitted parameters."""
 
-    place         between the bounds, 0 to 1
-    covariance    of the places, (parameter, parameter)
-    residuals     over their standard deviations, (value,)
-    """
-
-    place: np.ndarray
-    covariance: np.ndarray
-    residuals: np.ndarray
+    place: np.ndarray  # between the bounds, 0 to 1, (parameter,)
+    covariance: np.ndarray  # of the places, (parameter, parameter)
+    residuals: np.ndarray  # over their standard deviations, (value,)
 
 
 class NoInfluenceError(ValueError):

@@ -29,22 +29,14 @@ class Input(NamedTuple):
 
 
 class Expansion(NamedTuple):
-    """A fitted expansion; its fields:
+    """A fitted expansion."""
 
-    terms        function of each input in each product, (term, input), from 1; 0 where it has none
-    products     their values, (run, term)
-    group        number of the group of each run, (run,)
-    squares      products times products, summed over the runs of each group, (group, term, term)
-    moments      products times values likewise, (group, term)
-    explained    share of the variance that it foretells of runs left out (Q²)
-    """
-
-    terms: np.ndarray
-    products: np.ndarray
-    group: np.ndarray
-    squares: np.ndarray
-    moments: np.ndarray
-    explained: float
+    terms: np.ndarray  # function of each input in each product, (term, input), from 1; 0 where it has none
+    products: np.ndarray  # their values, (run, term)
+    group: np.ndarray  # number of the group of each run, (run,)
+    squares: np.ndarray  # products times products, summed over the runs of each group, (group, term, term)
+    moments: np.ndarray  # products times values likewise, (group, term)
+    explained: float  # share of the variance that it foretells of runs left out (Q²)
 
     def of(self, own: int) -> np.ndarray:
         """True for the products of this input alone, (term,)."""
@@ -52,13 +44,9 @@ class Expansion(NamedTuple):
 
     def part(self, columns: Sequence[int]) -> "Expansion":
         """The same with these products alone."""
-        squares = self.squares[:, columns][:, :, columns]
-        return self._replace(
-            terms=self.terms[columns],
-            products=self.products[:, columns],
-            squares=squares,
-            moments=self.moments[:, columns],
-        )
+        squares, moments = self.squares[:, columns][:, :, columns], self.moments[:, columns]
+        terms, products = self.terms[columns], self.products[:, columns]
+        return self._replace(terms=terms, products=products, squares=squares, moments=moments)
 
     def fit(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Factors, (draw, term), by weights of the groups, (draw, group); weighted squares, their inverse."""
@@ -129,12 +117,8 @@ def products_up_to(degrees: Sequence[np.ndarray], degree: int, norm: float, most
     reach = degree**norm + 1e-9
     for own in degrees:
         steps = [0.0, *(own**norm)]
-        found = [
-            ((*term, k), length + step)
-            for term, length in found
-            for k, step in enumerate(steps)
-            if length + step <= reach
-        ]
+        longer = [((*term, k), length + step) for term, length in found for k, step in enumerate(steps)]
+        found = [each for each in longer if each[1] <= reach]
         if len(found) > most:
             return None
     return np.array([term for term, _ in found])

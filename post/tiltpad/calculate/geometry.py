@@ -28,16 +28,11 @@ class State(NamedTuple):
 
 
 class Surfaces(NamedTuple):
-    """The surfaces of the pads; its fields:
+    """The surfaces of the pads."""
 
-    angle        of points on the surface, from the centre of the bearing, (pad, phi)
-    thickness    film thickness there, (pad, phi)
-    pivot        angles of the pivots, (pad,)
-    """
-
-    angle: np.ndarray
-    thickness: np.ndarray
-    pivot: np.ndarray
+    angle: np.ndarray  # of points on the surface, from the centre of the bearing, (pad, phi)
+    thickness: np.ndarray  # film thickness there, (pad, phi)
+    pivot: np.ndarray  # angles of the pivots, (pad,)
 
 
 def of_pads(case: Case, name: str) -> np.ndarray:
@@ -69,11 +64,9 @@ def samples(run: Run, part: slice) -> list[State]:
     """The states of the samples `part`."""
     times = run.values("time", part)
     none = np.zeros((len(times), run.pads))
-    tilt, pivot_deflection = (
-        run.values(name, part) if name in run else none for name in ("pad_tilt", "pivot_deflection")
-    )
+    own = (run.values(name, part) if name in run else none for name in ("pad_tilt", "pivot_deflection"))
     journal = np.column_stack([run.values(name, part) for name in ("journal_y", "journal_z")])
-    return [State(*each) for each in zip(times.tolist(), journal, tilt, pivot_deflection, strict=True)]
+    return [State(*each) for each in zip(times.tolist(), journal, *own, strict=True)]
 
 
 def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:

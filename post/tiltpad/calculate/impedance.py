@@ -9,7 +9,7 @@ import numpy as np
 from tiltpad.calculate.coefficients import Coefficients
 from tiltpad.calculate.rotation import sense
 from tiltpad.calculate.signals import last_revolutions, needs_revolutions
-from tiltpad.files.archive import NotInRunError
+from tiltpad.files.archive import NotInRunError, not_in_run
 from tiltpad.files.read import Run, needs_run
 
 #: Most revolutions of the shaft in which an excitation repeats, as in the task periodic.
@@ -58,7 +58,7 @@ def frequency_ratio(run: Run) -> float:
         raise NotInRunError(f"{run.path}: no harmonic excitation of a journal in this run")
     speed = run.input["operation"]["speed_rpm"]
     if speed != run.input["operation"]["final_speed_rpm"]:
-        raise NotInRunError(f"{run.path}: no constant frequency in this run: the speed changes")
+        raise not_in_run(run, "constant frequency", "the speed changes")
     ratios = [each.get("frequency_ratio", 60 * each.get("frequency_hz", np.nan) / speed) for each in given]
     if not np.allclose(ratios, ratios[0], rtol=1e-9):
         raise NotInRunError(f"{run.path}: the excitations of this run have different frequencies")
@@ -88,7 +88,6 @@ def unbalance(run: Run) -> float:
     """Force of the unbalance of a run, N."""
     rotor, speed = run.input["rotor"], run.input["operation"]["speed_rpm"]
     if "balance_grade" in rotor:
-        raise NotInRunError(
-            f"{run.path}: rotor%balance_grade: give rotor%unbalance at the speed of the shaft"
-        )
+        needed = "give rotor%unbalance at the speed of the shaft"
+        raise NotInRunError(f"{run.path}: rotor%balance_grade: {needed}")
     return float(rotor["unbalance"] * (speed * np.pi / 30) ** 2)

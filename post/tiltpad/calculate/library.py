@@ -8,13 +8,12 @@ text is read and checked as by the program; a variable that it leaves out has it
 refuses the input, LibraryError has the message of the program.
 """
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tiltpad.calculate import signals
-from tiltpad.files.archive import NotInRunError, reading
+from tiltpad.files.archive import not_in_run, reading
 from tiltpad.files.read import Run
 
 try:
@@ -24,6 +23,10 @@ except ImportError as failure:
 
 #: The paper's bearing: every variable has its default.
 PAPER = "&case /"
+
+
+#: Position and velocity of the journal.
+JOURNAL = ("journal_y", "journal_z", "journal_vy", "journal_vz")
 
 
 class MissingLibraryError(ImportError):
@@ -117,16 +120,10 @@ def pressure(
     Raises NotInRunError for a time that the run does not reach, LibraryError where a film is closed.
     """
     at, journal, pads = state(run, time)
-    outside = "shares of the arc must be between 0 and 1", "shares of half the width must be between -1 and 1"
+    points = shares(along, 0, "the arc"), shares(across, -1, "half the width")
+    when = 0.0 if at is None else at
     phi, z, field, force, max_pressure, min_film_thickness = called(
-        "film_pressure",
-        run,
-        *oil(run, at),
-        0.0 if at is None else at,
-        journal,
-        *pads,
-        shares(along, 0, outside[0]),
-        shares(across, -1, outside[1]),
+        "film_pressure", run, *oil(run, at), when, journal, *pads, *points
     )
     return Pressure(at, field.T, phi.T, z.T, force.T, max_pressure, min_film_thickness)
 
@@ -140,7 +137,7 @@ def losses(run: Run, last: float = 1) -> Losses:
     """
     part = signals.last_revolutions(run, last)
     time = run.values("time", part)
-    journal = [run.values(name, part) for name in ("journal_y", "journal_z", "journal_vy", "journal_vz")]
+    journal = [run.values(name, part) for name in JOURNAL]
     still = np.zeros((len(time), run.pads))
 
     def motion(name: str) -> np.ndarray:
@@ -185,9 +182,7 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
     start, end = signals.ends(run, "time")
     step = run.values("time", slice(0, 2))[-1] - start
     if not start - step <= time <= end + step:
-        raise NotInRunError(
-            f"{run.path}: no time {time:g} s in this run: sampled from {start:g} to {end:g} s"
-        )
+        raise not_in_run(run, f"time {time:g} s", f"sampled from {start:g} to {end:g} s")
     after = run.first("time", time)
     near = range(max(0, after - 1), min(after + 1, run.samples))
     k = min(near, key=lambda i: abs(run.values("time", i) - time))
@@ -196,21 +191,19 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
         with reading(run.path, " and ".join(names)):
             return np.array([run.values(name, k) for name in names])
 
-    journal = sample("journal_y", "journal_z", "journal_vy", "journal_vz")
-
     def pads(name: str) -> np.ndarray:
         return sample(name, f"{name}_rate") if name in run else np.zeros((2, run.pads))
 
-    return float(run.values("time", k)), journal, (pads("pad_tilt"), pads("pivot_deflection"))
+    return float(run.values("time", k)), sample(*JOURNAL), (pads("pad_tilt"), pads("pivot_deflection"))
 
 
-def shares(points: int | np.ndarray, first: float, outside: str) -> np.ndarray:
-    """Shares as they are given, or a number of them, evenly spaced from `first` to 1."""
+def shares(points: int | np.ndarray, first: float, of: str) -> np.ndarray:
+    """Shares `of` something as they are given, or a number of them, evenly spaced from `first` to 1."""
     if isinstance(points, int | np.integer):
         return np.linspace(first, 1, points)
     given = np.atleast_1d(np.asarray(points, dtype=float))
     if not np.all((given >= first) & (given <= 1)):
-        raise ValueError(outside)
+        raise ValueError(f"shares of {of} must be between {first:g} and 1")
     return given
 
 
@@ -268,17 +261,10 @@ def elementwise(name: str, case: Run | str, pad: int, *arguments: float | np.nda
 def called(name: str, case: Run | str, *arguments: Any) -> list[Any]:
     """The results of a routine of the library for a case; an error of the library is raised."""
     text, source = (case.operating_text, case.path) if isinstance(case, Run) else (case, "case")
-    *results, status, message = routine(name)(text.encode(), source.encode(), *arguments)
+    if compiled is None:
+        built = "`make python` builds it, and `make wheel` packs it"
+        raise MissingLibraryError(f"the compiled part of the package tiltpad is missing ({missing}): {built}")
+    *results, status, message = getattr(compiled, name)(text.encode(), source.encode(), *arguments)
     if status:
         raise LibraryError(message.decode(errors="replace").strip(), int(status))
     return results
-
-
-def routine(name: str) -> Callable[..., Any]:
-    """A routine of the library by its name."""
-    if compiled is None:
-        raise MissingLibraryError(
-            f"the compiled part of the package tiltpad is missing ({missing}): "
-            "`make python` builds it, and `make wheel` packs it"
-        )
-    return getattr(compiled, name)

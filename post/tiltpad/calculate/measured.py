@@ -109,13 +109,11 @@ class Measured:
 
         Raises ValueError where the measured values have another shape.
         """
-        matrices = None
         found = {}
+        if any(name in MATRICES for name in self.names):
+            matrices = impedance(runs) if self.is_identified else coefficients(runs[0], self.pivot)
         for name, there in self.values.items():
             if name in MATRICES:
-                matrices = matrices or (
-                    impedance(runs) if self.is_identified else coefficients(runs[0], self.pivot)
-                )
                 own = getattr(matrices, name)
                 found[name] = own[0] if len(own) == 1 and there.ndim == 2 else own
             elif name != TIME:

@@ -1,11 +1,12 @@
 """Modes of rotor and pads, of a run or over the runs of a study."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tiltpad.calculate.coefficients import JOURNAL, series
+from tiltpad.calculate.selection import Where
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 
@@ -53,10 +54,7 @@ class Modes(NamedTuple):
 
 
 def modes(
-    source: Run | Study,
-    pivot: str | None = None,
-    where: Mapping[str, Any] | None = None,
-    over: str | None = None,
+    source: Run | Study, pivot: str | None = None, where: Where = None, over: str | None = None
 ) -> Modes:
     """Modes of a run of the task coefficients, or of a study of such runs over the speed.
 
@@ -79,20 +77,11 @@ def modes(
     own: dict[str, Any] = {name: placed(values[name], order) for name in names}
     vibrates = own["frequency"] > 0
     own["name"] = mode_names(own["shape"], [str(each) for each in position], vibrates, own["whirl"])
-    threshold = values.get("threshold_rpm", np.full(len(found.speed_rpm), np.nan))
-    every = Modes(
-        found.pivot,
-        found.speed_rpm,
-        position=position,
-        threshold_rpm=threshold,
-        parameters=found.parameters,
-        **own,
-    )
-    if isinstance(source, Study):
-        return every
-    return every._replace(
-        **{name: getattr(every, name)[0] for name in ("speed_rpm", "threshold_rpm", "name", *names)}
-    )
+    own["threshold_rpm"] = values.get("threshold_rpm", np.full(len(found.speed_rpm), np.nan))
+    own["speed_rpm"] = found.speed_rpm
+    if isinstance(source, Run):
+        own = {name: each[0] for name, each in own.items()}
+    return Modes(found.pivot, position=position, parameters=found.parameters, **own)
 
 
 def tracked(eigenvalue: np.ndarray, shape: np.ndarray) -> np.ndarray:
@@ -179,9 +168,8 @@ def mode_names(
         several = (of_pads >= SHARE_OF_PAD * of_pads.max(axis=-1, keepdims=True)).sum(axis=-1) > 1
         first = of_pads.argmax(axis=-1)
         who = np.where(several, "pads", np.array([f"pad {pad}" for pad in pads])[first])
-        how = np.stack(
-            [np.array([positions[j] for j in k])[sizes[..., k].argmax(-1)] for k in pads.values()], axis=-1
-        )
+        own_names = np.array(positions)
+        how = np.stack([own_names[k][sizes[..., k].argmax(-1)] for k in pads.values()], axis=-1)
         how = np.take_along_axis(how, first[..., None], axis=-1)[..., 0]
         what = np.where(np.char.startswith(how, "tilt"), ", tilt", ", pivot deflection")
         of_journal = sizes[..., :JOURNAL].max(axis=-1) >= SHARE_OF_JOURNAL * sizes.max(axis=-1)

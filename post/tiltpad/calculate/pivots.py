@@ -7,7 +7,7 @@ Without friction in the case all but `sliding_velocity` raise NotInRunError.
 import numpy as np
 
 from tiltpad.calculate.signals import last_revolutions, lasted, needs_revolutions, pad_column, series, turned
-from tiltpad.files.archive import NotInRunError
+from tiltpad.files.archive import not_in_run
 from tiltpad.files.namelist import of_pads
 from tiltpad.files.read import Run
 
@@ -25,7 +25,7 @@ def friction_model(run: Run) -> str:
     """'bengisu_akay' or 'lugre'. Raises NotInRunError where there is no friction."""
     model = run.input["friction"]["model"]
     if model == "none":
-        raise NotInRunError(f"{run.path}: no friction in this run: friction model is 'none'")
+        raise not_in_run(run, "friction", "friction model is 'none'")
     return model
 
 

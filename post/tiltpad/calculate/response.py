@@ -12,10 +12,10 @@ import numpy as np
 
 from tiltpad.calculate.coefficients import place_of_pivot
 from tiltpad.calculate.rotation import senses
-from tiltpad.calculate.selection import SPEED, axis_of, selected, varying
+from tiltpad.calculate.selection import SPEED, Where, axis_of, selected, varying
 from tiltpad.calculate.signals import at_angle, steady
 from tiltpad.calculate.spectra import order_track
-from tiltpad.files.archive import NotInRunError
+from tiltpad.files.archive import not_in_run
 from tiltpad.files.read import Bearing, Run, needs_run
 from tiltpad.files.study import Study
 
@@ -95,7 +95,7 @@ class Response(NamedTuple):
 
 def response(
     source: Run | Study,
-    where: Mapping[str, Any] | None = None,
+    where: Where = None,
     over: str | None = None,
     station: int | None = None,
     pivot: str | None = None,
@@ -111,25 +111,23 @@ def response(
     """
     if not isinstance(source, Study):
         needs_run(source)
-    if not isinstance(source, Study) and (where or over):
-        raise ValueError(f"{source.path}: where, over: for a study, this is one run")
-    if not isinstance(source, Study) and pivot is not None:
-        raise ValueError(f"{source.path}: pivot: for the study of a machine")
-    if STATION in source and not isinstance(source, Bearing):
-        if isinstance(source, Study):
-            parameter, values, every = of_machine(source, where or {}, over, pivot)
-        else:
-            parameter, values, every = of_stations(source)
-        station = station or busiest(every)
-        if not 1 <= station <= every.shape[1]:
-            raise ValueError(f"{source.path}: station {station}: must be 1 to {every.shape[1]}")
-        amplitude, phase = np.abs(every[:, station - 1]), -np.angle(every[:, station - 1])
-    elif station is not None or pivot is not None:
+        if where or over:
+            raise ValueError(f"{source.path}: where, over: for a study, this is one run")
+        if pivot is not None:
+            raise ValueError(f"{source.path}: pivot: for the study of a machine")
+    of = STATION if STATION in source and not isinstance(source, Bearing) else "journal"
+    if of != STATION and (station is not None or pivot is not None):
         raise ValueError(f"{source.path}: station, pivot: for a machine")
-    elif isinstance(source, Study):
-        parameter, values, amplitude, phase = of_study(source, where or {}, over)
+    if isinstance(source, Run) and not source.is_branch:
+        parameter, values, amplitude, phase = of_runup(source, of)
     else:
-        parameter, values, amplitude, phase = of_branch(source) if source.is_branch else of_runup(source)
+        parameter, values, place = curve(source, of, where or {}, over)
+        amplitude, phase = harmonics(source, of, place, pivot)
+    if of == STATION:
+        station = station or busiest(amplitude)
+        if not 1 <= station <= amplitude.shape[1]:
+            raise ValueError(f"{source.path}: station {station}: must be 1 to {amplitude.shape[1]}")
+    amplitude, phase = (each[:, (station or 1) - 1] for each in (amplitude, phase))
     there = np.isfinite(amplitude).all(axis=1)
     phase[there] = aligned(phase[there], int(senses(source)[0]))
     peaks = []
@@ -143,47 +141,61 @@ def response(
     return Response(parameter, values, amplitude, phase, peaks, station)
 
 
-def of_machine(
-    study: Study, where: Mapping[str, Any], over: str | None, pivot: str | None
+def curve(
+    source: Run | Study, of: str, where: Mapping[str, Any], over: str | None
 ) -> tuple[str, np.ndarray, np.ndarray]:
-    """Parameter, its rising values, and whirl of all stations, complex, m, (run, station, direction)."""
-    over, place = places(study, where, over)
-    linear = "response_y_real" in study
-    if pivot is not None and not linear:
-        raise ValueError(f"{study.path}: pivot: for a study of the task coefficients")
-    planes = []
-    for each in DIRECTIONS:
-        if linear:
-            k = place_of_pivot(study, pivot)[1]
-            planes.append((study[f"response_{each}_real"] + 1j * study[f"response_{each}_imag"])[place, k])
-        else:
-            amplitude, phase = (study[f"station_{each}_{what}"][place] for what in ("amplitude", "phase"))
-            planes.append(amplitude * np.exp(-1j * phase))
-    return over, study[over][place], np.stack(planes, axis=-1)
+    """Parameter, its values along a curve, and the runs or points on it.
+
+    Those are runs of a study in the rising order of the parameter, or the first branch of periodic orbits.
+    """
+    if isinstance(source, Study):
+        chosen = selected(source, where)
+        over = axis_of(source, over, chosen)
+        if others := [name for name in varying(source, chosen) if name != over]:
+            raise ValueError(f"{source.path}: runs differ in {', '.join(others)}, too: choose by where")
+        place = np.flatnonzero(chosen)
+        place = place[np.argsort(source[over][place], kind="stable")]
+        return over, source[over][place], place
+    if f"{of}_y_amplitude" not in source:
+        raise not_in_run(source, "response", "its branch is one of equilibria")
+    first = source["branch"] == 1
+    return f"{source.attributes['branch_parameter']}".rpartition("%")[2], source["parameter"][first], first
 
 
-def of_stations(run: Run) -> tuple[str, np.ndarray, np.ndarray]:
-    """The same along a machine's branch of periodic orbits, or its run-up: (point, station, direction)."""
-    if run.is_branch:
-        name, values, first = along_branch(run, "station_y_amplitude")
-        planes = [
-            run[f"station_{each}_amplitude"][first] * np.exp(-1j * run[f"station_{each}_phase"][first])
-            for each in DIRECTIONS
-        ]
-        return name, values, np.stack(planes, axis=-1)
-    needs_runup(run)
-    whirl = []
-    for each in DIRECTIONS:
-        tracks = [order_track(run, f"station_{each}", pad=k) for k in range(1, run.length(STATION) + 1)]
-        whirl.append(np.stack([amplitude * np.exp(1j * phase) for _, amplitude, phase in tracks], axis=-1))
-    speed = tracks[0][0]
-    order = np.argsort(speed, kind="stable")
-    return SPEED, speed[order] * 30 / np.pi, np.stack(whirl, axis=-1)[order]
+def harmonics(
+    source: Run | Study, of: str, place: np.ndarray, pivot: str | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitudes and phases of the journal or of the stations there, (n, station, direction) each."""
+    if of == STATION and "response_y_real" in source:
+        k = place_of_pivot(source, pivot)[1]
+        parts = ([source[f"response_{each}_{part}"] for each in DIRECTIONS] for part in ("real", "imag"))
+        real, imaginary = (np.stack(part, axis=-1)[place, k] for part in parts)
+        whirl = real + 1j * imaginary
+        return np.abs(whirl), -np.angle(whirl)
+    if pivot is not None:
+        raise ValueError(f"{source.path}: pivot: for a study of the task coefficients")
+    amplitude, phase = (
+        np.stack([source[f"{of}_{each}_{what}"][place] for each in DIRECTIONS], axis=-1)
+        for what in ("amplitude", "phase")
+    )
+    return amplitude.reshape(len(amplitude), -1, 2), phase.reshape(len(phase), -1, 2)
 
 
-def busiest(whirl: np.ndarray) -> int:
-    """The station that moves most, from 1; whirl is (run, station, direction)."""
-    largest = np.nanmax(np.abs(whirl), axis=(0, 2)) if np.isfinite(whirl).any() else np.zeros(1)
+def of_runup(run: Run, of: str) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
+    """Parameter, speeds, amplitudes and phases along a run-up or run-down, as those of `harmonics`."""
+    if steady(run):
+        needed = "a study over the speed, a run-up or a branch is needed"
+        raise not_in_run(run, "response", f"its speed stays the same; {needed}")
+    pads = range(1, run.length(STATION) + 1) if of == STATION else [None]
+    tracks = [[order_track(run, f"{of}_{each}", pad=k) for k in pads] for each in DIRECTIONS]
+    speed, amplitude, phase = np.array(tracks).T.transpose(1, 0, 2, 3)
+    order = np.argsort(speed[:, 0, 0], kind="stable")
+    return SPEED, speed[order, 0, 0] * 30 / np.pi, amplitude[order], -phase[order]
+
+
+def busiest(amplitude: np.ndarray) -> int:
+    """The station that moves most, from 1; amplitudes are (run, station, direction)."""
+    largest = np.nanmax(amplitude, axis=(0, 2)) if np.isfinite(amplitude).any() else np.zeros(1)
     return int(np.argmax(largest)) + 1
 
 
@@ -199,65 +211,6 @@ def aligned(phase: np.ndarray, sense: int = 1) -> np.ndarray:
     return whole
 
 
-def of_study(
-    study: Study, where: Mapping[str, Any], over: str | None
-) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
-    """Parameter, its rising values, amplitudes and phases of the runs of a study."""
-    over, place = places(study, where, over)
-    return over, study[over][place], *harmonics(study, place)
-
-
-def places(study: Study, where: Mapping[str, Any], over: str | None) -> tuple[str, np.ndarray]:
-    """Parameter along which the runs of a study are drawn, and their places in its rising order."""
-    chosen = selected(study, where)
-    over = axis_of(study, over, chosen)
-    if others := [name for name in varying(study, chosen) if name != over]:
-        raise ValueError(f"{study.path}: runs differ in {', '.join(others)}, too: choose by where")
-    place = np.flatnonzero(chosen)
-    return over, place[np.argsort(study[over][place], kind="stable")]
-
-
-def harmonics(source: Run | Study, place: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
-    """Amplitudes and phases of y and z, (n, 2) each."""
-    amplitude, phase = (
-        np.column_stack([source[f"journal_{each}_{what}"][place] for each in DIRECTIONS])
-        for what in ("amplitude", "phase")
-    )
-    return amplitude, phase
-
-
-def of_branch(run: Run) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
-    """Parameter, its values, amplitudes and phases along the first branch of periodic orbits."""
-    name, values, first = along_branch(run, "journal_y_amplitude")
-    return name, values, *harmonics(run, first)
-
-
-def along_branch(run: Run, amplitude: str) -> tuple[str, np.ndarray, np.ndarray]:
-    """Parameter, its values along the first branch of periodic orbits, and which points are on it."""
-    if amplitude not in run:
-        raise NotInRunError(f"{run.path}: no response in this run: its branch is one of equilibria")
-    first = run["branch"] == 1
-    return f"{run.attributes['branch_parameter']}".rpartition("%")[2], run["parameter"][first], first
-
-
-def of_runup(run: Run) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
-    """Parameter, speeds, amplitudes and phases along a run-up or run-down."""
-    needs_runup(run)
-    tracks = [order_track(run, f"journal_{each}") for each in DIRECTIONS]
-    order = np.argsort(tracks[0][0], kind="stable")
-    amplitude, phase = (np.column_stack([track[k] for track in tracks])[order] for k in (1, 2))
-    return SPEED, tracks[0][0][order] * 30 / np.pi, amplitude, -phase
-
-
-def needs_runup(run: Run) -> None:
-    """Raises NotInRunError for a run whose speed stays the same."""
-    if steady(run):
-        raise NotInRunError(
-            f"{run.path}: no response in this run: its speed stays the same; a study over the speed, a "
-            "run-up or a branch is needed"
-        )
-
-
 def peaks_of(direction: str, way: np.ndarray, speed: np.ndarray, amplitude: np.ndarray) -> list[Peak]:
     """The peaks of a curve, (n,) each; `way` rises along it."""
     steps = np.arange(BETWEEN * (len(way) - 1) + 1) / BETWEEN
@@ -270,10 +223,8 @@ def peaks_of(direction: str, way: np.ndarray, speed: np.ndarray, amplitude: np.n
         edges = [half_power(speed[side], amplitude[side]) for side in sides]
         known = [each for each in edges if each is not None]
         if len(known) == len(edges):
-            low, high = sorted(known)
-            found.append(
-                Peak(direction, vertex(speed, amplitude, top), *map(float, (amplitude[top], low, high)))
-            )
+            numbers = (amplitude[top], *sorted(known))
+            found.append(Peak(direction, vertex(speed, amplitude, top), *map(float, numbers)))
     return found
 
 
@@ -290,8 +241,8 @@ def half_power(speed: np.ndarray, amplitude: np.ndarray) -> float | None:
     nan where the curve ends before, None where it climbs above its first value before.
     """
     limit = HALF_POWER * amplitude[0]
-    higher, lower = (np.append(np.flatnonzero(each), len(amplitude))[0]
-                     for each in (amplitude > amplitude[0], amplitude < limit))  # fmt: skip
+    crossed = (amplitude > amplitude[0], amplitude < limit)
+    higher, lower = (np.append(np.flatnonzero(each), len(amplitude))[0] for each in crossed)
     if higher < lower:
         return None
     if lower == len(amplitude):

@@ -30,11 +30,7 @@ class Result(NamedTuple):
 
 
 def result(
-    study: Study,
-    name: str,
-    pad: int | None = None,
-    pivot: str | None = None,
-    revolutions: bool = False,
+    study: Study, name: str, pad: int | None = None, pivot: str | None = None, revolutions: bool = False
 ) -> Result:
     """A result, (run,) or with `revolutions` (run, revolution); with `pad` (1, 2, ...) that of a pad.
 
@@ -78,12 +74,9 @@ def is_result(study: Study, name: str) -> bool:
 def key_results(study: Study, pivot: str | None = None) -> list[Result]:
     """The key results that runs of the study have; without `pivot` of the first pivots that have them."""
     found = []
-    for name in KEYS:
-        if name in study:
-            several = study.scales(name) == PIVOTS and pivot is None
-            for own in [str(each) for each in study["pivot"]] if several else [pivot]:
-                one = result(study, name, pivot=own)
-                if np.isfinite(one.values).any():
-                    found.append(one)
-                    break
-    return found
+    for name in (name for name in KEYS if name in study):
+        several = study.scales(name) == PIVOTS and pivot is None
+        pivots = [str(each) for each in study["pivot"]] if several else [pivot]
+        every = (result(study, name, pivot=own) for own in pivots)
+        found.append(next((one for one in every if np.isfinite(one.values).any()), None))
+    return [each for each in found if each is not None]

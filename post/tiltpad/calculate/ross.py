@@ -89,9 +89,10 @@ def at_rest(source: Run | Study, found: Series) -> Series:
     there = np.isfinite(found.values["full_stiffness"][:, 0, 0])
     if not there.any():
         raise NotInRunError(f"{source.path}: no coefficients to write: no run has an equilibrium")
-    values = {name: each[there] for name, each in found.values.items()}
-    parameters = {name: each[there] for name, each in found.parameters.items()}
-    return Series(found.pivot, found.speed_rpm[there], values, parameters)
+    own = (
+        {name: each[there] for name, each in all_of.items()} for all_of in (found.values, found.parameters)
+    )
+    return Series(found.pivot, found.speed_rpm[there], *own)
 
 
 def check(source: Run | Study, over: str, frequency: Sequence[float] | None, found: Series) -> None:
@@ -107,19 +108,15 @@ def check(source: Run | Study, over: str, frequency: Sequence[float] | None, fou
         raise ValueError(f"{source.path}: over = frequency: of one run, choose it by where")
     if (twice := speeds[1:][np.diff(speeds) <= 0]).size:
         others = ", ".join(name for name in found.parameters if name != "speed_rpm") or "nothing"
-        raise ValueError(
-            f"{source.path}: several runs at {twice[0]:g} rpm, which differ in {others}: choose by where"
-        )
+        twice_at = f"{source.path}: several runs at {twice[0]:g} rpm"
+        raise ValueError(f"{twice_at}, which differ in {others}: choose by where")
 
 
 def write_element(path: Path, keywords: Mapping[str, np.ndarray], node: int) -> None:
     """The file that ROSS loads an element from."""
     if path.suffix != ".toml":
         raise ValueError(f"{path}: the name must end in .toml")
-    lines = [
-        "# Written by tiltpad; axes and sense of rotation are those of ROSS. SI units.",
-        "[BearingElement_tiltpad]",
-    ]
-    lines += [f"n = {node}", 'tag = "tiltpad"']
+    lines = ["# Written by tiltpad; axes and sense of rotation are those of ROSS. SI units."]
+    lines += ["[BearingElement_tiltpad]", f"n = {node}", 'tag = "tiltpad"']
     lines += [f"{name} = {values.tolist()}" for name, values in keywords.items()]
     write(path, "\n".join(lines) + "\n")

@@ -23,24 +23,16 @@ def from_ross(rotor: Any, path: str | os.PathLike) -> None:
     point masses, of which ROSS makes supports, is refused.
     """
     if len(rotor.point_mass_elements):
-        raise ValueError(
-            "rotor: has point masses, which are not taken: use disks, or supports of the machine"
-        )
+        use = "use disks, or supports of the machine"
+        raise ValueError(f"rotor: has point masses, which are not taken: {use}")
     count, nodes = rotor.number_dof, len(rotor.nodes)
     places = rotor.shaft_elements[0].dof_mapping()
-    kept = np.array([[count * k + places[f"{name}_0"] for name in BENDING] for k in range(nodes)])
-    every = kept.ravel()
+    every = np.ravel([[count * k + places[f"{name}_0"] for name in BENDING] for k in range(nodes)])
     # the displacements are -x, y, alpha and beta of each node, so that those of a station are z and y
     signs = np.tile([-1.0, 1.0, 1.0, 1.0], nodes)
-    found = {
-        name: signs[:, None] * np.asarray(matrix)[np.ix_(every, every)] * signs
-        for name, matrix in (
-            ("mass", rotor.M0),
-            ("damping", rotor.C0),
-            ("gyroscopic", rotor.G0),
-            ("stiffness", rotor.K0),
-        )
-    }
+    matrices = {"mass": rotor.M0, "damping": rotor.C0, "gyroscopic": rotor.G0, "stiffness": rotor.K0}
+    kept = {name: np.asarray(matrix)[np.ix_(every, every)] for name, matrix in matrices.items()}
+    found = {name: signs[:, None] * matrix * signs for name, matrix in kept.items()}
     station, slope = np.zeros((2, 2 * nodes, 4 * nodes))
     k = np.arange(nodes)
     station[2 * k, 4 * k + 1] = 1

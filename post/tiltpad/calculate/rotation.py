@@ -22,9 +22,8 @@ def senses(source: Run | Study) -> np.ndarray:
     """The sense of a run, (1,), or of the runs of a study, (run,)."""
     if isinstance(source, Run):
         return np.array([sense(source.input)])
-    for variable, name in zip(
-        f"{source.attributes.get('variables', '')}".split("\n"), source.parameters, strict=False
-    ):
+    variables = f"{source.attributes.get('variables', '')}".split("\n")
+    for variable, name in zip(variables, source.parameters, strict=False):
         if variable == VARIABLE:
             return np.where(source[name] == ANTICLOCKWISE, -1, 1)
     groups = namelist.parse(f"{source.attributes['input']}")

@@ -10,6 +10,8 @@ from tiltpad.calculate.differences import WORDS
 from tiltpad.files.archive import meant
 from tiltpad.files.study import Study
 
+#: Values of parameters that the runs of a study must have.
+Where = Mapping[str, Any] | None
 #: The parameter over which results are drawn where runs differ in it.
 SPEED = "speed_rpm"
 

@@ -4,14 +4,14 @@ A first-order index is the share of the variance of the result that goes when th
 index the share that stays when only the input is unknown. They are of independent inputs.
 """
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from tiltpad.calculate.expansion import Expansion, expansion, groups
 from tiltpad.calculate.results import result
-from tiltpad.calculate.selection import ArgumentError, is_number, matching, varying
+from tiltpad.calculate.selection import Where, is_number, matching, varying
 from tiltpad.calculate.statistics import NORMAL
 from tiltpad.files.study import Study
 
@@ -66,11 +66,7 @@ class Sensitivity(NamedTuple):
 
 
 def sensitivity(
-    study: Study,
-    show: str,
-    pad: int | None = None,
-    pivot: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    study: Study, show: str, pad: int | None = None, pivot: str | None = None, where: Where = None
 ) -> Sensitivity:
     """Sobol indices of a result: which of the sampled inputs it depends on, and how much.
 
@@ -122,14 +118,7 @@ def sensitivity(
 def least(study: Study, show: str, count: int, what: str) -> None:
     """Raises ValueError for too few values."""
     if count < LEAST:
-        raise ArgumentError(
-            "{path}: {own}: indices need {least} {what}, here are {count}",
-            path=study.path,
-            own=show,
-            least=LEAST,
-            what=what,
-            count=count,
-        )
+        raise ValueError(f"{study.path}: {show}: indices need {LEAST} {what}, here are {count}")
 
 
 def some(places: np.ndarray, most: int) -> np.ndarray:
@@ -221,10 +210,8 @@ def with_intervals(indices: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]
     own = np.array(indices(np.ones((1, count))))[:, 0]
     draws = random.multinomial(count, [1 / count] * count, DRAWS).astype(float)
     half = NORMAL * np.std(indices(draws), axis=1)
-    (first, total), (low, total_low), (high, total_high) = (
-        np.clip(each, 0, 1) for each in (own, own - half, own + half)
-    )
-    return first, low, high, total, total_low, total_high
+    first, total = np.clip([own, own - half, own + half], 0, 1).transpose(1, 0, 2)
+    return *first, *total
 
 
 def binned(values: np.ndarray) -> np.ndarray:
@@ -299,7 +286,6 @@ def independent(study: Study, inputs: Sequence[str], ranks: Sequence[np.ndarray 
     found = np.abs(np.corrcoef([each for _, each in numbers]) - np.eye(len(numbers)))
     one, other = np.unravel_index(np.argmax(found), found.shape)
     if found[one, other] > 0.3 + 3 / np.sqrt(len(numbers[0][1])):
-        raise ValueError(
-            f"{study.path}: {numbers[one][0]} and {numbers[other][0]} vary together (rank correlation "
-            f"{found[one, other]:.2f}): what each of them does cannot be told apart"
-        )
+        both = f"{numbers[one][0]} and {numbers[other][0]} vary together"
+        how = f"(rank correlation {found[one, other]:.2f})"
+        raise ValueError(f"{study.path}: {both} {how}: what each of them does cannot be told apart")

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from tiltpad.files.archive import NotInRunError, damaged
+from tiltpad.files.archive import damaged, not_in_run
 from tiltpad.files.read import Run
 
 #: Samples that are read at once where a whole run is read.
@@ -31,7 +31,7 @@ def last_revolutions(run: Run, count: float = 1) -> slice:
         raise ValueError(f"last = {count:g}: must be a number of revolutions above 0")
     if run.samples < 2:
         reason = "it has one sample" if run.samples else run.why_not("time")
-        raise NotInRunError(f"{run.path}: no revolution in this run: {reason}")
+        raise not_in_run(run, "revolution", reason)
     before, end = run.values("shaft_angle", slice(-2, None))
     # half a sample more, so that rounding loses none
     start = run.first("shaft_angle", end - 2 * np.pi * count - (end - before) / 2)
@@ -47,7 +47,7 @@ def ends(run: Run, name: str, part: slice = slice(None)) -> np.ndarray:
     """First and last value of a dataset, or of the samples `part` of it: (2,) or (2, pad)."""
     start, stop, _ = part.indices(run.samples)
     if start >= stop:
-        raise NotInRunError(f"{run.path}: no {name} in this run: {run.why_not(name)}")
+        raise not_in_run(run, name, run.why_not(name))
     return np.stack([run.values(name, i) for i in (start, stop - 1)])
 
 
@@ -68,10 +68,7 @@ def needs_revolutions(run: Run, what: str, count: float = 1) -> None:
     """Raises NotInRunError where the run has fewer than `count` revolutions, less a sample."""
     last_revolutions(run)
     if (there := turned(run)) < count * (1 - 1e-9):
-        raise NotInRunError(
-            f"{run.path}: no {what} in this run: "
-            f"it has {there:.3g} shaft revolutions, and {count:g} are needed"
-        )
+        raise not_in_run(run, what, f"it has {there:.3g} shaft revolutions, and {count:g} are needed")
 
 
 def steady(run: Run) -> bool:
@@ -83,7 +80,7 @@ def steady(run: Run) -> bool:
 def pad_column(run: Run, pad: int) -> int:
     """Column of a pad (1, 2, ...) in (time, pad) arrays."""
     if not 1 <= pad <= run.pads:
-        raise NotInRunError(f"{run.path}: no pad {pad} in this run: pads are 1 to {run.pads}")
+        raise not_in_run(run, f"pad {pad}", f"pads are 1 to {run.pads}")
     return pad - 1
 
 
@@ -113,16 +110,6 @@ def waveform(run: Run, name: str, last: float = 5) -> tuple[np.ndarray, np.ndarr
     """Time (time,), s, and a dataset, (time,) or (time, pad), over the last revolutions."""
     part = last_revolutions(run, last)
     return run.values("time", part), run.values(name, part)
-
-
-def first_harmonic(run: Run, name: str, part: slice) -> complex:
-    """First harmonic of a dataset in the samples `part`, whole revolutions: amplitude times exp(i phase).
-
-    The dataset is the real part of it times exp(i shaft angle), its mean, and other harmonics.
-    """
-    angle = run.values("shaft_angle", part)
-    turning = run.values(name, part) * np.exp(-1j * angle)
-    return complex(np.sum(np.diff(angle) * (turning[1:] + turning[:-1])) / np.ptp(angle))
 
 
 def at_angle(angle: np.ndarray, values: np.ndarray, wanted: np.ndarray) -> np.ndarray:
@@ -200,9 +187,11 @@ def envelope(
     time, low, high = (np.array(each) for each in zip(*found, strict=True))
     beside = round(cover / (turned(run) / len(time))) // 2
     around = [slice(max(0, k - beside), k + beside + 1) for k in range(len(time))]
-    lowest = np.array([low[near].min(axis=0) for near in around])
-    highest = np.array([high[near].max(axis=0) for near in around])
-    return time, lowest, highest
+    lowest, highest = (
+        [low[near].min(axis=0) for near in around],
+        [high[near].max(axis=0) for near in around],
+    )
+    return time, np.array(lowest), np.array(highest)
 
 
 def swing(run: Run, name: str, spans: int = 400) -> tuple[np.ndarray, np.ndarray]:

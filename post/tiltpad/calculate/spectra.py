@@ -9,7 +9,7 @@ import numpy as np
 
 from tiltpad.calculate import signals
 from tiltpad.calculate.rotation import sense
-from tiltpad.files.archive import NotInRunError
+from tiltpad.files.archive import not_in_run
 from tiltpad.files.read import Run
 
 
@@ -63,7 +63,7 @@ def full(run: Run, last: float = 10) -> tuple[np.ndarray, np.ndarray]:
 def sampled_evenly(run: Run, last: float) -> tuple[slice, float]:
     """Samples of the last revolutions, without the sample that begins the next one, and their interval, s."""
     if not signals.steady(run):
-        raise NotInRunError(f"{run.path}: no spectrum in this run: the speed changes; see waterfall")
+        raise not_in_run(run, "spectrum", "the speed changes; see waterfall")
     signals.needs_revolutions(run, "spectrum")
     part = signals.last_revolutions(run, last)
     time = signals.ends(run, "time", part)
@@ -85,15 +85,13 @@ def waterfall(
     mean. A dataset of all pads needs `pad`. The windows are Hann windows, read one at a time.
     """
     needs_pad(run, name, pad)
-    speed, found = [], []
-    for at, _, weighted in windows(run, name, pad, revolutions, spans, "waterfall"):
-        amplitude = 2 * np.abs(np.fft.rfft(weighted))[: int(orders * revolutions) + 1]
-        amplitude[0] /= 2
-        speed.append(at)
-        found.append(amplitude)
-    shortest = min(len(each) for each in found)
-    amplitudes = np.array([each[:shortest] for each in found])
-    return np.array(speed), np.arange(shortest) / revolutions, amplitudes
+    found = windows(run, name, pad, revolutions, spans, "waterfall")
+    most = int(orders * revolutions) + 1
+    speed, amplitudes = zip(*((at, 2 * np.abs(np.fft.rfft(own))[:most]) for at, _, own in found), strict=True)
+    shortest = min(map(len, amplitudes))
+    table = np.array([each[:shortest] for each in amplitudes])
+    table[:, 0] /= 2
+    return np.array(speed), np.arange(shortest) / revolutions, table
 
 
 def order_track(
@@ -124,11 +122,9 @@ def order_tracks(
     """Speed (n,), and amplitude and phase (n, order) of several orders, whose windows are read once."""
     needs_pad(run, name, pad)
     turning = -1j * np.asarray(orders)[:, None]
-    found = [
-        (speed, 2 * np.sum(weighted * np.exp(turning * angle), axis=1))
-        for speed, angle, weighted in windows(run, name, pad, revolutions, spans, "order track")
-    ]
-    speed, amplitude = (np.array(each) for each in zip(*found, strict=True))
+    found = windows(run, name, pad, revolutions, spans, "order track")
+    whole = [(speed, 2 * np.sum(own * np.exp(turning * angle), axis=1)) for speed, angle, own in found]
+    speed, amplitude = (np.array(each) for each in zip(*whole, strict=True))
     return speed, np.abs(amplitude), np.angle(amplitude)
 
 
@@ -142,9 +138,7 @@ def windows(
     fitted with the weights, and so takes nothing from whole orders.
     """
     if signals.steady(run):
-        raise NotInRunError(
-            f"{run.path}: no {what} in this run: its speed stays the same, a run-up is needed"
-        )
+        raise not_in_run(run, what, "its speed stays the same, a run-up is needed")
     signals.needs_revolutions(run, what, revolutions)
     first, final = signals.ends(run, "shaft_angle")
     length = 2 * np.pi * revolutions

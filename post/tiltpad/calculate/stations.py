@@ -7,7 +7,7 @@ import numpy as np
 
 from tiltpad.calculate import signals
 from tiltpad.calculate.coefficients import place_of_pivot
-from tiltpad.files.archive import NotInRunError
+from tiltpad.files.archive import not_in_run
 from tiltpad.files.read import Run
 
 #: As on the console: the damping of a mode is that of the reduction where this part of it is.
@@ -43,13 +43,14 @@ def station_modes(run: Run, pivot: str | None = None) -> StationModes:
     """
     needs_machine(run)
     _, k = place_of_pivot(run, pivot) if "modes" in run else (run["modes"], 0)
-    frequency, damping_ratio, log_decrement, whirl = (
-        run[f"modes/{name}"][k] for name in ("frequency", "damping_ratio", "log_decrement", "whirl")
+    names = ("frequency", "damping_ratio", "log_decrement", "whirl")
+    frequency, damping_ratio, log_decrement, whirl = (run[f"modes/{name}"][k] for name in names)
+    eigenvalue, y, z = (
+        run[f"modes/{name}_real"][k] + 1j * run[f"modes/{name}_imag"][k]
+        for name in ("eigenvalue", "station_y", "station_z")
     )
-    y, z = (run[f"modes/station_{axis}_real"][k] + 1j * run[f"modes/station_{axis}_imag"][k] for axis in "yz")
-    eigenvalue = run["modes/eigenvalue_real"][k] + 1j * run["modes/eigenvalue_imag"][k]
+    part = run["modes/part_of_reduction"][k] if "modes/part_of_reduction" in run else np.zeros(len(y))
     shape = np.stack([y, z], axis=-1)
-    part = run["modes/part_of_reduction"][k] if "modes/part_of_reduction" in run else np.zeros(len(frequency))
     figures = (eigenvalue, frequency, damping_ratio, log_decrement, whirl, shape)
     return StationModes(str(run["pivot"][k]), *figures, ~(part > MOSTLY))
 
@@ -64,7 +65,7 @@ def station_orbit(run: Run, station: int, last: float = 1) -> tuple[np.ndarray, 
 def column(run: Run, station: int) -> int:
     """Column of a station (1, 2, ...) in (time, station) arrays."""
     if not 1 <= station <= (there := run.length("station")):
-        raise NotInRunError(f"{run.path}: no station {station} in this run: stations are 1 to {there}")
+        raise not_in_run(run, f"station {station}", f"stations are 1 to {there}")
     return station - 1
 
 
@@ -95,4 +96,4 @@ def named(groups: dict[str, Any]) -> Iterator[tuple[int, str]]:
 def needs_machine(run: Run) -> None:
     """Raises NotInRunError for the run of one bearing."""
     if not run.bearings:
-        raise NotInRunError(f"{run.path}: no stations in this run: it is of one bearing and not of a machine")
+        raise not_in_run(run, "stations", "it is of one bearing and not of a machine")

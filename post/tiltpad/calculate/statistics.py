@@ -2,14 +2,14 @@
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from tiltpad.calculate.coefficients import SOUGHT as THRESHOLD
 from tiltpad.calculate.results import Result, key_results, result
-from tiltpad.calculate.selection import matching, selected
+from tiltpad.calculate.selection import Where, matching, selected
 from tiltpad.files.study import Study
 
 #: Percentiles, in percent, and the quantile of the normal distribution that 95 % intervals reach to.
@@ -80,7 +80,7 @@ def percentiles(
     show: str | Sequence[str] | None = None,
     pad: int | None = None,
     pivot: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    where: Where = None,
 ) -> Percentiles:
     """Mean, standard deviation and percentiles of results of the runs that were done.
 
@@ -95,22 +95,11 @@ def percentiles(
     columns = [with_infinite(study, each)[chosen] for each in found]
     columns = [each[~np.isnan(each)] for each in columns]
     with np.errstate(invalid="ignore"):
-        moments = [(each.mean(), each.std(ddof=1)) if len(each) > 1 else (mean(each), np.nan)
-                   for each in columns]  # fmt: skip
-    means, deviations = np.array(moments, dtype=float).reshape(len(columns), 2).T
-    return Percentiles(
-        [each.name for each in found],
-        np.array([len(each) for each in columns]),
-        np.where(np.isfinite(means), means, np.nan),
-        deviations,
-        LEVELS,
-        np.array([quantiles(each, LEVELS) for each in columns]).reshape(len(columns), len(LEVELS)),
-    )
-
-
-def mean(values: np.ndarray) -> float:
-    """The mean of one value at most."""
-    return float(values[0]) if len(values) else np.nan
+        means = np.array([each.mean() if len(each) else np.nan for each in columns])
+        deviations = np.array([each.std(ddof=1) if len(each) > 1 else np.nan for each in columns])
+    values = np.array([quantiles(each, LEVELS) for each in columns]).reshape(len(columns), len(LEVELS))
+    names, runs = [each.name for each in found], np.array([len(each) for each in columns])
+    return Percentiles(names, runs, np.where(np.isfinite(means), means, np.nan), deviations, LEVELS, values)
 
 
 def with_infinite(study: Study, own: Result) -> np.ndarray:
@@ -153,7 +142,7 @@ def share(count: int, of: int) -> Share:
     return Share(int(count), int(of), own, float(low), float(high))
 
 
-def outcomes(study: Study, pivot: str | None = None, where: Mapping[str, Any] | None = None) -> Outcomes:
+def outcomes(study: Study, pivot: str | None = None, where: Where = None) -> Outcomes:
     """How many runs of a study have no equilibrium or failed otherwise, and why, and how many are unstable.
 
     Unstable is an equilibrium at which a vibration grows, also one of the pivots `pivot` (by default the
@@ -166,17 +155,12 @@ def outcomes(study: Study, pivot: str | None = None, where: Mapping[str, Any] | 
     ended = int(done.sum()) + len(refused)
     reasons = study.reason[refused] if len(refused) and "reason" in study else [""] * len(refused)
     causes = Counter(map(cause, reasons)).most_common()
-    unstable = instability(study, pivot)
+    unstable, runs = instability(study, pivot), int(chosen.sum())
     if unstable is not None:
         known = unstable[done][~np.isnan(unstable[done])]
-    return Outcomes(
-        int(chosen.sum()),
-        int(chosen.sum()) - ended,
-        int(done.sum()),
-        share(len(refused), ended),
-        {text: share(count, ended) for text, count in causes},
-        None if unstable is None else share(int(known.sum()), len(known)),
-    )
+    shares = {text: share(count, ended) for text, count in causes}
+    grows = None if unstable is None else share(int(known.sum()), len(known))
+    return Outcomes(runs, runs - ended, int(done.sum()), share(len(refused), ended), shares, grows)
 
 
 class CommonRemark(NamedTuple):
@@ -189,16 +173,12 @@ class CommonRemark(NamedTuple):
 
 def common_remarks(study: Study) -> list[CommonRemark]:
     """The remarks on the runs of a study, the most frequent first; empty where there are none."""
-    found: dict[str, list[int]] = {}
-    words: dict[str, str] = {}
-    if "remarks" not in study:
-        return []
-    for number, text in zip(study["run"], study["remarks"], strict=True):
+    found: dict[str, CommonRemark] = {}
+    for number, text in zip(study["run"], study["remarks"], strict=True) if "remarks" in study else ():
         for kind, line in {cause(line): line for line in text.splitlines()}.items():
-            found.setdefault(kind, []).append(int(number))
-            words.setdefault(kind, line)
-    common = [CommonRemark(len(runs), runs[0], words[kind]) for kind, runs in found.items()]
-    return sorted(common, key=lambda each: -each.runs)
+            known = found.get(kind, CommonRemark(0, int(number), line))
+            found[kind] = known._replace(runs=known.runs + 1)
+    return sorted(found.values(), key=lambda each: -each.runs)
 
 
 def instability(study: Study, pivot: str | None) -> np.ndarray | None:

@@ -45,12 +45,10 @@ def pads(run: Run) -> list[Figure]:
     if "equilibrium/viscosity" in run:
         heat, shown = heat_balance(run), SHOWN["power_loss"]
         # what goes to shaft and pad the file says itself where the heat of the pads is known
-        places = {"to the oil": heat.to_oil, "to the shaft": heat.to_shaft}
-        found += [
-            Figure(f"heat {to}", shown._replace(text=f"equilibrium: heat {to}"), values)
-            for to, values in places.items()
-            if to == "to the oil" or not run.has_film_temperatures
-        ]
+        places = {"to the oil": heat.to_oil}
+        places |= {} if run.has_film_temperatures else {"to the shaft": heat.to_shaft}
+        for to, values in places.items():
+            found.append(Figure(f"heat {to}", shown._replace(text=f"equilibrium: heat {to}"), values))
     return found
 
 

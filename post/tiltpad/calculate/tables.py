@@ -1,9 +1,6 @@
 """Tables of coefficients, for spreadsheets and other programs."""
 
-import csv
-import io
 import os
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +8,10 @@ import numpy as np
 
 from tiltpad.calculate import rotation
 from tiltpad.calculate.coefficients import Coefficients, coefficients
+from tiltpad.calculate.selection import Where
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
-from tiltpad.files.writing import write
+from tiltpad.files.writing import write, write_csv
 
 #: Elements of the matrices in the order of the columns.
 ELEMENTS = ("yy", "yz", "zy", "zz")
@@ -21,11 +19,7 @@ HEAD = "Stiffness in N/m, damping in N s/m; y is up, the shaft turns"
 
 
 def write_coefficients(
-    source: Run | Study,
-    path: str | os.PathLike,
-    *,
-    pivot: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    source: Run | Study, path: str | os.PathLike, *, pivot: str | None = None, where: Where = None
 ) -> None:
     """Writes the coefficients of a run or a study to a table, .csv or .toml; by default of all its pivots.
 
@@ -36,9 +30,7 @@ def write_coefficients(
     names = [first.pivot] if pivot else [str(each) for each in source["pivot"]]
     found = [coefficients(source, each, where=where) for each in names]
     if target.suffix == ".csv":
-        text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows(table(found))
-        write(target, text.getvalue())
+        write_csv(target, table(found))
     elif target.suffix == ".toml":
         write(target, "\n".join(sections(found, turning(source))))
     else:
@@ -48,21 +40,15 @@ def write_coefficients(
 def table(found: list[Coefficients]) -> list[list[Any]]:
     """Head and rows of the table."""
     others = [name for name in found[0].parameters if name != "speed_rpm"]
-    elements = [
-        f"{letter}_{each} ({unit})" for letter, unit in (("K", "N/m"), ("C", "N s/m")) for each in ELEMENTS
-    ]
+    units = {"K": "N/m", "C": "N s/m"}
+    elements = [f"{letter}_{each} ({unit})" for letter, unit in units.items() for each in ELEMENTS]
     rows: list[list[Any]] = [["pivot", *others, "speed_rpm", "frequency_ratio", *elements]]
     for one in found:
         shape = (-1, len(one.frequency_ratio), len(ELEMENTS))
-        both = zip(one.stiffness.reshape(shape), one.damping.reshape(shape), strict=True)
-        for k, (stiffness, damping) in enumerate(both):
-            start = [
-                one.pivot,
-                *(one.parameters[name][k] for name in others),
-                np.atleast_1d(one.speed_rpm)[k],
-            ]
-            for ratio, *values in zip(one.frequency_ratio, stiffness, damping, strict=True):
-                rows.append([*start, ratio, *values[0], *values[1]])
+        both = np.concatenate([one.stiffness.reshape(shape), one.damping.reshape(shape)], axis=-1)
+        for k, (speed, own) in enumerate(zip(np.atleast_1d(one.speed_rpm), both, strict=True)):
+            start = [one.pivot, *(one.parameters[name][k] for name in others), speed]
+            rows += [[*start, ratio, *values] for ratio, values in zip(one.frequency_ratio, own, strict=True)]
     return rows
 
 
@@ -88,6 +74,6 @@ def toml(value: Any) -> str:
     """A number, a text or nested lists of them as TOML has them."""
     if isinstance(value, list):
         return f"[{', '.join(map(toml, value))}]"
-    return (
-        '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"' if isinstance(value, str) else repr(value)
-    )
+    if not isinstance(value, str):
+        return repr(value)
+    return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'

@@ -17,20 +17,13 @@ NUMBER_OR_NAME = re.compile(r"[:( )]")
 
 
 class Parameter(NamedTuple):
-    """A variable in which runs differ, with the value of each run; its fields:
+    """A variable in which runs differ, with the value of each run."""
 
-    name         short and without special characters: speed_rpm, arc_deg_1
-    variable     as in the namelist: operation%speed_rpm, pads%arc_deg(1)
-    long_name    in words: speed; arc, 1
-    units        of the values; empty for texts
-    values       numbers, nan where a run has none, or texts, empty where it has none
-    """
-
-    name: str
-    variable: str
-    long_name: str
-    units: str
-    values: list[float] | list[str]
+    name: str  # short and without special characters: speed_rpm, arc_deg_1
+    variable: str  # as in the namelist: operation%speed_rpm, pads%arc_deg(1)
+    long_name: str  # in words: speed; arc, 1
+    units: str  # of the values; empty for texts
+    values: list[float] | list[str]  # numbers, nan where a run has none, or texts, empty where it has none
 
 
 def varied_values(text: str) -> dict[str, Any]:

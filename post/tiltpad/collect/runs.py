@@ -32,37 +32,24 @@ OF_ANY = ("speed", "time_reached", "equilibrium_")
 
 
 class StudyRun(NamedTuple):
-    """A run as a study has it.
-
-    Its fields:
-
-        path, number      its file; its number in the study, None of a run of its own
-        status, reason    exit status (nan: the file cannot be read), and the reason where it failed
-        runs, varied      runs of the whole study, and its own varied values by variable
-        marks             checksums of the study: up to the run before, up to this one, of all; None where
-                          they are not known
-        input             resolved namelist, empty where the file cannot be read
-        origin            version, title and input text
-        values            its columns of the study, with their dimensions less the run
-        found             of those that are datasets of its file: their names there, and these dimensions;
-                          of a bearing of a machine both stand in its group
-        labels            values of its dimensions
-        remarks           those on it
-    """
+    """A run as a study has it."""
 
     path: Path
-    number: int | None
-    status: float
-    reason: str
-    runs: int | None = None
-    varied: dict[str, Any] = {}
+    number: int | None  # in the study; None of a run of its own
+    status: float  # with which the program ended; nan: the file cannot be read
+    reason: str  # where it failed
+    runs: int | None = None  # of the whole study
+    varied: dict[str, Any] = {}  # its own values by variable
+    # checksums of the study: up to the run before, up to this one, of all; None where they are not known
     marks: tuple[str, str, str] | None = None
-    input: dict[str, dict[str, Any]] = {}
-    origin: dict[str, str] = {}
-    values: dict[str, Any] = {}
+    input: dict[str, dict[str, Any]] = {}  # resolved namelist, empty where the file cannot be read
+    origin: dict[str, str] = {}  # version, title and input text
+    values: dict[str, Any] = {}  # its columns of the study, with their dimensions less the run
+    # of those that are datasets of its file: their names there, and these dimensions; of a bearing of a
+    # machine both stand in its group
     found: dict[str, tuple[str, tuple[str, ...]]] = {}
-    labels: dict[str, Sequence[Any]] = {}
-    remarks: Sequence[str] = ()
+    labels: dict[str, Sequence[Any]] = {}  # values of its dimensions
+    remarks: Sequence[str] = ()  # those on it
 
 
 def one_run(path: Path) -> StudyRun:

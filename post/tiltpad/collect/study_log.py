@@ -85,12 +85,8 @@ def frames(runs: Sequence[StudyRun], missing: Sequence[int], folder: Path) -> It
         values = [np.ravel(each.values[name]) for name in names]
         status = UNREADABLE if np.isnan(each.status) else int(each.status)
         texts = (each.reason, os.path.relpath(each.path.resolve(), folder), "\n".join(each.remarks))
-        yield (
-            b"R",
-            b"".join(
-                (*map(whole, (k, status, numbers[layout])), *map(text, texts), reals(np.concatenate([[], *values])))
-            ),
-        )
+        row = [*map(whole, (k, status, numbers[layout])), *(text(each) for each in texts)]
+        yield b"R", b"".join([*row, reals(np.concatenate([[], *values]))])
 
 
 def header(runs: Sequence[StudyRun], missing: Sequence[int], taken: set[str]) -> bytes:
@@ -119,7 +115,11 @@ def header(runs: Sequence[StudyRun], missing: Sequence[int], taken: set[str]) ->
             whole(len(found)),
             *(
                 b"".join(map(text, (one.name, one.variable, one.long_name, one.units)))
-                + (whole(0) + reals(one.values) if one.units else whole(1) + b"".join(map(text, one.values)))
+                + (
+                    whole(0) + reals(one.values)
+                    if one.units
+                    else whole(1) + b"".join(text(f"{own}") for own in one.values)
+                )
                 for one in found
             ),
         )

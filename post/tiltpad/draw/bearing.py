@@ -15,14 +15,14 @@ from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon
+from matplotlib.patches import Arc, Circle, Polygon
 
 from tiltpad.calculate import geometry, signals
 from tiltpad.calculate.geometry import Case, State
 from tiltpad.calculate.rotation import sense
 from tiltpad.calculate.selection import ArgumentError
-from tiltpad.draw.layout import PAGE, WARMTH, plain, width
-from tiltpad.draw.plots import STYLE, polar
+from tiltpad.draw.layout import PAGE, WARMTH, plain, polar, turning_arrow, width
+from tiltpad.draw.plots import STYLE
 from tiltpad.files.archive import RunError
 from tiltpad.files.archive import plain as printable
 from tiltpad.files.read import Run, needs_run
@@ -68,8 +68,7 @@ def bearing(case: Run | Case) -> Figure:
         names = ", ".join(str(each["name"]) for each in groups["bearing"])
         raise ArgumentError("a machine: choose one of its bearings by {bearing}: {names}", names=names)
     state = geometry.at_rest(run) if run else geometry.centred(groups)
-    fig = plt.figure(figsize=(PAGE, 4.4))
-    ax, beside = fig.subplots(1, 2, width_ratios=(1.45, 1))
+    fig, (ax, beside) = plt.subplots(1, 2, width_ratios=(1.45, 1), figsize=(PAGE, 4.4))
     drawing = Drawing(ax, groups, state)
     mark_angles(ax, groups)
     mark_edges(ax, drawing)
@@ -136,9 +135,8 @@ class Drawing:
             parts.append(np.stack([inner[:-1], inner[1:], outer[1:], outer[:-1]], axis=1))
             # points go from the trailing to the leading edge
             warmth.append(np.interp(between, 1 - run["film_arc"][::-1], surface[::-1]))
-        shown = PolyCollection(
-            np.concatenate(parts), array=np.concatenate(warmth), cmap=WARMTH, edgecolors="face", zorder=1.5
-        )
+        look = {"cmap": WARMTH, "edgecolors": "face", "zorder": 1.5}
+        shown = PolyCollection(np.concatenate(parts), array=np.concatenate(warmth), **look)
         shown.set_clim(min(shaft, surfaces.min()), max(shaft, surfaces.max()))
         self.ax.add_collection(shown)
         self.journal.set_facecolor(shown.to_rgba(shaft))
@@ -175,13 +173,7 @@ def mark_edges(ax: Axes, drawing: Drawing) -> None:
 
 def mark_rotation(ax: Axes, sense: int) -> None:
     """Clockwise (sense 1), from +y towards +z, or anticlockwise."""
-    turn = {
-        "connectionstyle": f"arc3,rad={-0.3 * sense}",
-        "arrowstyle": "-|>",
-        "mutation_scale": 11,
-        "color": "C0",
-    }
-    ax.add_patch(FancyArrowPatch(*(polar(0.7, each) for each in (140, 102)[::sense]), **turn, zorder=3))
+    turning_arrow(ax, 0.7, (140, 102), 0.3 * sense, mutation_scale=11, color="C0", zorder=3)
     ax.text(*polar(0.47, 132), "rotation", **NOTE | {"color": "C0"}, zorder=3)
 
 
@@ -209,13 +201,9 @@ def figures_of(case: Case, state: State) -> str:
     """Sizes of the bearing, a line each, and what the picture enlarges."""
     own, pads = case["bearing"], case["pads"]
     first, last = (case["operation"][name] for name in ("speed_rpm", "final_speed_rpm"))
-    assembled, machined, length, arc, ratio = (
-        geometry.of_pads(case, name)
-        for name in (
-            *("bearing%assembled_clearance", "bearing%machined_clearance", "bearing%axial_length"),
-            *("pads%arc_deg", "pads%pivot_ratio"),
-        )
-    )
+    sizes = ("bearing%assembled_clearance", "bearing%machined_clearance", "bearing%axial_length")
+    assembled, machined, length = (geometry.of_pads(case, name) for name in sizes)
+    arc, ratio = (geometry.of_pads(case, name) for name in ("pads%arc_deg", "pads%pivot_ratio"))
     fixed, count = pads["motion"] == "fixed", len(arc)
     motion = MOTIONS.get(pads["motion"], pads["motion"])
     # the surface is where 1 + CLEARANCE is, not 1 + the true ratio
@@ -253,12 +241,13 @@ def movie(run: Run, path: str | Path, last: float | None = None) -> None:
     """
     needs_run(run)
     path = Path(path)
-    if path.suffix.lower() == ".mp4" and not FFMpegWriter.isAvailable():
+    mp4 = path.suffix.lower() == ".mp4"
+    if mp4 and not FFMpegWriter.isAvailable():
         raise ValueError(
             f"{path}: an MP4 needs the program ffmpeg, which is not on PATH: install it "
             "(apt install ffmpeg), or take a name that ends in .gif"
         )
-    writer = (FFMpegWriter if path.suffix.lower() == ".mp4" else PillowWriter)(fps=RATE)
+    writer = (FFMpegWriter if mp4 else PillowWriter)(fps=RATE)
     with plt.style.context(STYLE):
         fig, frame, states = moving(run, last or 2)
         fig.draw_without_rendering()
@@ -280,8 +269,7 @@ def moving(run: Run, last: float) -> tuple[Figure, Any, Sequence[State]]:
     every = max(1, round((part.stop - part.start - 1) / max(1.0, turns * FRAMES)))
     whole = geometry.samples(run, part)
     states = whole[:-1:every]
-    fig = plt.figure(figsize=(PAGE, 3.7))
-    left, right = fig.subplots(1, 2, width_ratios=(1.15, 1))
+    fig, (left, right) = plt.subplots(1, 2, width_ratios=(1.15, 1), figsize=(PAGE, 3.7))
     drawing = Drawing(left, run.in_operation, states[0])
     mark_rotation(left, sense(run.input))
     y, z = SHOWN["journal_y"].factor * np.array([state.journal for state in whole]).T
@@ -296,9 +284,9 @@ def moving(run: Run, last: float) -> tuple[Figure, Any, Sequence[State]]:
 
     def frame(number: int) -> None:
         drawing.move(states[number])
-        passed = slice(0, number * every + 1)
-        trail.set_data(z[passed], y[passed])
-        dot.set_data(z[number * every : number * every + 1], y[number * every : number * every + 1])
+        at = number * every
+        trail.set_data(z[: at + 1], y[: at + 1])
+        dot.set_data(z[at : at + 1], y[at : at + 1])
         clock.set_text(f"{states[number].time:.4f} s")
 
     return fig, frame, states

@@ -3,7 +3,7 @@
 Every function takes results and studies, and returns the figure.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -16,7 +16,7 @@ from tiltpad.calculate import branches, signals
 from tiltpad.calculate.critical_speeds import operating_range
 from tiltpad.calculate.response import DIRECTIONS, Peak
 from tiltpad.calculate.response import response as response_of
-from tiltpad.calculate.selection import SPEED, needs
+from tiltpad.calculate.selection import SPEED, Where, needs
 from tiltpad.draw import layout, plots
 from tiltpad.draw.vibrations import parts
 from tiltpad.files import units
@@ -36,10 +36,8 @@ FARTHEST = 2
 @layout.of_several
 def response(
     runs: Sequence[Run | Study],
-    last: float | None = None,
-    pad: int | None = None,
     over: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    where: Where = None,
     station: int | None = None,
     pivot: str | None = None,
     operating: Sequence[float] | None = None,
@@ -55,15 +53,11 @@ def response(
     for color, one in enumerate(found):
         own = response_of(one.source, one.where or None, one.over, station, pivot)
         for k, direction in enumerate(DIRECTIONS):
-            line = (
-                {"color": f"C{k}"}
-                if len(found) == 1
-                else {"color": layout.part_color(color, len(found)), "linestyle": layout.DASHES[k]}
-            )
-            for name, values in (
-                ("amplitude", size.factor * own.amplitude),
-                ("phase", np.degrees(own.phase)),
-            ):
+            line: dict[str, Any] = {"color": f"C{k}"}
+            if len(found) > 1:
+                line = {"color": layout.part_color(color, len(found)), "linestyle": layout.DASHES[k]}
+            drawn = {"amplitude": size.factor * own.amplitude, "phase": np.degrees(own.phase)}
+            for name, values in drawn.items():
                 panels[name].plot(own.values, values[:, k], **line | layout.dots(len(own.values)))
             peaks = [each for each in own.peaks if each.direction == direction]
             for each in peaks:
@@ -91,7 +85,7 @@ def in_words(peak: Peak) -> str:
 
 
 @layout.of_several
-def branch(runs: Sequence[Run | Study], last: float | None = None, pad: int | None = None) -> Figure:
+def branch(runs: Sequence[Run | Study], pad: int | None = None) -> Figure:
     """Highest and lowest values along branches, unstable parts dashed, bifurcation points by their letters.
 
     They are those of the journal, or of its y and, with `pad`, of its tilt. Studies of marches over the same
@@ -153,15 +147,11 @@ def apart(marked: Sequence[tuple[float, float, str]], ax: Axes) -> list[tuple[fl
     wide, high = (np.ptp(each) or 1.0 for each in (ax.dataLim.intervalx, ax.dataLim.intervaly))
     found: list[tuple[float, float, str]] = []
     for x, y, letters in sorted(marked):
-        near = [
-            k
-            for k, each in enumerate(found)
-            if abs(x - each[0]) < 0.08 * wide and abs(y - each[1]) < 0.06 * high
-        ]
-        if near:
-            others = found[near[0]]
-            words = others[2] if letters in others[2].split(", ") else f"{others[2]}, {letters}"
-            found[near[0]] = (others[0], max(y, others[1]), words)
+        for k, (near, height, words) in enumerate(found):
+            if abs(x - near) < 0.08 * wide and abs(y - height) < 0.06 * high:
+                words = words if letters in words.split(", ") else f"{words}, {letters}"
+                found[k] = (near, max(y, height), words)
+                break
         else:
             found.append((x, y, letters))
     return found
@@ -189,10 +179,9 @@ def color_of(branch: int) -> str:
 
 
 @layout.of_several
-def multipliers(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+def multipliers(runs: Sequence[Run]) -> Figure:
     """Floquet multipliers of periodic orbits, or along branches, in and around the unit circle."""
-    fig = plt.figure(figsize=(layout.COLUMN, 3.4))
-    ax = fig.subplots()
+    fig, ax = plt.subplots(figsize=(layout.COLUMN, 3.4))
     ax.add_patch(Circle((0, 0), 1, fill=False, linewidth=0.8, color="0.3"))
     reach = 1.0
     for color, run in zip(layout.colors(runs), runs, strict=True):
@@ -203,13 +192,11 @@ def multipliers(runs: Sequence[Run], last: float | None = None, pad: int | None 
             dots = ax.scatter(values.real, values.imag, s=6, linewidths=0, **look)
             if len(runs) == 1:
                 fig.colorbar(dots, ax=ax, label=parameter_of(run).label)
-            ax.set(
-                xlabel=SHOWN["multiplier_real"].label, ylabel=SHOWN["multiplier_imag"].label, aspect="equal"
-            )
         else:
             plots.multipliers(run, ax, color=color)
             values = signals.multipliers(run)
         reach = max(reach, float(np.abs(values).max()))
+    ax.set(xlabel=SHOWN["multiplier_real"].label, ylabel=SHOWN["multiplier_imag"].label, aspect="equal")
     reach = 1.1 * min(reach, FARTHEST)
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
     layout.legend(fig, runs, [])

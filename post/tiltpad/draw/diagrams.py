@@ -33,11 +33,9 @@ MOST_POINTS, MOST_MARKS, EDGE = 20000, 300, 150
 #: Characters on a line of the vertical axis' label.
 LABEL = 38
 #: A run that was not done: in a cell of a map, and over an axis.
-FAILED = {"linestyle": "", "marker": "x", "color": "0.4", "markersize": 5, "zorder": 4}
-AT_EDGE = {
-    **{"linestyle": "", "marker": "|", "color": "C1", "markersize": 5, "markeredgewidth": 0.7},
-    "rasterized": True,
-}
+MARK = {"linestyle": "", "markersize": 5}
+FAILED = MARK | {"marker": "x", "color": "0.4", "zorder": 4}
+AT_EDGE = MARK | {"marker": "|", "color": "C1", "markeredgewidth": 0.7, "rasterized": True}
 NOT_DONE = {"linestyle": (0, (1, 2)), "color": "0.5", "linewidth": 1.2, "zorder": 0.5, "gid": "not done"}
 
 
@@ -80,7 +78,6 @@ def lines(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
     values, shown = show[:2]
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
-    too_many(groups, others)
     for number, (text, part) in enumerate(groups):
         order = part[np.argsort(place[part], kind="stable")]
         whole = study.done[order]
@@ -101,9 +98,8 @@ def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
     """Colours over two parameters; a cross where a run failed, white where there is no run."""
     numeric = [name for name in others if selection.is_number(study, name)]
     if not selection.is_number(study, over) or not numeric:
-        raise ValueError(
-            f"{study.path}: a map needs two parameters that are numbers: {parameters_in_words(study)}"
-        )
+        known = f"its parameters are {', '.join(study.parameters) or 'none'}"
+        raise ValueError(f"{study.path}: a map needs two parameters that are numbers: {known}")
     second = max(numeric, key=lambda name: len(selection.distinct(study[name][chosen])))
     values, shown = show[:2]
     (at, x), (beside, y) = (axis(study, name, ax, which) for name, which in ((over, "x"), (second, "y")))
@@ -113,23 +109,15 @@ def field(study: Study, ax: Axes, show: Result, over: str, others: Sequence[str]
     cells = np.searchsorted(rows, y[placed]), np.searchsorted(columns, x[placed])
     if len(np.unique(np.ravel_multi_index(cells, table.shape))) < placed.sum():
         rest = ", ".join(name for name in others if name != second) or "nothing"
-        raise selection.ArgumentError(
-            "{path}: a map has one run in each cell, here are several that differ in {rest}: "
-            "choose by {where}",
-            path=study.path,
-            rest=rest,
-        )
+        text = "{path}: a map has one run in each cell, here are several that differ in {rest}"
+        raise selection.ArgumentError(f"{text}: choose by {{where}}", path=study.path, rest=rest)
     done = study.done[placed]
     table[cells] = np.where(done, shown.factor * values[placed], np.nan)
     ax.plot(x[placed][~done], y[placed][~done], **FAILED)
     if not np.isfinite(table).any():
         raise ValueError(f"{study.path}: no finite {shown.label} to draw")
-    image = ax.pcolormesh(
-        edges(columns, ax.get_xscale()),
-        edges(rows, ax.get_yscale()),
-        np.ma.masked_invalid(table),
-        rasterized=True,
-    )
+    borders = edges(columns, ax.get_xscale()), edges(rows, ax.get_yscale())
+    image = ax.pcolormesh(*borders, np.ma.masked_invalid(table), rasterized=True)
     ax.figure.colorbar(image, ax=ax, label=shown.label)
     ax.grid(visible=False)
     ax.set(xlabel=at.label, ylabel=beside.label)
@@ -159,20 +147,13 @@ def bifurcation(
     values, shown = show[:2]
     at, place = axis(study, over, ax, "x")
     groups = grouped(study, others, chosen)
-    too_many(groups, others)
     size = 3 if len(selection.distinct(study[over][chosen])) < DENSE else 1.5
     for number, (text, part) in enumerate(groups):
         points = np.where(study.done[part, None], shown.factor * values[part], np.nan)
         x = np.broadcast_to(place[part, None], points.shape)
         color = part_color(number, len(groups))
-        dots = {
-            "linestyle": "",
-            "marker": "o",
-            "markersize": size,
-            "markeredgewidth": 0,
-            "color": color,
-        }
-        ax.plot(x.ravel(), points.ravel(), label=literal(text), **dots)
+        dots = {"linestyle": "", "marker": "o", "markersize": size, "markeredgewidth": 0}
+        ax.plot(x.ravel(), points.ravel(), label=literal(text), color=color, **dots)
         mark_failed(ax, place[part][~study.done[part]], color if len(groups) > 1 else None)
     ax.set(xlabel=at.label, ylabel=fill(f"{shown.label} once a revolution", LABEL))
     explain(study, ax, others, chosen)
@@ -197,12 +178,8 @@ def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarr
     if not selection.is_number(study, name):
         names = selection.distinct(values)
         place = np.array([names.index(value) if value in names else np.nan for value in values], dtype=float)
-        ax.set(
-            **{
-                f"{which}ticks": range(len(names)),
-                f"{which}ticklabels": [literal(selection.written(each)) for each in names],
-            }
-        )
+        texts = [literal(selection.written(each)) for each in names]
+        ax.set(**{f"{which}ticks": range(len(names)), f"{which}ticklabels": texts})
         ax.set(**{f"{which}lim": (-0.5, len(names) - 0.5)})
         return Shown(text, 1, ""), place
     shown = units.shown(text, literal(study.about(name, "units")), values)
@@ -222,7 +199,10 @@ def spread_in_ratio(values: Sequence[float]) -> bool:
 
 
 def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tuple[str, np.ndarray]]:
-    """Name and runs of every combination of the other parameters; without runs of unknown values."""
+    """Name and runs of every combination of the other parameters; without runs of unknown values.
+
+    Raises ArgumentError for more of them than a diagram has lines.
+    """
     keys = list(zip(*(study[name] for name in others), strict=True)) if others else [()] * len(chosen)
     found: dict[tuple, list[int]] = {}
     for k in np.flatnonzero(chosen):
@@ -230,17 +210,12 @@ def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tup
             found.setdefault(keys[k], []).append(int(k))
     rank = {name: {v: k for k, v in enumerate(selection.distinct(study[name]))} for name in others}
     keys = sorted(found, key=lambda key: [rank[name][v] for name, v in zip(others, key, strict=True)])
-    return [(", ".join(map(selection.written, key)), np.array(found[key])) for key in keys]
-
-
-def too_many(groups: Sequence[tuple[str, np.ndarray]], others: Sequence[str]) -> None:
-    if len(groups) > MOST_LINES:
+    if len(keys) > MOST_LINES:
         raise selection.ArgumentError(
-            "{lines} lines, one for each {others}, are more than {most}: choose by {where}, or {kind} map",
-            lines=len(groups),
-            others=" and ".join(others),
-            most=MOST_LINES,
+            f"{len(keys)} lines, one for each {' and '.join(others)}, are more than {MOST_LINES}: "
+            "choose by {where}, or {kind} map"
         )
+    return [(", ".join(map(selection.written, key)), np.array(found[key])) for key in keys]
 
 
 def mark_failed(ax: Axes, place: np.ndarray, color: str | None) -> None:
@@ -280,7 +255,3 @@ def edges(values: np.ndarray, scale: str) -> np.ndarray:
         middle = (x[1:] + x[:-1]) / 2
         found = np.array([2 * x[0] - middle[0], *middle, 2 * x[-1] - middle[-1]])
     return np.exp(found) if scale == "log" else found
-
-
-def parameters_in_words(study: Study) -> str:
-    return f"its parameters are {', '.join(study.parameters) or 'none'}"

@@ -4,7 +4,7 @@ Every function takes the runs, the number of revolutions at the end (None: its o
 (None: all of them), and returns the figure.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -29,26 +29,20 @@ from tiltpad.files.units import SHOWN, in_words, literal
 
 
 @layout.of_several
-def spectrum(
-    runs: Sequence[Run], last: float | None = None, pad: int | None = None, orders: float | None = None
-) -> Figure:
+def spectrum(runs: Sequence[Run], last: float | None = None, orders: float | None = None) -> Figure:
     """Amplitudes of the journal up to an order: one-sided of y and of z, and full of y + i z."""
     orders = orders or 10
-    fig = plt.figure(figsize=(layout.COLUMN, 5.6))
-    panels = fig.subplots(3, 1)
+    fig, panels = plt.subplots(3, 1, figsize=(layout.COLUMN, 5.6))
+    *single, full = panels
     for i, run in enumerate(runs):
-        for ax, name in zip(panels, ("journal_y", "journal_z"), strict=False):
+        for ax, name in zip(single, ("journal_y", "journal_z"), strict=True):
             plots.spectrum(run, ax, name, orders, last, **layout.look(i, 0, runs))
-        plots.full_spectrum(run, panels[2], orders / 2, last, **layout.look(i, 0, runs))
+        plots.full_spectrum(run, full, orders / 2, last, **layout.look(i, 0, runs))
     frequency = {plots.shaft_frequency(run) for run in runs}
     span = orders * max(frequency)
-    for ax, axis in zip(panels, "yz", strict=False):
-        ax.set(xlim=(0, span), ylabel=f"amplitude of ${axis}$ ({SHOWN['amplitude'].unit})")
-    full = panels[2]
-    full.set(
-        xlim=(-span / 2, span / 2),
-        ylabel=f"amplitude of $y + \\mathrm{{i}}z$ ({SHOWN['amplitude'].unit})",
-    )
+    for ax, whose in zip(panels, ("y", "z", "y + \\mathrm{i}z"), strict=True):
+        ax.set(xlim=(0, span), ylabel=f"amplitude of ${whose}$ ({SHOWN['amplitude'].unit})")
+    full.set_xlim(-span / 2, span / 2)
     if len(frequency) == 1:
         for ax, reach in ((panels[0], orders), (full, orders / 2)):
             layout.order_axis(ax, frequency.copy().pop(), max(1, round(reach / 5)))
@@ -61,16 +55,27 @@ def spectrum(
     return fig
 
 
+def panel_a_pad(
+    runs: Sequence[Run], pad: int | None, last: float, draw: Callable[..., Axes]
+) -> tuple[Figure, list[tuple[Axes, int, list[Run]]]]:
+    """A panel for each of the shown pads, two in a row: its axes, the pad, and the runs that have it."""
+    pads = layout.shown_pads(runs, pad)
+    fig, panels = layout.grid(len(pads), 2.8)
+    for k, ax in zip(pads, panels, strict=True):
+        ax.locator_params(axis="x", nbins=6)
+        for i, run in enumerate(runs):
+            if k <= run.pads:
+                draw(run, ax, k, last, **layout.look(i, 0, runs))
+    return fig, [(ax, k, [run for run in runs if k <= run.pads]) for k, ax in zip(pads, panels, strict=True)]
+
+
 @layout.of_several
 def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Friction moment over tilt, a panel for each pad, with the work dissipated in a revolution."""
-    fig, panels = layout.panel_a_pad(runs, pad)
-    for k, ax in panels.items():
-        work = []
-        for i, run in layout.with_pad(runs, k):
-            plots.hysteresis(run, ax, k, last or 1, **layout.look(i, 0, runs))
-            work.append(pivots.friction_work(run, k))
+    fig, panels = panel_a_pad(runs, pad, last or 1, plots.hysteresis)
+    for ax, k, those in panels:
         ax.margins(y=0.1)
+        work = [pivots.friction_work(run, k) for run in those]
         ax.set_title(f"pad {k}: {in_words('work', work)} per revolution")
     layout.legend(fig, runs, [])
     return fig
@@ -79,10 +84,8 @@ def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None =
 @layout.of_several
 def friction(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Friction coefficient over sliding velocity, a panel for each pad."""
-    fig, panels = layout.panel_a_pad(runs, pad)
-    for k, ax in panels.items():
-        for i, run in layout.with_pad(runs, k):
-            plots.friction_coefficient(run, ax, k, last or 1, **layout.look(i, 0, runs))
+    fig, panels = panel_a_pad(runs, pad, last or 1, plots.friction_coefficient)
+    for ax, k, _ in panels:
         ax.set_title(f"pad {k}")
     layout.legend(fig, runs, [])
     return fig
@@ -91,13 +94,9 @@ def friction(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 @layout.of_several
 def sticking(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Tilt rate, bold where the pivot sticks, a panel for each pad, with the share of time that it sticks."""
-    last = last or 2
-    fig, panels = layout.panel_a_pad(runs, pad)
-    for k, ax in panels.items():
-        share = []
-        for i, run in layout.with_pad(runs, k):
-            plots.sticking(run, ax, k, last, **layout.look(i, 0, runs))
-            share.append(pivots.stick_fraction(run, k, last))
+    fig, panels = panel_a_pad(runs, pad, last or 2, plots.sticking)
+    for ax, k, those in panels:
+        share = [pivots.stick_fraction(run, k, last or 2) for run in those]
         ax.set_title(f"pad {k}: sticks {in_words('share', share)} of the time")
     neutral = layout.look(0, 0, runs) | ({"color": "0.3"} if len(runs) > 1 else {})
     layout.legend(fig, runs, [("slides", neutral), ("sticks", neutral | plots.STUCK)])
@@ -110,8 +109,7 @@ def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 
     Where pads are fixed, the velocity of the journal stands in for the tilt.
     """
-    fig = plt.figure(figsize=(layout.PAGE, 3.4))
-    left, right = fig.subplots(1, 2)
+    fig, (left, right) = plt.subplots(1, 2, figsize=(layout.PAGE, 3.4))
     tilting = plots.all_tilt(runs)
     for i, run in enumerate(runs):
         for ax, names in ((left, plots.ORBIT), (right, plots.PHASE if tilting else plots.RISE)):
@@ -122,9 +120,8 @@ def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     right.set_title(f"pad {pad or 1}" if tilting else "journal")
     left.set_title("journal")
     points = {"color": "0.3" if len(runs) > 1 else "C0", "linestyle": "", "marker": ".", "markersize": 5}
-    layout.legend(
-        fig, runs, [("once a revolution", points), (f"last {plots.PATH} revolutions", {"color": "0.7"})]
-    )
+    path = (f"last {plots.PATH} revolutions", {"color": "0.7"})
+    layout.legend(fig, runs, [("once a revolution", points), path])
     return fig
 
 
@@ -146,10 +143,8 @@ def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = N
         ax.set_xlim(0, longest)
     if len(runs) == 1:
         part = signals.last_revolutions(runs[0], last)
-        turns = signals.revolutions(runs[0], part)
-        layout.top_axis(
-            panels["journal_y"], turns - turns[0], runs[0].values("time", part), SHOWN["time"].label
-        )
+        turns, time = signals.revolutions(runs[0], part), runs[0].values("time", part)
+        layout.top_axis(panels["journal_y"], turns - turns[0], time, SHOWN["time"].label)
     layout.legend(fig, runs, layout.parts([f"pad {p}" for p in pads], runs))
     return fig
 
@@ -165,8 +160,7 @@ def study(
 ) -> Figure:
     """A diagram of a study, or the lines of several in one; arguments as for tiltpad.diagrams.diagram."""
     several = [studies] if isinstance(studies, Study) else list(studies)
-    fig = plt.figure(figsize=(layout.COLUMN, 2.6))
-    ax = fig.subplots()
+    fig, ax = plt.subplots(figsize=(layout.COLUMN, 2.6))
     if len(several) == 1:
         diagrams.diagram(several[0], ax, show, over, kind, where, pad, pivot)
     else:
@@ -188,9 +182,8 @@ def over_each_other(studies: Sequence[Study], names: Sequence[str], ax: Axes, *a
         diagrams.diagram(each, ax, *arguments)
         seen.add((ax.get_xlabel(), ax.get_ylabel()))
         if ax.collections or len(seen) > 1:
-            raise ArgumentError(
-                "several studies are lines of one result over one parameter: choose by {show} and {over}"
-            )
+            one = "several studies are lines of one result over one parameter"
+            raise ArgumentError(f"{one}: choose by {{show}} and {{over}}")
         mine = ax.get_lines()[before:]
         results = (line for line in mine if line.get_gid() != diagrams.NOT_DONE["gid"])
         for part, line in enumerate(results):

@@ -19,9 +19,7 @@ MOST_NAMED = 12
 
 
 @layout.of_several
-def pressure(
-    runs: Sequence[Run], last: float | None = None, pad: int | None = None, time: float | None = None
-) -> Figure:
+def pressure(runs: Sequence[Run], pad: int | None = None, time: float | None = None) -> Figure:
     """Film pressure over the unrolled pads, a panel each, at one instant (None: at the equilibrium).
 
     All have one scale of colours; the highest pressure of each pad is a number above it.
@@ -31,8 +29,9 @@ def pressure(
     own = [[k for k in pads if k <= run.pads] for run in runs]
     heights = [-(-len(each) // columns) for each in own]
     rows = sum(heights)
-    fig = plt.figure(figsize=(layout.COLUMN if columns == 1 else layout.PAGE, 0.3 + 2.3 * rows))
-    panels = np.split(fig.subplots(rows, columns, squeeze=False), np.cumsum(heights)[:-1])
+    figsize = (layout.COLUMN if columns == 1 else layout.PAGE, 0.3 + 2.3 * rows)
+    fig, axes = plt.subplots(rows, columns, squeeze=False, figsize=figsize)
+    panels = np.split(axes, np.cumsum(heights)[:-1])
     films = [library.pressure(run, time) for run in runs]
     fields = [SHOWN["pressure"].factor * film.pressure[np.array(each) - 1]
               for each, film in zip(own, films, strict=True)]  # fmt: skip
@@ -53,24 +52,20 @@ def pressure(
     for ax in used:
         # labels of inner axes repeat those of the outer ones
         ax.label_outer() if len(runs) == 1 and len(pads) % columns == 0 and alike else None
-    fig.colorbar(
-        used[0].collections[0], ax=used, label=SHOWN["pressure"].label, aspect=14 * rows, fraction=0.06
-    )
+    bar = {"label": SHOWN["pressure"].label, "aspect": 14 * rows, "fraction": 0.06}
+    fig.colorbar(used[0].collections[0], ax=used, **bar)
     fig.suptitle(layout.plain(instant(runs, time), layout.width(fig)))
     return fig
 
 
 @layout.of_several
-def film(
-    runs: Sequence[Run], last: float | None = None, pad: int | None = None, time: float | None = None
-) -> Figure:
+def film(runs: Sequence[Run], pad: int | None = None, time: float | None = None) -> Figure:
     """Thickness and pressure of the films around the bearing at one instant (None: at the equilibrium).
 
     The pressure is that in the middle of the width. Pads of one bearing have their numbers.
     """
     pads = layout.shown_pads(runs, pad)
-    fig = plt.figure(figsize=(layout.PAGE, 3.8))
-    upper, lower = fig.subplots(2, 1, sharex=True)
+    fig, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(layout.PAGE, 3.8))
     for i, run in enumerate(runs):
         found = geometry.surfaces(run.in_operation, geometry.at_time(run, time))
         around = library.pressure(run, time, along=found.angle.shape[1], across=np.zeros(1))
@@ -83,15 +78,11 @@ def film(
         place = {"xycoords": ("data", "axes fraction"), "ha": "center", "fontsize": "small", "color": "0.3"}
         name = f"pad {k}" if k == 1 or len(pads) <= MOST_NAMED else f"{k}"
         upper.annotate(name, (geometry.of_pads(runs[0].input, "pads%pivot_angle_deg")[k - 1], 1.03), **place)
-    upper.set(ylabel="film thickness (µm)")
-    upper.set_ylim(bottom=0)
+    upper.set(ylabel="film thickness (µm)", ylim=(0, None))
     senses = {sense(run.input) for run in runs}
     moves = f"; the surface of the journal moves to the {'left' if senses == {1} else 'right'}"
-    moves = moves if len(senses) == 1 else ""
-    lower.set(
-        xlabel=f"angle from $+z$ towards $+y$ (deg){moves}",
-        ylabel="pressure in the\nmiddle (MPa)",
-    )
+    label = f"angle from $+z$ towards $+y$ (deg){moves if len(senses) == 1 else ''}"
+    lower.set(xlabel=label, ylabel="pressure in the\nmiddle (MPa)")
     lower.xaxis.set_major_locator(plt.MaxNLocator(12, steps=[1, 1.5, 3, 5, 10]))
     if len(runs) > 1:
         layout.legend(fig, runs, [])

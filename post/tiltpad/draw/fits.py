@@ -9,14 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tiltpad.calculate.measured import MATRICES, STATIC, TIME, Measured
+from tiltpad.calculate.tables import ELEMENTS
 from tiltpad.draw import layout, plots
 from tiltpad.files import units
 from tiltpad.files.units import SHOWN
 
 #: Positions of the journal, z to the right.
 ORBIT, POSITION = ("journal_z", "journal_y"), (f"{STATIC}journal_z", f"{STATIC}journal_y")
-#: Elements of the matrices in the order of their values.
-ELEMENTS = ("yy", "yz", "zy", "zz")
+LABELS = (SHOWN["journal_z"].label, SHOWN["journal_y"].label)
 #: How measured, start and fitted are drawn.
 POINTS: dict[str, Any] = {"color": "0.45", "linestyle": "", "marker": ".", "markersize": 3}
 START: dict[str, Any] = {"color": "C1", "linestyle": "--", "linewidth": 0.8}
@@ -25,20 +25,13 @@ Values = Mapping[str, Any]
 
 
 class Panel(NamedTuple):
-    """One pair of axes of a picture; its fields:
-
-    title       of the axes
-    labels      of both axes
-    parts       points of measured, start and fitted along the axes, (x, y) each
-    joined      whether they are a line
-    names       of the points along x, where they have names
-    """
+    """One pair of axes of a picture."""
 
     title: str
-    labels: tuple[str, str]
-    parts: list[tuple[np.ndarray, ...]]
-    joined: bool = True
-    names: tuple[str, ...] = ()
+    labels: tuple[str, str]  # of both axes
+    parts: Sequence[tuple[np.ndarray, ...]]  # points of measured, start and fitted, (x, y) each
+    joined: bool = True  # whether they are a line
+    names: tuple[str, ...] = ()  # of the points along x, where they have names
 
 
 def comparison(
@@ -62,18 +55,14 @@ def comparison(
 
 def draw(ax: Axes, panel: Panel) -> None:
     """Measured as points, start and fitted as lines or marks."""
-    marks: tuple[dict[str, Any], ...] = (
-        {},
-        {"linestyle": "", "marker": "+"},
-        {"linestyle": "", "marker": "x"},
-    )
-    for (x, y), look, mark in zip(panel.parts, (POINTS, START, FITTED), marks, strict=True):
-        ax.plot(x, y, **look | ({} if panel.joined else {"markersize": 5} | mark))
+    for (x, y), look, mark in zip(panel.parts, (POINTS, START, FITTED), (".", "+", "x"), strict=True):
+        alone = {"markersize": 5, "linestyle": "", "marker": mark}
+        ax.plot(x, y, **look if panel.joined else look | alone)
     ax.set(title=panel.title, xlabel=panel.labels[0], ylabel=panel.labels[1])
     if panel.names:
         ax.set_xticks(range(len(panel.names)), panel.names)
         ax.margins(x=0.15)
-    if panel.labels[0] == SHOWN["journal_z"].label:
+    if panel.labels == LABELS:
         ax.set(box_aspect=1, aspect="equal", adjustable="datalim")
 
 
@@ -85,13 +74,13 @@ def panels(
     static = [each for each in tests if all(name in each[0].values for name in POSITION)]
     if static:
         parts = [tuple(of_all(static, k, name) for name in POSITION) for k in range(3)]
-        yield Panel("static positions", orbit_labels(), parts, joined=False)
+        yield Panel("static positions", LABELS, parts, joined=False)
     for number, test in enumerate(tests, 1):
         where = f"test {number}: " if len(tests) > 1 else ""
         own = test[0]
         if TIME not in own.values and all(name in own.values for name in ORBIT):
             parts = [tuple(centred(own, each, name) for name in ORBIT) for each in values_of(test)]
-            yield Panel(f"{where}orbit", orbit_labels(), [parts[0], *map(closed, parts[1:])])
+            yield Panel(f"{where}orbit", LABELS, [parts[0], *map(closed, parts[1:])])
         for name in own.names:
             yield from single(own, test, name, where)
 
@@ -101,22 +90,18 @@ def single(own: Measured, test: tuple[Measured, Values, Values], name: str, wher
     several = [np.asarray(each[name]) for each in values_of(test)]
     if name in MATRICES:
         shown = units.fitted(SHOWN[name], several[2])
-        flat = [shown.factor * each.ravel() for each in several]
-        names = ELEMENTS if len(flat[0]) == len(ELEMENTS) else ()
-        yield Panel(
-            f"{where}{name}", ("", shown.label), [(np.arange(len(each)), each) for each in flat], False, names
-        )
+        flat = [(np.arange(each.size), shown.factor * each.ravel()) for each in several]
+        names = ELEMENTS if several[0].size == len(ELEMENTS) else ()
+        yield Panel(f"{where}{name}", ("", shown.label), flat, False, names)
     elif several[0].ndim and (TIME in own.values or name not in ORBIT):
         shown = units.fitted(SHOWN[name], several[2]) if name in SHOWN else units.Shown(name, 1, "")
         x = own.values.get(TIME, np.arange(len(several[0])) / len(several[0]) * own.revolutions)
         columns = several[0].shape[1] if several[0].ndim > 1 else 1
         for k in range(columns):
             pad = f", pad {k + 1}" if columns > 1 else ""
-            lines: list[tuple[np.ndarray, ...]] = [
-                (x, shown.factor * own.centred(each).reshape(len(x), -1)[:, k]) for each in several
-            ]
+            values = (shown.factor * own.centred(each).reshape(len(x), -1)[:, k] for each in several)
             over = SHOWN[TIME].label if TIME in own.values else "revolutions"
-            yield Panel(f"{where}{shown.text}{pad}", (over, shown.label), lines)
+            yield Panel(f"{where}{shown.text}{pad}", (over, shown.label), [(x, each) for each in values])
 
 
 def values_of(test: tuple[Measured, Values, Values]) -> tuple[Values, Values, Values]:
@@ -138,8 +123,3 @@ def centred(own: Measured, values: Values, name: str) -> np.ndarray:
 def closed(part: tuple[np.ndarray, ...]) -> tuple[np.ndarray, ...]:
     """An orbit with its first point at its end again."""
     return tuple(np.append(each, each[0]) for each in part)
-
-
-def orbit_labels() -> tuple[str, str]:
-    """Labels of the plane of the journal."""
-    return SHOWN[ORBIT[0]].label, SHOWN[ORBIT[1]].label

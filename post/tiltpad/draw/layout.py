@@ -3,6 +3,7 @@
 import textwrap
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from functools import cached_property, wraps
+from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -14,7 +15,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize, to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import ConnectionPatch, Rectangle
+from matplotlib.patches import ConnectionPatch, FancyArrowPatch, Rectangle
 
 from tiltpad.calculate import differences, signals
 from tiltpad.files.read import Bearing, Run, needs_run
@@ -24,6 +25,8 @@ from tiltpad.files.units import literal
 Name = TypeVar("Name", bound=Hashable)
 COLUMN, PAGE = 3.35, 6.9  # widths in a paper, inches
 LONGEST_LABEL = 90  # characters
+#: Options of every picture: the revolutions at the end of a run, and the pad that are shown.
+COMMON = ("last", "pad")
 #: Colours of temperatures.
 WARMTH = "YlOrRd"
 #: Dashes of the parts of runs; no bearing of practice has more pads.
@@ -69,22 +72,31 @@ def together(runs: Sequence[Run | Study]) -> Several:
 
 
 def of_several(draw: Callable[..., Figure]) -> Callable[..., Figure]:
-    """Lets `draw`, a picture of results, be called with one, and say what is wrong with anything else."""
+    """Lets `draw`, a picture of results, be called with one, and say what is wrong with anything else.
+
+    Every picture takes `last` and `pad` behind the results, also one that does not use them.
+    """
+    first, *own = signature(draw).parameters.values()
+    common = [Parameter(name, first.kind, default=None, annotation=float | None) for name in COMMON]
+    others = [each for each in own if each.name not in COMMON]
+    whole = signature(draw).replace(parameters=[first, *common, *others])
 
     @wraps(draw)
     def drawn(runs: Run | Study | Sequence[Run | Study], *arguments: Any, **options: Any) -> Figure:
+        given = whole.bind(runs, *arguments, **options).arguments
         several = Several([runs] if isinstance(runs, Run | Study | str) else runs)
         if not several:
             raise ValueError("no result to draw")
         for each in several:
             if not isinstance(each, Study):
                 needs_run(each)
-        fig = draw(several, *arguments, **options)
+        fig = draw(several, **{each.name: given[each.name] for each in own if each.name in given})
         for each in several:
             remark_unfinished(fig, each, Path(each.path).stem if len(several) > 1 else "")
         spread(fig)
         return fig
 
+    vars(drawn)["__signature__"] = whole
     return drawn
 
 
@@ -93,20 +105,20 @@ def remark_unfinished(fig: Figure, source: Run | Study, name: str = "") -> None:
 
     Of a study also how many of its runs have remarks.
     """
+    name = name and f"{name}: "
     if isinstance(source, Run):
-        said, failed = ([] if source.complete else [f"incomplete{source.end()}"]), 0
-    else:
-        failed, pending = int(source.failed.sum()), int(source.pending.sum())
-        # where the reason stands comes first, its numbers are in the report
-        first = source.failures(MOST_REMARKS) if failed <= FEW_FAILURES else []
-        said = [textwrap.shorten(str(each), 3 * width(fig), placeholder=" ...") for each in first]
-        if pending:
-            remark(fig, f"{name}: " * bool(name) + f"{not_run_yet(pending)}", "C1")
-        if count := int(source.remarked.sum()):
-            text = f"remarks on {count} of {len(source.status)} runs; the report of the study counts them"
-            remark(fig, f"{name}: " * bool(name) + text)
-    for text in said:
-        remark(fig, f"{name}: {text}" if name else text, "C1")
+        if not source.complete:
+            remark(fig, f"{name}incomplete{source.end()}", "C1")
+        return
+    failed, pending, remarked = (int(each.sum()) for each in (source.failed, source.pending, source.remarked))
+    if pending:
+        remark(fig, f"{name}{not_run_yet(pending)}", "C1")
+    if remarked:
+        known = f"remarks on {remarked} of {len(source.status)} runs"
+        remark(fig, f"{name}{known}; the report of the study counts them")
+    # where the reason stands comes first, its numbers are in the report
+    for each in source.failures(MOST_REMARKS) if failed <= FEW_FAILURES else []:
+        remark(fig, name + textwrap.shorten(str(each), 3 * width(fig), placeholder=" ..."), "C1")
     if failed > FEW_FAILURES:
         remark(fig, f"{failed} runs were not done; the report of the study has the reasons", "C1")
     elif failed > MOST_REMARKS:
@@ -189,6 +201,12 @@ def parts(texts: Sequence[str], runs: Sequence[Run]) -> list[tuple[str, dict[str
     return [(text, look(0, k, runs) | neutral) for k, text in enumerate(texts) if len(texts) > 1]
 
 
+def orbit_marks(runs: Sequence[Run]) -> list[tuple[str, dict[str, Any]]]:
+    """Legend entries of orbits and of their equilibria."""
+    color = {"color": "0.3" if len(runs) > 1 else "C0"}
+    return [("orbit", color), ("equilibrium", color | {"linestyle": "", "marker": "+"})]
+
+
 def dots(points: int) -> dict[str, Any]:
     """Marks of the points of a line, unless they would hide it."""
     return {"marker": "o", "markersize": 3} if points < DENSE else {}
@@ -208,12 +226,10 @@ def legend(fig: Figure, runs: Sequence[Run], marks: Sequence[tuple[str, dict[str
     if scale := together(runs).scale:
         label, values = scale
         bar = ScalarMappable(Normalize(min(values), max(values) + 0.07 * np.ptp(values)), SCALE)
-        fig.colorbar(bar, ax=fig.axes, label=label, aspect=40, fraction=0.05).ax.set_ylim(
-            min(values), max(values)
-        )
+        drawn = fig.colorbar(bar, ax=fig.axes, label=label, aspect=40, fraction=0.05)
+        drawn.ax.set_ylim(min(values), max(values))
         heading(fig, marks, "")
-        return
-    if len(runs) > 1:
+    elif len(runs) > 1:
         names = [plain(name, width(fig)) for name in labels(runs)]
         looks = [own | {"color": color} for color in colors(runs)]
         heading(fig, [*zip(names, looks, strict=True), *marks], title(runs))
@@ -230,9 +246,8 @@ def heading(fig: Figure, entries: Sequence[tuple[str, dict[str, Any]]], title: s
     handles = [Line2D([], [], label=text, **style) for text, style in entries]
     columns = columns_of([text for text, _ in entries], width(fig))
     # long enough to tell dashes from one another
-    fig.legend(
-        handles=handles, title=title or None, loc="outside upper center", ncols=columns, handlelength=3
-    )
+    look = {"loc": "outside upper center", "ncols": columns, "handlelength": 3}
+    fig.legend(handles=handles, title=title or None, **look)
     lines = len(title.splitlines()) + sum(len(text.splitlines()) for text, _ in entries) / columns
     fig.set_figheight(fig.get_figheight() + 0.15 * max(0, lines - 1))
 
@@ -272,15 +287,9 @@ def drawn(run: Run, name: str, pads: Sequence[int]) -> Iterable[tuple[int | None
     return [(k, pad) for k, pad in enumerate(pads) if pad <= run.pads]
 
 
-def with_pad(runs: Sequence[Run], pad: int) -> Iterable[tuple[int, Run]]:
-    """The runs that have a pad, with their numbers."""
-    return [(i, run) for i, run in enumerate(runs) if pad <= run.pads]
-
-
 def stacked(names: Sequence[Name]) -> tuple[Figure, dict[Name, Axes]]:
     """Panels above each other, one for each dataset, with one horizontal axis."""
-    fig = plt.figure(figsize=(COLUMN, 0.6 + 1.2 * len(names)))
-    panels = fig.subplots(len(names), 1, sharex=True)
+    fig, panels = plt.subplots(len(names), 1, sharex=True, figsize=(COLUMN, 0.6 + 1.2 * len(names)))
     fig.align_ylabels(panels)
     for ax in panels[:-1]:
         ax.xaxis.label.set_visible(False)
@@ -288,24 +297,15 @@ def stacked(names: Sequence[Name]) -> tuple[Figure, dict[Name, Axes]]:
     return fig, dict(zip(names, panels, strict=True))
 
 
-def panel_a_pad(runs: Sequence[Run], pad: int | None) -> tuple[Figure, dict[int, Axes]]:
-    """A panel for each of the shown pads, two in a row."""
-    pads = shown_pads(runs, pad)
-    fig, panels = grid(len(pads), 2.8)
-    for ax in panels:
-        ax.locator_params(axis="x", nbins=6)
-    return fig, dict(zip(pads, panels, strict=True))
-
-
 def grid(count: int, height: float) -> tuple[Figure, list[Axes]]:
     """Panels of this height, two in a row."""
     columns = min(2, count)
     rows = -(-count // columns)
-    fig = plt.figure(figsize=(COLUMN if columns == 1 else PAGE, height * rows))
-    panels = fig.subplots(rows, columns, squeeze=False).ravel()
-    for ax in panels[count:]:
+    size = (COLUMN if columns == 1 else PAGE, height * rows)
+    fig, panels = plt.subplots(rows, columns, squeeze=False, figsize=size)
+    for ax in panels.flat[count:]:
         ax.remove()
-    return fig, list(panels[:count])
+    return fig, list(panels.flat[:count])
 
 
 def mark_enlarged(whole: Axes, part: Axes) -> None:
@@ -331,3 +331,15 @@ def top_axis(ax: Axes, x: np.ndarray, value: np.ndarray, label: str) -> None:
     order = np.argsort(value)
     functions = (lambda at: np.interp(at, x, value), lambda at: np.interp(at, value[order], x[order]))
     ax.secondary_xaxis("top", functions=functions).set_xlabel(label)
+
+
+def polar(radius: float, degrees: float) -> tuple[float, float]:
+    """Coordinates in the picture of a point at an angle from +z towards +y."""
+    return radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees))
+
+
+def turning_arrow(ax: Axes, radius: float, degrees: tuple[float, float], bend: float, **look: Any) -> None:
+    """The sense of rotation: an arrow between two angles, back where its `bend` is negative."""
+    ends = degrees if bend > 0 else degrees[::-1]
+    look |= {"connectionstyle": f"arc3,rad={-bend}", "arrowstyle": "-|>"}
+    ax.add_patch(FancyArrowPatch(*(polar(radius, each) for each in ends), **look))

@@ -2,14 +2,16 @@
 
 from collections.abc import Iterable, Sequence
 from functools import partial
+from typing import SupportsIndex
 
 import numpy as np
 
 from tiltpad.calculate import summary
-from tiltpad.calculate.stations import attached, positions, station_modes
+from tiltpad.calculate.modes import Modes
+from tiltpad.calculate.stations import StationModes, attached, positions, station_modes
 from tiltpad.draw import figures
 from tiltpad.draw.machines import in_words, machine
-from tiltpad.draw.page import picture, row, table
+from tiltpad.draw.page import paragraph, picture, row, table
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.units import SHOWN, Shown, described, digits, fitted, numbers
@@ -18,6 +20,8 @@ from tiltpad.files.units import SHOWN, Shown, described, digits, fitted, numbers
 WHOLE = ("shaft", "stations", "shapes", "multipliers", "stability")
 #: What the rotor is, in the order of the table.
 ROTOR = ("total_mass", "left_out_frequency", "truncation_error", "damping_error")
+#: Heads of the columns of a mode.
+VIBRATION = ("frequency (Hz)", "damping ratio (%)", "logarithmic decrement")
 #: Figures of the stations, and their words at the head of the table.
 STATIONS = {
     "equilibrium/station_y": "equilibrium y",
@@ -93,20 +97,24 @@ def mode_table(run: Run) -> str:
     for number, pivot in enumerate(str(each) for each in run["pivot"]):
         found = station_modes(run, pivot)
         for k in np.flatnonzero(found.own & ((found.frequency > 0) | (found.damping_ratio < 0))):
-            values = (SHOWN["damping_ratio"].factor * found.damping_ratio[k], found.log_decrement[k])
-            sense = in_words(found.whirl[k])
-            rows.append((f"{pivot}, {sense}", f"{found.frequency[k]:.5g}", *map(digits, values)))
+            rows.append((f"{pivot}, {in_words(found.whirl[k])}", *vibration(found, k)))
         if "modes/threshold_rpm" in run and np.isfinite(speed := run["modes/threshold_rpm"][number]):
             notes.append(f"{pivot} pivots: {speed:.1f} rpm")
         left_out += int((~found.own).sum())
-    note = f"<p>Threshold speed of stability: {'; '.join(notes)}.</p>" if notes else ""
-    if left_out:
-        note += (
-            f"<p>Not listed: {left_out} with the damping that high modes of the shaft are given "
-            "(reduction%damp_above).</p>"
-        )
-    heads = ("pivots, whirl of the shaft", "frequency (Hz)", "damping ratio (%)", "logarithmic decrement")
-    return table(heads, rows) + note
+    why = "the damping that high modes of the shaft are given (reduction%damp_above)"
+    note = paragraph(f"Not listed: {left_out} with {why}." if left_out else "")
+    return table(("pivots, whirl of the shaft", *VIBRATION), rows) + threshold(notes) + note
+
+
+def vibration(found: Modes | StationModes, k: SupportsIndex) -> tuple[str, ...]:
+    """Cells of a mode: frequency and damping."""
+    ratio, decrement = SHOWN["damping_ratio"].factor * found.damping_ratio[k], found.log_decrement[k]
+    return f"{found.frequency[k]:.5g}", digits(ratio), digits(decrement)
+
+
+def threshold(speeds: Sequence[str]) -> str:
+    """The threshold speeds of pivots, where there are any."""
+    return paragraph(f"Threshold speed of stability: {'; '.join(speeds)}." if speeds else "")
 
 
 def pictures(run: Run) -> Iterable[str]:

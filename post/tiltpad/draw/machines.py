@@ -38,29 +38,22 @@ def machine(case: Run | Mapping[str, Any]) -> Figure:
     if not isinstance(groups.get("bearing"), list):
         raise ValueError(f"{where}a case of one bearing, and not of a machine: tiltpad-plot bearing draws it")
     if "length" not in groups.get("shaft", {}):
-        raise ValueError(
-            f"{where}the rotor of this machine is of matrices, without sections of a shaft to draw"
-        )
-    shaft = {
-        name: np.atleast_1d(np.asarray(groups["shaft"][name], float))
-        for name in ("length", "diameter", "bore")
-    }
-    x = np.concatenate([[0], np.cumsum(shaft["length"])])
-    fig = plt.figure(figsize=(layout.PAGE, 3.4))
-    ax = fig.subplots()
-    draw_shaft(ax, x, shaft)
-    radius = np.maximum(np.append(shaft["diameter"], 0), np.append(0, shaft["diameter"])) / 2
+        matrices = "the rotor of this machine is of matrices"
+        raise ValueError(f"{where}{matrices}, without sections of a shaft to draw")
+    sizes = (groups["shaft"][name] for name in ("length", "diameter", "bore"))
+    length, diameter, bore = (np.atleast_1d(np.asarray(each, float)) for each in sizes)
+    x = np.concatenate([[0], np.cumsum(length)])
+    fig, ax = plt.subplots(figsize=(layout.PAGE, 3.4))
+    for section in zip(x[:-1], length, diameter, bore, strict=True):
+        draw_section(ax, *section)
+    radius = np.maximum(np.append(diameter, 0), np.append(0, diameter)) / 2
     tallest = max(radius.max(), *(draw_disc(ax, x, each) for each in groups.get("disc", [])), 0.0)
     reach = max(tallest, LOWEST / 2 * x[-1])
+    supported = [each["bearing"] for each in groups.get("support", [])]
     for each in groups["bearing"]:
-        draw_bearing(
-            ax, x, each, reach, any(own["bearing"] == each["name"] for own in groups.get("support", []))
-        )
+        draw_bearing(ax, x, each, reach, each["name"] in supported)
     draw_forces(ax, x, radius, groups, reach)
     number_stations(ax, x, reach)
-    ax.text(
-        x[0] - 0.03 * x[-1], -1.47 * reach, "station", fontsize="x-small", ha="right", va="top", color="0.4"
-    )
     ax.axhline(0, color="0.5", linewidth=0.6, linestyle=(0, (12, 3, 2, 3)), zorder=3)
     edge = 0.09 * x[-1]
     ax.set(xlim=(-edge, x[-1] + edge), ylim=(-1.68 * reach, 1.35 * reach), aspect="equal")
@@ -79,23 +72,21 @@ def machine(case: Run | Mapping[str, Any]) -> Figure:
 def number_stations(ax: Axes, x: np.ndarray, reach: float) -> None:
     """The numbers of the stations below the machine; where they are close, every other one lower."""
     low, before = False, -np.inf
+    note = {"fontsize": "x-small", "va": "top", "color": "0.4"}
     for k, at in enumerate(x, 1):
         low = not low and at - before < NEXT * x[-1]
-        own = "\n" * bool(low) + f"{k}"
-        ax.text(at, -1.47 * reach, own, fontsize="x-small", ha="center", va="top", color="0.4")
+        ax.text(at, -1.47 * reach, "\n" * bool(low) + f"{k}", ha="center", **note)
         ax.plot([at, at], [-1.45 * reach, -1.4 * reach], color="0.6", linewidth=0.6)
         before = at
+    ax.text(x[0] - 0.03 * x[-1], -1.47 * reach, "station", ha="right", **note)
 
 
-def draw_shaft(ax: Axes, x: np.ndarray, shaft: Mapping[str, np.ndarray]) -> None:
-    """The sections, with their bores."""
-    for start, length, outer, inner in zip(
-        x, shaft["length"], shaft["diameter"], shaft["bore"], strict=False
-    ):
-        look = {"edgecolor": "0.25", "linewidth": 0.7, "zorder": 2}
-        ax.add_patch(Rectangle((start, -outer / 2), length, outer, facecolor="0.85", **look))
-        if inner > 0:
-            ax.add_patch(Rectangle((start, -inner / 2), length, inner, facecolor="white", **look))
+def draw_section(ax: Axes, start: float, length: float, diameter: float, bore: float) -> None:
+    """A section of the shaft, with its bore."""
+    for high, color in ((diameter, "0.85"), (bore, "white")):
+        if high > 0:
+            look = {"facecolor": color, "edgecolor": "0.25", "linewidth": 0.7, "zorder": 2}
+            ax.add_patch(Rectangle((start, -high / 2), length, high, **look))
 
 
 def draw_disc(ax: Axes, x: np.ndarray, disc: Mapping[str, Any]) -> float:
@@ -131,9 +122,8 @@ def draw_bearing(ax: Axes, x: np.ndarray, bearing: Mapping[str, Any], reach: flo
         ax.plot(at + sway, y, color="0.2", linewidth=0.9, zorder=0)
     else:
         corners = [(at - 0.3 * half, top), (at + 0.3 * half, top), (at + half, ground), (at - half, ground)]
-        ax.add_patch(
-            Polygon(corners, closed=True, facecolor="0.93", edgecolor="0.2", linewidth=0.7, zorder=0)
-        )
+        look = {"facecolor": "0.93", "edgecolor": "0.2", "linewidth": 0.7, "zorder": 0}
+        ax.add_patch(Polygon(corners, closed=True, **look))
     wide = 1.6 * max(half, 0.06 * reach)
     ax.plot([at - wide, at + wide], [ground, ground], color="0.2", linewidth=1.2)
     words = literal(f"{bearing['name']}") + ("\n(on a support)" if support else "")
@@ -142,22 +132,20 @@ def draw_bearing(ax: Axes, x: np.ndarray, bearing: Mapping[str, Any], reach: flo
 
 def draw_forces(ax: Axes, x: np.ndarray, radius: np.ndarray, groups: Mapping[str, Any], reach: float) -> None:
     """Unbalances as dots with their moments, loads as arrows."""
-    height = 1.22 * reach
+    height, beside = 1.22 * reach, {"va": "center", "linespacing": 1.0}
     for each in groups.get("unbalance", []):
         at = station(x, each)
         ax.plot([at, at], [0, height - 0.12 * reach], color="C3", linewidth=0.7, linestyle=":", zorder=5)
         ax.plot(at, 0, "o", color="C3", markersize=4, zorder=6)
         angle = f" at {each['angle_deg']:g}°" if each.get("angle_deg") else ""
-        words = f"unbalance\n{each['moment']:g} kg m{angle}"
-        ax.text(at, height, words, **NOTE, color="C3", va="center", linespacing=1.0)
+        ax.text(at, height, f"unbalance\n{each['moment']:g} kg m{angle}", **NOTE, **beside, color="C3")
     for each in groups.get("load", []):
         at, force = station(x, each), np.asarray(each["force"], float)
-        up = force[0] > 0
-        tip, tail = (0.5 * reach, 1.05 * reach) if not up else (1.05 * reach, 0.5 * reach)
+        tail, tip = (0.5 * reach, 1.05 * reach)[:: 1 if force[0] > 0 else -1]
         arrow = {"arrowstyle": "-|>", "color": "C2", "linewidth": 1.2}
         ax.annotate("", (at, tip), (at, tail), arrowprops=arrow, zorder=5)
         words = ", ".join(f"{digits(1e-3 * part, 3)}" for part in force)
-        ax.text(at, height, f"load $y$, $z$\n{words} kN", **NOTE, color="C2", va="center", linespacing=1.0)
+        ax.text(at, height, f"load $y$, $z$\n{words} kN", **NOTE, **beside, color="C2")
 
 
 def station(x: np.ndarray, of: Mapping[str, Any]) -> float:
@@ -168,12 +156,7 @@ def station(x: np.ndarray, of: Mapping[str, Any]) -> float:
 
 
 @layout.of_several
-def stations(
-    runs: Sequence[Run],
-    last: float | None = None,
-    pad: int | None = None,
-    station: Sequence[int] | None = None,
-) -> Figure:
+def stations(runs: Sequence[Run], last: float | None = None, station: Sequence[int] | None = None) -> Figure:
     """Orbits of the shaft of machines at stations: those given, or all with a bearing, disc or unbalance."""
     for run in runs:
         of_stations.needs_machine(run)
@@ -183,37 +166,32 @@ def stations(
     for ax, number in zip(panels, chosen, strict=True):
         sizes = []
         for i, run in enumerate(runs):
-            y, z = (
-                SHOWN["journal_y"].factor * each for each in of_stations.station_orbit(run, number, last or 1)
-            )
-            line = ax.plot(z, y, color=layout.colors(runs)[i])[0]
+            color, path = layout.colors(runs)[i], of_stations.station_orbit(run, number, last or 1)
+            y, z = (SHOWN["journal_y"].factor * each for each in path)
+            ax.plot(z, y, color=color)
             sizes.append(max(np.ptp(y), np.ptp(z)))
             if "equilibrium/station_y" in run:
                 place = (run[f"equilibrium/station_{axis}"][number - 1] for axis in "zy")
-                ax.plot(*(SHOWN["journal_y"].factor * each for each in place), "+", color=line.get_color())
+                ax.plot(*(SHOWN["journal_y"].factor * each for each in place), "+", color=color)
         words = f": {', '.join(known[number])}" if number in known and len(runs) == 1 else ""
         ax.set_title(layout.plain(f"station {number}{words}", 45))
         ax.set(xlabel="$z$ (µm)", ylabel="$y$ (µm)", box_aspect=1, adjustable="datalim", aspect="equal")
         ax.margins(0.12)
         size = f"{', '.join(digits(each, 3) for each in sizes)} µm peak to peak" if len(sizes) < 4 else ""
-        ax.text(
-            0.97, 0.03, size, transform=ax.transAxes, ha="right", va="bottom", fontsize="small", color="0.3"
-        )
-    color = {"color": "0.3" if len(runs) > 1 else "C0"}
-    marks = [("orbit", color), ("equilibrium", color | {"linestyle": "", "marker": "+"})]
-    layout.legend(fig, runs, marks)
+        note = {"ha": "right", "va": "bottom", "fontsize": "small", "color": "0.3"}
+        ax.text(0.97, 0.03, size, transform=ax.transAxes, **note)
+    layout.legend(fig, runs, layout.orbit_marks(runs))
     return fig
 
 
 @layout.of_several
-def shaft(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+def shaft(runs: Sequence[Run]) -> Figure:
     """The shaft of machines at the equilibrium: its deflection, and the loads of its bearings."""
     for run in runs:
         of_stations.needs_machine(run)
         if "equilibrium/station_y" not in run:
             raise NotInRunError(run.without("equilibrium/station_y"))
-    fig = plt.figure(figsize=(layout.PAGE, 4.0))
-    panels = fig.subplots(2, 1, sharex=True)
+    fig, panels = plt.subplots(2, 1, sharex=True, figsize=(layout.PAGE, 4.0))
     for ax, axis in zip(panels, "yz", strict=True):
         for i, run in enumerate(runs):
             x = of_stations.positions(run)
@@ -237,15 +215,14 @@ def shaft(runs: Sequence[Run], last: float | None = None, pad: int | None = None
     fig.align_ylabels(panels)
     neutral = {"color": "0.3" if len(runs) > 1 else "C0"}
     bearing = neutral | {"linestyle": "", "marker": "^", "markersize": 8, "markerfacecolor": "white"}
-    layout.legend(fig, runs, [("shaft and its stations", neutral | {"marker": "o", "markersize": 3}),
-                              ("bearing, with the load of the shaft on it", bearing)])  # fmt: skip
+    stations = neutral | {"marker": "o", "markersize": 3}
+    marks = [("shaft and its stations", stations), ("bearing, with the load of the shaft on it", bearing)]
+    layout.legend(fig, runs, marks)
     return fig
 
 
 @layout.of_several
-def shapes(
-    runs: Sequence[Run], last: float | None = None, pad: int | None = None, pivot: str | None = None
-) -> Figure:
+def shapes(runs: Sequence[Run], pivot: str | None = None) -> Figure:
     """Mode shapes of the shaft of a machine: ellipses of its stations, and the shaft at one instant."""
     if len(runs) > 1:
         raise ValueError(f"shapes: of one result, not of {len(runs)}")
@@ -260,18 +237,15 @@ def shapes(
     columns = min(3, len(slow))
     rows = -(-len(slow) // columns)
     fig = plt.figure(figsize=(layout.PAGE, 2.35 * rows + 0.3))
-    for place, k in enumerate(slow):
-        ax = fig.add_subplot(rows, columns, place + 1, projection="3d")
-        sense = in_words(found.whirl[k])
+    senses = [in_words(found.whirl[k]) for k in slow]
+    for place, (k, sense) in enumerate(zip(slow, senses, strict=True), 1):
+        ax = fig.add_subplot(rows, columns, place, projection="3d")
         draw_shape(ax, x, found.shape[k], run["rotor/bearing_station"].astype(int) - 1, SENSE[sense])
-        ax.set_title(
-            f"{digits(found.frequency[k])} Hz, {sense}\nlog. decrement {digits(found.log_decrement[k], 3)}",
-            fontsize="small",
-        )
-    marks: list[tuple[str, dict[str, Any]]] = [(f"{word}", {"color": color}) for word, color in SENSE.items()
-             if word in {in_words(found.whirl[k]) for k in slow}]  # fmt: skip
-    marks += [("bearing", {"color": "0.2", "linestyle": "", "marker": "^", "markersize": 5})]
-    layout.heading(fig, marks, f"{run.title}, pivots {found.pivot}".removeprefix(", "))
+        decrement = f"log. decrement {digits(found.log_decrement[k], 3)}"
+        ax.set_title(f"{digits(found.frequency[k])} Hz, {sense}\n{decrement}", fontsize="small")
+    marks = [(word, {"color": color}) for word, color in SENSE.items() if word in senses]
+    bearing = ("bearing", {"color": "0.2", "linestyle": "", "marker": "^", "markersize": 5})
+    layout.heading(fig, [*marks, bearing], f"{run.title}, pivots {found.pivot}".removeprefix(", "))
     return fig
 
 
@@ -289,14 +263,11 @@ def draw_shape(ax: Any, x: np.ndarray, shape: np.ndarray, bearings: np.ndarray, 
     ax.plot(x, 0 * x, 0 * x, color="0.5", linewidth=0.7, linestyle=(0, (12, 3, 2, 3)))
     for at, (y, z) in zip(x, paths, strict=True):
         ax.plot(np.full(ELLIPSE, at), z, y, color=color, linewidth=0.6, alpha=0.6, clip_on=False)
-    ax.plot(
-        x, paths[:, 1, 0], paths[:, 0, 0], color=color, linewidth=1.5, marker="o", markersize=2, clip_on=False
-    )
-    ax.plot(
-        x[bearings], paths[bearings, 1, 0], paths[bearings, 0, 0], "^", color="0.2", markersize=5, zorder=5
-    )
-    ax.set(xlim=(x[0], x[-1]), ylim=(-1, 1), zlim=(-1, 1), yticks=[-1, 0, 1], zticks=[-1, 0, 1],
-           yticklabels=[], zticklabels=[])  # fmt: skip
+    now = np.array([x, paths[:, 1, 0], paths[:, 0, 0]])
+    ax.plot(*now, color=color, linewidth=1.5, marker="o", markersize=2, clip_on=False)
+    ax.plot(*now[:, bearings], "^", color="0.2", markersize=5, zorder=5)
+    ax.set(xlim=(x[0], x[-1]), ylim=(-1, 1), zlim=(-1, 1))
+    ax.set(yticks=[-1, 0, 1], zticks=[-1, 0, 1], yticklabels=[], zticklabels=[])
     ax.set_box_aspect((2, 1, 1), zoom=1.1)
     ax.view_init(elev=22, azim=-60)
     ax.tick_params(labelsize="x-small", pad=-3)

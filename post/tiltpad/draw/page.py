@@ -5,11 +5,13 @@ import io
 from collections.abc import Callable, Iterable, Sequence
 from html import escape
 from importlib.resources import files
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
 from tiltpad.draw import plots
+from tiltpad.files.archive import Archive
 from tiltpad.files.units import Shown, fitted, numbers
 
 #: Pictures of runs and studies and their captions.
@@ -44,17 +46,25 @@ PICTURES = {
 }
 
 
-def page(title: str, parts: Iterable[str]) -> str:
-    """The whole page; empty parts are left out."""
+def page(of: Archive, parts: Iterable[str]) -> str:
+    """The whole page about a file; the first of the parts tells its origin, empty ones are left out."""
+    title = of.title or Path(of.path).stem
+    origin, *others = parts
     style = files("tiltpad.draw").joinpath("report.css").read_text(encoding="utf-8")
     narrow = '<meta name="viewport" content="width=device-width, initial-scale=1">'
     head = f'<meta charset="utf-8">{narrow}<title>{escape(title)}</title><style>{style}</style>'
-    body = "\n".join(part for part in (f"<h1>{escape(title)}</h1>", *parts) if part)
+    start = f"<h1>{escape(title)}</h1>\n<p class=origin>{escape(f'{Path(of.path).name}: {origin}')}</p>"
+    body = "\n".join(part for part in (start, *others) if part)
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{body}\n</body></html>\n'
 
 
 def section(title: str, content: str) -> str:
     return f"<section><h2>{title}</h2>{content}</section>" if content else ""
+
+
+def given(title: str, of: Archive) -> str:
+    """The input of a run, or of the first run of a study."""
+    return section(title, f"<pre>{escape(of.attributes.get('input', '').strip())}</pre>")
 
 
 def paragraph(text: str, warning: bool = False) -> str:
@@ -66,11 +76,8 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]], words: bool = Fals
     """A table whose first column is text and whose others are numbers, or with `words` texts."""
     lines = ["<tr>" + "".join(f"<th>{escape(each)}</th>" for each in head) + "</tr>"]
     lines += ["<tr>" + "".join(f"<td>{escape(each)}</td>" for each in row) + "</tr>" for row in rows]
-    return (
-        f"<div class=wide><table{' class=words' * words}>{''.join(lines)}</table></div>"
-        if len(lines) > 1
-        else ""
-    )
+    whole = f"<div class=wide><table{' class=words' * words}>{''.join(lines)}</table></div>"
+    return whole if len(lines) > 1 else ""
 
 
 def row(quantity: Shown, values: Sequence[float]) -> tuple[str, ...]:

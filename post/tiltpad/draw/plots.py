@@ -13,11 +13,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
-from matplotlib.patches import Arc, Circle, FancyArrowPatch
+from matplotlib.patches import Arc, Circle
 from matplotlib.ticker import MaxNLocator
 
 from tiltpad.calculate import behaviour, geometry, library, pivots, signals, spectra
 from tiltpad.calculate.rotation import sense
+from tiltpad.draw.layout import polar, turning_arrow
 from tiltpad.files.read import Run, needs_run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
@@ -136,13 +137,7 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
         if mark:
             small = note | {"fontsize": "x-small", "color": "C3" if "rubs" in mark else "0.3"}
             ax.text(*polar(0.86 * radius, angle), mark, **small, va="center")
-    turn = {
-        "connectionstyle": f"arc3,rad={-0.32 * turning}",
-        "arrowstyle": "-|>",
-        "mutation_scale": 9,
-        "color": "0.3",
-    }
-    ax.add_patch(FancyArrowPatch(*(polar(0.72 * radius, each) for each in (125, 55)[::turning]), **turn))
+    turning_arrow(ax, 0.72 * radius, (125, 55), 0.32 * turning, mutation_scale=9, color="0.3")
     ax.text(0, 0.5 * radius, "rotation", **note, va="center")
     ax.plot([-radius, 0], [0, 0], linewidth=0.6, color="0.3")
     ax.text(-0.5 * radius, 0.02 * radius, f"$c_r$ = {radius:g} µm", **note, va="bottom")
@@ -207,8 +202,7 @@ def spectrum(
     """
     own = last is None and "spectrum" in run
     found = spectra.spectrum(run, name) if own else spectra.one_sided(run, name, last or 10)
-    draw_amplitude(ax, *found, (0, orders * shaft_frequency(run)), line)
-    return ax
+    return draw_amplitude(ax, *found, (0, orders * shaft_frequency(run)), line)
 
 
 @on_axes
@@ -217,12 +211,10 @@ def full_spectrum(run: Run, ax: Axes, orders: float = 5, last: float | None = No
 
     It is the spectrum in the file; with `last`, or if the file has none, that of the last revolutions.
     """
-    found = (
-        spectra.full_spectrum(run) if last is None and "spectrum" in run else spectra.full(run, last or 10)
-    )
+    own = last is None and "spectrum" in run
+    found = spectra.full_spectrum(run) if own else spectra.full(run, last or 10)
     span = orders * shaft_frequency(run)
-    draw_amplitude(ax, *found, (-span, span), line)
-    return ax
+    return draw_amplitude(ax, *found, (-span, span), line)
 
 
 @on_axes
@@ -295,13 +287,9 @@ def waterfall(
     hertz = by == "frequency"
     if hertz:
         y = y * x / 60
-    colours = {
-        "norm": LogNorm(10**-decades * peak, peak),
-        "shading": "gouraud",
-        "cmap": "viridis",
-        "rasterized": True,
-    }
-    image = ax.pcolormesh(x, y, np.maximum(table, 10**-decades * peak), **colours | mesh)
+    least = 10**-decades * peak
+    colours = {"norm": LogNorm(least, peak), "shading": "gouraud", "cmap": "viridis", "rasterized": True}
+    image = ax.pcolormesh(x, y, np.maximum(table, least), **colours | mesh)
     ax.figure.colorbar(image, ax=ax, label=shown.label)
     ax.set(xlabel=SHOWN["speed"].label, ylabel=SHOWN["frequency"].label if hertz else "order")
     ax.set(xlim=(x.min(), x.max()), ylim=(0 if hertz else order[0], y.max()))
@@ -315,11 +303,12 @@ def waterfall(
 def mark_orders(ax: Axes, speed: np.ndarray, orders: float) -> None:
     """Thin lines of half the speed and its multiples over a speed in rpm, with their names at the right."""
     ends = np.array([speed.min(), speed.max()])
+    note = {"color": "white", "fontsize": "xx-small", "ha": "right", "va": "bottom"}
     for order in (0.5, *range(1, int(orders) + 1)):
-        ax.plot(ends, order * ends / 60, color="white", linewidth=0.4, linestyle=":", alpha=0.7)
-        note = {"color": "white", "fontsize": "xx-small", "ha": "right", "va": "bottom"}
-        ax.annotate(f"{order:g}×", (ends[1], order * ends[1] / 60), (-2, -1.5 if order < 1 else -6),
-                    textcoords="offset points", **note)  # fmt: skip
+        hertz = order * ends / 60
+        ax.plot(ends, hertz, color="white", linewidth=0.4, linestyle=":", alpha=0.7)
+        beside = {"xytext": (-2, -1.5 if order < 1 else -6), "textcoords": "offset points"}
+        ax.annotate(f"{order:g}×", (ends[1], hertz[1]), **beside, **note)
 
 
 @on_axes
@@ -450,11 +439,6 @@ def label_films(panels: Mapping[str, Axes]) -> None:
             panels[name].set_ylabel(f"{text} ({SHOWN[name].unit})")
 
 
-def polar(radius: float, degrees: float) -> tuple[float, float]:
-    """Coordinates in the picture of a point at an angle from +z towards +y."""
-    return radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees))
-
-
 def shaft_frequency(run: Run) -> float:
     """Shaft frequency at the end of the run, Hz."""
     return float(run.values("speed", slice(-1, None))[0]) / (2 * np.pi)
@@ -462,7 +446,7 @@ def shaft_frequency(run: Run) -> float:
 
 def draw_amplitude(
     ax: Axes, frequency: np.ndarray, amplitude: np.ndarray, span: tuple[float, float], line: dict[str, Any]
-) -> None:
+) -> Axes:
     """Amplitudes within `span` on a logarithmic axis, six decades at most, without frequency 0."""
     line = {"linewidth": 0.6} | line
     inside = (frequency >= span[0]) & (frequency <= span[1])
@@ -472,6 +456,7 @@ def draw_amplitude(
     drawn = np.concatenate([np.asarray(each.get_ydata()) for each in ax.get_lines()])
     peak = np.nanmax(drawn, initial=1e-12)
     ax.set_ylim(max(1e-6 * peak, 0.5 * np.nanmin(drawn[drawn > 0], initial=peak)), 3 * peak)
+    return ax
 
 
 def direction_arrow(ax: Axes, x: np.ndarray, y: np.ndarray, color: str) -> None:

@@ -3,7 +3,6 @@
 from collections.abc import Iterable
 from functools import partial
 from html import escape
-from pathlib import Path
 
 import numpy as np
 
@@ -12,10 +11,12 @@ from tiltpad.calculate.coefficients import coefficients
 from tiltpad.calculate.library import MissingLibraryError
 from tiltpad.calculate.modes import modes, of_journal
 from tiltpad.calculate.response import response
+from tiltpad.calculate.tables import ELEMENTS
 from tiltpad.draw import figures, machine_report
 from tiltpad.draw.bearing import bearing
 from tiltpad.draw.branches import in_words as critical
-from tiltpad.draw.page import PICTURES, page, paragraph, picture, row, section, table
+from tiltpad.draw.machine_report import VIBRATION, threshold, vibration
+from tiltpad.draw.page import PICTURES, given, page, paragraph, picture, row, section, table
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Bearing, Run
 from tiltpad.files.units import SHOWN, digits, in_words
@@ -23,34 +24,34 @@ from tiltpad.files.units import SHOWN, digits, in_words
 
 def report(run: Run) -> str:
     """The page as text; tables and pictures that the run cannot have are left out."""
-    title = run.title or Path(run.path).stem
-    if run.bearings:
-        return page(title, of_machine(run))
+    by = run.attributes
     parts = [
-        f"<p class=origin>{escape(origin(run))}</p>",
+        f"written by {by['program']} {by['version']} ({by['commit']}), {by['created']}",
         incomplete(run),
         orbit_stability(run),
-        section("Remarks", remarks(run)),
-        paragraph(peaks(run)),
-        section("Key figures", key_figures(run)),
-        section("Pads", pad_figures(run)),
-        section("Films, solved closely", verification(run)),
-        section("Spectrum", spectrum_peaks(run)),
-        section("Stiffness and damping", coefficient_table(run)),
-        section("Modes", mode_table(run)),
-        section("Pictures", "".join(pictures(run))),
-        section("Input", f"<pre>{escape(run.attributes['input'].strip())}</pre>"),
+        section("Remarks", "".join(paragraph(sentence(each), warning=True) for each in run.remarks)),
+        *(of_machine(run) if run.bearings else of_bearing(run)),
+        given("Input", run),
         section("Cost", statistics(run)),
     ]
-    return page(title, parts)
+    return page(run, parts)
+
+
+def of_bearing(run: Run) -> Iterable[str]:
+    """What the page about one bearing has."""
+    rows = [row(shown, list(np.atleast_1d(value))) for _, shown, value in summary.journal(run)]
+    yield paragraph(peaks(run))
+    yield section("Key figures", table(("journal and film", "value", "unit"), rows))
+    yield section("Pads", pad_figures(run))
+    yield section("Films, solved closely", verification(run))
+    yield section("Spectrum", spectrum_peaks(run))
+    yield section("Stiffness and damping", coefficient_table(run))
+    yield section("Modes", mode_table(run))
+    yield section("Pictures", "".join(pictures(run)))
 
 
 def of_machine(run: Run) -> Iterable[str]:
-    """The parts of the page about a machine: the whole of it, then each of its bearings."""
-    yield f"<p class=origin>{escape(origin(run))}</p>"
-    yield incomplete(run)
-    yield orbit_stability(run)
-    yield section("Remarks", remarks(run))
+    """What the page about a machine has: the whole of it, then each of its bearings."""
     yield section("Rotor", machine_report.rotor_figures(run))
     yield section("Bearings", machine_report.bearing_figures(run))
     yield section("Stations", machine_report.station_figures(run))
@@ -60,15 +61,6 @@ def of_machine(run: Run) -> Iterable[str]:
     for name, own in run.bearings.items():
         tables = (pad_figures(own), spectrum_peaks(own), coefficient_table(own))
         yield section(escape(f"Bearing {name}"), "".join([*tables, *pictures(own)]))
-    yield section("Input", f"<pre>{escape(run.attributes['input'].strip())}</pre>")
-    yield section("Cost", statistics(run))
-
-
-def origin(run: Run) -> str:
-    """File, program and time."""
-    by = run.attributes
-    written = f"written by {by['program']} {by['version']} ({by['commit']}), {by['created']}"
-    return f"{Path(run.path).name}: {written}"
 
 
 def incomplete(run: Run) -> str:
@@ -84,9 +76,8 @@ def orbit_stability(run: Run) -> str:
     return paragraph("The periodic orbit is unstable: no motion stays on it.", warning=True)
 
 
-def remarks(run: Run) -> str:
-    """What is unusual, or leaves the range of the model."""
-    return "".join(paragraph(f"{each[0].upper()}{each[1:]}.", warning=True) for each in run.remarks)
+def sentence(words: str) -> str:
+    return f"{words[0].upper()}{words[1:]}."
 
 
 def peaks(run: Run) -> str:
@@ -104,11 +95,6 @@ def peaks(run: Run) -> str:
     return f"Peaks of the first order, {speeds} rpm (AF: amplification factor): {'; '.join(words)}."
 
 
-def key_figures(run: Run) -> str:
-    rows = [row(shown, list(np.atleast_1d(value))) for _, shown, value in summary.journal(run)]
-    return table(("journal and film", "value", "unit"), rows)
-
-
 def pad_figures(run: Run) -> str:
     head = ("pad", *(f"{pad}" for pad in range(1, run.pads + 1)), "unit")
     angles = ("pivot angle", *(f"{angle:g}" for angle in np.round(np.degrees(run.pivot_angle), 6)), "deg")
@@ -124,7 +110,7 @@ def pad_figures(run: Run) -> str:
 def verification(run: Run) -> str:
     """How far the films of the run are from closely solved ones, as its file says it in words."""
     lines = f"{run.attributes.get('verification', '')}".splitlines()
-    return "".join(paragraph(f"{line[0].upper()}{line[1:]}.") for line in lines)
+    return "".join(paragraph(sentence(line)) for line in lines)
 
 
 def spectrum_peaks(run: Run) -> str:
@@ -132,19 +118,13 @@ def spectrum_peaks(run: Run) -> str:
         found = summary.peaks(run)
     except NotInRunError:
         return ""
-    unit = SHOWN["amplitude"].unit
-    head = ("order", "frequency (Hz)", f"amplitude of y ({unit})", f"amplitude of z ({unit})")
-    rows = [
-        (
-            f"{each.order:.3g}",
-            f"{each.frequency:.5g}",
-            digits(SHOWN["amplitude"].factor * each.y),
-            digits(SHOWN["amplitude"].factor * each.z),
-        )
-        for each in found
-    ]
+    shown = SHOWN["amplitude"]
+    head = ("order", "frequency (Hz)", f"amplitude of y ({shown.unit})", f"amplitude of z ({shown.unit})")
+    rows = []
+    for order, frequency, *sizes in found:
+        rows.append((f"{order:.3g}", f"{frequency:.5g}", *(digits(shown.factor * each) for each in sizes)))
     note = f"Highest peaks of the last {run['spectrum/revolutions']} revolutions."
-    return table(head, rows) + f"<p>{note}</p>" if rows else ""
+    return table(head, rows) + paragraph(note) if rows else ""
 
 
 def coefficient_table(run: Run) -> str:
@@ -158,11 +138,8 @@ def coefficient_table(run: Run) -> str:
             named = zip(("stiffness", "damping"), both, strict=True)
             values = [digits(SHOWN[name].factor * each) for name, matrix in named for each in matrix.ravel()]
             rows.append((f"{of_pivots(run, pivot)}, {ratio:g}", *values))
-    heads = [
-        f"{letter} {element} ({SHOWN[name].unit})"
-        for letter, name in (("K", "stiffness"), ("C", "damping"))
-        for element in ("yy", "yz", "zy", "zz")
-    ]
+    units = {"K": SHOWN["stiffness"].unit, "C": SHOWN["damping"].unit}
+    heads = [f"{letter} {element} ({unit})" for letter, unit in units.items() for element in ELEMENTS]
     note = "The frequency is that of the whirl over the shaft's; y is up, the shaft turns "
     note += f"{rotation.ends(rotation.sense(run.input))}."
     if "equilibrium/viscosity" in run:
@@ -177,33 +154,17 @@ def mode_table(run: Run) -> str:
     rows, thresholds, verdicts = [], [], []
     for pivot in run["pivot"]:
         found = modes(run, pivot)
-        own = list(zip(found.name, found.frequency, found.damping_ratio, found.log_decrement, strict=True))
-        journal = of_journal(found.name)
-        rows += [
-            (
-                of_pivots(run, pivot),
-                f"{name}",
-                f"{hertz:.5g}",
-                digits(SHOWN["damping_ratio"].factor * ratio),
-                digits(SHOWN["log_decrement"].factor * decrement),
-            )
-            for kind in (journal, ~journal)
-            for (name, hertz, ratio, decrement), here in zip(own, kind, strict=True)
-            if here and (hertz > 0 or ratio < 0)
-        ]
+        journal, listed = of_journal(found.name), (found.frequency > 0) | (found.damping_ratio < 0)
+        for k in (*np.flatnonzero(journal & listed), *np.flatnonzero(~journal & listed)):
+            rows.append((of_pivots(run, pivot), f"{found.name[k]}", *vibration(found, k)))
         for who, kind in (("The journal is", journal), ("The pads are", ~journal & (found.name != ""))):
             if kind.any():
                 how = "unstable" if (found.damping_ratio[kind] < 0).any() else "stable"
                 verdicts.append(f"{who} {how}, pivots {of_pivots(run, pivot)}.")
         if np.isfinite(found.threshold_rpm):
             thresholds.append(f"pivots {of_pivots(run, pivot)}: {found.threshold_rpm:.1f} rpm")
-    note = f"<p>Threshold speed of stability: {'; '.join(thresholds)}.</p>" if thresholds else ""
-    head = ("pivots", "mode", "frequency (Hz)", "damping ratio (%)", "logarithmic decrement")
-    return (
-        table(head, rows)
-        + f"<p>{' '.join(verdicts)} Modes without vibration that decay are not listed.</p>"
-        + note
-    )
+    verdict = paragraph(f"{' '.join(verdicts)} Modes without vibration that decay are not listed.")
+    return table(("pivots", "mode", *VIBRATION), rows) + verdict + threshold(thresholds)
 
 
 def of_pivots(run: Run, pivot: str) -> str:
@@ -235,12 +196,9 @@ def liveliest(run: Run) -> int | None:
 
 def statistics(run: Run) -> str:
     """Every number of the group `statistics`, with its meaning and unit."""
-    rows = [
-        (
-            run.about(f"statistics/{name}", "long_name") or name,
-            f"{value:.4g}" if isinstance(value, float) else f"{value}",
-            run.about(f"statistics/{name}", "units").replace("1", ""),
-        )
-        for name, value in run["statistics"].items()
-    ]
+    rows = []
+    for name, value in run["statistics"].items():
+        words, unit = (run.about(f"statistics/{name}", each) for each in ("long_name", "units"))
+        number = f"{value:.4g}" if isinstance(value, float) else f"{value}"
+        rows.append((words or name, number, unit.replace("1", "")))
     return table(("cost of the computation", "value", "unit"), rows)

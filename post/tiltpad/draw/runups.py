@@ -1,7 +1,6 @@
 """Pictures of run-ups: the whole run, orders, waterfall, and the size of the orbit over speed or a number."""
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -46,7 +45,7 @@ def mark_peak(ax: Axes, speed: np.ndarray, values: np.ndarray, quantity: str, co
 
 
 @layout.of_several
-def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+def runup(runs: Sequence[Run], pad: int | None = None) -> Figure:
     """Journal, tilt (unless pads are fixed) and film over the whole run, with the speed where it changes.
 
     Marks along the bottom say where asperities touch the journal.
@@ -72,9 +71,7 @@ def runup(runs: Sequence[Run], last: float | None = None, pad: int | None = None
 
 
 @layout.of_several
-def orders(
-    runs: Sequence[Run], last: float | None = None, pad: int | None = None, scale: str = "linear"
-) -> Figure:
+def orders(runs: Sequence[Run], pad: int | None = None, scale: str = "linear") -> Figure:
     """Amplitudes of the first three orders over the speed of run-ups, with the peak and phase of the first.
 
     `scale` of the amplitudes is linear or log.
@@ -86,10 +83,8 @@ def orders(
         lags = []
         for name, column in names:
             ax = panels[name, column]
-            speed, *both = spectra.order_tracks(run, name, ORDERS, column)
-            tracks = [
-                (speed, amplitude, phase) for amplitude, phase in zip(*(each.T for each in both), strict=True)
-            ]
+            speed, amplitudes, phases = spectra.order_tracks(run, name, ORDERS, column)
+            tracks = [(speed, *own) for own in zip(amplitudes.T, phases.T, strict=True)]
             for k, track in enumerate(tracks):
                 plots.order_track(run, ax, name, ORDERS[k], column, scale, track, **layout.look(i, k, runs))
             words[name, column].append(mark_peak(ax, *tracks[0][:2], name, layout.look(i, 0, runs)["color"]))
@@ -104,9 +99,8 @@ def orders(
             ax.set_title("; ".join(words[name, column]), fontsize="x-small", loc="right")
         ax.set_ylabel(SHOWN[name].label + (f", pad {column}" if column else ""))
     panels["phase"].set_ylabel("phase lag,\norder 1 (deg)")
-    dashed = [
-        (f"phase of ${axis}$", {"color": "0.3", "linestyle": layout.DASHES[k]}) for k, axis in enumerate("yz")
-    ]
+    dashes = {"y": layout.DASHES[0], "z": layout.DASHES[1]}
+    dashed = [(f"phase of ${y}$", {"color": "0.3", "linestyle": each}) for y, each in dashes.items()]
     layout.legend(fig, runs, [*layout.parts([f"order {order}" for order in ORDERS], runs), *dashed])
     layout.remark(fig, PHASE)
     return fig
@@ -115,7 +109,6 @@ def orders(
 @layout.of_several
 def waterfall(
     runs: Sequence[Run],
-    last: float | None = None,
     pad: int | None = None,
     orders: float | None = None,
     by: str = "frequency",
@@ -126,8 +119,9 @@ def waterfall(
     `by` is frequency or order, `orders` the highest order, `decades` how far down the colours reach.
     """
     names = ["pad_tilt"] if pad else ["journal_y", "journal_z"]
-    fig = plt.figure(figsize=(layout.COLUMN if len(runs) == 1 else layout.PAGE, 0.5 + 2.1 * len(names)))
-    panels = fig.subplots(len(names), len(runs), squeeze=False, sharex=len(runs) == 1)
+    alone = len(runs) == 1
+    figsize = (layout.COLUMN if alone else layout.PAGE, 0.5 + 2.1 * len(names))
+    fig, panels = plt.subplots(len(names), len(runs), squeeze=False, sharex=alone, figsize=figsize)
     for column, run, label in zip(panels.T, runs, layout.labels(runs), strict=True):
         for ax, name in zip(column, names, strict=True):
             plots.waterfall(run, ax, name, pad, orders or 5, by, decades)
@@ -141,14 +135,13 @@ def waterfall(
 
 
 @layout.of_several
-def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
+def size(runs: Sequence[Run], last: float | None = None) -> Figure:
     """Peak-to-peak of y and z of the journal.
 
     They are drawn over the speed if a run is a run-up (without the drift of the mean), over a number of the
     input if runs differ in it alone, and otherwise as bars.
     """
-    fig = plt.figure(figsize=(layout.COLUMN, 2.6))
-    ax = fig.subplots()
+    fig, ax = plt.subplots(figsize=(layout.COLUMN, 2.6))
     coordinates = ("journal_y", "journal_z")
     if not all(signals.steady(run) for run in runs):
         found = []
@@ -164,19 +157,18 @@ def size(runs: Sequence[Run], last: float | None = None, pad: int | None = None)
         layout.legend(fig, runs, layout.parts(["$y$", "$z$"], runs))
         return fig
     sizes = SHOWN["size"].factor * np.array([signals.orbit_size(run, last or 1) for run in runs]).T
-    dashes = ["-", "-"]
     varied = differences.varied([run.input for run in runs])
+    dashes = ["-", "--" if varied else "-"]
     if varied:
         label, values = varied
         order = np.argsort(values)
-        dashes = ["-", "--"]
         for each, own in zip(sizes, dashes, strict=True):
             ax.plot(np.array(values)[order], each[order], own, **layout.dots(len(order)))
         ax.set(xlabel=label, ylabel=SHOWN["size"].label, ylim=(0, 1.1 * sizes.max()))
         ax.locator_params(axis="x", nbins=6)
     else:
         place = np.arange(len(runs))
-        names = layout.labels(runs) if len(runs) > 1 else [runs[0].title or Path(runs[0].path).stem]
+        names = layout.labels(runs) if len(runs) > 1 else [layout.title(runs)]
         for k, each in enumerate(sizes):
             ax.barh(place + 0.4 * k, each, 0.38)
         few = slice(None, None, 1 + len(runs) // 40)  # names of all would lie on each other

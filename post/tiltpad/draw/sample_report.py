@@ -77,9 +77,8 @@ def influences(study: Study, found: Sequence[Result]) -> str:
         rows = [(label(study, name), *(cell(own, k) for _, own in indices)) for k, name in enumerate(inputs)]
         rows.append(("explained by the regression (%)", *(explained(own) for _, own in indices)))
         parts.append(table(("share of the variance (%)", *(each.shown.text for each, _ in indices)), rows))
-        parts.append(paragraph(
-            "First-order Sobol index, with the sign of the rank correlation, and behind it the total index."
-        ))  # fmt: skip
+        first = "First-order Sobol index, with the sign of the rank correlation"
+        parts.append(paragraph(f"{first}, and behind it the total index."))
     # the last ones are those of stability
     for each, own in indices[: -TORNADOS - 1 : -1]:
         caption = f"{each.shown.text.replace('$', '')}."

@@ -3,9 +3,8 @@
 Every function takes studies, and returns the figure.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from textwrap import fill
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tiltpad.calculate.results import DEFAULTS, Result, key_results, result
-from tiltpad.calculate.selection import is_number, matching, selected, varying
+from tiltpad.calculate.selection import Where, is_number, matching, selected, varying
 from tiltpad.calculate.sensitivity import SALTELLI, Sensitivity, sensitivity, some
 from tiltpad.calculate.statistics import beyond, quantiles, with_infinite
 from tiltpad.draw.diagrams import AT_EDGE, EDGE, axis
@@ -38,16 +37,18 @@ BINS, RUNS_A_BIN = (8, 60), 12
 @of_several
 def tornado(
     studies: Sequence[Study],
-    last: float | None = None,
     pad: int | None = None,
     show: str | None = None,
     pivot: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    where: Where = None,
 ) -> Figure:
     """Which sampled input matters for a result: its change with each input, and Sobol indices."""
     study = only(studies)
     if show is None:
-        main = main_result(study, pivot)
+        # the result that is drawn where none is asked for
+        found = shown_results(study, pivot)
+        needs_some(study, found)
+        main = next((each for each in found if each.name in DEFAULTS), found[0])
         show, pivot = main.name, main.pivot
     own = sensitivity(study, show, pad, pivot, where)
     return bars(study, own, result(study, show, pad, pivot).shown, title(studies))
@@ -56,8 +57,7 @@ def tornado(
 def bars(study: Study, own: Sensitivity, shown: Shown, heads: str = "") -> Figure:
     """The tornado of a result."""
     order = np.argsort(own.first, kind="stable")[-INPUTS:]
-    fig = plt.figure(figsize=(PAGE, 1.0 + 0.27 * len(order)))
-    left, right = fig.subplots(1, 2, sharey=True)
+    fig, (left, right) = plt.subplots(1, 2, sharey=True, figsize=(PAGE, 1.0 + 0.27 * len(order)))
     swings(left, own, order, fitted(shown, [*own.low, *own.high]))
     shares(right, own, order)
     names = [literal(study.about(own.inputs[k], "long_name") or own.inputs[k]) for k in order]
@@ -65,19 +65,16 @@ def bars(study: Study, own: Sensitivity, shown: Shown, heads: str = "") -> Figur
     for ax in (left, right):
         ax.grid(visible=False, axis="y")
         ax.set_ylim(-0.6, len(order) - 0.4)
-    marks: list[tuple[str, dict[str, Any]]] = [
-        ("input low", {"color": LOW, "linewidth": 5}),
-        ("input high", {"color": HIGH, "linewidth": 5}),
-        ("first order", {"color": "0.8", "linewidth": 5}),
-        ("total", TOTAL | {"linestyle": ""}),
-    ]
-    heading(fig, marks, heads)
+    bars = {"input low": LOW, "input high": HIGH, "first order": SHARE}
+    marks = [(text, {"color": color, "linewidth": 5}) for text, color in bars.items()]
+    heading(fig, [*marks, ("total", TOTAL | {"linestyle": ""})], heads)
     for text in words(own, len(own.inputs) - len(order)):
         remark(fig, text)
     return fig
 
 
-#: Mark of a total index.
+#: Colour of a first-order index, and mark of a total index.
+SHARE = "0.8"
 TOTAL = {"marker": "D", "markersize": 4, "markerfacecolor": "w", "color": "0.2"}
 
 
@@ -97,7 +94,7 @@ def shares(ax: Axes, own: Sensitivity, order: np.ndarray) -> None:
     places = np.arange(len(order))
     first, total = 100 * own.first[order], 100 * own.total[order]
     ends = 100 * np.array([own.first_low, own.first_high])[:, order]
-    ax.barh(places, first, 0.6, color="0.8")
+    ax.barh(places, first, 0.6, color=SHARE)
     ax.errorbar(first, places, xerr=np.abs(ends - first), fmt="none", color="0.2", elinewidth=1, capsize=2)
     ax.plot(total, places, linestyle="", zorder=4, **TOTAL)
     beside = ax.secondary_yaxis("right")
@@ -109,36 +106,28 @@ def shares(ax: Axes, own: Sensitivity, order: np.ndarray) -> None:
 
 def words(own: Sensitivity, left_out: int) -> list[str]:
     """What a tornado is of."""
-    if own.method == SALTELLI:
-        said = [f"Sobol indices of a Saltelli design of {own.runs} runs, 95 % intervals"]
-    else:
-        said = [
-            f"Sobol indices of a regression on {own.runs} runs, which explains {100 * own.explained:.1f} % "
-            "of the variance; 95 % intervals"
-        ]
+    explains = f", which explains {100 * own.explained:.1f} % of the variance;"
+    design = f"a Saltelli design of {own.runs} runs,", f"a regression on {own.runs} runs{explains}"
+    said = [f"Sobol indices of {design[own.method != SALTELLI]} 95 % intervals"]
     said.append("low and high: mean result with the input in its lowest and its highest tenth")
-    if left_out:
-        said.append(f"and {left_out} inputs that matter less")
-    return said
+    return [*said, f"and {left_out} inputs that matter less"] if left_out else said
 
 
 @of_several
 def distribution(
     studies: Sequence[Study],
-    last: float | None = None,
     pad: int | None = None,
     show: str | None = None,
     pivot: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    where: Where = None,
 ) -> Figure:
     """Histograms of results of sampled studies, with percentiles; the key results, or the one asked for."""
     all_studies(studies)
     first = [named(studies[0], show, pad, pivot)] if show else shown_results(studies[0], pivot)
-    if not first:
-        raise ValueError(f"{studies[0].path}: no key result in this study that differs: choose one by show")
+    needs_some(studies[0], first)
     fig, panels = grid(len(first), 2.2)
     texts = labels(studies) if len(studies) > 1 else [""]
-    several: list[tuple[str, dict[str, Any]]] = []
+    several = []
     for number, (study, text) in enumerate(zip(studies, texts, strict=True)):
         chosen = selected(study, where or {}) & study.done
         for ax, one in zip(panels, first, strict=True):
@@ -185,11 +174,10 @@ def in_figures(ax: Axes, shown: Shown, values: np.ndarray, infinite: str) -> Non
 @of_several
 def scatter(
     studies: Sequence[Study],
-    last: float | None = None,
     pad: int | None = None,
     show: str | None = None,
     pivot: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    where: Where = None,
 ) -> Figure:
     """Results of a sampled study over its inputs, a point for each run; refused runs along the edge."""
     study = only(studies)
@@ -197,28 +185,30 @@ def scatter(
     inputs = varying(study, matching(study, where or {}))
     if not inputs:
         raise ValueError(f"{study.path}: its runs differ in no parameter")
-    found = [named(study, show, pad, pivot)] if show else of_scatter(shown_results(study, pivot))
+    found = [named(study, show, pad, pivot)] if show else shown_results(study, pivot)
     if not found:
         raise ValueError(f"{study.path}: no key result in this study: choose one by show")
+    if not show:
+        # those that are drawn where none is asked for come first
+        found = sorted(found, key=lambda each: each.name not in DEFAULTS)[:ROWS]
     refused = some(np.flatnonzero(chosen & study.failed), EDGE)
-    done = np.flatnonzero(chosen & study.done)
-    whole = len(done)
-    done = some(done, POINTS)
+    whole = np.flatnonzero(chosen & study.done)
+    done = some(whole, POINTS)
     inputs, rest = inputs[:INPUTS], len(inputs) - INPUTS
     height = 1.3 if len(found) > 1 else 2.2
-    width = COLUMN if len(inputs) * len(found) == 1 else PAGE
-    fig = plt.figure(figsize=(width, 0.7 + height * len(found)))
-    panels = fig.subplots(len(found), len(inputs), squeeze=False, sharex="col", sharey="row")
-    for column, name in enumerate(inputs):
-        at, place = axis(study, name, panels[-1, column], "x")
-        edge = panels[-1, column].get_xaxis_transform()
-        panels[-1, column].plot(place[refused], np.zeros(len(refused)), transform=edge, **AT_EDGE)
-        for ax, own in zip(panels[:, column], found, strict=True):
-            values = own.shown.factor * own.values[done]
-            ax.plot(place[done], values, **cloud(len(done)))
+    size = (COLUMN if len(inputs) * len(found) == 1 else PAGE, 0.7 + height * len(found))
+    shared = {"squeeze": False, "sharex": "col", "sharey": "row"}
+    fig, panels = plt.subplots(len(found), len(inputs), figsize=size, **shared)
+    for name, column in zip(inputs, panels.T, strict=True):
+        last = column[-1]
+        at, place = axis(study, name, last, "x")
+        edge = last.get_xaxis_transform()
+        last.plot(place[refused], np.zeros(len(refused)), transform=edge, **AT_EDGE)
+        for ax, own in zip(column, found, strict=True):
+            ax.plot(place[done], own.shown.factor * own.values[done], **cloud(len(done)))
         if is_number(study, name):
-            few_ticks(panels[-1, column], place)
-        panels[-1, column].set_xlabel(in_lines(at.label, len(inputs)), fontsize="small")
+            few_ticks(last, place)
+        last.set_xlabel(in_lines(at.label, len(inputs)), fontsize="small")
     for row, own in zip(panels, found, strict=True):
         row[0].set_ylabel(in_lines(own.shown.label, 5), fontsize="small")
         row[0].locator_params(axis="y", nbins=4)
@@ -227,8 +217,8 @@ def scatter(
     fig.align_labels()
     marks = [("not done", AT_EDGE)] if len(refused) else []
     heading(fig, marks, title(studies))
-    if whole > len(done):
-        remark(fig, f"{len(done)} of {whole} runs")
+    if len(whole) > len(done):
+        remark(fig, f"{len(done)} of {len(whole)} runs")
     if rest > 0:
         remark(fig, f"and {rest} further inputs")
     return fig
@@ -249,12 +239,10 @@ def all_studies(studies: Sequence[Study | Run]) -> list[Study]:
     return [each for each in studies if isinstance(each, Study)]
 
 
-def main_result(study: Study, pivot: str | None) -> Result:
-    """The result that is drawn where none is asked for."""
-    found = shown_results(study, pivot)
+def needs_some(study: Study, found: Sequence[Result]) -> None:
+    """Raises ValueError where there is no result to draw."""
     if not found:
         raise ValueError(f"{study.path}: no key result in this study that differs: choose one by show")
-    return next((each for each in found if each.name in DEFAULTS), found[0])
 
 
 def few_ticks(ax: Axes, values: np.ndarray) -> None:
@@ -263,11 +251,6 @@ def few_ticks(ax: Axes, values: np.ndarray) -> None:
         ax.set_xscale("linear")
     if ax.get_xscale() == "linear":
         ax.locator_params(axis="x", nbins=3)
-
-
-def of_scatter(found: Sequence[Result]) -> list[Result]:
-    """As many of the results as a scatter matrix has, those first that are drawn where none is asked for."""
-    return sorted(found, key=lambda each: each.name not in DEFAULTS)[:ROWS]
 
 
 def shown_results(study: Study, pivot: str | None) -> list[Result]:

@@ -2,8 +2,6 @@
 
 from collections.abc import Iterator
 from functools import partial
-from html import escape
-from pathlib import Path
 
 import numpy as np
 
@@ -14,7 +12,7 @@ from tiltpad.calculate.statistics import common_remarks
 from tiltpad.draw import figures
 from tiltpad.draw.diagrams import label
 from tiltpad.draw.layout import not_run_yet
-from tiltpad.draw.page import page, paragraph, picture, section, table
+from tiltpad.draw.page import given, page, paragraph, picture, section, table
 from tiltpad.draw.sample_report import sample
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.study import Study
@@ -28,21 +26,19 @@ PICTURES = ("response", "coefficients", "stability", "campbell", "temperatures")
 
 def study_report(study: Study, operating: tuple[float, float] | None = None) -> str:
     """The page as text; `operating` are the lowest and the highest operating speed, rpm."""
-    title = study.title or Path(study.path).stem
     by = study.attributes
-    origin = f"{Path(study.path).name}: {by['program']} {by['version']}, {by['created']}"
     whole = np.ones(len(study.done), dtype=bool)
     parts = [
-        f"<p class=origin>{escape(origin)}</p>",
+        f"{by['program']} {by['version']}, {by['created']}",
         summary(study),
         *(sample(study) if sampled(study, whole) else [section("Curves", "".join(curves(study)))]),
         section("Critical speeds", critical(study, operating)),
         section("Runs that were not done", failures(study)),
         section("Remarks", remarks(study)),
         section("Runs", runs(study)),
-        section("Input of the first run", f"<pre>{escape(by.get('input', '').strip())}</pre>"),
+        given("Input of the first run", study),
     ]
-    return page(title, parts)
+    return page(study, parts)
 
 
 def summary(study: Study) -> str:
@@ -118,20 +114,11 @@ def named(study: Study) -> list[str]:
 def runs(study: Study) -> str:
     """Parameters and key results of every run."""
     keys = key_results(study)[:COLUMNS]
-    first = slice(0, ROWS)
-    parameters = [study.values(name, first) for name in study.parameters]
-    ends = {True: "yes", False: "no"}
-    rows = [
-        (
-            f"{number}",
-            *map(written, own),
-            ends[bool(done)],
-            *(digits(key.shown.factor * key.values[k]) for key in keys),
-        )
-        for k, (number, done, *own) in enumerate(
-            zip(study.values("run", first), study.done[first], *parameters, strict=True)
-        )
-    ]
+    columns = [study.values(name, slice(ROWS)) for name in ("run", *study.parameters)]
+    rows = []
+    for k, (number, *own) in enumerate(zip(*columns, strict=True)):
+        results = (digits(key.shown.factor * key.values[k]) for key in keys)
+        rows.append((f"{number}", *map(written, own), "yes" if study.done[k] else "no", *results))
     heads = ("run", *named(study), "done", *(key.shown.label for key in keys))
     return table(heads, rows) + more(len(study.done))
 

@@ -3,7 +3,7 @@
 Every function takes results of the task coefficients or studies of them, and returns the figure.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -16,7 +16,7 @@ from tiltpad.calculate.coefficients import Coefficients
 from tiltpad.calculate.coefficients import coefficients as coefficients_of
 from tiltpad.calculate.modes import Modes, modes, of_journal
 from tiltpad.calculate.response import STATION
-from tiltpad.calculate.selection import axis_of, needs, selected, varying, written
+from tiltpad.calculate.selection import Where, axis_of, needs, selected, varying, written
 from tiltpad.draw.diagrams import mark_failed
 from tiltpad.draw.layout import COLUMN, DASHES, PAGE, dots, heading, labels, of_several, part_color, title
 from tiltpad.files import units
@@ -39,6 +39,8 @@ UNSTABLE = ("C1", "C3")
 KINDS = ("journal", "pads")
 
 
+#: Points of modes of the journal, and of pads.
+POINTS: tuple[dict[str, Any], ...] = ({}, {"markerfacecolor": "none"})
 #: Lines of modes of the journal, and of pads, which lie above them where both are equal.
 LOOKS: tuple[dict[str, Any], ...] = (
     {},
@@ -47,53 +49,36 @@ LOOKS: tuple[dict[str, Any], ...] = (
 
 
 class Part(NamedTuple):
-    """Results that are drawn in one colour; its fields:
+    """Results that are drawn in one colour."""
 
-    text      its name in the legend
-    source    result or study
-    pivot     of which pivots
-    where     values of the study's parameters
-    over      parameter along the axis; empty for a result
-    """
-
-    text: str
+    text: str  # its name in the legend
     source: Run | Study
-    pivot: str | None
-    where: dict[str, Any]
-    over: str
+    pivot: str | None  # of which pivots
+    where: dict[str, Any]  # values of the study's parameters
+    over: str  # parameter along the axis; empty for a result
 
 
 @of_several
 def coefficients(
-    runs: Sequence[Run | Study],
-    last: float | None = None,
-    pad: int | None = None,
-    pivot: str | None = None,
-    over: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    runs: Sequence[Run | Study], pivot: str | None = None, over: str | None = None, where: Where = None
 ) -> Figure:
     """Stiffness and damping of studies over a parameter (the speed), of results over the whirl frequency."""
     found = parts(runs, pivot, over, where)
     lines = list(coefficient_lines(found))
-    fig = plt.figure(figsize=(PAGE, 4.6))
-    panels = fig.subplots(2, 2, sharex=True)
+    fig, panels = plt.subplots(2, 2, sharex=True, figsize=(PAGE, 4.6))
+    colors = [part_color(k, len(lines)) for k in range(len(lines))]
     for row, name in zip(panels, ("stiffness", "damping"), strict=True):
         for ax, elements in zip(row, (DIRECT, CROSS), strict=True):
-            for color, (_, x, own) in enumerate(lines):
+            for color, (_, x, own) in zip(colors, lines, strict=True):
                 for dashes, (i, j) in zip(DASHES, elements.values(), strict=False):
                     values = SHOWN[name].factor * getattr(own, name)[..., i, j]
-                    ax.plot(x, values, dashes, color=part_color(color, len(lines)), **dots(len(x)))
-                mark_failed(
-                    ax, x[np.isnan(values)], part_color(color, len(lines)) if len(lines) > 1 else None
-                )
+                    ax.plot(x, values, dashes, color=color, **dots(len(x)))
+                mark_failed(ax, x[np.isnan(values)], color if len(lines) > 1 else None)
             ax.set_ylabel(f"{SHOWN[name].text} {', '.join(elements)} ({SHOWN[name].unit})")
     for ax in panels[-1]:
         ax.set_xlabel(axis_label(found))
-    texts = [
-        (literal(text), {"color": part_color(k, len(lines))}) for k, (text, *_) in enumerate(lines) if text
-    ]
     dashed = [("yy or yz", {"color": "0.3"}), ("zz or zy", {"color": "0.3", "linestyle": DASHES[1]})]
-    heading(fig, [*texts, *dashed], title(runs))
+    heading(fig, [*names([text for text, *_ in lines]), *dashed], title(runs))
     return fig
 
 
@@ -117,20 +102,14 @@ def coefficient_lines(found: Sequence[Part]) -> Iterator[tuple[str, np.ndarray, 
 
 @of_several
 def stability(
-    runs: Sequence[Run | Study],
-    last: float | None = None,
-    pad: int | None = None,
-    pivot: str | None = None,
-    over: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    runs: Sequence[Run | Study], pivot: str | None = None, over: str | None = None, where: Where = None
 ) -> Figure:
     """Damping ratio and logarithmic decrement of the modes, of results over their frequency.
 
     Modes of pads are hollow points; so is a line whose mode is one of pads at the last of its runs.
     """
     found = parts(runs, pivot, over, where)
-    fig = plt.figure(figsize=(COLUMN, 4.2))
-    panels = fig.subplots(2, 1, sharex=True)
+    fig, panels = plt.subplots(2, 1, sharex=True, figsize=(COLUMN, 4.2))
     for number, one in enumerate(found):
         own_color = part_color(number, len(found))
         own = modes(one.source, one.pivot, one.where or None, one.over or None)
@@ -141,12 +120,10 @@ def stability(
         journal = of_journal(own.name) if single else of_journal(last_names(own))
         for ax, name in zip(panels, ("damping_ratio", "log_decrement"), strict=True):
             values = SHOWN[name].factor * getattr(own, name)
-            for k in range(values.shape[-1]):
-                if single:
-                    hollow = {} if journal[k] else {"markerfacecolor": "none"}
-                    ax.plot(x[k], values[k], color=shades[k], **(dots(1) | hollow))
-                else:
-                    ax.plot(x, values[:, k], color=shades[k], **(dots(len(x)) | LOOKS[not journal[k]]))
+            for k, shade in enumerate(shades):
+                look = POINTS if single else LOOKS
+                place = x[k] if single else x
+                ax.plot(place, values[..., k], color=shade, **dots(np.size(place)) | look[not journal[k]])
         if not single:
             missing = x[np.isnan(own.frequency).all(axis=1)]
             mark_failed(panels[1], missing, own_color if len(found) > 1 else None)
@@ -159,11 +136,11 @@ def stability(
         show_from_zero(ax, *(SHOWN[name].factor * each for each in end))
         ax.set_ylabel(SHOWN[name].label)
     panels[1].set_xlabel(SHOWN["frequency"].label if isinstance(runs[0], Run) else axis_label(found))
-    looks = [{"marker": "o", "linestyle": ""}, {"marker": "o", "linestyle": "", "markerfacecolor": "none"}]
+    looks = [{"marker": "o", "linestyle": ""} | look for look in POINTS]
     if not isinstance(runs[0], Run):
         looks = [dots(2) | look for look in LOOKS]
     kinds = [(name, {"color": "0.3"} | look) for name, look in zip(KINDS, looks, strict=True)]
-    heading(fig, [*names(found), *kinds], title(runs))
+    heading(fig, [*names([one.text for one in found]), *kinds], title(runs))
     return fig
 
 
@@ -183,13 +160,12 @@ def mode_colors(own: Modes) -> list[str]:
 
 def mark_thresholds(panels: Sequence[Axes], own: Modes, color: str) -> None:
     """Dotted lines at the speeds at which a mode turns unstable."""
+    place = {"xycoords": ("data", "axes fraction"), "xytext": (-2, -2), "textcoords": "offset points"}
+    look = {"ha": "right", "va": "top", "fontsize": "x-small", "rotation": 90}
     for speed in np.unique(np.round(own.threshold_rpm[np.isfinite(own.threshold_rpm)], 3)):
         for ax in panels:
             ax.axvline(speed, color=color, linestyle=":", linewidth=0.8)
-        panels[0].annotate(
-            f"{speed:.0f} rpm", (speed, 1), xycoords=("data", "axes fraction"), xytext=(-2, -2),
-            textcoords="offset points", ha="right", va="top", fontsize="x-small", color=color, rotation=90,
-        )  # fmt: skip
+        panels[0].annotate(f"{speed:.0f} rpm", (speed, 1), color=color, **place, **look)
 
 
 def show_from_zero(ax: Axes, bottom: float, top: float) -> None:
@@ -206,12 +182,7 @@ def show_from_zero(ax: Axes, bottom: float, top: float) -> None:
 
 @of_several
 def campbell(
-    runs: Sequence[Run | Study],
-    last: float | None = None,
-    pad: int | None = None,
-    pivot: str | None = None,
-    over: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    runs: Sequence[Run | Study], pivot: str | None = None, over: str | None = None, where: Where = None
 ) -> Figure:
     """Frequencies of the modes over the speed of studies, with the whirl of the journal and the damping.
 
@@ -219,26 +190,18 @@ def campbell(
     """
     for each in runs:
         if isinstance(each, Run):
-            raise NotInRunError(
-                f"{each.path}: a Campbell diagram is of a study over the speed, not of one speed"
-            )
+            needed = "a study over the speed, not of one speed"
+            raise NotInRunError(f"{each.path}: a Campbell diagram is of {needed}")
     needs(over or "speed_rpm", ("speed_rpm",), "over", "the parameter of a Campbell diagram")
     found = parts(runs, pivot, "speed_rpm", where)
-    fig = plt.figure(figsize=(COLUMN, 3.2))
-    ax = fig.subplots()
+    fig, ax = plt.subplots(figsize=(COLUMN, 3.2))
     top = 0.0
     for number, one in enumerate(found):
         own_color = part_color(number, len(found))
         own = modes(one.source, one.pivot, one.where or None)
         own = own._replace(frequency=np.where(own.frequency > 0, own.frequency, np.nan))
-        for k in range(own.frequency.shape[1]):
-            ax.plot(
-                own.speed_rpm,
-                own.frequency[:, k],
-                color=own_color if len(found) > 1 else "0.8",
-                linewidth=0.8,
-                zorder=1,
-            )
+        shade = own_color if len(found) > 1 else "0.8"
+        ax.plot(own.speed_rpm, own.frequency, color=shade, linewidth=0.8, zorder=1)
         points = campbell_points(ax, own, own_color if len(found) > 1 else None)
         mark_failed(ax, own.speed_rpm[np.isnan(own.frequency).all(axis=1)], None)
         top = max(top, ORDERS * own.speed_rpm.max() / 60)
@@ -251,16 +214,12 @@ def campbell(
     mark: dict[str, Any] = {"linestyle": "", "color": "0.3", "markersize": 4}
     ring = mark | {"marker": "o", "markerfacecolor": "none", "markersize": 7}
     rotor = "shaft" if any(STATION in one.source for one in found) else "journal"
-    marks = [
-        (f"{rotor} forward", mark | {"marker": "^"}),
-        (f"{rotor} backward", mark | {"marker": "v"}),
-        ("pads", mark | {"marker": "o", "markersize": 2}),
-        (f"{rotor} unstable", ring | {"markeredgecolor": UNSTABLE[0]}),
-        ("pad unstable", ring | {"markeredgecolor": UNSTABLE[1]}),
-        ("shaft speed", {"color": "0.3"}),
-        ("0.5x", {"color": "0.3", "linestyle": "--"}),
-    ]
-    heading(fig, [*names(found), *marks], title(runs))
+    marks = [(f"{rotor} forward", mark | {"marker": "^"}), (f"{rotor} backward", mark | {"marker": "v"})]
+    marks += [("pads", mark | {"marker": "o", "markersize": 2})]
+    rings = zip((f"{rotor} unstable", "pad unstable"), UNSTABLE, strict=True)
+    marks += [(text, ring | {"markeredgecolor": color}) for text, color in rings]
+    marks += [("shaft speed", {"color": "0.3"}), ("0.5x", {"color": "0.3", "linestyle": "--"})]
+    heading(fig, [*names([one.text for one in found]), *marks], title(runs))
     return fig
 
 
@@ -268,56 +227,38 @@ def campbell_points(ax: Axes, own: Modes, color: str | None) -> Any:
     """Points of all modes, those of the journal by its whirl; without a colour by their damping."""
     speed = np.broadcast_to(own.speed_rpm[:, None], own.frequency.shape)
     ahead = own.whirl > 0
-    look: dict[str, Any] = {"zorder": 3}
+    look: dict[str, Any] = {"zorder": 3, "linewidths": 0}
     if color is None:
         look |= {"vmin": 0, "vmax": 3, "cmap": "viridis"}
     journal = of_journal(own.name)
     for part, marker, size in ((~journal, "o", 6), (journal & ~ahead, "v", 14), (journal & ahead, "^", 14)):
         colours = {"c": own.log_decrement[part]} if color is None else {"color": color}
-        points = ax.scatter(
-            speed[part],
-            own.frequency[part],
-            marker=marker,
-            s=size,
-            linewidths=0,
-            **look,
-            **colours,
-        )
+        points = ax.scatter(speed[part], own.frequency[part], marker=marker, s=size, **look, **colours)
+    ring = {"s": 45, "facecolors": "none", "zorder": 4}
     for part, shade in zip((journal, ~journal), UNSTABLE, strict=True):
         growing = part & (own.log_decrement < 0)
-        ax.scatter(
-            speed[growing], own.frequency[growing], s=45, facecolors="none", edgecolors=shade, zorder=4
-        )
+        ax.scatter(speed[growing], own.frequency[growing], edgecolors=shade, **ring)
     return points
 
 
-def parts(
-    sources: Sequence[Run | Study],
-    pivot: str | None,
-    over: str | None,
-    where: Mapping[str, Any] | None,
-) -> list[Part]:
+def parts(sources: Sequence[Run | Study], pivot: str | None, over: str | None, where: Where) -> list[Part]:
     """What is drawn in a colour of its own: files, pivots (of results all), values of other parameters."""
     if len({isinstance(each, Run) for each in sources}) > 1:
         raise ValueError("results and studies do not go into one picture")
     found = []
     for source, name in zip(sources, labels(sources) if len(sources) > 1 else [""], strict=True):
-        if pivot is not None:
-            pivots: list[str | None] = [pivot]
-        else:
-            everyone: list[str | None] = (
-                [str(each) for each in source["pivot"]] if "pivot" in source else [None]
-            )
-            pivots = everyone if isinstance(source, Run) else everyone[:1]
+        pivots: Sequence[str | None] = [pivot]
+        if pivot is None and "pivot" in source:
+            every = [str(each) for each in source["pivot"]]
+            pivots = every if isinstance(source, Run) else every[:1]
         for own, (text, kept, along) in product(pivots, groups(source, over, dict(where or {}))):
             words = (name, own if len(pivots) > 1 else "", text)
             found.append(Part(", ".join(word for word in words if word), source, own, kept, along))
     if not found:
         raise NotInRunError(f"{sources[0].path}: no run in this study whose parameters are known")
     if len(found) > MOST:
-        raise ValueError(
-            f"{len(found)} kinds of lines are more than {MOST}: choose by where; a sample is drawn by scatter"
-        )
+        many = f"{len(found)} kinds of lines are more than {MOST}"
+        raise ValueError(f"{many}: choose by where; a sample is drawn by scatter")
     return found
 
 
@@ -340,11 +281,9 @@ def groups(
     others = [name for name in varying(source, chosen) if name != along]
     keys = dict.fromkeys(zip(*(source[name][chosen] for name in others), strict=True) if others else [()])
     known = [key for key in keys if all(value == value and value != "" for value in key)]
-    return [
-        (", ".join(in_unit(name, value, source[name]) for name, value in zip(others, key, strict=True)),
-         where | dict(zip(others, key, strict=True)), along)
-        for key in known
-    ]  # fmt: skip
+    found = [dict(zip(others, key, strict=True)) for key in known]
+    words = [", ".join(in_unit(name, value, source[name]) for name, value in own.items()) for own in found]
+    return [(text, where | own, along) for text, own in zip(words, found, strict=True)]
 
 
 def axis_label(found: Sequence[Part]) -> str:
@@ -356,7 +295,7 @@ def axis_label(found: Sequence[Part]) -> str:
     return units.Shown(text or literal(found[0].over), 1, "" if unit == "1" else unit).label
 
 
-def names(found: Sequence[Part]) -> list[tuple[str, dict[str, Any]]]:
-    """Entries of the legend, with the colours of the parts."""
-    colors = [part_color(k, len(found)) for k in range(len(found))]
-    return [(literal(one.text), {"color": own}) for one, own in zip(found, colors, strict=True) if one.text]
+def names(texts: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
+    """Entries of the legend, with the colours of the parts; none for a part without a name."""
+    colors = [{"color": part_color(k, len(texts))} for k in range(len(texts))]
+    return [(literal(text), color) for text, color in zip(texts, colors, strict=True) if text]

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from tiltpad.calculate import geometry
 from tiltpad.calculate.heat import heat_balance
-from tiltpad.calculate.selection import selected
+from tiltpad.calculate.selection import Where, selected
 from tiltpad.draw import layout
 from tiltpad.draw.branches import parameter_of
 from tiltpad.draw.diagrams import mark_failed
@@ -26,9 +26,10 @@ from tiltpad.files.units import SHOWN
 #: Temperatures of a pad: how they are drawn beside each other, and along a line.
 PLACES = {"inlet": "<", "mean": "o", "outlet": ">", "maximum": "^"}
 #: Temperatures of the bearing.
-SHAFT = {"color": "0.3", "linestyle": "--", "label": "shaft"}
-DRAIN = {"color": "0.3", "linestyle": ":", "label": "drain"}
-SUPPLY = {"color": "0.3", "linestyle": "-", "linewidth": 0.8, "label": "supply"}
+SHAFT, DRAIN = {"color": "0.3", "linestyle": "--"}, {"color": "0.3", "linestyle": ":"}
+SUPPLY = {"color": "0.3", "linestyle": "-", "linewidth": 0.8}
+#: Values along an axis, and what runs there have of what is drawn.
+Line = tuple[np.ndarray, dict[str, np.ndarray]]
 
 #: What is drawn of a heat balance, and how the names in studies begin.
 DRAWN = {
@@ -39,11 +40,7 @@ DRAWN = {
 
 @layout.of_several
 def temperatures(
-    runs: Sequence[Run | Study],
-    last: float | None = None,
-    pad: int | None = None,
-    over: str | None = None,
-    where: Mapping[str, Any] | None = None,
+    runs: Sequence[Run | Study], pad: int | None = None, over: str | None = None, where: Where = None
 ) -> Figure:
     """Temperatures and viscosities over a parameter, of studies or a branch; of results the heat balances.
 
@@ -65,37 +62,36 @@ def temperatures(
     if len(runs) > 1:
         names = "; ".join(one.text for one in found)
         raise ValueError(f"a picture of temperatures has a line for each pad: one study, not {names}")
-    middle = found[len(found) // 2]
     fig, panels = layout.stacked(["temperature", "viscosity"])
-    study = cast(Study, middle.source)
-    pads = over_parameter(study, middle.where, middle.over, pad, panels["temperature"], panels["viscosity"])
+    lines = [along(each) for each in found]
+    middle = len(found) // 2
+    place, own = lines[middle]
+    count = own["mean_temperature"].shape[1]
+    if pad is not None and not 1 <= pad <= count:
+        raise ValueError(f"{runs[0].path}: no pad {pad}: 1 to {count}")
+    pads = [pad] if pad else list(range(1, count + 1))
+    draw(place, own, pads, panels)
+    for ax in panels.values():
+        mark_failed(ax, place[np.isnan(own["mean_temperature"]).all(axis=1)], None)
     finish(fig, panels, pads, axis_label(found), runs)
     if len(found) > 1:
-        draw_bands([of_part(each) for each in found], pads, panels["temperature"], panels["viscosity"])
-        words = f"lines: {middle.text}; bands: {found[0].text} to {found[-1].text}"
+        draw_bands(lines, pads, panels)
+        words = f"lines: {found[middle].text}; bands: {found[0].text} to {found[-1].text}"
         panels["temperature"].set_title(layout.plain(words, layout.width(fig)), fontsize="small")
     return fig
 
 
-def draw_bands(
-    runs_there: Sequence[tuple[np.ndarray, dict[str, np.ndarray]]],
-    pads: Sequence[int],
-    upper: Axes,
-    lower: Axes,
-) -> None:
+def draw_bands(lines: Sequence[Line], pads: Sequence[int], panels: Mapping[str, Axes]) -> None:
     """Between the least and the largest of the runs at each place: maximum temperatures and viscosities."""
-    place = runs_there[0][0]
-    if any(len(x) != len(place) or (x != place).any() for x, _ in runs_there):
+    place = lines[0][0]
+    if any(len(x) != len(place) or (x != place).any() for x, _ in lines):
         raise ValueError("bands need the same values along the axis for each of the other parameters")
-    for ax, name, unit in (
-        (upper, "maximum_temperature", "temperature"),
-        (lower, "viscosity", "viscosity"),
-    ):
-        values = SHOWN[unit].factor * np.array([found[name] for _, found in runs_there])
+    for shown, name in (("temperature", "maximum_temperature"), ("viscosity", "viscosity")):
+        values = SHOWN[shown].factor * np.array([found[name] for _, found in lines])
         for i, k in enumerate(pads):
             own = values[:, :, k - 1]
-            color = layout.part_color(i, len(pads))
-            ax.fill_between(place, own.min(0), own.max(0), color=color, alpha=0.25, linewidth=0)
+            look = {"color": layout.part_color(i, len(pads)), "alpha": 0.25, "linewidth": 0}
+            panels[shown].fill_between(place, own.min(0), own.max(0), **look)
 
 
 def finish(
@@ -108,11 +104,7 @@ def finish(
     panels["viscosity"].set(xlabel=label, ylim=(0, None))
     entries = [(f"pad {k}", {"color": layout.part_color(i, len(pads))}) for i, k in enumerate(pads)]
     entries += [("maximum", {"color": "0.3"}), ("mean", {"color": "0.3", "linestyle": "-."})]
-    layout.heading(
-        fig,
-        [*entries, *((each["label"], without_label(each)) for each in (SHAFT, DRAIN))],
-        layout.title(runs),
-    )
+    layout.heading(fig, [*entries, ("shaft", SHAFT), ("drain", DRAIN)], layout.title(runs))
 
 
 def of_branch(run: Run, pad: int | None) -> Figure:
@@ -122,15 +114,16 @@ def of_branch(run: Run, pad: int | None) -> Figure:
     for number in np.unique(run["branch"]):
         own = np.flatnonzero(run["branch"] == number)
         found = {name: run[name][own] for name in DRAWN}
-        draw(run["parameter"][own], found, pads, panels["temperature"], panels["viscosity"])
+        draw(run["parameter"][own], found, pads, panels)
     finish(fig, panels, pads, parameter_of(run).label, [run])
     return fig
 
 
 def draw(
-    x: np.ndarray, found: Mapping[str, np.ndarray], pads: Sequence[int], upper: Axes, lower: Axes
+    x: np.ndarray, found: Mapping[str, np.ndarray], pads: Sequence[int], panels: Mapping[str, Axes]
 ) -> None:
     """Lines of what a heat balance gives, by name."""
+    upper, lower = panels["temperature"], panels["viscosity"]
     dots = {"marker": "o", "markersize": 3} if len(x) < 30 else {}
     for i, k in enumerate(pads):
         color = layout.part_color(i, len(pads))
@@ -141,33 +134,13 @@ def draw(
     upper.plot(x, found["drain_temperature"], **DRAIN)
 
 
-def of_part(part: Part) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """What `along` gives of the runs of a part."""
-    return along(cast(Study, part.source), part.where, part.over)
-
-
-def along(study: Study, where: Mapping[str, Any], over: str) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Values of a parameter in their order, and what the runs there have of what is drawn."""
-    place = study[over]
-    order = np.flatnonzero(selected(study, where) & np.isfinite(place))
+def along(part: Part) -> Line:
+    """Of the runs of a study that are a part: values of the parameter in their order, and what is there."""
+    study = cast(Study, part.source)
+    place = study[part.over]
+    order = np.flatnonzero(selected(study, part.where) & np.isfinite(place))
     order = order[np.argsort(place[order], kind="stable")]
     return place[order], {name: study[f"{pads}equilibrium_{name}"][order] for name, pads in DRAWN.items()}
-
-
-def over_parameter(
-    study: Study, where: Mapping[str, Any], over: str, pad: int | None, upper: Axes, lower: Axes
-) -> list[int]:
-    """Draws temperatures and viscosities of the runs over a parameter; gives the pads."""
-    x, found = along(study, where, over)
-    mean = found["mean_temperature"]
-    pads = list(range(1, mean.shape[1] + 1))
-    if pad is not None and pad not in pads:
-        raise ValueError(f"{study.path}: no pad {pad}: 1 to {len(pads)}")
-    pads = pads if pad is None else [pad]
-    draw(x, found, pads, upper, lower)
-    for ax in (upper, lower):
-        mark_failed(ax, x[np.isnan(mean).all(axis=1)], None)
-    return pads
 
 
 def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
@@ -176,46 +149,36 @@ def of_results(runs: Sequence[Run], pad: int | None) -> Figure:
     pads = layout.shown_pads(runs, pad)
     if pad is not None and all(run.has_film_temperatures for run in runs):
         return of_films(runs, pad)
-    fig = plt.figure(figsize=(layout.PAGE, 0.6 + 2.4 * len(runs)))
-    rows = fig.subplots(len(runs), 2, squeeze=False)
+    fig, rows = plt.subplots(len(runs), 2, squeeze=False, figsize=(layout.PAGE, 0.6 + 2.4 * len(runs)))
     names = layout.labels(runs) if len(runs) > 1 else [""]
     for (left, right), run, name in zip(rows, runs, names, strict=True):
         own = [k for k in pads if k <= run.pads]
         temperatures_of_pads(run, left, own)
-        if run.has_film_temperatures:
-            surfaces_of_pads(run, right, own)
-            of_pads = [left]
-        else:
-            heat_of_pads(run, right, own)
-            of_pads = [left, right]
+        along_pads = run.has_film_temperatures
+        (surfaces_of_pads if along_pads else heat_of_pads)(run, right, own)
+        of_pads = [left] if along_pads else [left, right]
         viscosity = SHOWN["viscosity"].factor * run["equilibrium/viscosity"]
         of_pads[-1].set_xlabel(f"viscosity below each pad ({SHOWN['viscosity'].unit})")
         left.set_title(layout.plain(name, int(15 * layout.COLUMN)))
         for ax in of_pads:
             ax.set_xticks(range(len(own)), [f"pad {k}\n{viscosity[k - 1]:#.3g}" for k in own])
             ax.grid(visible=False, axis="x")
-    handles, texts = rows[0, 0].get_legend_handles_labels()
-    more = rows[0, 1].get_legend_handles_labels()
-    fig.legend(
-        [*handles, *more[0]],
-        [*texts, *more[1]],
-        loc="outside upper center",
-        ncols=5,
-        title=layout.plain(layout.title(runs), layout.width(fig)) or None,
-    )
+    both = (ax.get_legend_handles_labels() for ax in rows[0])
+    handles, texts = ([*left, *right] for left, right in zip(*both, strict=True))
+    heads = layout.plain(layout.title(runs), layout.width(fig)) or None
+    fig.legend(handles, texts, loc="outside upper center", ncols=5, title=heads)
     return fig
 
 
 def of_films(runs: Sequence[Run], pad: int) -> Figure:
     """For each result the temperatures in the film of a pad, between pad and journal."""
-    fig = plt.figure(figsize=(layout.PAGE, 0.5 + 2.4 * len(runs)))
-    rows = fig.subplots(len(runs), 1, squeeze=False)[:, 0]
+    fig, rows = plt.subplots(len(runs), 1, squeeze=False, figsize=(layout.PAGE, 0.5 + 2.4 * len(runs)))
     names = layout.labels(runs) if len(runs) > 1 else [f"{runs[0].title}, pad {pad}".removeprefix(", ")]
-    for ax, run, name in zip(rows, runs, names, strict=True):
+    for ax, run, name in zip(rows.flat, runs, names, strict=True):
         shown = film_of_pad(run, ax, pad)
         fig.colorbar(shown, ax=ax, label=SHOWN["temperature"].label)
         ax.set_title(layout.plain(name, layout.width(fig)))
-    rows[-1].set_xlabel("place on the arc, from the leading to the trailing edge")
+    rows[-1, 0].set_xlabel("place on the arc, from the leading to the trailing edge")
     return fig
 
 
@@ -226,20 +189,11 @@ def film_of_pad(run: Run, ax: Axes, pad: int) -> Any:
     # thicknesses are given from the trailing edge on
     thickness = np.interp(1 - place, np.linspace(0, 1, len(film)), film)
     walls = np.concatenate([[0], height, [1]])
-    surface, shaft = (
-        run["equilibrium/surface_temperature"][pad - 1],
-        float(run["equilibrium/shaft_temperature"]),
-    )
-    field = run["equilibrium/film_temperature"][pad - 1]
-    field = np.column_stack([surface, field, np.full(len(place), shaft)])
-    factor = SHOWN["min_film_thickness"].factor
-    shown = ax.contourf(
-        np.broadcast_to(place, field.T.shape),
-        factor * np.outer(walls, thickness),
-        field.T,
-        20,
-        cmap=layout.WARMTH,
-    )
+    surface, film = (run[f"equilibrium/{name}_temperature"][pad - 1] for name in ("surface", "film"))
+    shaft = np.full(len(place), float(run["equilibrium/shaft_temperature"]))
+    field = np.column_stack([surface, film, shaft]).T
+    y = SHOWN["min_film_thickness"].factor * np.outer(walls, thickness)
+    shown = ax.contourf(np.broadcast_to(place, field.shape), y, field, 20, cmap=layout.WARMTH)
     ax.set(ylabel="height in the film (µm)", ylim=(0, None))
     return shown
 
@@ -250,9 +204,9 @@ def temperatures_of_pads(run: Run, ax: Axes, pads: Sequence[int]) -> Axes:
     for i, (name, marker) in enumerate(PLACES.items()):
         values = run[f"equilibrium/{name}_temperature"][columns]
         ax.plot(np.arange(len(pads)), values, marker, color=f"C{i}", label=name, linestyle="")
-    ax.axhline(run.input["oil"]["supply_temperature"], **SUPPLY)
-    ax.axhline(float(run["equilibrium/shaft_temperature"]), **SHAFT)
-    ax.axhline(float(run["equilibrium/drain_temperature"]), **DRAIN)
+    ax.axhline(run.input["oil"]["supply_temperature"], label="supply", **SUPPLY)
+    for name, look in (("shaft", SHAFT), ("drain", DRAIN)):
+        ax.axhline(float(run[f"equilibrium/{name}_temperature"]), label=name, **look)
     ax.margins(x=0.2, y=0.15)
     ax.set_ylabel(SHOWN["temperature"].label)
     return ax
@@ -280,7 +234,3 @@ def heat_of_pads(run: Run, ax: Axes, pads: Sequence[int]) -> Axes:
     ax.axhline(0, color="0.3", linewidth=0.8)
     ax.set_ylabel(f"heat ({shown.unit})")
     return ax
-
-
-def without_label(look: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in look.items() if key != "label"}

@@ -49,6 +49,11 @@ class NotInRunError(RunError, AttributeError):
     """The run has no such dataset; the message gives the reason."""
 
 
+def not_in_run(run: "Archive", what: str, why: str) -> NotInRunError:
+    """The error of what a run has not, and why."""
+    return NotInRunError(f"{run.path}: no {what} in this run: {why}")
+
+
 class Archive:
     """An HDF5 file of tiltpad, open for reading; a dataset is loaded when it is used."""
 
@@ -79,7 +84,7 @@ class Archive:
         *("check_whole", "check_dataset", "scales", "sound", "without", "item", "own", "found", "listed"),
         *("former", "size", "why_not", "end", "in_words", "is_series", "KINDS", "OWN", "GROUPS", "INTERNAL"),
         *("scale", "today", "most", "inside", "check_bearings", "needs_one_bearing", "own_names"),
-        *("machine", "group", "likely", "is_cold"),
+        *("machine", "group", "likely", "is_cold", "single_and_groups"),
     )
     #: Its own attributes: where one is not set yet, no dataset of that name is looked for.
     OWN = ("file", "path", "attributes", "former", "found", "listed", "over", "size", "machine", "group")
@@ -143,6 +148,11 @@ class Archive:
             self.listed[group] = sorted(self.today(f"{group}/{own}".lstrip("/")) for own in there)
         return self.listed[group]
 
+    def single_and_groups(self) -> tuple[list[str], list[str]]:
+        """Names of the datasets in the file, and of its groups that are of use outside."""
+        single = [name for name in self.names() if name not in self.GROUPS]
+        return single, [name for name in self.names() if name not in (*single, "checkpoint", "runs")]
+
     def inside(self, found: h5py.Dataset | h5py.Group, group: str) -> list[str]:
         """Names of what is in the group `found`, called `group` in messages; none of an array."""
         with reading(self.path, group or "the list of datasets"):
@@ -163,9 +173,9 @@ class Archive:
     def item(self, name: str) -> h5py.Dataset | h5py.Group:
         """A dataset or group, its type and size checked; nothing of it is read yet."""
         if name not in self.found:
-            if name not in self and (today := renamed(name)) in self:
-                return self.item(today)
             if name not in self:
+                if (today := renamed(name)) in self:
+                    return self.item(today)
                 group = name.split("/")[0]
                 missing = name if group in self else group
                 raise NotInRunError(self.without(missing))
@@ -307,9 +317,8 @@ def reading(path: str, what: str) -> Iterator[None]:
 def damaged(path: str, what: str, why: object) -> RunError:
     """The error of a damaged file, in one line."""
     reason = why.args[0] if isinstance(why, KeyError) and why.args else why
-    return RunError(
-        f"{path}: {shown(what)} cannot be read, the file is damaged ({' '.join(plain(f'{reason}').split())})"
-    )
+    words = " ".join(plain(f"{reason}").split())
+    return RunError(f"{path}: {shown(what)} cannot be read, the file is damaged ({words})")
 
 
 def simple(attrs: h5py.AttributeManager, name: str) -> bool:
@@ -347,9 +356,8 @@ def opened(path: str) -> h5py.File:
     if not os.path.exists(path):
         raise RunError(f"{path}: no such file")
     if os.path.isdir(path):
-        raise RunError(
-            f"{path}: is a folder, not a result file; tiltpad-collect makes a study of its results"
-        )
+        makes = "tiltpad-collect makes a study of its results"
+        raise RunError(f"{path}: is a folder, not a result file; {makes}")
     if not os.path.isfile(path):
         raise RunError(f"{path}: a device or pipe, not an ordinary file")
     if not os.access(path, os.R_OK):
@@ -394,10 +402,8 @@ def check_origin(path: str, attributes: dict[str, Any]) -> None:
             raise damaged(path, f"attribute '{name}'", "not a text")
     version = int(attributes["format_version"])
     if version > MACHINE_VERSION:
-        raise RunError(
-            f"{path}: format_version {version} is newer than {MACHINE_VERSION}, "
-            "the newest this reader knows; update the Python package tiltpad"
-        )
+        known = f"{MACHINE_VERSION}, the newest this reader knows; update the Python package tiltpad"
+        raise RunError(f"{path}: format_version {version} is newer than {known}")
     if version < OLDEST_VERSION:
         known = f"versions {OLDEST_VERSION} to {MACHINE_VERSION} can be read"
         raise RunError(f"{path}: format_version {version} is unknown; {known}")

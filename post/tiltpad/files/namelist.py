@@ -85,6 +85,12 @@ def needs_variables(groups: Mapping[str, Any], names: Sequence[str], kinds: Any)
             raise ValueError(f"{group}%{name} is {'missing' if value is None else value}")
 
 
+def needs_variable(name: object, where: str = "") -> None:
+    """Raises ValueError for anything but the name of a variable."""
+    if not isinstance(name, str) or not VARIABLE.fullmatch(name):
+        raise ValueError(f"{where}{name!r}: must be a variable, group%name or group%name(element)")
+
+
 def is_machine(groups: Mapping[str, Any]) -> bool:
     """True for the groups of a machine: its bearings have names, and are a list."""
     return isinstance(groups.get("bearing"), list)
@@ -106,13 +112,11 @@ def of_bearing(text: str, name: str, load: Sequence[float] = (0, 0)) -> str:
     kept = ["\n".join(["&rotor", *(f"  {name} = {written(value)}" for name, value in rotor.items()), "/\n"])]
     for block in re.split(r"^(?=&)", text, flags=re.MULTILINE)[1:]:
         ((group, own),) = variables_of(block)
-        if group in OF_MACHINES or (
-            group in OF_BEARINGS and name not in (own.get("name"), own.get("bearing"))
-        ):
-            continue
-        places = (*OF_PLACES, "bearing") if group in OF_BEARINGS else ()
-        lines = (line for line in block.splitlines() if line.split("=")[0].strip() not in places)
-        kept.append("\n".join(lines) + "\n")
+        of_any = group in OF_BEARINGS
+        if group not in OF_MACHINES and (not of_any or name in (own.get("name"), own.get("bearing"))):
+            places = (*OF_PLACES, "bearing") if of_any else ()
+            lines = (line for line in block.splitlines() if line.split("=")[0].strip() not in places)
+            kept.append("\n".join(lines) + "\n")
     return "".join(kept)
 
 

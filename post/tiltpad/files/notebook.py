@@ -9,10 +9,7 @@ from tiltpad.files.archive import Archive
 
 def html_of(archive: Archive, heading: str) -> str:
     """A heading and a table of the datasets, with shape, unit and meaning; groups can be opened."""
-    single = [name for name in archive.names() if name not in archive.GROUPS]
-    groups = [
-        name for name in archive.names() if name in archive.GROUPS and name not in ("checkpoint", "runs")
-    ]
+    single, groups = archive.single_and_groups()
     remarks = [f"<p>remark: {escape(each)}</p>" for each in getattr(archive, "remarks", [])]
     parts = [f"<p><b>{escape(heading)}</b></p>", *remarks, table(archive, "", single)]
     for group in groups:

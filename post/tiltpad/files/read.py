@@ -85,10 +85,8 @@ class Run(Archive):
     def __repr__(self) -> str:
         lines = [f"<tiltpad run {self.path!r}: {self.title or 'no title'}", f"  {self.in_words()}"]
         lines += [f"  remark: {each}" for each in self.remarks]
-        single = [name for name in self.names() if name not in self.GROUPS]
-        lines += textwrap.wrap(", ".join(single), 100, initial_indent="  ", subsequent_indent="    ")
-        for group in (name for name in self.names() if name in self.GROUPS and name != "checkpoint"):
-            own = f"{group}/: {', '.join(self.names(group))}"
+        single, groups = self.single_and_groups()
+        for own in (", ".join(single), *(f"{group}/: {', '.join(self.names(group))}" for group in groups)):
             lines += textwrap.wrap(own, 100, initial_indent="  ", subsequent_indent="    ")
         return "\n".join(lines) + ">"
 
@@ -107,10 +105,8 @@ class Run(Archive):
             pads, friction = self.input["pads"]["motion"], self.input["friction"]["model"]
             words.append(f"{self.pads} pad{'s' if self.pads > 1 else ''} ({pads})")
             words.append("no friction" if friction == "none" else f"friction {friction}")
-        words.append(
-            f"{first:g} rpm" if first == final or self.task != "march" else f"{first:g} to {final:g} rpm"
-        )
-        return ", ".join(words)
+        constant = first == final or self.task != "march"
+        return ", ".join([*words, f"{first:g} rpm" if constant else f"{first:g} to {final:g} rpm"])
 
     def to_xarray(self, group: str | None = None) -> Any:
         """The datasets, or those of a group, as an xarray.Dataset in memory; needs xarray and h5netcdf."""
@@ -131,11 +127,10 @@ class Run(Archive):
             if name not in there:
                 raise ValueError(f"{self.path}: {name} is no series of this run: {', '.join(there)}")
         head, columns = ["time"], [self.time]
-        for name in names or there:
+        for name in (name for name in names or there if name != "time"):
             values = self[name]
-            if name != "time":
-                head += [name] if values.ndim == 1 else [f"{name}_{k + 1}" for k in range(values.shape[1])]
-                columns += [values] if values.ndim == 1 else list(values.T)
+            columns += [values] if values.ndim == 1 else list(values.T)
+            head += [name] if values.ndim == 1 else [f"{name}_{k + 1}" for k in range(values.shape[1])]
         with replacing(path) as file:
             np.savetxt(file, np.column_stack(columns), "%.17g", ",", header=",".join(head), comments="")
 
@@ -213,9 +208,8 @@ class Run(Archive):
     def check_whole(self) -> None:
         """Refuses a study, and a file whose input has another number of pads than its datasets."""
         if self.attributes["task"] == "study":
-            raise StudyError(
-                f"{self.path}: a study, not the result of one run: see tiltpad-plot study, or read_study"
-            )
+            see = "see tiltpad-plot study, or read_study"
+            raise StudyError(f"{self.path}: a study, not the result of one run: {see}")
         if "complete" not in self.attributes:
             raise damaged(self.path, "attribute 'complete'", "it is missing")
         if namelist.is_machine(self.input):
@@ -277,15 +271,13 @@ class Run(Archive):
 
     def likely(self, name: str) -> list[str]:
         """What a name that is missing may stand for, in the file or in its groups: equilibrium/journal_y."""
-        groups = [each for each in self.names() if each in self.GROUPS and each != "checkpoint"]
-        inside = [(group, own) for group in groups for own in self.names(group)]
+        inside = [(group, own) for group in self.single_and_groups()[1] for own in self.names(group)]
         parts = [f"{group}/{own}" for group, own in inside if name.startswith(f"{group}_")]
         parts = [each for each in parts if each.endswith(name[name.find("_") :])]
         if 0 < len(parts) <= 3:
             return parts
-        paths = {own: f"{group}/{own}" for group, own in reversed(inside)} | {
-            own: own for own in self.names()
-        }
+        paths = {own: f"{group}/{own}" for group, own in reversed(inside)}
+        paths |= {own: own for own in self.names()}
         return [paths[each] for each in get_close_matches(name.rpartition("/")[2], paths, 1)]
 
     @property
@@ -303,36 +295,32 @@ class Run(Archive):
         if self.bearings:
             return self.bearings.why_not(name)
         friction, motion = self.input["friction"]["model"], self.input["pads"]["motion"]
-        if name == "bristle_deflection" and friction != "lugre":
-            return f"friction model is '{friction}'"
-        if "pivot_deflection" in name and motion != "tilting_radial":
-            return f"pad motion is '{motion}'"
-        if motion == "fixed" and any(each in name for each in OF_TILTING):
-            return "pad motion is 'fixed'"
-        if self.is_cold(name):
-            return "it has no heat balance (thermal%model = 'none')"
-        if name.startswith("equilibrium") and (start := self.input.get("start", {}).get("from")):
-            return f"it did not start at one (start%from = '{start}')"
-        if (needed := TASKS.get(name.partition("/")[0])) and needed != self.task:
-            return f"its task is '{self.task}', not '{needed}'"
-        if name == "summary":
-            return f"version {self.format_version} of the format, or it ended before its first sample"
-        if name in TASKS:
-            return f"{self.attributes.get('reason', '')}" or "it did not come to its end"
-        if name in OF_BRANCHES and not self.is_branch:
-            return f"its task is '{self.task}'"
-        if self.task in ("equilibrium", "coefficients", "branch"):
-            return f"its task is '{self.task}', nothing was marched in time"
-        if not self.samples and self.complete and (keep := self.input["output"].get("keep")) == "summary":
-            return f"it kept no samples (output%keep = '{keep}')"
-        if not self.samples:
-            return "it ended before its first sample"
-        operation = self.input["operation"]
-        if name == "spectrum" and operation["speed_rpm"] != operation["final_speed_rpm"]:
-            return "the speed changes"
-        if name == "spectrum":
-            return "less than one revolution was sampled, or the run is incomplete"
-        return f"there are {', '.join(self.names())}"
+        start = self.input.get("start", {}).get("from")
+        keep = self.input.get("output", {}).get("keep")
+        needed, version = TASKS.get(name.partition("/")[0]), f"version {self.format_version} of the format"
+        first, final = (self.input["operation"][each] for each in ("speed_rpm", "final_speed_rpm"))
+        task, unmarched = f"its task is '{self.task}'", ("equilibrium", "coefficients", "branch")
+        kept = f"it kept no samples (output%keep = '{keep}')"
+        unended = f"{self.attributes.get('reason', '')}" or "it did not come to its end"
+        # the first one that is true
+        reasons = (
+            (name == "bristle_deflection" and friction != "lugre", f"friction model is '{friction}'"),
+            ("pivot_deflection" in name and motion != "tilting_radial", f"pad motion is '{motion}'"),
+            (motion == "fixed" and any(each in name for each in OF_TILTING), "pad motion is 'fixed'"),
+            (self.is_cold(name), "it has no heat balance (thermal%model = 'none')"),
+            (name.startswith("equilibrium") and start, f"it did not start at one (start%from = '{start}')"),
+            (needed and needed != self.task, f"{task}, not '{needed}'"),
+            (name == "summary", f"{version}, or it ended before its first sample"),
+            (name in TASKS, unended),
+            (name in OF_BRANCHES and not self.is_branch, task),
+            (self.task in unmarched, f"{task}, nothing was marched in time"),
+            (not self.samples and self.complete and keep == "summary", kept),
+            (not self.samples, "it ended before its first sample"),
+            (name == "spectrum" and first != final, "the speed changes"),
+            (name == "spectrum", "less than one revolution was sampled, or the run is incomplete"),
+            (True, f"there are {', '.join(self.names())}"),
+        )
+        return next(reason for holds, reason in reasons if holds)
 
 
 class Bearings(dict[str, "Bearing"]):
@@ -345,9 +333,8 @@ class Bearings(dict[str, "Bearing"]):
 
     def __missing__(self, name: str) -> NoReturn:
         why = self.in_words() if self else "it is a run of one bearing"
-        raise NotInRunError(
-            f"{self.machine.path}: no bearing {shown(f'{name}')}{meant(f'{name}', self)}: {why}"
-        )
+        named = f"{shown(f'{name}')}{meant(f'{name}', self)}"
+        raise NotInRunError(f"{self.machine.path}: no bearing {named}: {why}")
 
     def whole(self) -> "Bearing":
         """One of them, called as the machine, for what this has as a whole."""
@@ -381,13 +368,8 @@ class Bearing(Run):
 
     def __init__(self, machine: Run, name: str):
         self.machine, self.name, self.group = machine, name, f"bearings/{name}/"
-        self.path, self.file, self.size, self.former = (
-            machine.path,
-            machine.file,
-            machine.size,
-            machine.former,
-        )
-        self.found, self.listed, self.over = {}, {}, {}
+        self.path, self.file, self.size = machine.path, machine.file, machine.size
+        self.found, self.listed, self.over, self.former = {}, {}, {}, machine.former
         own = {key.removeprefix(self.group): value for key, value in machine.attributes.items()}
         title = f"{machine.attributes['title']}, bearing {name}".removeprefix(", ")
         with reading(self.path, "attribute 'input'"):
@@ -444,10 +426,10 @@ def load_of(machine: Run, name: str) -> list[float]:
 
 def needs_run(given: object) -> None:
     """Raises TypeError where something else was given than an opened result."""
+    if isinstance(given, str | os.PathLike):
+        opens = f"tiltpad.read({os.fspath(given)!r}) opens it"
+        raise TypeError(f"a result is needed, and {given!r} is a file: {opens}")
     if not isinstance(given, Run):
-        if isinstance(given, str | os.PathLike):
-            opens = f"tiltpad.read({os.fspath(given)!r}) opens it"
-            raise TypeError(f"a result is needed, and {given!r} is a file: {opens}")
         raise TypeError(f"a result as tiltpad.read opens it is needed, not {type(given).__name__}")
 
 

@@ -1,7 +1,5 @@
 """Studies: one file with the results of many runs over their parameters."""
 
-import csv
-import io
 import os
 import tempfile
 import warnings
@@ -18,7 +16,7 @@ from tiltpad.files.archive import Archive, RunError, damaged, few_enough, plain,
 from tiltpad.files.notebook import html_of
 from tiltpad.files.processes import write_table
 from tiltpad.files.read import IncompleteRunWarning, Run, StudyError, read
-from tiltpad.files.writing import write
+from tiltpad.files.writing import write_csv
 
 #: The dimension of all arrays, and of what has a value for each of the pivots in small vibrations.
 RUN, PIVOTS = ("run",), ("run", "pivot")
@@ -45,9 +43,8 @@ class Failure(NamedTuple):
     reason: str
 
     def __str__(self) -> str:
-        own = ", ".join(
-            f"{k} = {v if isinstance(v, str) else format(v, 'g')}" for k, v in self.values.items()
-        )
+        texts = {k: v if isinstance(v, str) else f"{v:g}" for k, v in self.values.items()}
+        own = ", ".join(f"{k} = {v}" for k, v in texts.items())
         why = f": {self.reason}" if self.reason else ""
         return f"run {self.run}{f' ({own})' if own else ''} {self.how}{why}"
 
@@ -83,7 +80,7 @@ def log_of(path: str | os.PathLike) -> str:
 
 @contextmanager
 def with_all_rows(path: str | os.PathLike) -> Iterator[str | os.PathLike]:
-    """The file of a study, or, where it has a log, one that the program makes of this, to be opened at once."""
+    """The file of a study, or, where it has a log, one that the program makes of it, to be opened at once."""
     if not os.path.exists(log := log_of(path)):
         yield path
         return
@@ -97,7 +94,9 @@ def with_all_rows(path: str | os.PathLike) -> Iterator[str | os.PathLike]:
             table = path
             if os.path.exists(log):
                 warnings.warn(
-                    f"{path}: without the rows since its last checkpoint: {error}", IncompleteRunWarning, stacklevel=4
+                    f"{path}: without the rows since its last checkpoint: {error}",
+                    IncompleteRunWarning,
+                    stacklevel=4,
                 )
         yield table
 
@@ -155,11 +154,7 @@ class Study(Archive):
         for bearing, own in self.bearings.items():
             mine = (name for name in own.inner(own.group) if own.scales(name) == RUN)
             columns |= {f"{bearing}/{name}": own[name] for name in mine}
-        text = io.StringIO()
-        rows = csv.writer(text, lineterminator="\n")
-        rows.writerow(columns)
-        rows.writerows(zip(*columns.values(), strict=True))
-        write(path, text.getvalue())
+        write_csv(path, [columns, *zip(*columns.values(), strict=True)])
 
     @cached_property
     def bearings(self) -> "dict[str, BearingStudy]":
@@ -220,17 +215,13 @@ class Study(Archive):
             return []
         parameters = {name: self[name][failed] for name in self.parameters}
         reasons = self.reason[failed] if "reason" in self else [""] * len(failed)
-        return [
-            Failure(
-                int(number),
-                {name: values[k] for name, values in parameters.items()},
-                ENDS.get(own, "cannot be read"),
-                reason,
-            )
-            for k, (number, own, reason) in enumerate(
-                zip(self.run[failed], status[failed], reasons, strict=True)
-            )
-        ]
+        found = []
+        for k, (number, own, reason) in enumerate(
+            zip(self.run[failed], status[failed], reasons, strict=True)
+        ):
+            there = {name: values[k] for name, values in parameters.items()}
+            found.append(Failure(int(number), there, ENDS.get(own, "cannot be read"), reason))
+        return found
 
     def result(self, run: int) -> Run:
         """The result of a run of the study, opened from its own file.
@@ -243,14 +234,11 @@ class Study(Archive):
             raise ValueError(f"{self.path}: no run {run}; there are {self.run[0]:g} to {self.run[-1]:g}")
         name = self["file"][places[0]] if "file" in self else ""
         if not name:
-            raise RunError(
-                f"{self.path}: run {run} has no file of its own; output%keep = 'all' keeps its samples"
-            )
+            keeps = "output%keep = 'all' keeps its samples"
+            raise RunError(f"{self.path}: run {run} has no file of its own; {keeps}")
         # the study, or a link to it, may be beside its files
-        folders = [Path(self.path).parent, Path(self.path).resolve().parent]
-        return read(
-            next((folder / name for folder in folders if (folder / name).exists()), folders[0] / name)
-        )
+        paths = [path.parent / name for path in (Path(self.path), Path(self.path).resolve())]
+        return read(next((path for path in paths if path.exists()), paths[0]))
 
     def check_whole(self) -> None:
         """Refuses the result of one run, and a study without its parameters."""

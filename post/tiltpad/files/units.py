@@ -96,18 +96,13 @@ UNITS = {
     **dict.fromkeys(("shaft_expansion", "housing_expansion", "expansion"), "1/K"),
     **{"at_temperature": "°C", "temperature_exponent": "1/K", "reference_viscosity": "Pa s"},
     **{"kinematic_viscosity": "m²/s", "density_at_15": "kg/m³", "density_slope": "kg/(m³ K)"},
-    **{
-        "conductivity": "W/(m K)",
-        "back_coefficient": "W/(m² K)",
-        "back_temperature": "°C",
-        "groove_volume": "m³",
-    },
+    **{"conductivity": "W/(m K)", "back_coefficient": "W/(m² K)", "back_temperature": "°C"},
     **dict.fromkeys(("duration", "start_time", "max_step", "checkpoint_seconds"), "s"),
     **dict.fromkeys(("supply_pressure", "ambient_pressure", "cavitation_pressure"), "Pa"),
     **dict.fromkeys(("young_modulus", "elastic_modulus"), "Pa"),
     **dict.fromkeys(("radius_difference", "socket_radius", "journal_radius", "axial_length"), "m"),
     **dict.fromkeys(("machined_clearance", "assembled_clearance", "pivot_distance"), "m"),
-    **{"roughness": "m", "wear_coefficient": "m³/(N m)"},
+    **{"roughness": "m", "wear_coefficient": "m³/(N m)", "groove_volume": "m³"},
     **{"centre_tangential": "m", "centre_radial": "m", "density": "kg/m³", "thickness": "m"},
     **{"journal": "m", "journal_velocity": "m/s", "pad_tilt": "rad", "pad_tilt_rate": "rad/s"},
     **{"pivot_deflection": "m", "pivot_deflection_rate": "m/s"},
@@ -187,10 +182,8 @@ def numbers(shown: Shown, values: Sequence[float] | np.ndarray, count: int = 4) 
     places = len(digits(largest, count).partition(".")[2])
     slight = [0 < abs(each) < 10 ** (1 - count) * largest for each in own]
     # + 0 takes the sign from a 0
-    return [
-        f"{round(each, places) + 0:.{places}f}" if few else digits(each, count)
-        for each, few in zip(own, slight, strict=True)
-    ]
+    known = zip(own, slight, strict=True)
+    return [f"{round(each, places) + 0:.{places}f}" if few else digits(each, count) for each, few in known]
 
 
 def in_words(quantity: str, values: Sequence[float] | np.ndarray) -> str:

@@ -1,14 +1,16 @@
 """Writing files: what has a name keeps it until the new content is whole and on the disk."""
 
+import csv
 import fcntl
+import io
 import os
 import secrets
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from glob import escape
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 import h5py
 
@@ -20,6 +22,13 @@ def write(path: str | os.PathLike, content: str | bytes | memoryview) -> None:
     """Writes a file; a text as UTF-8."""
     with replacing(path) as file:
         file.write(content.encode() if isinstance(content, str) else content)
+
+
+def write_csv(path: str | os.PathLike, rows: Iterable[Iterable[Any]]) -> None:
+    """Writes a table, .csv."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    write(path, text.getvalue())
 
 
 @contextmanager
