@@ -1,10 +1,10 @@
-"""Runs every test program and the Python tests, as many at a time as there are processors.
+"""Runs every test program and the Python tests, and ends with "N passed, N failed" over all of them.
 
-The last line reads "N passed, N failed" over all of them; before it stand the tests that took longest.
+One more runs at a time than there are processors, as some wait for disks. The slowest tests are listed.
 
 usage: run_all.py TEST-PROGRAM...
-TILTPAD: the program under test. ONLY=NAME: of the test programs the cases whose "program:case" contains NAME, of
-the Python tests those that pytest -k NAME takes.
+TILTPAD: the program under test. ONLY=NAME: of the test programs the cases whose "program:case" contains
+NAME, of the Python tests those that pytest -k NAME takes.
 """
 
 import os
@@ -41,14 +41,14 @@ def jobs(programs):
 def perform(name, command):
     """Whatever a job wrote, and the seconds of its tests by their names."""
     start = time.monotonic()
-    done = subprocess.run(command, cwd=TESTS.parent, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          errors="replace")  # fmt: skip
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "errors": "replace"}
+    done = subprocess.run(command, cwd=TESTS.parent, **pipes)
     seconds = {}
     for spent, test in DURATION.findall(done.stdout):
         seconds[test] = seconds.get(test, 0) + float(spent)
-    if not command[0] == sys.executable:
+    if command[0] != sys.executable:
         seconds[name] = time.monotonic() - start
-    return DURATION.sub("", done.stdout).replace(f"slowest durations", ""), seconds
+    return DURATION.sub("", done.stdout).replace("slowest durations", ""), seconds
 
 
 def main(programs):
@@ -56,8 +56,8 @@ def main(programs):
         sys.exit("no test program is given")
     passed = failed = 0
     seconds = {}
-    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        started = {pool.submit(perform, *job): job[0] for job in jobs([os.path.abspath(each) for each in programs])}
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0)) + 1) as pool:
+        started = {pool.submit(perform, *job): job[0] for job in jobs(map(os.path.abspath, programs))}
         for job in as_completed(started):
             log, spent = job.result()
             seconds |= spent

@@ -135,8 +135,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       logical :: resumes, runs
       if (given%task == 'table') then
-         call require(given%case_file == '' .and. given%resumed == '' .and. size(given%overrides) == 0, '--table: makes ' &
-            & //'the file of a study from its log; not with a case, --resume or --set', error)
+         call require(given%case_file == '' .and. given%resumed == '' .and. size(given%overrides) == 0, '--table: ' &
+            & //'makes the file of a study from its log; not with a case, --resume or --set', error)
          return
       end if
       resumes = given%resumed /= ''

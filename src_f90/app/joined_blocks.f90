@@ -48,8 +48,8 @@ contains
       if (is) is = is_collected(path)
    end function is_made_anew
 
-   !> Keeps the error that a file is in the way, unless it is of another study and may be overwritten: what cannot be read
-   !> never is.
+   !> Keeps the error that a file is in the way, unless it is of another study and may be overwritten: what cannot be
+   !> read never is.
    subroutine refuse(other, overwrite, way, error)
       logical, intent(in) :: other, overwrite
       character(len=*), intent(in) :: way
@@ -63,8 +63,8 @@ contains
       end if
    end subroutine refuse
 
-   !> Opens the file of a study or of a block, with the rows that there are under its name and, for a whole study, in the
-   !> files of blocks. These are `taken`: of no use any more once the table is published.
+   !> Opens the file of a study or of a block, with the rows that there are under its name and, for a whole study, in
+   !> the files of blocks. These are `taken`: of no use any more once the table is published.
    subroutine open_study(study, place, share, table, taken, error)
       type(study_type), intent(in) :: study
       type(study_place_type), intent(in) :: place
@@ -104,8 +104,8 @@ contains
       end if
       call table%start(error)
       if (allocated(error) .or. place%quiet) return
-      if (table%lost() > 0) print '(a)', table%name//'.rows: the last '//to_text(table%lost())//' bytes were no whole ' &
-         & //'row; its run is performed again'
+      if (table%lost() > 0) print '(a)', table%name//'.rows: the last '//to_text(table%lost())//' bytes were no ' &
+         & //'whole row; its run is performed again'
       if (size(taken) > 0) print '(a)', table%name//': takes the rows of '//to_text(size(taken))//' files of blocks'
    end subroutine open_study
 

@@ -259,12 +259,14 @@ contains
       character(len=*), parameter :: counts(9) = [character(len=20) :: 'steps', 'rhs_evaluations', &
          & 'jacobian_evaluations', 'film_table', 'film_cells', 'film_nodes', 'film_fourier', 'film_volumes', &
          & 'film_passes']
+      character(len=*), parameter :: seconds(3) = [character(len=14) :: 'wall_seconds', 'film_seconds', &
+         & 'output_seconds']
       integer :: k
       print '(a)', filled('cost: {i} steps, {i} right-hand sides, {i} Jacobians, films {i} from tables ({i} cells, ' &
          & //'{i} cavitated nodes), {i} by axial Fourier expansion and {i} on finite volumes ({i} passes over their ' &
          & //'cells)', [(file%get_real('statistics/'//trim(counts(k))), k=1, size(counts))])
-      print '(a)', filled('  wall time {.2} s, of which film {.2} s and samples {.2} s', [file%get_real( &
-         & 'statistics/wall_seconds'), file%get_real('statistics/film_seconds'), file%get_real('statistics/output_seconds')])
+      print '(a)', filled('  wall time {.2} s, of which film {.2} s and samples {.2} s', [( &
+         & file%get_real('statistics/'//trim(seconds(k))), k=1, size(seconds))])
    end subroutine print_cost
 
    !> Closes the file of a run that is done, or that failed with this error.

@@ -1,5 +1,5 @@
-!> The table of a study from its log alone: of one that is being performed or was killed, or of runs that others have put
-!> into a log.
+!> The table of a study from its log alone: of one that is being performed or was killed, or of runs that others have
+!> put into a log.
 module table_of_log
    use errors, only: error_type, raise, system_error
    use files, only: is_regular

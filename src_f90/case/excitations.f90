@@ -57,7 +57,7 @@ contains
       real(wp), intent(in) :: sense
       real(wp) :: towards
       ! as the numbers of the kinds are in this order
-      self%law = vibration + findloc([character(len=5) :: 'step', 'ramp', 'table'], self%kind, dim=1)
+      self%law = vibration + findloc([character(len=5) :: 'step', 'ramp', 'table'] == self%kind, .true., dim=1)
       towards = self%direction_deg*degree
       self%rotates = self%rotating /= 'no'
       self%along = [cos(towards), sin(towards)]

@@ -104,7 +104,7 @@ contains
       integer :: own_score, other_score, k
       text = new_name(group//'%'//name)
       if (text /= '') return
-      k = findloc(common_names(1, :), name, dim=1)
+      k = findloc(common_names(1, :) == name, .true., dim=1)
       if (k > 0) text = ' (did you mean '//trim(common_names(2, k))//'?)'
       if (k > 0) return
       call find_similar(name, names_in(group), own, own_score)
@@ -136,7 +136,7 @@ contains
       character(len=*), intent(in) :: former
       character(len=:), allocatable :: text
       integer :: k
-      k = findloc(former_names(1, :), former, dim=1)
+      k = findloc(former_names(1, :) == former, .true., dim=1)
       text = ''
       if (k > 0) text = ' (is called '//trim(former_names(2, k))//' now)'
    end function new_name

@@ -75,6 +75,7 @@ contains
             & //naming_variable(kind)//' = ''...''', error)
          call require(size(parsed%groups) < most_items, group%origin//too_many//'groups', error)
          if (allocated(error)) return
+         kind = group%group
          if (allocated(own)) deallocate (own)
          allocate (own(0))
          call parse_group(scan, group, own, error)

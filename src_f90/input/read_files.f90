@@ -299,7 +299,7 @@ contains
                if (.not. allocated(error)) then
                   x%time = numbers(1, :)
                   x%table = numbers(2:, :)
-                  k = findloc(x%time(2:) - x%time(:size(x%time) - 1) >= shortest_time, .false., dim=1, back=.true.) + 1
+                  k = findloc(x%time(2:) - x%time(:size(x%time) - 1) >= shortest_time, .false., dim=1) + 1
                   if (k > 1) call refuse(x%file//filled(' line {i}: time = {}: must be {} s or more above that of ' &
                      & //'the line before, {}', [real(wp) :: k + 1, x%time(k), shortest_time, x%time(k - 1)]), error)
                end if

@@ -1,8 +1,8 @@
-!> Makes the table of a study, its HDF5 file, from its log: a row for each run, at its number from the beginning, with the
-!> parameters of all runs. It has the columns, and along its dimensions the labels, that any of its rows has.
+!> Makes the table of a study, its HDF5 file, from its log: a row for each run, at its number from the beginning, with
+!> the parameters of all runs. It has the columns, and along its dimensions the labels, that any of its rows has.
 module study_builder
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
-   use kinds, only: wp
+   use kinds, only: wp, i8
    use text, only: to_text
    use errors, only: error_type, raise, system_error
    use packet, only: text_type
@@ -116,7 +116,8 @@ contains
       do first = 1, size(values), most_rows
          last = min(first + most_rows - 1, size(values))
          associate (part => values(first:last))
-            if (all(abs(part - fill) <= 0 .or. (ieee_is_nan(part) .and. ieee_is_nan(fill)))) cycle
+            ! bit for bit, as this may be not a number
+            if (all(transfer(part, [0_i8]) == transfer(fill, 0_i8))) cycle
             call column%write(file, first, reshape(part, [1, size(part)]))
          end associate
       end do
@@ -167,7 +168,8 @@ contains
       integer :: k, i
       allocate (table%layout%dimensions(0))
       ! every study has it
-      table%layout%columns = [column_type('complete', '1', '1 where the run reached its end', [integer ::])]
+      table%layout%columns = [column_type('complete', '1', '1 where the run reached its end')]
+      allocate (table%layout%columns(1)%over(0))
       do k = 1, size(log%status)
          if (log%status(k) == not_run) cycle
          call read_row(log, table, k, row, i, error)
@@ -299,8 +301,8 @@ contains
       end do
    end subroutine put_rows
 
-   !> Numbers, values(width, row), and texts of the rows from the `first` to the `last`; not a number and empty where there
-   !> are none.
+   !> Numbers, values(width, row), and texts of the rows from the `first` to the `last`; not a number and empty where
+   !> there are none.
    subroutine read_rows(log, table, first, last, values, texts, error)
       type(study_log_type), intent(inout) :: log
       type(table_type), intent(inout) :: table

@@ -1,13 +1,12 @@
-!> A study that is being performed: its log, to which each run that ends adds a row, and its file, the table that is made
-!> of the log at checkpoints and at the end. A kill at any moment loses no row that was added. After a failure every
-!> routine does nothing; the next one with an error tells it.
+!> A study that is being performed: its log, to which each run that ends adds a row, and its file, the table that is
+!> made of the log at checkpoints and at the end. A kill at any moment loses no row that was added. After a failure
+!> every routine does nothing; the next one with an error tells it.
 module study_file
    use kinds, only: wp, i8
    use text, only: printable
-   use errors, only: error_type, raise, system_error
+   use errors, only: error_type
    use clock, only: wall_clock
-   use files, only: delete_file, rename_file, is_regular
-   use system_texts, only: system_reason
+   use files, only: delete_file, is_regular
    use parameter_study, only: study_type
    use hdf5_file, only: hdf5_type
    use working_file, only: working_file_type
@@ -58,15 +57,15 @@ module study_file
 contains
 
    subroutine claim(self, path, error)
-      class(study_file_type), intent(inout) :: self
+      class(study_file_type), intent(out) :: self
       character(len=*), intent(in) :: path
       type(error_type), allocatable, intent(out) :: error
       self%name = path
       call self%working%claim(path, error)
    end subroutine claim
 
-   !> Begins a log for the name claimed, with no row yet: NAME.rows.part. Numbers and parameters are those of all runs, or
-   !> of a block of them, from `first` to `last`.
+   !> Begins a log for the name claimed, with no row yet: NAME.rows.part. Numbers and parameters are those of all runs,
+   !> or of a block of them, from `first` to `last`.
    subroutine begin(self, study, first, last, error)
       class(study_file_type), intent(inout) :: self
       type(study_type), intent(in) :: study
@@ -104,13 +103,9 @@ contains
    subroutine start(self, error)
       class(study_file_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: name
-      name = log_path(self%working%path)
       call self%log%sync(error)
-      if (.not. allocated(error)) then
-         self%named = rename_file(name//'.part', name)
-         if (.not. self%named) call raise(error, system_error, 'cannot write '//name//': '//system_reason())
-      end if
+      if (.not. allocated(error)) call self%log%rename(log_path(self%working%path), error)
+      self%named = .not. allocated(error)
       if (allocated(error)) call self%abandon()
       self%last_checkpoint = wall_clock()
    end subroutine start
@@ -133,8 +128,8 @@ contains
       lost = self%log%lost
    end function lost
 
-   !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. `own`: where its
-   !> file is, if it has one, relative to the folder of this file.
+   !> The row of run k: exit status, reason where that is not 0, and results; in place of one that it has. `own`: where
+   !> its file is, if it has one, relative to the folder of this file.
    subroutine add(self, k, status, reason, row, own)
       class(study_file_type), intent(inout) :: self
       integer, intent(in) :: k, status
@@ -165,7 +160,7 @@ contains
       end if
       call write_out(self, error)
       self%last_checkpoint = wall_clock()
-      self%taken = self%last_checkpoint - now
+      self%taken = max(0.0_wp, self%last_checkpoint - now)
    end subroutine checkpoint_if_due
 
    !> Makes the file of all rows, which is finished where all runs have one. Nothing can be added then.
@@ -213,9 +208,13 @@ contains
 
    subroutine abandon(self)
       class(study_file_type), intent(inout) :: self
+      character(len=:), allocatable :: part
       call self%log%close()
-      if (.not. self%named .and. allocated(self%working%path)) then
-         if (self%working%lock%is_ours()) call delete_file(log_path(self%working%path)//'.part')
+      if (allocated(self%working%path)) then
+         part = log_path(self%working%path)//'.part'
+         if (is_regular(part)) then
+            if (self%working%lock%is_ours()) call delete_file(part)
+         end if
       end if
       self%named = .false.
       call self%working%release()

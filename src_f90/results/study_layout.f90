@@ -73,8 +73,9 @@ contains
          do at = size(self%texts), 1, -1
             if (self%texts(at)%text == other%texts(i)%text) return
          end do
-      else
+      else if (.not. ieee_is_nan(other%numbers(i))) then
          do at = size(self%numbers), 1, -1
+            if (ieee_is_nan(self%numbers(at))) cycle
             if (abs(self%numbers(at) - other%numbers(i)) <= 0) return
          end do
       end if

@@ -55,6 +55,7 @@ module study_log
       procedure :: row
       procedure :: layout
       procedure :: sync
+      procedure :: rename
       procedure :: close => close_log
    end type study_log_type
 
@@ -322,6 +323,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call self%frames%sync(error)
    end subroutine sync
+
+   !> Gives the log another name.
+   subroutine rename(self, path, error)
+      class(study_log_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+      call self%frames%rename(path, error)
+   end subroutine rename
 
    subroutine close_log(self)
       class(study_log_type), intent(inout) :: self

@@ -42,7 +42,7 @@ module study_row
       character(len=:), allocatable, private :: taken
       logical, private :: sent = .false.
    contains
-      !> The row of a run without results. Columns whose names are `taken` (separated by blanks) get their group before it.
+      !> The row of a run without results. Columns whose names are `taken` (separated by blanks) get their group before.
       procedure :: begin
       procedure :: make
       procedure :: exchange
@@ -107,7 +107,7 @@ contains
       end do
    end function labels_of
 
-   !> Into a packet for another process, or out of it. The description is only there where it has changed since the last.
+   !> Into a packet for another process, or out of it. The description is only there where it has changed since.
    subroutine exchange(self, packed)
       class(study_row_type), intent(inout) :: self
       type(packet_type), intent(inout) :: packed
@@ -127,8 +127,7 @@ contains
       type(record_type), intent(in) :: record
       type(layout_type) :: layout
       type(packet_type) :: packed
-      integer, allocatable :: over(:)
-      integer :: i, k, n
+      integer :: i
       self%version = record%version
       self%scales = pack([(i, i=1, record%count)], [(record%datasets(i)%scales == record%datasets(i)%path, &
          & i=1, record%count)])
@@ -137,25 +136,19 @@ contains
       do i = 1, size(self%scales)
          layout%dimensions(i) = dimension_of(record%datasets(self%scales(i)), labels_of(record, self%scales(i:i)))
       end do
-      self%datasets = pack([(i, i=1, record%count)], [(is_column(record%datasets(i)), i=1, record%count)])
+      self%datasets = pack([(i, i=1, record%count)], [(is_column(record%datasets(i), layout), i=1, record%count)])
       allocate (layout%columns(1 + size(self%datasets)))
-      layout%columns(1) = column_type('complete', '1', '1 where the run reached its end', [integer ::])
-      n = 0
+      layout%columns(1) = column_type('complete', '1', '1 where the run reached its end')
+      allocate (layout%columns(1)%over(0))
       do i = 1, size(self%datasets)
-         associate (own => record%datasets(self%datasets(i)))
-            over = [(layout%find_dimension(scale_name(own%scales, k)), k=1, scale_count(own%scales))]
-            if (any(over == 0)) cycle
-            n = n + 1
-            self%datasets(n) = self%datasets(i)
-            layout%columns(1 + n)%name = column_name(own, self%taken)
-            layout%columns(1 + n)%units = own%units
-            layout%columns(1 + n)%long_name = own%long_name
-            layout%columns(1 + n)%over = over
+         associate (own => record%datasets(self%datasets(i)), column => layout%columns(1 + i))
+            column%name = column_name(own, self%taken)
+            column%units = own%units
+            column%long_name = own%long_name
+            column%over = dimensions_of(own, layout)
          end associate
       end do
-      self%datasets = self%datasets(:n)
-      layout%columns = layout%columns(:n + 1)
-      self%of_done = [(is_of_done(record%datasets(self%datasets(i))), i=1, n)]
+      self%of_done = [(is_of_done(record%datasets(self%datasets(i))), i=1, size(self%datasets))]
       call layout%place()
       if (allocated(self%numbers)) deallocate (self%numbers)
       allocate (self%numbers(layout%width))
@@ -185,14 +178,24 @@ contains
    end function dimension_of
 
    !> Whether a dataset is a column; each of its dimensions has a scale.
-   pure logical function is_column(dataset)
+   pure logical function is_column(dataset, layout)
       type(dataset_type), intent(in) :: dataset
+      type(layout_type), intent(in) :: layout
       is_column = group_of(dataset) > 0 .and. dataset%kind /= of_texts &
          & .and. size(dataset%extents) == scale_count(dataset%scales)
+      if (is_column) is_column = all(dimensions_of(dataset, layout) > 0)
    end function is_column
 
-   !> The name of its column. Those of a bearing of a machine are in its group and have the names of those of one bearing
-   !> there.
+   !> The numbers of its dimensions; 0 for one that has no scale.
+   pure function dimensions_of(dataset, layout) result(over)
+      type(dataset_type), intent(in) :: dataset
+      type(layout_type), intent(in) :: layout
+      integer :: over(scale_count(dataset%scales)), k
+      over = [(layout%find_dimension(scale_name(dataset%scales, k)), k=1, size(over))]
+   end function dimensions_of
+
+   !> The name of its column. Those of a bearing of a machine are in its group and have the names of those of one
+   !> bearing there.
    pure function column_name(dataset, taken) result(name)
       type(dataset_type), intent(in) :: dataset
       character(len=*), intent(in) :: taken

@@ -1,6 +1,7 @@
-!> What there is of a study under a name: its log, NAME.rows, and its table, NAME.h5. The log of a study has all rows that
-!> its table has, unless somebody has put another table there.
+!> What there is of a study under a name: its log, NAME.rows, and its table, NAME.h5. The log of a study has all rows
+!> that its table has, unless somebody has put another table there.
 module study_source
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp
    use text, only: to_text
    use errors, only: error_type, raise, system_error
@@ -47,9 +48,9 @@ contains
       log_path = real_path(path)//log_ending
    end function log_path
 
-   !> The exit status of each run of a study, where log or table of a path have a row of it that `status` has not, or only
-   !> one that the system has failed; these rows are added to `log`. `other` is true where what is there is whole, but not
-   !> of this study, so that it may be replaced. `origin` says when the study was begun, and by which version.
+   !> The exit status of each run of a study, where log or table of a path have a row of it that `status` has not, or
+   !> only one that the system has failed; these rows are added to `log`. `other` is true where what is there is whole,
+   !> but not of this study, so that it may be replaced. `origin` says when the study was begun, and by which version.
    subroutine take_rows(path, study, status, other, error, log, origin)
       character(len=*), intent(in) :: path
       type(study_type), intent(in) :: study
@@ -173,8 +174,9 @@ contains
          call raise(error, system_error, path//': damaged: '//self%file%failure)
       end if
       if (.not. allocated(error)) call check_marks(path, runs, marks, study, other, error)
-      if (.not. allocated(error)) call read_guarded(self, path, runs, error)
-      if (.not. allocated(error)) other = .false.
+      if (allocated(error)) return
+      other = .false.
+      call read_guarded(self, path, runs, error)
    end subroutine open_table
 
    !> Reads the layout of a table, in a child process first, which reads its rows, too.
@@ -259,7 +261,10 @@ contains
       class(open_table_type), intent(inout) :: self
       real(wp), intent(in) :: values(:)
       integer :: k
-      if (.not. all([(any(abs(values(k) - [-2, -1, 0, 1, 2, 3, 4]) <= 0), k=1, size(values))])) then
+      logical :: known
+      known = .not. any(ieee_is_nan(values))
+      if (known) known = all([(any(abs(values(k) - [-2, -1, 0, 1, 2, 3, 4]) <= 0), k=1, size(values))])
+      if (.not. known) then
          call self%file%check_read(-1, 'find the status of runs')
          return
       end if

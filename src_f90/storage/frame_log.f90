@@ -5,7 +5,7 @@ module frame_log
    use, intrinsic :: iso_c_binding, only: c_bool, c_char, c_int, c_int32_t, c_long
    use kinds, only: i8
    use errors, only: error_type, raise, system_error
-   use files, only: create_file
+   use files, only: create_file, rename_file
    use system_texts, only: system_reason
    implicit none (type, external)
    private
@@ -33,6 +33,7 @@ module frame_log
       !> Bytes of the file.
       procedure :: bytes
       procedure :: sync
+      procedure :: rename
       procedure :: close => close_log
    end type frame_log_type
 
@@ -208,6 +209,17 @@ contains
       if (.not. sync_open(self%file)) call raise(error, system_error, 'cannot write '//self%path//': ' &
          & //system_reason())
    end subroutine sync
+
+   subroutine rename(self, path, error)
+      class(frame_log_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(out) :: error
+      if (rename_file(self%path, path)) then
+         self%path = path
+      else
+         call raise(error, system_error, 'cannot write '//path//': '//system_reason())
+      end if
+   end subroutine rename
 
    subroutine close_log(self)
       class(frame_log_type), intent(inout) :: self

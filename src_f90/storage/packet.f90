@@ -1,5 +1,5 @@
-!> Numbers and texts one after another as bytes, for a pipe or a log. The same calls write them and, of a packet of bytes,
-!> read them again. What is read that is not there is 0 or empty, and `ok` is false from then on.
+!> Numbers and texts one after another as bytes, for a pipe or a log. The same calls write them and, of a packet of
+!> bytes, read them again. What is read that is not there is 0 or empty, and `ok` is false from then on.
 module packet
    use kinds, only: wp
    implicit none (type, external)
@@ -52,7 +52,7 @@ contains
       at_end = self%ok .and. self%done == self%length
    end function at_end
 
-   !> The next bytes begin behind the first `before`: room for n of them, or, in reading, n where they are there, else 0.
+   !> The next bytes begin behind the first `before`: room for n of them, or, in reading, n where they are there.
    pure subroutine go_on(self, n, before)
       class(packet_type), intent(inout) :: self
       integer, intent(inout) :: n
@@ -117,7 +117,7 @@ contains
       integer :: n, before, i
       if (.not. self%reading) n = size(values)
       call self%count(n)
-      if (n > (huge(n) - 1)/real_bytes) self%ok = .false.
+      if (real(n, wp)*real_bytes >= huge(n)) self%ok = .false.
       n = merge(n, 0, self%ok)*real_bytes
       call go_on(self, n, before)
       if (self%reading) then

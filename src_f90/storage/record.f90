@@ -54,10 +54,6 @@ module record
       procedure :: put_labels
       !> A scale that counts n things.
       procedure :: put_scale
-      !> The same of numbers.
-      procedure :: put_real => put_numbers
-      procedure :: put_list => put_numbers
-      procedure :: put_table => put_numbers
       !> A dataset with all that it has.
       procedure :: put_dataset
       !> Root attributes; one of the name is replaced.

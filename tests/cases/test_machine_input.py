@@ -207,7 +207,7 @@ MATRICES = {
         lambda m: m.update(damping=np.zeros((20, 20), int)),
         "in damping; all numbers must be 64-bit floats",
     ),
-    "text": (lambda m: m.update(slope="abc"), "slope: has 1 numbers: must have 10 x 20"),
+    "text": (lambda m: m.update(slope="abc"), "in slope; all numbers must be 64-bit floats"),
     "row too few": (lambda m: m.update(mass=m["mass"][1:]), "mass: has 380 numbers: must have 20 x 20"),
     "odd rows": (lambda m: m.update(station=m["station"][1:]), "station: has 180 numbers: must be rows"),
     "bearing between": (changed("station", (0, 3), 0.5), "row 1, of a bearing, must have one element 1"),

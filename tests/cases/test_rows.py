@@ -268,7 +268,7 @@ def test_a_small_disk(tiltpad, program, case):
 
 # ---- the log ----------------------------------------------------------------------------------------
 def test_a_killed_study_is_read_whole(tiltpad, start, case):
-    """All rows that its log has, by Python, by --table, and by the study that goes on, which performs no run again."""
+    """All rows that its log has, by Python, by --table, and by the study that goes on."""
     folder = case(QUICK.format(last=2500).replace("1e-9", "1000"))
     process = start(folder, "-q", "--jobs", "2", "case.nml")
     log = folder / "case.h5.rows"

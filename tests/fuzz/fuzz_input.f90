@@ -153,7 +153,8 @@ contains
       news = coverage_news()
       call delete_file(scratch_path('members.csv'))
       if (allocated(error)) then
-         call reply(error%status, news, printable(error%message))
+         ! without the folder
+         call reply(error%status, news, printable(error%message(max(1, index(error%message, 'members.csv')):)))
          return
       end if
       said = to_text(table%rows)//achar(0)

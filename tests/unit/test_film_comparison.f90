@@ -152,7 +152,7 @@ contains
          found(2, k) = film_difference(refusal='the film of pad 2 closed')
       end do
       found(1, 2)%refusal = 'the film of pad 1 did not converge'
-      call file%put_list('pad', [1.0_wp, 2.0_wp], '1', 'pad', 'pad')
+      call file%put('pad', [1.0_wp, 2.0_wp], '1', 'pad', 'pad')
       call put_verification(file, [0.1_wp, 0.2_wp, 0.3_wp, 0.4_wp], found, 20.0_wp, lines)
       call expect_close(figure(file, states_figure), 4.0_wp, 0.0_wp, 'states')
       call expect_pad(file, 0.3_wp, 'pad_film_error')
@@ -171,7 +171,7 @@ contains
          & //'at t = 0.2 s the film of pad 1 did not converge'//achar(10)//'pad 2: 4 of 4 films could not be ' &
          & //'compared: at t = 0.1 s the film of pad 2 closed', 'in words: '//lines)
       call file%clear()
-      call file%put_list('pad', [1.0_wp, 2.0_wp], '1', 'pad', 'pad')
+      call file%put('pad', [1.0_wp, 2.0_wp], '1', 'pad', 'pad')
       call put_verification(file, [real(wp) ::], found(:, 1:1), 0.0_wp, lines)
       call expect(.not. has_figure(file, 'pad_film_error_time'), 'an equilibrium has no time')
       call expect(.not. has_figure(file, 'pad_film_error_of_load'), 'no load, nothing over it')

@@ -1,7 +1,6 @@
 !> The record of a run: what it has after it was cleared and filled again, and the file written from it again
 !> and again.
 program test_record
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, i8
    use text, only: to_text
    use files, only: delete_file
@@ -9,7 +8,7 @@ program test_record
    use record_file, only: write_record, read_record
    use hdf5_file, only: hdf5_type
    use scratch, only: scratch_path
-   use check, only: runs, expect, expect_close, between, report
+   use check, only: runs, expect, expect_close, report
    implicit none (type, external)
 
    if (runs('put_and_get')) call put_and_get()
@@ -32,12 +31,12 @@ contains
       call record%clear()
       call record%put_flag('complete', mod(k, 2))
       call record%put_text('title', 'run '//to_text(k))
-      call record%put_list('pad', [(real(i, wp), i=1, k)], '1', 'pad number', 'pad')
+      call record%put('pad', [(real(i, wp), i=1, k)], '1', 'pad number', 'pad')
       call record%put_labels('pivot', [character(len=8) :: 'locked', 'pivot '//to_text(k)], 'pivots')
       call record%put_count('statistics/steps', 2_i8**40 + k, 'time steps')
-      call record%put_real('summary/orbit_y', 0.1_wp*k, 'm', 'orbit')
-      if (mod(k, 3) == 0) call record%put_real('summary/only', 0.3_wp*k, 'W', 'of every third')
-      call record%put_table('modes/frequency', reshape([(1.5_wp**i, i=1, 2*k)], [k, 2]), 'Hz', 'frequencies', &
+      call record%put('summary/orbit_y', 0.1_wp*k, 'm', 'orbit')
+      if (mod(k, 3) == 0) call record%put('summary/only', 0.3_wp*k, 'W', 'of every third')
+      call record%put('modes/frequency', reshape([(1.5_wp**i, i=1, 2*k)], [k, 2]), 'Hz', 'frequencies', &
          & 'pivot pad')
       do i = 1, 2*k
          names(i) = 'mode '//to_text(i)
@@ -109,7 +108,7 @@ contains
       call expect(.not. record%has('summary'), 'a group')
       call expect(.not. record%has('summary/only'), 'with all in it')
       call expect(record%has('statistics/steps'), 'and no other')
-      call record%put_real('summary/only', 2.0_wp, 'W', 'of every third')
+      call record%put('summary/only', 2.0_wp, 'W', 'of every third')
       call expect(record%has('summary'), 'put again')
       call expect(.not. record%has('summary/orbit_y'), 'alone')
       call record%delete('pad')
@@ -145,7 +144,7 @@ contains
       call fill(record, 3)
       call expect(record%version == before, 'another run of the same datasets')
       call record%clear()
-      call record%put_real('summary/orbit_y', 1.0_wp, 'm', 'orbit')
+      call record%put('summary/orbit_y', 1.0_wp, 'm', 'orbit')
       call expect(record%version == before, 'fewer of them')
       call fill(record, 2)
       call expect(record%version > before, 'other sizes')
@@ -177,16 +176,16 @@ contains
       call file%create(path)
       call fill(record, 3)
       call write_record(record, file, .false.)
-      call record%put_list('checkpoint/state', [1.0_wp, 2.0_wp], '1', 'state', '')
+      call record%put('checkpoint/state', [1.0_wp, 2.0_wp], '1', 'state', '')
       call write_record(record, file, .false.)
       do k = 3, 5
          ! deleted or not
          if (k /= 4) call record%delete('checkpoint')
-         call record%put_list('checkpoint/state', [(0.5_wp*i, i=1, k)], '1', 'state', '')
-         call record%put_real('summary/orbit_y', 7.0_wp, 'm', 'orbit')
+         call record%put('checkpoint/state', [(0.5_wp*i, i=1, k)], '1', 'state', '')
+         call record%put('summary/orbit_y', 7.0_wp, 'm', 'orbit')
          ! a scale that grows with what is over it
-         call record%put_list('revolution', [(real(i - k, wp), i=1, k)], '1', 'revolutions', 'revolution')
-         call record%put_list('by_revolution/lowest_y', [(2.0_wp*i, i=1, k)], 'm', 'lowest', 'revolution')
+         call record%put('revolution', [(real(i - k, wp), i=1, k)], '1', 'revolutions', 'revolution')
+         call record%put('by_revolution/lowest_y', [(2.0_wp*i, i=1, k)], 'm', 'lowest', 'revolution')
          call write_record(record, file, .false.)
          call expect(.not. allocated(file%failure), 'written with another size')
       end do
@@ -203,7 +202,7 @@ contains
       ! one that was never written before, as the file of the last checkpoint but one
       call file%create(path)
       call write_record(record, file, .true.)
-      call record%put_real('summary/orbit_y', 0.1_wp*3, 'm', 'orbit')
+      call record%put('summary/orbit_y', 0.1_wp*3, 'm', 'orbit')
       call write_record(record, file, .false.)
       call file%close()
       call file%open(path, writing=.false.)
