@@ -497,8 +497,8 @@ def test_neighbours_are_opened_once(tiltpad, case, loaded, tmp_path):
     assert sorted(path[-7:] for path in read) == ["0001.h5", "0003.h5"]
 
 
-def test_all_that_the_commands_touch(tiltpad, case, loaded, tmp_path):
-    """Beside what they are asked for: caches of Matplotlib at most; no connection, no program but uname."""
+def test_all_that_the_commands_touch(program, tiltpad, case, loaded, tmp_path):
+    """Beside what they are asked for: caches of Matplotlib at most; no program but tiltpad and uname."""
     (case / "results").mkdir()
     for name in ("a", "b"):
         tiltpad("case.nml", "-q", "-o", f"results/{name}.h5", cwd=case, status=0)
@@ -523,7 +523,8 @@ def test_all_that_the_commands_touch(tiltpad, case, loaded, tmp_path):
     libraries |= {line for line in found if re.fullmatch(r"w study\.h5\.[0-9a-f]{64}", line)}
     # the study's log, of which the program makes the file, is in a folder of its own
     libraries |= {line for line in found if line[2:].startswith(f"{tempfile.gettempdir()}/")}
-    assert found - libraries - {"w /dev/null"} == {"w a.png.partN.png", "w study.h5.partN.h5"}
+    libraries |= {"w /dev/null", f"x {program}"}
+    assert found - libraries == {"w a.png.partN.png", "w study.h5.partN.h5"}
 
 
 def test_a_file_system_without_times_of_birth(start, tiltpad, case, loaded):
