@@ -41,7 +41,7 @@ endif
 #   heap             added for modules whose arrays are as long as a run
 #   modules          stands before the folder of module files
 #   release, debug   FFLAGS, if they are not given; plain_release, plain_debug: added to them for modules that compute
-#                    little and for tests, which compile in half the time
+#                    little, which compile in half the time
 #   any, alone       FFLAGS for any processor of this kind, and what links the compiler's own libraries in: for a wheel
 machine := $(shell uname -m)
 family := $(or $(findstring flang,$(notdir $(FC))),$(findstring ifx,$(notdir $(FC))),gfortran)
@@ -129,7 +129,7 @@ $(foreach line,$(shell awk -f src_f90/dependencies.awk $(sources)),$(eval $(subs
 modules_of = $(basename $(notdir $(filter $(addsuffix /%,$1),$(sources))))
 run_long := $(sort $(heap) $(call modules_of,$(addprefix src_f90/,system input storage results app)))
 # modules that compute little, and what their FFLAGS have besides
-plain := $(call modules_of,$(addprefix src_f90/,base system case input storage results app equilibrium branches) tests)
+plain := $(call modules_of,$(addprefix src_f90/,base system case input storage results app equilibrium branches))
 plain_flags := $(if $(filter file override,$(origin FFLAGS)),$($(family).plain_$(if $(filter debug,$(MODE)),debug,release)))
 test_names := $(basename $(notdir $(filter tests/unit/test_% tests/physics/test_%,$(sources))))
 test_programs := $(addprefix $(B)/tests/,$(test_names))
