@@ -128,8 +128,9 @@ $(foreach line,$(shell awk -f src_f90/dependencies.awk $(sources)),$(eval $(subs
 # such arrays are not on the stack, wherever FFLAGS puts the short ones of the march
 modules_of = $(basename $(notdir $(filter $(addsuffix /%,$1),$(sources))))
 run_long := $(sort $(heap) $(call modules_of,$(addprefix src_f90/,system input storage results app)))
-# modules that compute little, and what their FFLAGS have besides
-plain := $(call modules_of,$(addprefix src_f90/,base system case input storage results app equilibrium branches))
+# modules that compute little, and what their FFLAGS have besides; not those that a march calls at each step or sample
+plain := $(filter-out excitations growing_file march_results summary_group recorder,\
+         $(call modules_of,$(addprefix src_f90/,system case input storage results app equilibrium branches)))
 plain_flags := $(if $(filter file override,$(origin FFLAGS)),$($(family).plain_$(if $(filter debug,$(MODE)),debug,release)))
 test_names := $(basename $(notdir $(filter tests/unit/test_% tests/physics/test_%,$(sources))))
 test_programs := $(addprefix $(B)/tests/,$(test_names))
