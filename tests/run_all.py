@@ -22,8 +22,9 @@ SLOWEST, SHORT = 25, 0.5
 #: A test that hangs shows where, and ends the others of its file.
 PYTEST = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=0", f"--durations-min={SHORT}",
           "-o", "faulthandler_timeout=900", "-o", "faulthandler_exit_on_timeout=true"]  # fmt: skip
-#: What pytest says of a test's time.
-DURATION = re.compile(r"([\d.]+)s (?:call|setup|teardown) +(\S.*)\n")
+#: What pytest says of a test's time, and all that it says of times.
+DURATION = re.compile(r"^([\d.]+)s (?:call|setup|teardown) +(\S.*)\n", re.M)
+TIMES = re.compile(rf"^=+ slowest durations =+\n|{DURATION.pattern}|\n?^\(\d+ durations < .*\n", re.M)
 COUNTS = re.compile(r"(\d+) passed, (\d+) failed")
 
 
@@ -48,7 +49,7 @@ def perform(name, command):
         seconds[test] = seconds.get(test, 0) + float(spent)
     if command[0] != sys.executable:
         seconds[name] = time.monotonic() - start
-    return DURATION.sub("", done.stdout).replace("slowest durations", ""), seconds
+    return TIMES.sub("", done.stdout), seconds
 
 
 def main(programs):
@@ -71,9 +72,10 @@ def main(programs):
             else:
                 print(f"FAILED: {started[job]} ended without a count of its tests")
                 failed += 1
-    print("\nthe slowest:")
+    print("\nThe tests that took longest:")
     for name in sorted(seconds, key=seconds.get, reverse=True)[:SLOWEST]:
-        print(f"{seconds[name]:8.1f} s  {name}")
+        if seconds[name] >= SHORT:
+            print(f"{seconds[name]:8.1f} s  {name}")
     if ONLY and passed + failed == 0:
         print(f"no test has {ONLY} in its name")
     print(f"\n{passed} passed, {failed} failed")
