@@ -10,7 +10,7 @@ module study_builder
    use hdf5_rows, only: hdf5_rows_type, most_rows
    use hdf5_texts, only: hdf5_texts_type
    use study_layout, only: layout_type, column_type
-   use study_log, only: study_log_type, row_type, not_run, unreadable
+   use study_log, only: study_log_type, row_type, not_run, unreadable, text_names, text_meanings
    implicit none (type, external)
    private
    public :: write_table, missing_runs, run_scale
@@ -19,11 +19,6 @@ module study_builder
    character(len=*), parameter :: run_scale = 'run', pads = 'pad'
    character(len=*), parameter :: status_meaning = 'exit status: 0 done, 2 numerics, 3 system, 4 stopped, ' &
       & //'-1 not ended, -2 not run yet; nan: its file cannot be read'
-   !> Texts of a run.
-   character(len=*), parameter :: text_names(3) = [character(len=7) :: 'reason', 'remarks', 'file']
-   character(len=*), parameter :: text_meanings(3) = [character(len=75) :: 'reason of the failure', &
-      & 'what is unusual in the run, or leaves the range of the model, a line each', &
-      & 'result file, relative to the folder of this file']
    !> Numbers that are held at a time, and layouts.
    integer, parameter :: most_numbers = 1000000, most_known = 16
 
@@ -39,7 +34,7 @@ module study_builder
       type(layout_type) :: layout
       type(known_type) :: known(most_known)
       !> Which of the texts it has: reasons in any case.
-      logical :: has_texts(3) = [.true., .false., .false.]
+      logical :: has_texts(size(text_names)) = text_names == 'reason'
    end type table_type
 
 contains
@@ -175,7 +170,7 @@ contains
          call read_row(log, table, k, row, i, error)
          if (allocated(error)) return
          call take_columns(table%layout, table%known(i), row%numbers)
-         table%has_texts = table%has_texts .or. [.true., row%remarks /= '', row%file /= '']
+         table%has_texts = table%has_texts .or. [(row%texts(i)%text /= '', i=1, size(row%texts))]
       end do
       call table%layout%place()
       do i = 1, most_known
@@ -323,9 +318,7 @@ contains
                if (at(c) > 0) values(at(c), k) = row%numbers(c)
             end do
          end associate
-         texts(k, 1)%text = row%reason
-         texts(k, 2)%text = row%remarks
-         texts(k, 3)%text = row%file
+         texts(k, :) = row%texts
       end do
    end subroutine read_rows
 

@@ -140,9 +140,9 @@ contains
       self%grown = .true.
       new%run = k
       new%status = status
-      new%reason = trim(printable(reason))
-      new%file = own
-      new%remarks = row%remarks
+      new%texts(1)%text = trim(printable(reason))
+      new%texts(2)%text = row%remarks
+      new%texts(3)%text = own
       new%numbers = row%numbers
       call self%log%describe(row%description, new%description, self%failure)
       if (.not. allocated(self%failure)) call self%log%add(new, self%failure)

@@ -5,15 +5,20 @@ module study_log
    use kinds, only: wp, i8
    use errors, only: error_type, raise, system_error
    use frame_log, only: frame_log_type
-   use packet, only: packet_type, packet_of
+   use packet, only: packet_type, packet_of, text_type
    use study_header, only: header_type
    use study_layout, only: layout_type
    implicit none (type, external)
    private
-   public :: study_log_type, row_type, not_run, unreadable, stays
+   public :: study_log_type, row_type, not_run, unreadable, stays, text_names, text_meanings
 
    !> The status of a run that has no row, and, in a study that was collected, of one whose file cannot be read.
    integer, parameter :: not_run = -2, unreadable = -9
+   !> Texts of a row; empty where there is nothing to say.
+   character(len=*), parameter :: text_names(3) = [character(len=7) :: 'reason', 'remarks', 'file']
+   character(len=*), parameter :: text_meanings(3) = [character(len=75) :: 'reason of the failure', &
+      & 'what is unusual in the run, or leaves the range of the model, a line each', &
+      & 'result file, relative to the folder of this file']
    !> Kinds of frames.
    character, parameter :: of_study = 'S', of_description = 'D', of_row = 'R'
    !> Place of the number of the description in the contents of a row, and whole numbers before its texts, 4 bytes each.
@@ -25,8 +30,7 @@ module study_log
 
    type :: row_type
       integer :: run = 0, status = not_run, description = 0
-      !> Reason where it failed; its own file, relative to the folder of the study's; remarks, a line each.
-      character(len=:), allocatable :: reason, file, remarks
+      type(text_type) :: texts(size(text_names))
       real(wp), allocatable :: numbers(:)
    end type row_type
 
@@ -214,12 +218,13 @@ contains
    subroutine exchange(row, packed)
       type(row_type), intent(inout) :: row
       type(packet_type), intent(inout) :: packed
+      integer :: i
       call packed%whole(row%run)
       call packed%whole(row%status)
       call packed%whole(row%description)
-      call packed%text(row%reason)
-      call packed%text(row%file)
-      call packed%text(row%remarks)
+      do i = 1, size(row%texts)
+         call packed%text(row%texts(i)%text)
+      end do
       call packed%reals(row%numbers)
    end subroutine exchange
 

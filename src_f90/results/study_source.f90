@@ -17,7 +17,7 @@ module study_source
    use restart, only: open_result
    use study_header, only: header_type
    use study_layout, only: layout_type, dimension_type, column_type, most_labels
-   use study_log, only: study_log_type, row_type, not_run, stays
+   use study_log, only: study_log_type, row_type, not_run, stays, text_names
    use study_builder, only: run_scale
    implicit none (type, external)
    private
@@ -26,7 +26,6 @@ module study_source
    !> What the name of a log has behind that of the study's file.
    character(len=*), parameter, public :: log_ending = '.rows'
    character(len=*), parameter :: marks_name = 'study_marks'
-   character(len=*), parameter :: text_names(3) = [character(len=7) :: 'reason', 'remarks', 'file']
 
    !> A table that is open.
    type :: open_table_type
@@ -368,9 +367,7 @@ contains
             call lists(c)%read(self%file, first, size(wanted), texts)
          end if
          do k = 1, size(wanted)
-            if (c == 1) rows(k)%reason = texts(k)%text
-            if (c == 2) rows(k)%remarks = texts(k)%text
-            if (c == 3) rows(k)%file = texts(k)%text
+            rows(k)%texts(c) = texts(k)
          end do
       end do
       do k = 1, size(wanted)

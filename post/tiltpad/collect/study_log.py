@@ -84,7 +84,7 @@ def frames(runs: Sequence[StudyRun], missing: Sequence[int], folder: Path) -> It
             yield b"D", whole(numbers[layout]) + whole(len(layout)) + layout
         values = [np.ravel(each.values[name]) for name in names]
         status = UNREADABLE if np.isnan(each.status) else int(each.status)
-        texts = (each.reason, os.path.relpath(each.path.resolve(), folder), "\n".join(each.remarks))
+        texts = (each.reason, "\n".join(each.remarks), os.path.relpath(each.path.resolve(), folder))
         row = [*map(whole, (k, status, numbers[layout])), *(text(each) for each in texts)]
         yield b"R", b"".join([*row, reals(np.concatenate([[], *values]))])
 
