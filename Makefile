@@ -52,7 +52,7 @@ gfortran.modules  := -J
 gfortran.release  := -O3 -march=native -mprefer-vector-width=256 -fstack-arrays
 gfortran.plain_release := -O1
 gfortran.plain_debug   := -O0
-gfortran.debug    := -O1 -g -fcheck=all,no-array-temps -fbacktrace -ffpe-trap=invalid,zero,overflow -Wall -Wextra \
+gfortran.debug    := -O1 -g1 -fcheck=all,no-array-temps -fbacktrace -ffpe-trap=invalid,zero,overflow -Wall -Wextra \
                      -Wno-unused-dummy-argument -Wno-uninitialized -Wno-maybe-uninitialized -Wno-compare-reals -Werror
 gfortran.any      := -O3 -fstack-arrays
 gfortran.alone    := -static-libgcc -static-libgfortran -l:libgfortran.a $(if $(filter x86_64,$(machine)),-l:libquadmath.a)
@@ -207,7 +207,7 @@ run: build python
 	   $(venv_python) $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; \
 	   echo "picture: build/run/$$plot.png"; done
 
-test: build python build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B)/stress/global_search
+test: build python $(VENV)/compiled build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B)/stress/global_search
 	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input
 	@if $(MAKE) --no-print-directory build/site/ready; then $(MAKE) --no-print-directory site; \
 	   else echo 'no mkdocs: the tests of the site are skipped'; fi
@@ -295,6 +295,11 @@ $(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/d
 	$(venv_python) -m pip install -q --disable-pip-version-check --no-compile -r post/requirements.txt
 	$(venv_python) -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -e post \
 	   --config-settings editable_mode=compat
+	@touch $@
+
+# so that commands start in less time; also where Python must not write what it has compiled (PYTHONDONTWRITEBYTECODE)
+$(VENV)/compiled: $(VENV)/ready
+	@$(venv_python) -m compileall -q -j0 -x '/tests?/' $(VENV)/lib post/tiltpad || true
 	@touch $@
 
 # A wheel for each Python from 3.11 on whose headers are at hand: program, commands and library, with all that they

@@ -29,12 +29,12 @@ COUNTS = re.compile(r"(\d+) passed, (\d+) failed")
 
 
 def jobs(programs):
-    """Each job's name and command; those that take long come first."""
+    """Each job's name and command; programs, which are the shortest, come last."""
     python = [sys.executable, *PYTEST, *(["-k", ONLY] if ONLY else [])]
-    # tests/post shares its result files
-    yield "tests/post", [*python, "tests/post"]
-    for file in sorted(TESTS.glob("cases/test_*.py"), key=lambda file: -file.stat().st_size):
-        yield f"tests/cases/{file.name}", [*python, str(file.relative_to(TESTS.parent))]
+    files = [*TESTS.glob("cases/test_*.py"), *TESTS.glob("post/test_*.py")]
+    for file in sorted(files, key=lambda file: -file.stat().st_size):
+        name = str(file.relative_to(TESTS.parent))
+        yield name, [*python, name]
     for program in programs:
         yield Path(program).name, [program]
 

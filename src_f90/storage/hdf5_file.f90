@@ -97,13 +97,14 @@ contains
       call h5dopen_f(self%id, path, found%id, status, chosen)
       call self%check_read(status, 'open '//path)
       if (status >= 0) then
-         call measure(found, status)
-         call self%check_read(status, 'read the size of '//path)
          call h5dget_create_plist_f(found%id, creation, status)
          call h5pget_layout_f(creation, layout, status)
          if (status >= 0) call h5pget_external_count_f(creation, files, status)
          if (status >= 0 .and. (layout == h5d_virtual_f .or. files > 0)) status = -1
          call self%check_read(status, 'take the values of '//path//', which are in other files')
+         ! even the size is looked for in other files, and opening a pipe would wait
+         if (status >= 0) call measure(found, status)
+         call self%check_read(status, 'read the size of '//path)
          if (status >= 0 .and. layout == h5d_chunked_f) then
             if (chunk_bytes(found, creation) > largest_chunk) status = -1
             call self%check_read(status, 'take memory for the chunks of '//path)

@@ -11,12 +11,12 @@ module hdf5_rows
    use hdf5_file, only: hdf5_type, opened_type, is_of_kind
    implicit none (type, external)
    private
-   public :: hdf5_rows_type, rows_a_chunk, most_rows, chunk_samples, small_transfers, select_part
+   public :: hdf5_rows_type, rows_a_chunk, most_rows, chunk_samples, small_transfers, select_part, max_dimensions
 
    !> Samples in a chunk, at most: a series that is known to be shorter has chunks of its own length.
    integer, parameter :: chunk_samples = 4096
-   !> Rows in a chunk, at least and at most, and most numbers in one.
-   integer, parameter :: least_rows = 64, most_rows = 512, most_numbers = 65536
+   !> Rows in a chunk, and numbers in one, at most.
+   integer, parameter :: most_rows = 512, most_numbers = 65536
    !> Bytes of the memory in which HDF5 converts numbers and texts; it would clear a megabyte of it for each row.
    integer(size_t), parameter :: conversion_bytes = 16384
    !> Most dimensions, and most values a row; only a damaged file says more.
@@ -47,8 +47,8 @@ module hdf5_rows
 contains
 
    !> A new dataset of rows with these extents, all filled with a value, in groups that are made where they are not
-   !> there. With `whole` the file has whole numbers. `expected` tells how many samples a series will have, if this is
-   !> known; HDF5 takes room for whole chunks.
+   !> there; one without rows may grow. With `whole` the file has whole numbers. `expected` tells how many samples a
+   !> series will have, if this is known; HDF5 takes room for whole chunks.
    subroutine create(self, file, name, extents, rows, fill, whole, expected)
       class(hdf5_rows_type), intent(inout) :: self
       class(hdf5_type), intent(inout) :: file
@@ -64,17 +64,13 @@ contains
       if (allocated(file%failure)) return
       self%extents = extents
       call set_length(self, int(rows, i8))
-      most = h5s_unlimited_f
+      most = max_dimensions(dimensions(self, self%length))
       kind = h5t_native_double
       if (present(whole)) then
          if (whole) kind = h5kind_to_type(i8, h5_integer_kind)
       end if
       chunk = rows_a_chunk(rows, product(extents))
-      if (present(expected)) then
-         ! the width of a series stays
-         most(:size(extents)) = extents
-         chunk = int(max(1_i8, min(expected, int(chunk_samples, i8))))
-      end if
+      if (present(expected)) chunk = int(max(1_i8, min(expected, int(chunk_samples, i8))))
       call h5screate_simple_f(size(most), dimensions(self, self%length), space, status, most)
       call h5pcreate_f(h5p_dataset_create_f, properties, status)
       call h5pset_chunk_f(properties, size(most), int([max(extents, 1), chunk], hsize_t), status)
@@ -110,8 +106,15 @@ contains
    !> Rows in a chunk of a dataset that has this number of them, each of this width.
    pure integer function rows_a_chunk(rows, width)
       integer, intent(in) :: rows, width
-      rows_a_chunk = max(1, min(max(rows, least_rows), most_rows, most_numbers/max(1, width)))
+      rows_a_chunk = max(1, min(rows, most_rows, most_numbers/max(1, width)))
    end function rows_a_chunk
+
+   !> How large each dimension may become: as it is, as HDF5's own default; but one of size 0 may grow. Readers of
+   !> unlimited dimensions ask all datasets for their size, again and again (h5netcdf).
+   elemental integer(hsize_t) function max_dimensions(dims)
+      integer(hsize_t), intent(in) :: dims
+      max_dimensions = merge(int(h5s_unlimited_f, hsize_t), dims, dims == 0)
+   end function max_dimensions
 
    !> An existing dataset of this machine's reals or whole numbers; a failure for any other.
    subroutine open_rows(self, file, name)

@@ -2,14 +2,14 @@
 !> routine does nothing.
 module hdf5_texts
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_loc, c_null_char, c_null_ptr, c_ptr
-   use hdf5, only: hid_t, hsize_t, h5s_unlimited_f, h5screate_simple_f, h5sclose_f, h5dcreate_f, h5dwrite_f, &
+   use hdf5, only: hid_t, hsize_t, h5screate_simple_f, h5sclose_f, h5dcreate_f, h5dwrite_f, &
       & h5dread_f, h5dclose_f, h5dget_type_f, h5pcreate_f, h5pclose_f, h5pset_chunk_f, &
       & h5p_dataset_create_f, h5tclose_f
    use hdf5_base, only: is_of_texts, kind_of_texts, c_free
    use kinds, only: i8
    use packet, only: text_type
    use hdf5_file, only: hdf5_type, opened_type
-   use hdf5_rows, only: rows_a_chunk, small_transfers, select_part
+   use hdf5_rows, only: rows_a_chunk, small_transfers, select_part, max_dimensions
    use system_texts, only: fortran_text
    implicit none (type, external)
    private
@@ -38,7 +38,7 @@ contains
       if (allocated(file%failure)) return
       self%length = length
       kind = kind_of_texts()
-      call h5screate_simple_f(1, int([length], hsize_t), space, status, [h5s_unlimited_f])
+      call h5screate_simple_f(1, int([length], hsize_t), space, status, max_dimensions(int([length], hsize_t)))
       call h5pcreate_f(h5p_dataset_create_f, properties, status)
       call h5pset_chunk_f(properties, 1, int([rows_a_chunk(length, 1)], hsize_t), status)
       call file%make_group(name(:index(name, '/', back=.true.) - 1))

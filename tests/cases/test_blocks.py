@@ -376,7 +376,7 @@ def test_a_block_that_is_written(tiltpad, start, case):
 @pytest.mark.parametrize(
     ("kind", "stride", "action"),
     [
-        *[("open", 1, "killall"), ("write", 13, "killall"), ("sync", 1, "killall"), ("rename", 1, "killall")],
+        *[("open", 3, "killall"), ("write", 31, "killall"), ("sync", 1, "killall"), ("rename", 1, "killall")],
         *[("delete", 1, "killall"), ("write", 29, "ENOSPC"), ("sync", 2, "EIO"), ("rename", 1, "EIO")],
     ],
 )
@@ -423,7 +423,7 @@ def test_two_blocks_that_end_at_once(tiltpad, start, case):
     """Many times: both end well, and the study is there once and whole."""
     folder = case("&case task='equilibrium' /\n&sweep rotor%mass=1001:1008:1 /\n")
     expected = whole(tiltpad, folder)
-    for _ in range(20):
+    for _ in range(6):
         started = [start(folder, "-q", "case.nml", "--block", f"{k}/4", "--jobs", "1") for k in (1, 2, 3, 4)]
         for process in started:
             assert process.communicate(timeout=TIMEOUT) == ("", "")
@@ -443,7 +443,7 @@ def test_a_disk_that_is_full_while_blocks_are_joined(tiltpad, program, case):
     there = times(folder / "made/case.1of3.h5") | times(folder / "made/case.2of3.h5")
     taken = sum(path.stat().st_size for path in (folder / "made").iterdir()) // 1024
     full = 0
-    for more in range(0, 10000, expected.stat().st_size // 4096):
+    for more in range(0, 10000, expected.stat().st_size // 2048):
         done = in_a_mount_namespace(
             """
             mkdir -p disk; mount -t tmpfs -o size=${SIZE}k tmpfs disk; cd disk; cp ../made/* .

@@ -70,35 +70,27 @@ def check_same(path, reference):
             assert file["statistics"][name][()] >= whole["statistics"][name][()]
 
 
+SLICED = {
+    "equilibria": EQUILIBRIA,
+    "relaxed": RELAXED,
+    "doubled": DOUBLED,
+    "lugre": LUGRE,
+    "switching": SWITCHING,
+    "warm equilibria": THERMAL_EQUILIBRIA,
+    "uneven equilibria": UNEVEN_EQUILIBRIA,
+    "warm": WARM_ORBITS,
+    "uneven": UNEVEN_ORBITS,
+}
+
+
+# a stop and a checkpoint write the same
 @pytest.mark.parametrize(
-    "case",
-    [
-        EQUILIBRIA,
-        RELAXED,
-        DOUBLED,
-        LUGRE,
-        SWITCHING,
-        THERMAL_EQUILIBRIA,
-        UNEVEN_EQUILIBRIA,
-        WARM_ORBITS,
-        UNEVEN_ORBITS,
-    ],
-    ids=[
-        "equilibria",
-        "relaxed",
-        "doubled",
-        "lugre",
-        "switching",
-        "warm equilibria",
-        "uneven equilibria",
-        "warm",
-        "uneven",
-    ],
+    ("name", "number"),
+    [*((name, signal.SIGTERM) for name in SLICED), ("doubled", signal.SIGKILL), ("warm", signal.SIGKILL)],
 )
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
-def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, case, number):
+def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, name, number):
     """Slices that end after this many requests; one without a new point is followed by a longer one."""
-    run(case, more=("-o", "whole.h5"))
+    run(SLICED[name], more=("-o", "whole.h5"))
     path, library = tmp_path / "case.h5", loaded(AT_A_REQUEST, SIGNAL=str(int(number)))
     requests, points, stops, status = 20000, 0, 0, None
     while status != 0:

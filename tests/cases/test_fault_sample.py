@@ -10,8 +10,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "faults"))
 from faulty_commands import COMMANDS  # noqa: E402
 from inject import campaign  # noqa: E402
 
-#: Faults of a command of the program, and of Python's, which take longer: two minutes on two cores in all.
-FAULTS, PYTHON_FAULTS, SEED = 48, 4, 2
+#: Faults of a command of the program, and of Python's, which take longer.
+FAULTS, PYTHON_FAULTS, SEED = 16, 2, 2
 SAMPLE = [each for each in COMMANDS if each.name != "collect, with workers"]
 
 

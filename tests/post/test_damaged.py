@@ -21,7 +21,7 @@ from tiltpad.files import heaps
 pytestmark = pytest.mark.usefixtures("closed_figures")
 
 #: Damages to a result and to a study for the readers in Python, and to any file for the program.
-RUN, STUDY, PROGRAM = (int(os.environ.get("TILTPAD_DAMAGES", count)) for count in (300, 100, 200))
+RUN, STUDY, PROGRAM = (int(os.environ.get("TILTPAD_DAMAGES", count)) for count in (100, 40, 80))
 #: Commands by name, with the options that come before the file.
 COMMANDS = {"tiltpad-report": [()], "tiltpad-plot": [(plot,) for plot in command.PLOTS]}
 ENTRIES = {"tiltpad-report": command.report, "tiltpad-plot": command.main, "tiltpad-collect": command.collect}

@@ -252,7 +252,7 @@ class Study(Archive):
 
     def most(self, name: str, found: h5py.Dataset) -> int:
         # runs that have not been run take no room; their numbers, in `run`, do
-        rows = found.ndim and found.maxshape[0] is None and name != "run"
+        rows = found.ndim and found.chunks is not None and name != "run"
         return max(super().most(name, found), UNWRITTEN if rows else 0)
 
     def sound(self, name: str, values: Any) -> Any:
