@@ -61,9 +61,9 @@ contains
       inputs%operation%final_speed_rpm = speed_rpm
    end function smooth_case
 
-   !> F = (K(nu) + i nu C(nu) - nu^2 m) x of the steady vibration x that a force F leaves. 10 N of each frequency move the
-   !> journal by some 20 nm, a part of 5e-4 of the film: what is not linear changes a harmonic by the square of that. The
-   !> start has died away to exp(-15).
+   !> F = (K(nu) + i nu C(nu) - nu^2 m) x of the steady vibration x that a force F leaves. 10 N of each frequency move
+   !> the journal by some 20 nm, a part of 5e-4 of the film: what is not linear changes a harmonic by the square of
+   !> that. The start has died away to exp(-15).
    subroutine response()
       type(case_type) :: inputs
       type(bearing_coefficients_type) :: found
