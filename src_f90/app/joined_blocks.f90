@@ -8,7 +8,7 @@ module joined_blocks
    use stop_signals, only: stop_requested, stop_reason
    use study_file, only: study_file_type
    use study_source, only: take_rows, is_collected
-   use study_blocks, only: block_type, path_type, block_paths, delete_block
+   use study_blocks, only: block_type, path_type, block_paths, state_of, delete_block
    use study_log, only: not_run
    use run_case, only: way_out
    implicit none (type, external)
@@ -88,8 +88,10 @@ contains
       call table%begin(study, share%first(study%runs), share%last(study%runs), error)
       do i = 0, size(taken)
          if (allocated(error)) exit
-         if (i > 0) path = taken(i)%path
-         if (i == 0) then
+         if (i > 0) then
+            path = taken(i)%path
+            taken(i)%state = state_of(path)
+         else
             if (is_made_anew(place, path)) cycle
          end if
          call table%working%beat(int(wall_clock()))
@@ -114,7 +116,7 @@ contains
       type(path_type), intent(in) :: taken(:)
       integer :: i
       do i = 1, size(taken)
-         call delete_block(taken(i)%path)
+         call delete_block(taken(i))
       end do
    end subroutine delete_blocks
 

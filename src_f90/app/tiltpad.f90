@@ -111,7 +111,8 @@ contains
          call choose_output(given, study%given, output, error)
       end select
       if (allocated(error)) return
-      if (study%given) call mark_study(study)
+      if (study%given) call mark_study(study, output, error)
+      if (allocated(error)) return
       if (whole_study) then
          call perform_study(study, given%share, output, given%jobs, given%verify, given%overwrite, given%quiet, &
             & failures, error)

@@ -1,14 +1,15 @@
 !> A whole study: its file, with a row for each run, and where runs have files of their own the folder of these.
 module whole_study
-   use kinds, only: wp
-   use errors, only: error_type, raise, input_error
+   use kinds, only: wp, i8
+   use text, only: to_text, checksum, newline
+   use errors, only: error_type, raise, input_error, stopped
    use case_inputs, only: case_type
    use result_size, only: size_note, result_bytes
    use assignments, only: assignment_type, token_type, target_text
    use parameter_study, only: study_type, run_tag
    use namelist_writer, only: namelist_of
-   use files, only: is_regular
-   use read_files, only: read_tables, file_marks
+   use files, only: is_regular, real_path
+   use read_files, only: read_tables, file_marks, file_checksum
    use rotor_file, only: read_rotor
    use processes, only: processors, is_terminal
    use working_file, only: clear_leftovers
@@ -22,7 +23,7 @@ module whole_study
    use study_runs, only: perform_runs, tally_type, new_tally, tell
    use joined_blocks, only: study_place_type, open_study, delete_blocks, join_blocks, find_rows
    use run_case, only: run_task, way_out
-   use stop_signals, only: stop_requested
+   use stop_signals, only: stop_requested, stop_reason
    implicit none (type, external)
    private
    public :: perform_study, mark_study, refuse_large
@@ -37,8 +38,7 @@ module whole_study
    end type case_runner_type
 
    !> Variables that decide which files a run reads.
-   character(len=*), parameter :: deciding(3) = ['file', 'kind', 'law ']
-   character(len=*), parameter :: newline = achar(10)
+   character(len=*), parameter :: deciding(4) = ['file', 'kind', 'law ', 'from']
    !> Bytes of results, above which a study is refused.
    real(wp), parameter :: huge_size = 1e9_wp
 
@@ -137,8 +137,8 @@ contains
       if (.not. allocated(error)) call find_rows(study, runner%place, path, way_out, status, error)
       if (allocated(error)) return
       tally = new_tally(status(first:last))
-      if (all(stays(status(first:last)) .and. .not. missing(first:last)) .and. .not. is_begun(runner%place%name, path, &
-         & share)) then
+      if (all(stays(status(first:last)) .and. .not. missing(first:last)) .and. runner%verified_states == 0 &
+         & .and. .not. is_begun(runner%place%name, path, share)) then
          call clear_leftovers(path)
          ! a block that has been joined
          if (.not. is_regular(path)) path = runner%place%name//'.h5'
@@ -148,6 +148,8 @@ contains
       if (.not. allocated(error)) then
          status = [(merge(table%status(k), status(k), table%has_row(k)), k=1, study%runs)]
          wanted = .not. stays(status) .or. missing
+         if (runner%verified_states > 0) wanted = wanted .or. [(lacks_states(table, k, runner%verified_states), &
+            & k=1, study%runs)]
          wanted(:first - 1) = .false.
          wanted(last + 1:) = .false.
          tally = new_tally(pack(status(first:last), .not. wanted(first:last)))
@@ -157,6 +159,14 @@ contains
       if (.not. allocated(error)) call delete_blocks(taken)
       call table%abandon()
    end subroutine perform_block
+
+   !> Whether the row of a run that is done is without films that were solved closely in so many states.
+   logical function lacks_states(table, k, states)
+      type(study_file_type), intent(inout) :: table
+      integer, intent(in) :: k, states
+      lacks_states = table%status(k) == 0
+      if (lacks_states) lacks_states = table%verified_states(k) /= states
+   end function lacks_states
 
    !> Whether rows wait to be written into the file of a study or block, or of blocks to be joined.
    logical function is_begun(name, path, share)
@@ -221,50 +231,84 @@ contains
       end if
    end function own_file
 
-   !> The checksums of a study are those of its first run's case, of files that runs read, and of the runs' values.
-   subroutine mark_study(study)
+   !> The checksums of a study are those of its first run's case, of files that runs read, and of the runs' values. Files
+   !> in the folder of its own results are not among them. An error where a signal came.
+   subroutine mark_study(study, folder, error)
       type(study_type), intent(inout) :: study
+      character(len=*), intent(in) :: folder
+      type(error_type), allocatable, intent(out) :: error
       type(case_type) :: first
-      type(error_type), allocatable :: error
-      call study%inputs(1, first, error)
-      ! only the time between checkpoints may differ
-      first%output%checkpoint_seconds = 0
-      if (allocated(error)) then
+      type(error_type), allocatable :: refusal
+      character(len=:), allocatable :: marks
+      call study%inputs(1, first, refusal)
+      if (allocated(refusal)) then
          ! others may be good, and run by --run
          call study%mark('')
-      else
-         call study%mark(namelist_of(first)//marks_of_files(study))
+         return
       end if
+      ! only the time between checkpoints may differ
+      first%output%checkpoint_seconds = 0
+      call find_marks(study, folder, marks, error)
+      if (.not. allocated(error)) call study%mark(namelist_of(first)//marks)
    end subroutine mark_study
 
-   !> Checksums of the files of rotors, pivots and excitations that runs read: of the first run, and of those in which a
-   !> value that decides which file is read stands for the first or the last time. Empty where there are none.
-   function marks_of_files(study) result(marks)
+   !> Checksums of the files that runs read: of the first run, and of those in which a value that decides which file is
+   !> read stands for the first or the last time. Empty where there are none.
+   subroutine find_marks(study, folder, marks, error)
       type(study_type), intent(in) :: study
-      character(len=:), allocatable :: marks, seen
+      character(len=*), intent(in) :: folder
+      character(len=:), allocatable, intent(out) :: marks
+      type(error_type), allocatable, intent(out) :: error
       type(assignment_type), allocatable :: varied(:)
       type(token_type) :: token
-      integer :: i, k, way
+      integer(i8) :: values(study%runs)
+      logical :: wanted(study%runs)
+      integer :: i, k
       varied = study%varied%variables%target
-      marks = marks_of_run(study, 1)
-      do i = 1, size(varied)
-         if (all(varied(i)%name /= deciding)) cycle
-         do way = 1, -1, -2
-            seen = newline
-            do k = merge(1, study%runs, way > 0), merge(study%runs, 1, way > 0), way
+      marks = ''
+      do i = 0, size(varied)
+         wanted = [(i == 0 .and. k == 1, k=1, study%runs)]
+         if (i > 0) then
+            if (all(varied(i)%name /= deciding)) cycle
+            do k = 1, study%runs
                call study%varied%value(i, k, token)
-               if (index(seen, newline//token%text//newline) > 0) cycle
-               seen = seen//token%text//newline
-               marks = marks//marks_of_run(study, k)
+               values(k) = checksum(token%text, 0_i8)
             end do
+            wanted = is_first(values)
+            wanted(study%runs:1:-1) = wanted(study%runs:1:-1) .or. is_first(values(study%runs:1:-1))
+         end if
+         do k = 1, study%runs
+            if (stop_requested()) call raise(error, stopped, stop_reason()//'; no run was started')
+            if (allocated(error)) return
+            if (wanted(k)) marks = marks//marks_of_run(study, k, folder)
          end do
       end do
-   end function marks_of_files
+   end subroutine find_marks
+
+   !> Which of some checksums are the first of their value.
+   pure function is_first(sums)
+      integer(i8), intent(in) :: sums(:)
+      logical :: is_first(size(sums))
+      !> By the place that a checksum asks for, or the next that was free: which was the first.
+      integer :: firsts(0:2*size(sums))
+      integer :: k, at
+      firsts = 0
+      do k = 1, size(sums)
+         at = int(modulo(sums(k), size(firsts, kind=i8)))
+         do while (firsts(at) > 0)
+            if (sums(firsts(at)) == sums(k)) exit
+            at = modulo(at + 1, size(firsts))
+         end do
+         is_first(k) = firsts(at) == 0
+         if (is_first(k)) firsts(at) = k
+      end do
+   end function is_first
 
    !> Those of one run; empty where it is not possible or a file cannot be read, as its row says.
-   function marks_of_run(study, k) result(marks)
+   function marks_of_run(study, k, folder) result(marks)
       type(study_type), intent(in) :: study
       integer, intent(in) :: k
+      character(len=*), intent(in) :: folder
       character(len=:), allocatable :: marks
       type(case_type) :: inputs
       type(error_type), allocatable :: error
@@ -272,6 +316,12 @@ contains
       call study%inputs(k, inputs, error)
       if (.not. allocated(error)) call read_rotor(inputs%rotor, error)
       if (.not. allocated(error)) call read_tables(inputs, error)
-      if (.not. allocated(error)) marks = file_marks(inputs)
+      if (allocated(error)) return
+      marks = file_marks(inputs)
+      associate (start => inputs%start%file)
+         ! a run may start from the end of another of its study
+         if (start /= '' .and. index(real_path(start), real_path(folder)//'/') /= 1) marks = marks//'start%file ' &
+            & //to_text(file_checksum(start))//newline
+      end associate
    end function marks_of_run
 end module whole_study

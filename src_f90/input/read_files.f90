@@ -18,7 +18,7 @@ module read_files
    private
    public :: read_input, require_text, control_character, tab, carriage
    public :: csv_table_type, read_csv, cell_type, next_cell, content, blanks
-   public :: read_tables, file_marks, changed_file, marks_name
+   public :: read_tables, file_marks, changed_file, marks_name, file_checksum
 
    character(len=*), parameter :: blank = ' ', tab = achar(9), carriage = achar(13)
    !> What separates nothing.
@@ -48,6 +48,8 @@ module read_files
    character(len=*), parameter :: marks_name = 'file_marks'
    !> Longest file, bytes.
    integer, parameter :: longest_file = 100000000
+   !> Bytes of a file that are read at once.
+   integer, parameter :: bytes_at_once = 65536
    !> Least time between two rows, s.
    real(wp), parameter :: shortest_time = 1e-9_wp
 
@@ -429,6 +431,28 @@ contains
       end do
       text = to_text(total)
    end function mark
+
+   !> Checksum of the bytes of a file; 0 where it cannot be read.
+   integer(i8) function file_checksum(file) result(total)
+      character(len=*), intent(in) :: file
+      character(len=bytes_at_once) :: bytes
+      integer(i8) :: length, at
+      integer :: unit, status
+      total = 0
+      if (.not. is_regular(file)) return
+      open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', iostat=status)
+      if (status /= 0) return
+      inquire (unit=unit, size=length)
+      do at = 1, length, bytes_at_once
+         associate (n => int(min(length - at + 1, int(bytes_at_once, i8))))
+            read (unit, pos=at, iostat=status) bytes(:n)
+            if (status /= 0) exit
+            total = checksum(bytes(:n), total)
+         end associate
+      end do
+      close (unit)
+      if (status /= 0) total = 0
+   end function file_checksum
 
    !> The variable that names a file whose numbers are others than they were, by both lists of marks; empty where there
    !> is none. What either list lacks was not read.

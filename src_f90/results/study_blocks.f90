@@ -4,12 +4,12 @@ module study_blocks
    use kinds, only: i8
    use text, only: to_text
    use errors, only: error_type
-   use files, only: delete_file, block_names
-   use working_file, only: working_file_type, clear_leftovers
+   use files, only: delete_file, block_names, file_identity
+   use working_file, only: working_file_type
    use study_source, only: log_path, log_ending
    implicit none (type, external)
    private
-   public :: block_type, path_type, block_paths, refuse_written, delete_block
+   public :: block_type, path_type, block_paths, refuse_written, state_of, delete_block
 
    !> One of some blocks of runs that follow each other, whose sizes differ by one at most.
    type :: block_type
@@ -21,8 +21,9 @@ module study_blocks
       procedure :: path
    end type block_type
 
+   !> A file; of a block whose rows were read, `state` is what its files were then.
    type :: path_type
-      character(len=:), allocatable :: path
+      character(len=:), allocatable :: path, state
    end type path_type
 
 contains
@@ -62,7 +63,7 @@ contains
       logs = paths_with('.h5'//log_ending, name)
       do i = 1, size(logs)
          associate (own => logs(i)%path(:len(logs(i)%path) - len(log_ending)))
-            if (.not. any([(paths(k)%path == own, k=1, size(paths))])) paths = [paths, path_type(own)]
+            if (.not. any([(paths(k)%path == own, k=1, size(paths))])) paths = [paths, path_type(own, '')]
          end associate
       end do
    end function block_paths
@@ -101,14 +102,29 @@ contains
       end do
    end subroutine refuse_written
 
-   !> Deletes the file of a block and what a killed program has left beside it, unless somebody writes it.
-   subroutine delete_block(path)
+   !> Differs once somebody has written the table or the log of a block: a table gets a new file, and a log grows.
+   function state_of(path) result(state)
       character(len=*), intent(in) :: path
-      logical :: locked
-      call clear_leftovers(path)
-      inquire (file=path//'.lock', exist=locked)
-      if (locked) return
-      call delete_file(log_path(path))
-      call delete_file(path)
+      character(len=:), allocatable :: state
+      integer(i8) :: length
+      inquire (file=log_path(path), size=length)
+      state = file_identity(path)//' '//file_identity(log_path(path))//' '//to_text(length)
+   end function state_of
+
+   !> Deletes the files of a block and what a killed program has left beside them, unless somebody writes them, or has
+   !> written them since their rows were read.
+   subroutine delete_block(block)
+      type(path_type), intent(in) :: block
+      type(working_file_type) :: work
+      type(error_type), allocatable :: held
+      ! whoever holds it may still be there
+      work%lock%watch_held = 0
+      call work%claim(block%path, held)
+      if (allocated(held)) return
+      if (state_of(block%path) == block%state) then
+         call delete_file(log_path(block%path))
+         call delete_file(block%path)
+      end if
+      call work%release()
    end subroutine delete_block
 end module study_blocks

@@ -2,6 +2,7 @@
 !> made of the log at checkpoints and at the end. A kill at any moment loses no row that was added. After a failure
 !> every routine does nothing; the next one with an error tells it.
 module study_file
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, i8
    use text, only: printable
    use errors, only: error_type
@@ -12,10 +13,12 @@ module study_file
    use working_file, only: working_file_type
    use frame_log, only: is_log
    use study_header, only: header_type, header_of
+   use study_layout, only: layout_type
    use study_log, only: study_log_type, row_type, stays
    use study_row, only: study_row_type
    use study_source, only: take_rows, log_path
    use study_builder, only: write_table
+   use verification_results, only: states_figure
    implicit none (type, external)
    private
    public :: study_file_type, make_table
@@ -43,6 +46,8 @@ module study_file
       procedure :: has_row
       !> Exit status of a run; -2 where it has no row.
       procedure :: status
+      !> States of a run whose films were solved closely, by its row.
+      procedure :: verified_states
       !> Bytes of the logs whose rows were taken that were no whole rows.
       procedure :: lost
       procedure :: add
@@ -122,6 +127,25 @@ contains
       integer, intent(in) :: k
       status = self%log%status(k)
    end function status
+
+   integer function verified_states(self, k) result(states)
+      class(study_file_type), intent(inout) :: self
+      integer, intent(in) :: k
+      type(row_type) :: row
+      type(layout_type) :: layout
+      type(error_type), allocatable :: error
+      integer :: c
+      states = 0
+      call self%log%row(k, row, error)
+      if (.not. allocated(error)) call self%log%layout(row%description, layout, error)
+      if (allocated(error)) return
+      c = layout%find(states_figure)
+      if (c == 0) return
+      associate (at => layout%columns(c)%before + 1)
+         if (at > size(row%numbers)) return
+         if (.not. ieee_is_nan(row%numbers(at))) states = nint(row%numbers(at))
+      end associate
+   end function verified_states
 
    pure integer(i8) function lost(self)
       class(study_file_type), intent(in) :: self

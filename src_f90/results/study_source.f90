@@ -119,12 +119,15 @@ contains
       else
          call study%tag(1, first)
          call study%tag(runs, last)
-         if (marks == '' .or. first%marks == '') return
+         other = marks /= '' .and. first%marks /= ''
+         if (.not. other) return
          if (word(first%marks, 1) /= word(marks, 1)) then
             call raise(error, system_error, path//': is the study of another case, or of files that have ' &
                & //'changed since')
          else if (word(last%marks, 2) /= word(marks, 2)) then
             call raise(error, system_error, path//': is of another study: its runs have other values')
+         else
+            other = .false.
          end if
       end if
    end subroutine check_marks
@@ -140,6 +143,8 @@ contains
       if (allocated(error)) return
       call file%get_text('task', task)
       if (task == 'study') is_collected = .not. file%has_attribute(marks_name)
+      ! what cannot be read is none that may be replaced
+      is_collected = is_collected .and. .not. allocated(file%failure)
       call file%close()
    end function is_collected
 
@@ -174,7 +179,6 @@ contains
       end if
       if (.not. allocated(error)) call check_marks(path, runs, marks, study, other, error)
       if (allocated(error)) return
-      other = .false.
       call read_guarded(self, path, runs, error)
    end subroutine open_table
 

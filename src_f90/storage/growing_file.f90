@@ -209,7 +209,7 @@ contains
    end subroutine write_held
 
    logical function has_series(self, name) result(has)
-      class(growing_file_type), intent(in) :: self
+      class(growing_file_type), intent(inout) :: self
       character(len=*), intent(in) :: name
       has = place_of(self, name) > 0
       if (.not. has .and. self%in_file) has = self%has(name)

@@ -156,7 +156,7 @@ contains
    end subroutine close_file
 
    logical function has(self, path)
-      class(hdf5_base_type), intent(in) :: self
+      class(hdf5_base_type), intent(inout) :: self
       character(len=*), intent(in) :: path
       integer :: status, slash
       has = .not. allocated(self%failure)
@@ -166,15 +166,19 @@ contains
          if (has .and. path(slash:slash) == '/') call h5lexists_f(self%id, path(:slash - 1), has, status)
       end do
       if (has .and. status >= 0) call h5lexists_f(self%id, path, has, status)
+      call self%check_read(status, 'look for '//path)
       has = has .and. status >= 0
    end function has
 
    logical function has_attribute(self, name) result(has)
-      class(hdf5_base_type), intent(in) :: self
+      class(hdf5_base_type), intent(inout) :: self
       character(len=*), intent(in) :: name
       integer :: status
       has = .false.
+      status = 0
       if (.not. allocated(self%failure)) call h5aexists_f(self%id, name, has, status)
+      call self%check_read(status, 'look for '//name)
+      has = has .and. status >= 0
    end function has_attribute
 
    subroutine delete(self, path)

@@ -1,0 +1,138 @@
+"""What a study has is kept: whatever fails while it is opened again, whoever writes its blocks, whatever it reads."""
+
+import shutil
+import signal
+
+import h5py
+import numpy as np
+import pytest
+import tiltpad as package
+from conftest import TIMEOUT, one_error, wait_for
+
+SMALL = "&case task='equilibrium' /\n&sweep rotor%mass=1001:{last}:1 /\n"
+#: Calls that fail when a study is opened again, with what.
+FAULTS = [
+    *[("open", "ESTALE"), ("open", "EMFILE"), ("read", "EIO"), ("stat", "ESTALE"), ("fork", "EAGAIN")],
+    *[("write", "ENOSPC"), ("write", "EDQUOT"), ("rename", "EIO"), ("lock", "ENOLCK")],
+]
+
+
+def times(path):
+    """Seconds of the runs that have rows: a run that is run again has others."""
+    with package.read_study(path) as study:
+        return dict(zip(study.run[study.done], study.wall_seconds[study.done], strict=True))
+
+
+def steps():
+    """The first calls, then fewer and fewer of them."""
+    step = 0
+    while True:
+        step += 1 + step // 8
+        yield step
+
+
+@pytest.mark.parametrize(("kind", "action"), FAULTS)
+def test_overwrite_after_a_fault_keeps_finished_rows(program, tiltpad, case, failing, kind, action):
+    """A study of 8 runs that has grown by two; the fault is one of those that pass."""
+    folder = case(SMALL.format(last=1008))
+    made = folder / "made"
+    made.mkdir()
+    tiltpad("case.nml", "-q", "-o", "made/case", cwd=folder, status=0)
+    before, done = (made / "case.h5").read_bytes(), times(made / "case.h5")
+    case(SMALL.format(last=1010))
+    failures = whole = 0
+    for step in steps():
+        shutil.rmtree(made)
+        made.mkdir()
+        (made / "case.h5").write_bytes(before)
+        own = {"cwd": folder, "env": failing(kind, step, action, folder=made)}
+        ended = tiltpad("case.nml", "-q", "--overwrite", "--jobs", "1", "-o", "made/case", **own)
+        assert ended.returncode in (0, 3), ended.stderr
+        assert (ended.stderr != "") == (ended.returncode == 3)
+        assert "--overwrite replaces" not in ended.stderr
+        found = times(made / "case.h5")
+        assert {k: found.get(k) for k in done} == done, (step, ended.stderr)
+        if ended.returncode == 0:
+            assert len(found) == 10
+            whole += 1
+        failures += ended.returncode == 3
+        # nothing is called so often
+        if whole > 6 or step > 300:
+            break
+    assert failures > 0 or kind in ("rename", "lock")
+
+
+def test_a_block_that_is_run_again_beside_the_whole_study(start, case):
+    """Its file stays where it has rows that the whole study, which is stopped, has not taken."""
+    # the second run does not end
+    folder = case("&output keep='summary' /\n&sweep operation%duration=1e-3,10000,2e-3,3e-3,4e-3,5e-3 /\n")
+
+    def until_there_are(rows, name, process):
+        def there():
+            try:
+                return len(times(folder / name)) == rows
+            except package.RunError:
+                return False
+
+        wait_for(there, process)
+
+    def stopped(process):
+        process.send_signal(signal.SIGTERM)
+        one_error(process, 4)
+
+    block = start(folder, "-q", "case.nml", "--block", "1/2", "--jobs", "1")
+    until_there_are(1, "case.1of2.h5", block)
+    stopped(block)
+    whole = start(folder, "-q", "case.nml", "--jobs", "1")
+    until_there_are(1, "case.h5", whole)
+    again = start(folder, "-q", "case.nml", "--block", "1/2", "--jobs", "2")
+    until_there_are(2, "case.1of2.h5", again)
+    stopped(again)
+    kept = times(folder / "case.1of2.h5")
+    stopped(whole)
+    assert times(folder / "case.1of2.h5") == kept
+    assert set(kept) == {1, 3}
+    assert set(times(folder / "case.h5")) == {1}
+
+
+def test_states_are_verified_in_runs_that_have_rows(tiltpad, case):
+    """With or without files of their own; what was verified is not verified again."""
+    for keep in ("all", "summary"):
+        text = f"&case task='equilibrium' /\n&output keep='{keep}' /\n&sweep rotor%mass=1001:1003:1 /\n"
+        folder = case(text)
+        tiltpad("case.nml", "-q", "-o", keep, cwd=folder, status=0)
+        tiltpad("case.nml", "-q", "--verify", "1", "-o", keep, cwd=folder, status=0)
+        with h5py.File(folder / f"{keep}.h5") as file:
+            np.testing.assert_array_equal(file["verified_states"], 1)
+        before = times(folder / f"{keep}.h5")
+        tiltpad("case.nml", "-q", "--verify", "1", "-o", keep, cwd=folder, status=0)
+        assert times(folder / f"{keep}.h5") == before
+
+
+def test_a_start_that_has_changed(tiltpad, case):
+    """A study is that of the files that its runs start from."""
+    folder = case("&operation duration=1e-3 /\n")
+    tiltpad("case.nml", "-q", "-o", "from.h5", cwd=folder, status=0)
+    case(
+        "&operation duration=1e-3 /\n&start from='file', file='from.h5' /\n&output keep='summary' /\n"
+        "&sweep rotor%mass=2001,2002 /\n"
+    )
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    (folder / "one.nml").write_text("&operation duration=2e-3 /\n")
+    tiltpad("one.nml", "-q", "-o", "from.h5", "--overwrite", cwd=folder, status=0)
+    done = tiltpad("case.nml", "-q", cwd=folder, status=3)
+    assert "case.h5: is the study of another case, or of files that have changed since" in done.stderr
+
+
+def test_very_many_starts(start, case):
+    """Their names take no time that grows with their square, and a signal is obeyed meanwhile."""
+    folder = case("&start from='file' /\n&sweep file='t.csv' /\n")
+    names = "".join(f"none/{k}.h5\n" for k in range(20_000))
+    (folder / "t.csv").write_text(f"start%file\n{names}")
+    process = start(folder, "-q", "case.nml", "--block", "1/20000")
+    assert process.communicate(timeout=TIMEOUT)[1].count("\n") <= 2
+    process = start(folder, "-q", "case.nml", "--block", "2/20000")
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=TIMEOUT)
+    assert process.returncode in (4, -signal.SIGTERM)
