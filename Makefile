@@ -38,7 +38,7 @@ endif
 # ---- flags by compiler: this is the one place ---------------------------------------------------
 # Another compiler needs a block of its own and its name in `family`.
 #   standard         used always; position-independent, as Python's library is of the same objects
-#   heap             added for modules whose arrays are as long as a run
+#   heap             added for modules whose arrays may be long
 #   modules          stands before the folder of module files
 #   release, debug   FFLAGS, if they are not given; plain_release, plain_debug: added to them for modules that compute
 #                    little, which compile in half the time
@@ -123,11 +123,14 @@ object = $(patsubst %,$(B)/obj/%.o,$1)
 # what a program is linked from: the modules that it uses (linked.NAME), so that a test builds what it needs alone;
 # C of src_f90/app is the main program's alone
 objects_of = $(call object,$(linked.$1) $(basename $(notdir $(filter-out src_f90/app/%,$(c_sources))))) $(B)/lib/unused.o
-# which modules each source uses, and which say that they have arrays as long as a run
+# which modules each source uses
 $(foreach line,$(shell awk -f src_f90/dependencies.awk $(sources)),$(eval $(subst ;, ,$(line))))
-# such arrays are not on the stack, wherever FFLAGS puts the short ones of the march
 modules_of = $(basename $(notdir $(filter $(addsuffix /%,$1),$(sources))))
-run_long := $(sort $(heap) $(call modules_of,$(addprefix src_f90/,system input storage results app)))
+# arrays whose size comes from the input or from a run are not on the stack: FFLAGS puts those of modules there that a
+# march or its tables call at each step, whose arrays are short, lines of a grid at most
+short := equations_of_motion newton_system bearing_samples table_film $(filter-out marching sor_film local_cavitation volume_flows fourier_field,\
+         $(call modules_of,$(addprefix src_f90/,film/tables film/common film/volumes film/fourier pivot bearing integrate)))
+heaped := $(filter-out $(short),$(basename $(notdir $(sources))))
 # modules that compute little, and what their FFLAGS have besides; not those that a march calls at each step or sample
 plain := $(filter-out excitations growing_file march_results summary_group recorder,\
          $(call modules_of,$(addprefix src_f90/,system case input storage results app equilibrium branches)))
@@ -153,7 +156,7 @@ module build_info
    character(len=*), parameter :: program_flags = ''$(foreach flag,$(FFLAGS), &$(newline)     & //' $(subst ','',$(flag))')
 end module build_info
 endef
-flags := $(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) long:$($(family).heap) $(run_long) plain:$(plain_flags) $(plain)
+flags := $(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) heap:$($(family).heap) $(heaped) plain:$(plain_flags) $(plain)
 ifeq ($(only_tells),)
 $(shell mkdir -p $(B)/obj $(B)/mod)
 # $1: a file, $2: what it must say
@@ -382,7 +385,7 @@ $(B)/lib/flags: src_f90/libraries.sh $(B)/flags | build/deps-checked
 $(B)/lib/unused.o: $(B)/lib/flags
 	$(CC) -O1 -fPIC -w -c $(B)/lib/unused.c -o $@
 
-$(call object,$(run_long)): private override FFLAGS += $($(family).heap)
+$(call object,$(heaped)): private override FFLAGS += $($(family).heap)
 $(call object,$(plain)): private override FFLAGS += $(plain_flags)
 
 test-programs: $(test_programs)

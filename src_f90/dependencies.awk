@@ -1,7 +1,6 @@
 # Writes for make what each Fortran source uses (a file has the name of its module), with ; for blanks:
 #   uses.NAME     the modules that it names, whose objects its own object depends on
 #   linked.NAME   itself and all modules that it uses directly or through others: what a program is linked from
-#   heap          those with a comment "! heap: why"
 #
 # usage: awk -f dependencies.awk SOURCES
 FNR == 1 {
@@ -15,9 +14,7 @@ tolower($1) == "use" {
    sub(/,.*/, "", used)
    uses[name] = uses[name] " " used
 }
-/^ *! heap: / { heap = heap " " name }
 END {
-   tell("heap", heap)
    uses["build_info"] = ""
    for (name in uses) {
       tell("uses." name, own(uses[name]))

@@ -19,10 +19,10 @@ from tiltpad.calculate.selection import ArgumentError
 from tiltpad.calculate.tables import write_coefficients
 from tiltpad.collect.collect import RunWarning
 from tiltpad.collect.collect import collect as collected
+from tiltpad.files import writing
 from tiltpad.files.archive import NotInRunError, RunError, meant
 from tiltpad.files.read import IncompleteRunWarning, Run, read
 from tiltpad.files.study import Study, read_either, read_study
-from tiltpad.files.writing import write
 from tiltpad.running import resolved
 
 FORMATS = ("png", "pdf", "svg")
@@ -139,6 +139,7 @@ def collect(arguments: Sequence[str] | None = None) -> int:
 
 def tell(result: object) -> None:
     """Prints it; raises RunError if standard output cannot be written."""
+    writing.look()
     try:
         print(result, flush=True)
     except OSError as error:
@@ -197,20 +198,17 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
 def signals_stop() -> Iterator[None]:
     """Lets the signals that end a process stop the work as Ctrl-C does, so that nothing is left of it."""
 
-    came = []
-
     def stop(number: int, _: object) -> NoReturn:
-        came.append(number)
+        writing.came.append(number)
         raise KeyboardInterrupt(number)
 
     ending = (each for each in (signal.SIGTERM, signal.SIGHUP) if signal.getsignal(each) == signal.SIG_DFL)
     former = {each: signal.signal(each, stop) for each in ending}
     try:
         yield
-        if came:
-            # it came where Python lets nothing out, as in the end of an object
-            raise KeyboardInterrupt(came[0])
+        writing.look()
     finally:
+        writing.came.clear()
         for each, handler in former.items():
             signal.signal(each, handler)
 
@@ -245,7 +243,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         stack.callback(plots.plt.close, figure)
         content = io.BytesIO()
         figure.savefig(content, format=form)
-        write(output, content.getbuffer())
+        writing.write(output, content.getbuffer())
         tell_remarks(told)
 
 
@@ -356,7 +354,7 @@ def write_report(path: str, output: Path, operating: tuple[float, float] | None 
         if operating is not None and not isinstance(found, Study):
             raise ValueError("--operating: for the critical speeds of a study")
         page = study_report(found, operating) if isinstance(found, Study) else report(found)
-        write(output, page)
+        writing.write(output, page)
         tell_remarks([found])
 
 

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <stddef.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 /* ---- environment ------------------------------------------------------------------------------- */
@@ -20,8 +21,36 @@ static void forget_runtime_variables(int count, char **arguments, char **environ
    *kept = NULL;
 }
 
+/* ---- stack ------------------------------------------------------------------------------------- */
+
+/* Bytes of stack that are enough for all arrays that are on it, and below which nothing is begun. */
+enum { STACK = 8 << 20, LEAST_STACK = 128 << 10 };
+
+/* A smaller stack than is usual (ulimit -s) is enlarged where the system allows it; it grows up to its limit. */
+static void enlarge_stack(void)
+{
+   static const char line[] = "tiltpad: error: less than 128 kB of stack are allowed; ulimit -s 8192 allows 8 MB\n";
+   struct rlimit limit, more;
+   if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= STACK) return;
+   more = (struct rlimit){STACK, limit.rlim_max < STACK ? STACK : limit.rlim_max};
+   if (setrlimit(RLIMIT_STACK, &more) == 0) return;
+   more = (struct rlimit){limit.rlim_max, limit.rlim_max};
+   if (setrlimit(RLIMIT_STACK, &more) == 0) limit = more;
+   if (limit.rlim_cur >= LEAST_STACK) return;
+   if (write(STDERR_FILENO, line, sizeof line - 1) < 0) _exit(3);
+   _exit(3);
+}
+
+/* ---- what comes first -------------------------------------------------------------------------- */
+
+static void before_all(int count, char **arguments, char **environment)
+{
+   enlarge_stack();
+   forget_runtime_variables(count, arguments, environment);
+}
+
 __attribute__((section(".preinit_array"), used))
-static void (*const before_all)(int, char **, char **) = forget_runtime_variables;
+static void (*const first)(int, char **, char **) = before_all;
 
 /* ---- memory ------------------------------------------------------------------------------------ */
 

@@ -231,8 +231,8 @@ contains
       end if
    end function own_file
 
-   !> The checksums of a study are those of its first run's case, of files that runs read, and of the runs' values. Files
-   !> in the folder of its own results are not among them. An error where a signal came.
+   !> The checksums of a study are those of its first run's case, of files that runs read, and of the runs' values.
+   !> Files in the folder of its own results are not among them. An error where a signal came.
    subroutine mark_study(study, folder, error)
       type(study_type), intent(inout) :: study
       character(len=*), intent(in) :: folder

@@ -249,10 +249,10 @@ contains
       class(newton_system_type), intent(in) :: self
       class(rotor_type), intent(in) :: rotor
       type(element_pointer), intent(in) :: elements(:)
-      real(wp) :: matrix(self%layout%n, self%layout%n)
-      real(wp), dimension(self%rotor, self%rotor) :: over_positions, over_rates
+      real(wp), allocatable, dimension(:, :) :: matrix, over_positions, over_rates
       integer :: e, i
-      matrix = 0
+      allocate (matrix(self%layout%n, self%layout%n), source=0.0_wp)
+      allocate (over_positions(self%rotor, self%rotor), over_rates(self%rotor, self%rotor))
       call rotor%force_derivatives(self%speed, over_positions, over_rates)
       associate (n => self%rotor)
          do i = 1, n

@@ -1,7 +1,6 @@
 !> How a rotor is marched: the tolerances of its input, and what pivots and friction of its bearings ask for; and the
 !> march that brings a periodic orbit near, period after period, and the last one as intervals of a collocation.
 module march_settings
-   ! heap: arrays as long as a run
    use kinds, only: wp, i8, pi
    use marching, only: march_options
    use state_layout, only: pivot_deflection

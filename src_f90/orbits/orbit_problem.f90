@@ -1,7 +1,6 @@
 !> Periodic orbits as a problem of Newton's method, for one or for a branch of them: the unknowns are the states at the
 !> start of the period, and the collocation follows them.
 module orbit_problem
-   ! heap: arrays as long as a run
    use kinds, only: wp, i8
    use errors, only: error_type
    use ode_model, only: ode_model_type

@@ -1,7 +1,6 @@
 !> A periodic orbit of a bearing under its unbalance: a march brings it near, Newton's method on its collocation closes
 !> it, and its multipliers say whether it is stable.
 module periodic_orbit
-   ! heap: arrays as long as a run
    use kinds, only: wp, i8, pi
    use text, only: to_text
    use errors, only: error_type, add_context, numerics_error

@@ -7,7 +7,7 @@ module study_file
    use text, only: printable
    use errors, only: error_type
    use clock, only: wall_clock
-   use files, only: delete_file, is_regular
+   use files, only: delete_file, is_regular, take_mode
    use parameter_study, only: study_type
    use hdf5_file, only: hdf5_type
    use working_file, only: working_file_type
@@ -83,6 +83,7 @@ contains
          if (is_log(part)) call delete_file(part)
       end if
       call self%log%begin(part, header_of(study, first, last), error)
+      if (.not. allocated(error)) call take_mode(self%working%path, part)
       if (allocated(error)) call self%abandon()
    end subroutine begin
 

@@ -1,7 +1,6 @@
 !> A free rotor before it is put into its bearings, in any displacements: M q'' + (C + Omega G) q' + K q = f;
 !> and those of a shaft, from its sections and discs.
 module rotor_component
-   ! heap: matrices of all displacements of a shaft
    use kinds, only: wp, pi, degree
    use case_groups, only: elastic_type, given_rotor_type, load_type, unbalance_type
    implicit none (type, external)

@@ -1,6 +1,5 @@
 !> Builds the rotor of a case: a rigid journal, or a shaft on its journals, reduced to few displacements.
 module rotor_factory
-   ! heap: matrices of all displacements of a shaft
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp, rpm
    use text, only: to_text, list_text

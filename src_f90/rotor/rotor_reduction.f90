@@ -3,7 +3,6 @@
 !> rotor keeps, and what the others and the damping of the high ones cost; and the equations that the time integration
 !> has of a shaft.
 module rotor_reduction
-   ! heap: matrices of all displacements of a shaft
    use kinds, only: wp, pi
    use linear_algebra, only: dpotrf, dpotrs, dsygv, solve_complex
    use case_groups, only: is_set, reduction_type

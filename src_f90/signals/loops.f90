@@ -1,6 +1,5 @@
 !> Key figures of periodic signals.
 module loops
-   ! heap: arrays as long as a run
    use kinds, only: wp
    implicit none (type, external)
    private

@@ -1,7 +1,6 @@
 !> What each pad does at the end of a run: whether it carries load, lifts off its pivot, flutters or rubs; and whether
 !> the journal whirls.
 module pad_behaviour
-   ! heap: arrays as long as a run
    use kinds, only: wp, pi
    use spectra, only: hann_amplitude
    implicit none (type, external)

@@ -1,6 +1,5 @@
 !> Amplitude spectra by FFTW. The only file that knows FFTW.
 module spectra
-   ! heap: arrays as long as a run
    use, intrinsic :: iso_c_binding, only: c_double, c_double_complex, c_int, c_ptr
    use kinds, only: wp
    implicit none (type, external)

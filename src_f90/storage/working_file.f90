@@ -12,7 +12,7 @@ module working_file
    use text, only: to_text
    use errors, only: error_type, raise, system_error
    use files, only: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync, &
-      & real_path, is_regular, file_identity, untold
+      & real_path, is_regular, is_writable, take_mode, file_identity, untold
    use system_texts, only: system_reason
    use file_lock, only: file_lock_type
    implicit none (type, external)
@@ -64,11 +64,12 @@ contains
       self%path = real_path(path)
       inquire (file=self%path//'/.', exist=exists)
       if (.not. exists) inquire (file=self%path, exist=exists)
-      if (exists) exists = .not. is_regular(self%path)
-      if (exists) then
+      if (exists .and. .not. is_regular(self%path)) then
          call raise(error, system_error, 'cannot write '//path//': it is a directory, device or pipe')
-         return
+      else if (exists .and. .not. is_writable(self%path)) then
+         call raise(error, system_error, 'cannot write '//path//': '//system_reason())
       end if
+      if (allocated(error)) return
       call self%lock%acquire(self%path, error)
       if (allocated(error)) return
       call choose_part(self, error)
@@ -156,6 +157,7 @@ contains
          call raise(error, system_error, 'cannot write '//self%part//': '//system_reason())
          return
       end if
+      call take_mode(self%path, self%part)
       call identify(self%part, self%made, error)
       if (allocated(error)) then
          self%made = ''

@@ -5,7 +5,7 @@ module files
    implicit none (type, external)
    private
    public :: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync
-   public :: block_names
+   public :: block_names, take_mode, is_writable
    public :: real_path, is_regular, file_identity, untold, make_folder, remove_folder, other_number
 
    !> Stands for the identity that the system does not tell.
@@ -35,6 +35,18 @@ module files
          import :: c_bool, c_char
          character(kind=c_char, len=*), intent(in) :: path
       end function create_file
+
+      !> Gives a file the permissions of another, where that is there.
+      subroutine take_mode(from, path) bind(c, name='tiltpad_take_mode')
+         import :: c_char
+         character(kind=c_char, len=*), intent(in) :: from, path
+      end subroutine take_mode
+
+      !> Whether this user may write a file that is there.
+      logical(c_bool) function is_writable(path) bind(c, name='tiltpad_is_writable')
+         import :: c_bool, c_char
+         character(kind=c_char, len=*), intent(in) :: path
+      end function is_writable
 
       !> Copies a file into another that is there.
       logical(c_bool) function copy_file(old, new) bind(c, name='tiltpad_copy')

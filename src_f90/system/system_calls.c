@@ -154,6 +154,22 @@ bool tiltpad_create(const text_t *path)
    return false;
 }
 
+/* Gives a file the permissions of another, where that is there. */
+void tiltpad_take_mode(const text_t *from_path, const text_t *path)
+{
+   struct stat status;
+   C_STRING(from, from_path);
+   C_STRING(name, path);
+   if (stat(from, &status) == 0) chmod(name, status.st_mode & 0777);
+}
+
+/* Whether this user may write a file that is there. */
+bool tiltpad_is_writable(const text_t *path)
+{
+   C_STRING(name, path);
+   return access(name, W_OK) == 0;
+}
+
 /* Copies within the kernel into a file that is there, in place of what it contains. */
 bool tiltpad_copy(const text_t *old_path, const text_t *new_path)
 {

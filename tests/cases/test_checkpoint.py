@@ -79,9 +79,12 @@ def series(file):
 
 
 def reached(path):
-    """Simulated time of the checkpoint in a file."""
-    with h5py.File(path) as file:
-        return file["checkpoint/time"][()]
+    """Simulated time of the checkpoint in a file; 0 where it is opened while its name changes hands."""
+    try:
+        with h5py.File(path) as file:
+            return file["checkpoint/time"][()]
+    except BlockingIOError:
+        return 0.0
 
 
 def lengths(file):

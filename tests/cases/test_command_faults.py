@@ -307,6 +307,36 @@ def test_parts_of_killed_commands(folder, loaded, tmp_path, name):
         process.kill()
 
 
+#: Gets SIGTERM in the end of an object, out of which Python lets no exception.
+IN_THE_END = """
+import os, signal, sys
+from tiltpad import command
+from tiltpad.files import writing
+
+class Last:
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGTERM)
+
+def new_part(target, _new=writing.new_part):
+    Last()
+    return _new(target)
+
+writing.new_part = new_part
+sys.exit(getattr(command, sys.argv[1])(sys.argv[2:]))
+"""
+
+
+@pytest.mark.parametrize("name", ["study.h5", "picture.png"])
+def test_a_signal_in_the_end_of_an_object(folder, name):
+    """Nothing is written then, and nothing said to be done."""
+    words = [sys.executable, "-c", IN_THE_END, *WRITERS[name], "-o", name]
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 128 + signal.SIGTERM
+    assert done.stdout == ""
+    assert done.stderr.endswith(": error: stopped\n")
+    assert names(folder) == []
+
+
 # ---- processes that commands start -------------------------------------------------------------
 
 

@@ -1,13 +1,16 @@
 """What a study has is kept: whatever fails while it is opened again, whoever writes its blocks, whatever it reads."""
 
+import os
+import shlex
 import shutil
 import signal
+import subprocess
 
 import h5py
 import numpy as np
 import pytest
 import tiltpad as package
-from conftest import TIMEOUT, one_error, wait_for
+from conftest import ENDLESS, EVERY_STEP, TIMEOUT, one_error, wait_for, wait_for_checkpoint
 
 SMALL = "&case task='equilibrium' /\n&sweep rotor%mass=1001:{last}:1 /\n"
 #: Calls that fail when a study is opened again, with what.
@@ -136,3 +139,44 @@ def test_very_many_starts(start, case):
     process.send_signal(signal.SIGTERM)
     process.communicate(timeout=TIMEOUT)
     assert process.returncode in (4, -signal.SIGTERM)
+
+
+@pytest.mark.parametrize("kilobytes", [64, 128])
+def test_a_small_stack(program, case, kilobytes):
+    """No array whose size comes from the input is on it; with next to none nothing is begun."""
+    folder = case(
+        "&case task='coefficients' /\n&operation speed_rpm=6000 /\n&shaft length=99*0.03, diameter=99*0.2 /\n"
+        "&bearing name='a', station=2 /\n&bearing name='b', station=99 /\n"
+    )
+    words = ["sh", "-c", f"ulimit -s {kilobytes}; exec {shlex.quote(program)} case.nml -q"]
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
+    enlarged = done.returncode == 0 and done.stderr == ""
+    assert enlarged or kilobytes == 64
+    assert enlarged or (done.returncode, done.stderr.count("\n")) == (3, 1)
+
+
+def test_permissions_stay(tiltpad, start, case):
+    """Of a result that is replaced, of one that grows, its part, and of a study and its rows."""
+    folder = case("&operation duration=0.02 /\n")
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    (folder / "case.h5").chmod(0o600)
+    process = start(
+        folder, "case.nml", "-q", "--overwrite", "--set", "rotor%mass=2100", *ENDLESS, *EVERY_STEP
+    )
+    wait_for_checkpoint(folder / "case.h5", process)
+    wait_for_checkpoint(folder / "case.h5", process)
+    process.terminate()
+    process.wait()
+    modes = {path.name: path.stat().st_mode & 0o777 for path in folder.glob("case.h5*")}
+    assert {name: mode for name, mode in modes.items() if mode != 0o600 and ".lock" not in name} == {}
+    case(SMALL.format(last=1003))
+    tiltpad("case.nml", "-q", "-o", "study", cwd=folder, status=0)
+    (folder / "study.h5").chmod(0o640)
+    case(SMALL.format(last=1004))
+    tiltpad("case.nml", "-q", "-o", "study", cwd=folder, status=0)
+    assert (folder / "study.h5").stat().st_mode & 0o777 == 0o640
+    if os.geteuid() != 0:
+        (folder / "study.h5").chmod(0o444)
+        case(SMALL.format(last=1005))
+        done = tiltpad("case.nml", "-q", "-o", "study", cwd=folder, status=3)
+        assert "study.h5: Permission denied" in done.stderr

@@ -6,7 +6,7 @@ import subprocess
 
 import h5py
 import pytest
-from conftest import ENDLESS, one_error, wait_for
+from conftest import ENDLESS, EVERY_STEP, one_error, wait_for, wait_for_checkpoint
 
 CASE = "&operation duration=0.02 / &output checkpoint_seconds=0.005 /\n"
 
@@ -110,6 +110,27 @@ def test_links_with_the_name_of_a_part(tiltpad, case, kind):
     after = contents(case)
     del after["case.h5"]
     assert after == before
+
+
+def test_a_result_that_names_a_file(start, tiltpad, case):
+    """A resumed run reads the table of its own input alone, and says nothing of what is in another file."""
+    (case / "force.csv").write_text("time,force_y,force_z\n0,1,0\n20000,2,0\n")
+    with (case / "case.nml").open("a") as file:
+        file.write("&excitation kind='table', file='force.csv' /\n")
+    process = start(case, "case.nml", "-q", *ENDLESS, *EVERY_STEP)
+    wait_for_checkpoint(case / "case.h5", process)
+    process.kill()
+    process.wait()
+    (case / "secret").write_text("the secret, is written, here\n")
+    with h5py.File(case / "case.h5", "r+") as file:
+        file.attrs["input"] = file.attrs["input"].replace("force.csv", "secret")
+    done = tiltpad("--resume", "case.h5", cwd=case, status=3)
+    assert (
+        "case.h5: its input names a file that is not there, or not what the run has read; name "
+        in done.stderr
+    )
+    assert done.stderr.count("\n") == 1
+    assert "secret" not in done.stderr + done.stdout
 
 
 def test_what_is_no_result_is_not_replaced(refused, case):

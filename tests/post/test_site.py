@@ -2,6 +2,8 @@
 
 import json
 import shutil
+import os
+import signal
 import subprocess
 import tempfile
 import threading
@@ -130,9 +132,11 @@ def seen(root):
         (Path(folder) / "log").open("w+") as log,
     ):
         home = [f"--user-data-dir={folder}/browser", "--window-size=1300,900"]
-        process = subprocess.Popen([browser, *options, *home, f"http://{server.host}/probe.html"], stderr=log)
+        # it may be a script that starts the browser, which starts others
+        words = [browser, *options, *home, f"http://{server.host}/probe.html"]
+        process = subprocess.Popen(words, stderr=log, start_new_session=True)
         server.done.wait(300)
-        process.terminate()
+        os.killpg(process.pid, signal.SIGKILL)
         process.wait(60)
         server.shutdown()
         log.seek(0)

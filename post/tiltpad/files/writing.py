@@ -16,6 +16,18 @@ import h5py
 
 #: Digits behind ".part" in the name of a part, which nothing else has by accident.
 DIGITS = 16
+#: Signals that are to stop the work of a command; only the command's handler adds one.
+came: list[int] = []
+
+
+def look() -> None:
+    """Raises KeyboardInterrupt where a signal came.
+
+    That of the handler is lost where Python lets nothing out, as in the end of an object: so it is looked for
+    before a file gets its name, and before a command says that it is done.
+    """
+    if came:
+        raise KeyboardInterrupt(came[0])
 
 
 def write(path: str | os.PathLike, content: str | bytes | memoryview) -> None:
@@ -68,6 +80,7 @@ def replacing(path: str | os.PathLike) -> Iterator[BinaryIO]:
             yield file
             file.flush()
             os.fsync(file.fileno())
+            look()
             os.replace(file.name, target)
         except BaseException:
             with suppress(OSError):

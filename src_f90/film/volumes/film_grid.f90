@@ -271,10 +271,11 @@ contains
       !> Angles from the pivot, rad, and distances from the middle plane, m, within the pad.
       real(wp), intent(in) :: phi(:), z(:)
       real(wp) :: pressure(size(z), size(phi))
-      real(wp) :: mean(self%rows, self%columns), at_face(0:self%columns, self%rows)
+      real(wp), allocatable :: mean(:, :), at_face(:, :)
       real(wp) :: line(self%rows), ends(0:self%rows), t
       integer :: i, j, k
       associate (rows => self%rows)
+         allocate (at_face(0:self%columns, rows))
          mean = p(:rows, :self%columns)
          if (cavitates) mean = max(mean, 0.0_wp)
          do k = 1, rows
