@@ -1,4 +1,4 @@
-"""What a study has is kept: whatever fails while it is opened again, whoever writes its blocks, whatever it reads."""
+"""What a study has is kept: whatever fails while it is opened again, writes beside it, or changes."""
 
 import os
 import shlex

@@ -1,8 +1,8 @@
 """`make site` in a browser: pages, links, anchors, pictures, the search; nothing else is asked for."""
 
 import json
-import shutil
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
