@@ -7,8 +7,8 @@ module joined_blocks
    use parameter_study, only: study_type
    use stop_signals, only: stop_requested, stop_reason
    use study_file, only: study_file_type
-   use study_source, only: take_rows, is_collected
-   use study_blocks, only: block_type, path_type, block_paths, state_of, delete_block
+   use study_source, only: take_rows, is_collected, is_study
+   use study_blocks, only: block_type, path_type, block_paths, state_of, stays_there, delete_block
    use study_log, only: not_run
    use run_case, only: way_out
    implicit none (type, external)
@@ -74,7 +74,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       character(len=:), allocatable :: path
       integer :: i
-      logical :: other
+      logical :: other, marked
       allocate (taken(0))
       path = share%path(place%name)
       call table%claim(path, error)
@@ -96,7 +96,11 @@ contains
          end if
          call table%working%beat(int(wall_clock()))
          call table%take(study, path, other, error)
-         if (allocated(error)) call refuse(other, place%overwrite, way_out, error)
+         if (allocated(error)) then
+            call refuse(other, place%overwrite, way_out, error)
+            ! the result of a run whose name is like a block's
+            if (i > 0 .and. .not. is_study(path, marked)) taken(i)%state = stays_there
+         end if
          if (.not. allocated(error) .and. stop_requested()) call raise(error, stopped, stop_reason()//' while rows ' &
             & //'were read')
       end do

@@ -160,7 +160,7 @@ contains
       call table%abandon()
    end subroutine perform_block
 
-   !> Whether the row of a run that is done is without films that were solved closely in so many states.
+   !> Whether the row of a run that is done is without films that were solved closely in this number of states.
    logical function lacks_states(table, k, states)
       type(study_file_type), intent(inout) :: table
       integer, intent(in) :: k, states

@@ -1,5 +1,6 @@
 !> Linear algebra: LAPACK, eigenvalues and their order, two equations, SIMD padding of rows.
 module linear_algebra
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    implicit none (type, external)
    private
@@ -90,7 +91,7 @@ module linear_algebra
 
 contains
 
-   !> `ok` is false where LAPACK's iteration does not converge. Of a pair the value with positive imaginary part comes
+   !> `ok` is false where LAPACK's iteration does not converge, or a number is none. Of a pair the value with positive imaginary part comes
    !> first.
    subroutine find_eigenvalues(matrix, values, ok, vectors)
       real(wp), intent(in) :: matrix(:, :)
@@ -102,6 +103,8 @@ contains
       real(wp) :: changed(size(values), size(values)), work(8*size(values)), left(1, 1)
       real(wp), allocatable :: right(:, :)
       integer :: info, rows
+      ok = all(ieee_is_finite(matrix))
+      if (.not. ok) return
       associate (n => size(values))
          rows = merge(n, 1, present(vectors))
          allocate (right(rows, rows))
@@ -110,6 +113,7 @@ contains
             & size(work), info)
       end associate
       ok = info == 0
+      if (ok) ok = all(ieee_is_finite(re)) .and. all(ieee_is_finite(im))
       values = cmplx(re, im, wp)
       if (present(vectors) .and. ok) vectors = to_complex(right, im)
    end subroutine find_eigenvalues

@@ -9,7 +9,10 @@ module study_blocks
    use study_source, only: log_path, log_ending
    implicit none (type, external)
    private
-   public :: block_type, path_type, block_paths, refuse_written, state_of, delete_block
+   public :: block_type, path_type, block_paths, refuse_written, state_of, stays_there, delete_block
+
+   !> The state of a file that is no block's, and never deleted.
+   character(len=*), parameter :: stays_there = ''
 
    !> One of some blocks of runs that follow each other, whose sizes differ by one at most.
    type :: block_type

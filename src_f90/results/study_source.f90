@@ -21,7 +21,7 @@ module study_source
    use study_builder, only: run_scale
    implicit none (type, external)
    private
-   public :: take_rows, log_path, is_collected
+   public :: take_rows, log_path, is_collected, is_study
 
    !> What the name of a log has behind that of the study's file.
    character(len=*), parameter, public :: log_ending = '.rows'
@@ -135,18 +135,27 @@ contains
    !> Whether a file is a study that tiltpad-collect made of results.
    logical function is_collected(path)
       character(len=*), intent(in) :: path
+      logical :: marked
+      is_collected = is_study(path, marked)
+      if (is_collected) is_collected = .not. marked
+   end function is_collected
+
+   !> Whether a file is a study; `marked`: one that the program has performed. What cannot be read is none.
+   logical function is_study(path, marked)
+      character(len=*), intent(in) :: path
+      logical, intent(out) :: marked
       type(hdf5_type) :: file
       type(error_type), allocatable :: error
       character(len=:), allocatable :: task
-      is_collected = .false.
+      is_study = .false.
+      marked = .false.
       call open_result(path, file, error)
       if (allocated(error)) return
       call file%get_text('task', task)
-      if (task == 'study') is_collected = .not. file%has_attribute(marks_name)
-      ! what cannot be read is none that may be replaced
-      is_collected = is_collected .and. .not. allocated(file%failure)
+      if (task == 'study') marked = file%has_attribute(marks_name)
+      is_study = task == 'study' .and. .not. allocated(file%failure)
       call file%close()
-   end function is_collected
+   end function is_study
 
    !> Opens a table for reading, once a child process has read all of it, and reads what it has.
    subroutine open_table(self, path, study, other, error)

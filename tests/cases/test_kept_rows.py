@@ -180,3 +180,16 @@ def test_permissions_stay(tiltpad, start, case):
         case(SMALL.format(last=1005))
         done = tiltpad("case.nml", "-q", "-o", "study", cwd=folder, status=3)
         assert "study.h5: Permission denied" in done.stderr
+
+
+def test_a_run_that_is_called_like_a_block(tiltpad, case):
+    """It is told of, and with --overwrite left alone."""
+    folder = case("&case task='equilibrium' /\n")
+    tiltpad("case.nml", "-q", "-o", "case.3of4.h5", cwd=folder, status=0)
+    before = (folder / "case.3of4.h5").read_bytes()
+    case(SMALL.format(last=1003))
+    done = tiltpad("case.nml", "-q", cwd=folder, status=3)
+    assert "case.3of4.h5: is the result of one run, and not a study" in done.stderr
+    tiltpad("case.nml", "-q", "--overwrite", cwd=folder, status=0)
+    assert len(times(folder / "case.h5")) == 3
+    assert (folder / "case.3of4.h5").read_bytes() == before

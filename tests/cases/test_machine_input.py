@@ -279,3 +279,14 @@ def test_damaged_matrices_are_read_or_refused(run, tiltpad, tmp_path):
         done = tiltpad("case.nml", "--overwrite", cwd=tmp_path)
         assert done.returncode in (0, 1, 2), done
         assert done.stderr.count("\n") == (done.returncode != 0), done.stderr
+
+
+def test_stiffness_without_a_number_for_its_modes(run, tmp_path):
+    """A figure that is none makes no shaft stable."""
+    matrices = beam()
+    matrices["stiffness"][0, 0] = 1e308
+    write(tmp_path / "rotor.h5", matrices)
+    for task in ("equilibrium", "coefficients"):
+        done = run(BEARINGS, f"case%task='{task}'", status=2)
+        assert done.stderr.count("\n") == 1
+        assert "stable" not in done.stdout
