@@ -142,6 +142,8 @@ contains
       type(rotor_component_type), intent(in) :: component
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: file
+      !> (n, 1)
+      real(wp), allocatable :: translation(:, :)
       file = 'rotor%file = '''//inputs%rotor%elastic%rotor_file//''': '
       associate (c => component)
          call require(all(ieee_is_finite(c%mass)) .and. all(ieee_is_finite(c%damping)) .and. &
@@ -151,8 +153,9 @@ contains
             & file//'its numbers must be finite', error)
          if (allocated(error)) return
          call require(symmetric(c%mass, 1.0_wp), file//'mass: must be symmetric', error)
-         call check_translation()
+         call check_translation(translation)
          call require(symmetric(c%stiffness, 1.0_wp), file//'stiffness: must be symmetric', error)
+         if (.not. allocated(error)) call check_free(translation)
          call require(symmetric(c%gyroscopic, -1.0_wp), file//'gyroscopic: must change its sign when it ' &
             & //'is transposed', error)
          call check_stations()
@@ -162,8 +165,9 @@ contains
 
       !> The mass matrix is that of a body whose translation along y moves all stations, weighs `weighed` and has its
       !> mass.
-      subroutine check_translation()
-         real(wp), allocatable :: factor(:, :), translation(:, :), moved(:, :)
+      subroutine check_translation(translation)
+         real(wp), allocatable, intent(out) :: translation(:, :)
+         real(wp), allocatable :: factor(:, :), moved(:, :)
          integer :: n, info
          n = size(component%weighed)
          factor = component%mass
@@ -181,6 +185,24 @@ contains
                & //' kg', error)
          end associate
       end subroutine check_translation
+
+      !> A shaft that bearings alone hold does not resist being moved as a whole.
+      subroutine check_free(translation)
+         real(wp), intent(in) :: translation(:, :)
+         real(wp), dimension(size(translation)) :: force, terms
+         integer :: k
+         force = 0
+         terms = 0
+         do k = 1, size(force)
+            force = force + component%stiffness(:, k)*translation(k, 1)
+            terms = terms + abs(component%stiffness(:, k)*translation(k, 1))
+         end do
+         associate (spring => dot_product(translation(:, 1), force))
+            call require(maxval(abs(force)) <= alike*maxval(terms), file//'stiffness: resists a translation along y ' &
+               & //'with '//to_text(spring)//' N/m; must be that of a free shaft, without springs to ground, which ' &
+               & //'would carry what bearings are to carry', error)
+         end associate
+      end subroutine check_free
 
       !> Stations of the case exist; those of bearings are displacements of their own.
       subroutine check_stations()
