@@ -186,7 +186,10 @@ contains
       do i = 1, size(children)
          if (.not. allocated(children(i)%how)) cycle
          how = children(i)%how
-         if (children(i)%run /= 0) then
+         if (children(i)%run /= 0 .and. how == '') then
+            ! a signal came before its order, and ended it
+            call note(children(i)%run, error_type(stopped, ''), tally)
+         else if (children(i)%run /= 0) then
             call note(children(i)%run, error_type(system_error, how), tally)
             call table%add(children(i)%run, system_error, how, lost, '')
          end if

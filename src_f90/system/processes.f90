@@ -169,7 +169,7 @@ contains
       write_output = c_write_output(text)
    end function write_output
 
-   !> True once a child has ended, and how. With `wait` true it waits for that.
+   !> True once a child has ended, and how: nothing to say with status 0. With `wait` true it waits for that.
    logical function ended(process, wait, how)
       integer, intent(in) :: process
       logical, intent(in) :: wait
@@ -182,6 +182,7 @@ contains
          how = 'ended with status '//to_text(code)//' and without a report'
          ! the one end of a child with this status (program_start.c)
          if (code == system_error) how = 'out of memory'
+         if (code == 0) how = ''
       case (2)
          how = 'ended by signal '//to_text(code)
       case default
