@@ -91,8 +91,8 @@ module linear_algebra
 
 contains
 
-   !> `ok` is false where LAPACK's iteration does not converge, or a number is none. Of a pair the value with positive imaginary part comes
-   !> first.
+   !> `ok` is false where LAPACK's iteration does not converge, or a number is none. Of a pair the value with positive
+   !> imaginary part comes first.
    subroutine find_eigenvalues(matrix, values, ok, vectors)
       real(wp), intent(in) :: matrix(:, :)
       complex(wp), intent(out) :: values(:)

@@ -192,9 +192,18 @@ MATRICES = {
     "unsymmetric stiffness": (changed("stiffness", (0, 5), 1e9), "stiffness: must be symmetric"),
     "gyroscopic": (changed("gyroscopic", (0, 5), 1.0), "gyroscopic: must change its sign"),
     "negative": (lambda m: m.update(mass=-m["mass"]), "mass: must be positive definite"),
-    "a spring to ground": (changed("stiffness", (4, 4), 1e10), "stiffness: resists a translation along y with"),
-    "a zero on the diagonal": (changed("stiffness", (0, 0), 0.0), "stiffness: resists a translation along y with"),
-    "no number in the end": (changed("stiffness", (0, 0), 1e308), "stiffness: resists a translation along y with"),
+    "a spring to ground": (
+        changed("stiffness", (4, 4), 1e10),
+        "stiffness: resists a translation along y with",
+    ),
+    "a zero on the diagonal": (
+        changed("stiffness", (0, 0), 0.0),
+        "stiffness: resists a translation along y with",
+    ),
+    "no number in the end": (
+        changed("stiffness", (0, 0), 1e308),
+        "stiffness: resists a translation along y with",
+    ),
     "no stiffness": (lambda m: m.update(stiffness=0 * m["mass"]), "do not hold the shaft"),
     "no weight": (lambda m: m.update(weighed=0 * m["weighed"]), TRANSLATION),
     "weight in N": (lambda m: m.update(weighed=9.81 * m["weighed"]), TRANSLATION),
