@@ -126,9 +126,10 @@ objects_of = $(call object,$(linked.$1) $(basename $(notdir $(filter-out src_f90
 # which modules each source uses
 $(foreach line,$(shell awk -f src_f90/dependencies.awk $(sources)),$(eval $(subst ;, ,$(line))))
 modules_of = $(basename $(notdir $(filter $(addsuffix /%,$1),$(sources))))
-# arrays whose size comes from the input or from a run are not on the stack: FFLAGS puts those of modules there that a
-# march or its tables call at each step, whose arrays are short, lines of a grid at most
-short := equations_of_motion newton_system bearing_samples table_film $(filter-out marching sor_film local_cavitation volume_flows fourier_field,\
+# Arrays whose size comes from the input or from a run are on the heap. FFLAGS may put on the stack those of modules that
+# a march or its tables call at each step: these arrays are short, one line of a grid at most.
+short := equations_of_motion newton_system bearing_samples table_film \
+         $(filter-out marching sor_film local_cavitation volume_flows fourier_field,\
          $(call modules_of,$(addprefix src_f90/,film/tables film/common film/volumes film/fourier pivot bearing integrate)))
 heaped := $(filter-out $(short),$(basename $(notdir $(sources))))
 # modules that compute little, and what their FFLAGS have besides; not those that a march calls at each step or sample

@@ -99,7 +99,9 @@ contains
          if (allocated(error)) then
             call refuse(other, place%overwrite, way_out, error)
             ! the result of a run whose name is like a block's
-            if (i > 0 .and. .not. is_study(path, marked)) taken(i)%state = stays_there
+            if (i > 0 .and. .not. allocated(error)) then
+               if (.not. is_study(path, marked)) taken(i)%state = stays_there
+            end if
          end if
          if (.not. allocated(error) .and. stop_requested()) call raise(error, stopped, stop_reason()//' while rows ' &
             & //'were read')

@@ -49,7 +49,7 @@ module read_files
    !> Longest file, bytes.
    integer, parameter :: longest_file = 100000000
    !> Bytes of a file that are read at once.
-   integer, parameter :: bytes_at_once = 65536
+   integer, parameter :: bytes_at_once = 8192
    !> Least time between two rows, s.
    real(wp), parameter :: shortest_time = 1e-9_wp
 

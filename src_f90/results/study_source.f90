@@ -109,27 +109,25 @@ contains
       logical, intent(out) :: other
       type(error_type), allocatable, intent(out) :: error
       type(run_tag) :: first, last
-      other = .true.
+      other = .false.
       if (runs < 1) then
-         other = .false.
          call raise(error, system_error, path//': damaged: a study without runs')
+         return
       else if (runs > study%runs) then
          call raise(error, system_error, path//': is of a study with '//to_text(runs)//' runs; this one has ' &
             & //to_text(study%runs))
       else
          call study%tag(1, first)
          call study%tag(runs, last)
-         other = marks /= '' .and. first%marks /= ''
-         if (.not. other) return
+         if (marks == '' .or. first%marks == '') return
          if (word(first%marks, 1) /= word(marks, 1)) then
             call raise(error, system_error, path//': is the study of another case, or of files that have ' &
                & //'changed since')
          else if (word(last%marks, 2) /= word(marks, 2)) then
             call raise(error, system_error, path//': is of another study: its runs have other values')
-         else
-            other = .false.
          end if
       end if
+      other = allocated(error)
    end subroutine check_marks
 
    !> Whether a file is a study that tiltpad-collect made of results.
