@@ -128,7 +128,7 @@ $(foreach line,$(shell awk -f src_f90/dependencies.awk $(sources)),$(eval $(subs
 modules_of = $(basename $(notdir $(filter $(addsuffix /%,$1),$(sources))))
 # Arrays whose size comes from the input or from a run are on the heap. FFLAGS may put on the stack those of modules that
 # a march or its tables call at each step: these arrays are short, one line of a grid at most.
-short := equations_of_motion newton_system bearing_samples table_film \
+short := equations_of_motion newton_system bordered_system rigid_rotor state_layout bearing_samples table_film \
          $(filter-out marching sor_film local_cavitation volume_flows fourier_field,\
          $(call modules_of,$(addprefix src_f90/,film/tables film/common film/volumes film/fourier pivot bearing integrate)))
 heaped := $(filter-out $(short),$(basename $(notdir $(sources))))

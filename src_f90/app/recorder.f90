@@ -30,8 +30,8 @@ module recorder
       type(bearing_file_type), allocatable, private :: bearings(:)
       !> y and z of the stations in the last sample, (2, station), m.
       real(wp), allocatable, private :: stations(:, :)
-      !> Forces of other elements in the last sample, (2, element), N.
-      real(wp), allocatable, private :: elements(:, :)
+      !> Forces of the excitations, (2, excitation), and of other elements, (2, element), in the last sample, N.
+      real(wp), allocatable, private :: excitations(:, :), elements(:, :)
       integer(i8), private :: samples = 0
    contains
       procedure :: sample
@@ -57,7 +57,8 @@ contains
       do b = 1, size(self%bearings)
          self%bearings(b) = run%bearing(b)
       end do
-      allocate (self%stations(2, run%model%rotor%stations), self%elements(2, size(run%model%others)))
+      allocate (self%stations(2, run%model%rotor%stations), self%excitations(2, size(run%inputs%excitations)), &
+         & self%elements(2, size(run%model%others)))
       self%progress = new_progress(t, run%inputs%operation%duration, run%quiet)
       if (run%inputs%integration%stop_when_periodic > 0) call follow_orbit(self)
    end subroutine begin_recording
@@ -134,9 +135,9 @@ contains
                & y(:rotor%states))
          end if
       end associate
+      if (size(self%excitations) > 0) self%excitations(:, :) = self%run%model%point%excitation_forces(t)
       if (size(self%elements) > 0) self%elements(:, :) = element_forces(self%run%model, t, y)
-      call add_sample(self%run%file, self%bearings, self%taken, self%stations, &
-         & self%run%model%point%excitation_forces(t), self%elements, error)
+      call add_sample(self%run%file, self%bearings, self%taken, self%stations, self%excitations, self%elements, error)
       self%run%reached = t
       associate (limit => self%run%inputs%integration%stop_when_periodic)
          if (limit > 0) then

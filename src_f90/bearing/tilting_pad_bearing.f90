@@ -485,19 +485,20 @@ contains
       real(wp), intent(in) :: correction(:)
       real(wp) :: output(pad_outputs*size(self%pads))
       real(wp) :: added(2)
-      integer, dimension(of_journal + layout%coordinates) :: x, v
-      integer :: i, k
-      x(:of_journal) = layout%journal
-      v(:of_journal) = layout%journal_rates
+      integer :: i, k, o
       call self%film%take_pressures(self%film_motion, self%oil, self%speed, self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), over_positions => self%derivatives(i)%film_over_positions, &
             & over_rates => self%derivatives(i)%film_over_rates)
-            x(of_journal + 1:) = [(layout%before(i) + 2*k - 1, k=1, layout%coordinates)]
-            v(of_journal + 1:) = x(of_journal + 1:) + 1
             added = 0
-            do k = 1, size(x)
-               added = added + over_positions(:, k)*correction(x(k)) + over_rates(:, k)*correction(v(k))
+            do k = 1, of_journal
+               added = added + over_positions(:, k)*correction(layout%journal(k)) &
+                  & + over_rates(:, k)*correction(layout%journal_rates(k))
+            end do
+            o = layout%before(i)
+            do k = 1, layout%coordinates
+               added = added + over_positions(:, of_journal + k)*correction(o + 2*k - 1) &
+                  & + over_rates(:, of_journal + k)*correction(o + 2*k)
             end do
             output(pad_outputs*(i - 1) + 1:pad_outputs*i) = [film%force + added, film%max_pressure]
          end associate

@@ -162,7 +162,7 @@ contains
       type(film_response), intent(inout) :: response(:)
       integer :: i, k
       do i = 1, size(motion)
-         if (.not. response(i)%from_tables .or. response(i)%status /= film_ok) cycle
+         if (.not. response(i)%lacks_pressures .or. response(i)%status /= film_ok) cycle
          k = tables_of(self, i, oil(i))
          call self%tabulated(i)%look_up_pressures(self%shapes(k), motion(i), oil(i), speed, self%cavitates(), &
             & self%counters, response(i))

@@ -13,7 +13,7 @@ module bordered_system
    integer, parameter :: pair = 2
    !> Rows are filled up to a multiple of this, for vector instructions.
    integer, parameter :: simd_width = 4
-   !> Length of the rows of a block of up to five unknowns, and of those of a border of one pair.
+   !> Length of the rows of a block of up to five unknowns.
    integer, parameter :: usual_width = 8
 
    !> Blocks of m unknowns each, and the pair of the border that they know.
@@ -73,60 +73,76 @@ contains
       real(wp), intent(in) :: gamma
       real(wp), intent(inout), contiguous :: b(:)
       logical, intent(out) :: ok
-      real(wp) :: border(max(usual_width, row_width(size(self%border, 1))), size(self%border, 1))
-      real(wp) :: part(pair + 1, pair)
+      !> Of each pair what stands over itself, and its right-hand side: (pair and this, row, pair).
+      real(wp) :: own(pair + 1, pair, size(self%corner, 3))
       logical :: singular
-      integer :: g, j, n, o
+      integer :: g, j, k, n, o
       singular = .false.
       n = size(self%border, 1)
-      border = 0
-      do j = 1, n
-         border(:n, j) = self%border(j, :)
-         associate (before => pair*((j - 1)/pair))
-            border(before + 1:before + pair, j) = border(before + 1:before + pair, j) &
-               & - gamma*self%corner(j - before, :, before/pair + 1)
-         end associate
-         border(n + 1, j) = b(j)
+      do k = 1, size(own, 3)
+         do j = 1, pair
+            associate (before => pair*(k - 1))
+               own(:pair, j, k) = self%border(before + j, before + 1:before + pair) - gamma*self%corner(j, :, k)
+               own(pair + 1, j, k) = b(before + j)
+            end associate
+         end do
       end do
       o = n
       do g = 1, size(self%groups)
-         associate (group => self%groups(g), at => pair*(self%groups(g)%pair - 1), &
-            & blocks => size(self%groups(g)%block, 3))
-            do j = 1, pair
-               part(:pair, j) = border(at + 1:at + pair, at + j)
-               part(pair + 1, j) = border(n + 1, at + j)
-            end do
+         associate (group => self%groups(g), blocks => size(self%groups(g)%block, 3))
             ! sizes that the compiler knows make it three times as fast
             if (group%m == 2) then
                call reduce(usual_width, 2, blocks, gamma, group%across, group%down, group%block, group%rows, &
-                  & b(o + 1:), part, singular)
+                  & b(o + 1:), own(:, :, group%pair), singular)
             else
                call reduce(usual_width, group%m, blocks, gamma, group%across, group%down, group%block, &
-                  & group%rows, b(o + 1:), part, singular)
+                  & group%rows, b(o + 1:), own(:, :, group%pair), singular)
             end if
-            do j = 1, pair
-               border(at + 1:at + pair, at + j) = part(:pair, j)
-               border(n + 1, at + j) = part(pair + 1, j)
-            end do
             o = o + group%m*blocks
          end associate
       end do
       if (n == pair) then
-         call eliminate(usual_width, pair, border, singular)
+         call eliminate(pair + 1, pair, own, singular)
+         b(:pair) = own(pair + 1, :, 1)
       else
-         call eliminate(size(border, 1), n, border, singular)
+         call solve_border(self%border, own, b, singular)
       end if
-      b(:n) = border(n + 1, :)
       o = n
       do g = 1, size(self%groups)
-         associate (group => self%groups(g))
-            call restore(group%m, size(group%block, 3), group%rows, &
-               & b(pair*(group%pair - 1) + 1:pair*group%pair), b(o + 1:))
-            o = o + group%m*size(group%block, 3)
+         associate (group => self%groups(g), blocks => size(self%groups(g)%block, 3), &
+            & of_pair => b(pair*(self%groups(g)%pair - 1) + 1:pair*self%groups(g)%pair))
+            if (group%m == 2) then
+               call restore(2, blocks, group%rows, of_pair, b(o + 1:))
+            else
+               call restore(group%m, blocks, group%rows, of_pair, b(o + 1:))
+            end if
+            o = o + group%m*blocks
          end associate
       end do
       ok = .not. singular .and. all(ieee_is_finite(b))
    end subroutine solve
+
+   !> The unknowns of a border of several pairs, from what stands over each of them and its right-hand side.
+   pure subroutine solve_border(border, own, b, singular)
+      real(wp), intent(in) :: border(:, :), own(:, :, :)
+      real(wp), intent(inout) :: b(:)
+      logical, intent(inout) :: singular
+      real(wp) :: rows(row_width(size(border, 1)), size(border, 1))
+      integer :: j, k, n
+      n = size(border, 1)
+      rows = 0
+      do k = 1, size(own, 3)
+         do j = 1, pair
+            associate (row => rows(:, pair*(k - 1) + j), before => pair*(k - 1))
+               row(:n) = border(before + j, :)
+               row(before + 1:before + pair) = own(:pair, j, k)
+               row(n + 1) = own(pair + 1, j, k)
+            end associate
+         end do
+      end do
+      call eliminate(size(rows, 1), n, rows, singular)
+      b(:n) = rows(n + 1, :)
+   end subroutine solve_border
 
    !> Writes the unknowns of a group's blocks through its pair, whose rows (pair and right-hand side, row) gain what
    !> follows.

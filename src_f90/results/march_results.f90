@@ -23,49 +23,27 @@ module march_results
 contains
 
    !> Adds a sample of all bearings, in the files of these, of where the stations of a shaft are, (2, station), m, and
-   !> of the forces of the excitations, (2, excitation), and of other elements, (2, element), N: the one list of what is
-   !> sampled.
+   !> of the forces of the excitations, (2, excitation), and of other elements, (2, element), N.
    subroutine add_sample(file, bearings, samples, stations, excitations, elements, error)
       type(run_file_type), intent(inout) :: file
       type(bearing_file_type), intent(in) :: bearings(:)
       type(bearing_sample), intent(in) :: samples(:)
-      real(wp), intent(in) :: stations(:, :), excitations(:, :), elements(:, :)
+      real(wp), intent(in), contiguous :: stations(:, :), excitations(:, :), elements(:, :)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: values(most_values(samples) + size(stations) + size(excitations) + size(elements))
-      logical :: first
       integer :: n, b
-      ! its series are declared as the first sample is added
-      first = .not. file%hdf5%declared
-      n = 0
-      call along('', 'time', [samples(1)%time], 's', 'time')
-      call along('', 'shaft_angle', [samples(1)%shaft_angle], 'rad', 'shaft angle')
-      call along('', 'speed', [samples(1)%speed], 'rad/s', 'shaft speed')
+      if (.not. file%hdf5%declared) call declare_samples(file, bearings, samples, size(stations, 2), &
+         & size(excitations, 2), size(elements, 2))
+      values(:of_shaft) = [samples(1)%time, samples(1)%shaft_angle, samples(1)%speed]
+      n = of_shaft
       do b = 1, size(samples)
-         call take_bearing(bearings(b), samples(b), first, values, n)
+         call take_bearing(samples(b), values, n)
       end do
-      if (size(stations) > 0) then
-         call along('station', 'station_y', stations(1, :), 'm', 'shaft displacement, vertical')
-         call along('station', 'station_z', stations(2, :), 'm', 'shaft displacement, horizontal')
-      end if
-      if (size(excitations) > 0) then
-         call along('excitation', 'excitation_y', excitations(1, :), 'N', 'force of the excitation, vertical')
-         call along('excitation', 'excitation_z', excitations(2, :), 'N', 'force of the excitation, horizontal')
-      end if
-      if (size(elements) > 0) then
-         call along('element', 'element_force_y', elements(1, :), 'N', 'force of the element on the rotor, vertical')
-         call along('element', 'element_force_z', elements(2, :), 'N', 'force of the element on the rotor, horizontal')
-      end if
+      if (size(stations) > 0) call take_pairs(stations, values, n)
+      if (size(excitations) > 0) call take_pairs(excitations, values, n)
+      if (size(elements) > 0) call take_pairs(elements, values, n)
       call file%hdf5%add(values(:n))
       call file%error_of(error)
-   contains
-      !> Of the shaft (''), at all its stations, or of all excitations or elements.
-      subroutine along(across, name, at, units, long_name)
-         character(len=*), intent(in) :: across, name, units, long_name
-         real(wp), intent(in) :: at(:)
-         if (first) call file%hdf5%declare(name, size(at), units, long_name, across)
-         values(n + 1:n + size(at)) = at
-         n = n + size(at)
-      end subroutine along
    end subroutine add_sample
 
    !> Most values of all bearings, and of the shaft without stations and excitations.
@@ -78,71 +56,117 @@ contains
       end do
    end function most_values
 
-   !> What is sampled of a bearing, behind the first n values; its series are named in the `first` sample.
-   subroutine take_bearing(file, sample, first, values, n)
-      type(bearing_file_type), intent(in) :: file
+   !> Adds the values of a bearing behind the first n, in the order of `declare_bearing`: of a series of the pads those
+   !> of all pads side by side.
+   subroutine take_bearing(sample, values, n)
       type(bearing_sample), intent(in) :: sample
-      logical, intent(in) :: first
       real(wp), intent(inout), contiguous :: values(:)
       integer, intent(inout) :: n
-      integer :: i, j, k
-      associate (position => sample%journal%position, velocity => sample%journal%velocity)
-         call one('journal_y', position(1), 'm', 'journal displacement, vertical')
-         call one('journal_z', position(2), 'm', 'journal displacement, horizontal')
-         call one('journal_vy', velocity(1), 'm/s', 'journal velocity, vertical')
-         call one('journal_vz', velocity(2), 'm/s', 'journal velocity, horizontal')
-      end associate
-      do i = 1, size(sample%states)
-         k = 0
-         associate (state => sample%states(i), pad => sample%loads(i))
+      integer :: pads, i, j, at
+      values(n + 1:n + of_journal) = [sample%journal%position, sample%journal%velocity]
+      n = n + of_journal
+      pads = size(sample%states)
+      at = n
+      do i = 1, pads
+         at = n + i
+         associate (pad => sample%loads(i), state => sample%states(i))
             if (sample%coordinates%n > 0) then
-               call each('pivot_load', pad%pivot_load, 'N', 'pivot load')
-               call each('friction_moment', pad%friction_moment, 'N m', 'pivot friction moment')
+               call take(pad%pivot_load)
+               call take(pad%friction_moment)
             end if
-            call each('film_force_tangential', pad%film_force(1), 'N', 'film force on the journal along the pad (y'')')
-            call each('film_force_radial', pad%film_force(2), 'N', 'film force on the journal outward (z'')')
-            call each('min_film_thickness', pad%min_film_thickness, 'm', 'minimum film thickness')
-            call each('max_pressure', pad%max_pressure, 'Pa', 'maximum film pressure')
+            call take(pad%film_force(1))
+            call take(pad%film_force(2))
+            call take(pad%min_film_thickness)
+            call take(pad%max_pressure)
             do j = 1, sample%coordinates%n
-               associate (words => sample%coordinates%words(j), kind => sample%coordinates%kind(j))
-                  if (first .and. i == 1) then
-                     call declare(trim(words%series), trim(words%units), trim(words%label))
-                     call declare(trim(words%series)//'_rate', trim(words%units)//'/s', trim(words%label)//' rate')
-                  end if
-                  values(n + k*size(sample%states) + i) = state%x(kind)
-                  values(n + (k + 1)*size(sample%states) + i) = state%v(kind)
-                  k = k + 2
-               end associate
+               call take(state%x(sample%coordinates%kind(j)))
+               call take(state%v(sample%coordinates%kind(j)))
             end do
-            if (sample%bristles) call each('bristle_deflection', state%bristle, 'm', 'bristle deflection')
-            if (sample%asperities) call each('asperity_force', pad%asperity_force, 'N', &
-               & 'normal force between the asperities of pad and journal')
+            if (sample%bristles) call take(state%bristle)
+            if (sample%asperities) call take(pad%asperity_force)
          end associate
       end do
-      n = n + k*size(sample%states)
+      ! the last pad stands behind all others
+      n = at - pads
    contains
-      subroutine one(name, value, units, long_name)
-         character(len=*), intent(in) :: name, units, long_name
+      subroutine take(value)
          real(wp), intent(in) :: value
-         if (first) call file%declare(name, 1, units, long_name, '')
-         n = n + 1
-         values(n) = value
-      end subroutine one
+         values(at) = value
+         at = at + pads
+      end subroutine take
+   end subroutine take_bearing
 
-      !> Of pad i; the series behind the first k of the pads.
-      subroutine each(name, value, units, long_name)
-         character(len=*), intent(in) :: name, units, long_name
-         real(wp), intent(in) :: value
-         if (first .and. i == 1) call declare(name, units, long_name)
-         values(n + k*size(sample%states) + i) = value
-         k = k + 1
-      end subroutine each
+   !> Adds y and z of each of a number of stations, excitations or elements, (2, number), behind the first n values.
+   pure subroutine take_pairs(pairs, values, n)
+      real(wp), intent(in), contiguous :: pairs(:, :)
+      real(wp), intent(inout), contiguous :: values(:)
+      integer, intent(inout) :: n
+      integer :: i
+      do i = 1, size(pairs, 2)
+         values(n + i) = pairs(1, i)
+         values(n + size(pairs, 2) + i) = pairs(2, i)
+      end do
+      n = n + size(pairs)
+   end subroutine take_pairs
 
-      subroutine declare(name, units, long_name)
+   !> Names all series: of the shaft, of the bearings, and of these numbers of stations, excitations and other elements.
+   subroutine declare_samples(file, bearings, samples, stations, excitations, elements)
+      type(run_file_type), intent(inout) :: file
+      type(bearing_file_type), intent(in) :: bearings(:)
+      type(bearing_sample), intent(in) :: samples(:)
+      integer, intent(in) :: stations, excitations, elements
+      integer :: b
+      call file%hdf5%declare('time', 1, 's', 'time', '')
+      call file%hdf5%declare('shaft_angle', 1, 'rad', 'shaft angle', '')
+      call file%hdf5%declare('speed', 1, 'rad/s', 'shaft speed', '')
+      do b = 1, size(samples)
+         call declare_bearing(bearings(b), samples(b))
+      end do
+      call declare_pair(stations, 'station', 'station', 'm', 'shaft displacement')
+      call declare_pair(excitations, 'excitation', 'excitation', 'N', 'force of the excitation')
+      call declare_pair(elements, 'element', 'element_force', 'N', 'force of the element on the rotor')
+   contains
+      subroutine declare_pair(number, across, name, units, long_name)
+         integer, intent(in) :: number
+         character(len=*), intent(in) :: across, name, units, long_name
+         if (number == 0) return
+         call file%hdf5%declare(name//'_y', number, units, long_name//', vertical', across)
+         call file%hdf5%declare(name//'_z', number, units, long_name//', horizontal', across)
+      end subroutine declare_pair
+   end subroutine declare_samples
+
+   !> Names the series of a bearing, in the order of the values in `take_bearing`.
+   subroutine declare_bearing(file, sample)
+      type(bearing_file_type), intent(in) :: file
+      type(bearing_sample), intent(in) :: sample
+      integer :: j
+      call file%declare('journal_y', 1, 'm', 'journal displacement, vertical', '')
+      call file%declare('journal_z', 1, 'm', 'journal displacement, horizontal', '')
+      call file%declare('journal_vy', 1, 'm/s', 'journal velocity, vertical', '')
+      call file%declare('journal_vz', 1, 'm/s', 'journal velocity, horizontal', '')
+      if (sample%coordinates%n > 0) then
+         call of_pads('pivot_load', 'N', 'pivot load')
+         call of_pads('friction_moment', 'N m', 'pivot friction moment')
+      end if
+      call of_pads('film_force_tangential', 'N', 'film force on the journal along the pad (y'')')
+      call of_pads('film_force_radial', 'N', 'film force on the journal outward (z'')')
+      call of_pads('min_film_thickness', 'm', 'minimum film thickness')
+      call of_pads('max_pressure', 'Pa', 'maximum film pressure')
+      do j = 1, sample%coordinates%n
+         associate (words => sample%coordinates%words(j))
+            call of_pads(trim(words%series), trim(words%units), trim(words%label))
+            call of_pads(trim(words%series)//'_rate', trim(words%units)//'/s', trim(words%label)//' rate')
+         end associate
+      end do
+      if (sample%bristles) call of_pads('bristle_deflection', 'm', 'bristle deflection')
+      if (sample%asperities) call of_pads('asperity_force', 'N', &
+         & 'normal force between the asperities of pad and journal')
+   contains
+      subroutine of_pads(name, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          call file%declare(name, size(sample%states), units, long_name, 'pad')
-      end subroutine declare
-   end subroutine take_bearing
+      end subroutine of_pads
+   end subroutine declare_bearing
 
    !> Writes the history of the viscosities of these pads in a run-up.
    subroutine put_viscosity_history(file, history, pads)
@@ -169,9 +193,9 @@ contains
       integer, intent(in) :: b
       !> Between samples, s.
       real(wp), intent(in) :: interval
-      real(wp), allocatable :: y(:, :), z(:, :), tilt(:, :), amplitudes(:, :)
+      real(wp), allocatable, dimension(:, :) :: y, z, tilt, signals, amplitudes
       real(wp) :: step
-      integer :: revolutions, n, i, k
+      integer :: revolutions, n, k
       if (.not. inputs%is_steady()) return
       associate (samples => inputs%output%samples_per_revolution)
          revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%run%hdf5%samples - 1)/samples))
@@ -184,16 +208,16 @@ contains
          & 'frequency')
       call file%last_samples('journal_y', n, y)
       call file%last_samples('journal_z', n, z)
-      call put('journal_y', one_sided_amplitude(y(1, :)), 'm', 'amplitude of journal_y', 'frequency')
-      call put('journal_z', one_sided_amplitude(z(1, :)), 'm', 'amplitude of journal_z', 'frequency')
+      allocate (signals(n, 2), source=reshape([y, z], [n, 2]))
       if (inputs%bearings(b)%tilting()) then
          call file%last_samples('pad_tilt', n, tilt)
-         allocate (amplitudes(n/2 + 1, size(tilt, 1)))
-         do i = 1, size(tilt, 1)
-            amplitudes(:, i) = one_sided_amplitude(tilt(i, :))
-         end do
-         call file%put('spectrum/pad_tilt', amplitudes, 'rad', 'amplitude of pad_tilt', 'pad spectrum/frequency')
+         signals = reshape([signals, transpose(tilt)], [n, 2 + size(tilt, 1)])
       end if
+      amplitudes = one_sided_amplitude(signals)
+      call put('journal_y', amplitudes(:, 1), 'm', 'amplitude of journal_y', 'frequency')
+      call put('journal_z', amplitudes(:, 2), 'm', 'amplitude of journal_z', 'frequency')
+      if (size(signals, 2) > 2) call file%put('spectrum/pad_tilt', amplitudes(:, 3:), 'rad', 'amplitude of pad_tilt', &
+         & 'pad spectrum/frequency')
       ! at k/T with k = -((n-1)/2) .. n/2
       call put('full_frequency', [(k*step, k=-((n - 1)/2), n/2)], 'Hz', 'frequency, positive for forward whirl', &
          & 'full_frequency')

@@ -35,13 +35,16 @@ contains
       real(wp), intent(in) :: revolutions
       !> Tilt that moves the pad's edge by the clearance, rad.
       real(wp), intent(in) :: edge(:)
+      real(wp), dimension(size(found)) :: order, amplitude
       integer :: i, n
       n = size(contact, 2)
+      if (revolutions >= enough) call dominant(transpose(tilt), revolutions, 0.0_wp, order, amplitude)
       do i = 1, size(found)
          found(i)%load = sum(contact(i, :))/n
          found(i)%lifted = count(contact(i, :) <= 0)/real(n, wp)
          if (revolutions < enough) cycle
-         call dominant(tilt(i, :), revolutions, 0.0_wp, found(i)%order, found(i)%amplitude)
+         found(i)%order = order(i)
+         found(i)%amplitude = amplitude(i)
          found(i)%flutters = found(i)%amplitude > visible*edge(i) &
             & .and. abs(found(i)%order - anint(found(i)%order)) > off_whole
       end do
@@ -54,34 +57,43 @@ contains
       real(wp), intent(in) :: y(:), z(:), revolutions, clearance
       real(wp), intent(out) :: order, amplitude
       logical, intent(out) :: whirls
-      real(wp) :: other_order, other, apart
+      real(wp), dimension(2) :: orders, amplitudes
       order = -1
       amplitude = 0
       if (revolutions >= enough) then
-         apart = max(off_whole, drift/revolutions)
-         call dominant(y, revolutions, apart, order, amplitude)
-         call dominant(z, revolutions, apart, other_order, other)
-         if (other > amplitude) order = other_order
-         amplitude = max(amplitude, other)
+         call dominant(reshape([y, z], [size(y), 2]), revolutions, max(off_whole, drift/revolutions), orders, &
+            & amplitudes)
+         order = orders(maxloc(amplitudes, dim=1))
+         amplitude = maxval(amplitudes)
       end if
       whirls = amplitude > visible*clearance
    end subroutine whirl_of
 
-   !> Order and amplitude of the largest part of values at equal steps over a number of revolutions. A Hann window and
-   !> the higher neighbour tell them between the lines of the spectrum. Mean and drift do not count, nor do orders that
-   !> are closer to a whole number than `apart`.
-   subroutine dominant(values, revolutions, apart, order, amplitude)
-      real(wp), intent(in) :: values(:), revolutions, apart
+   !> Of each signal, (sample, signal), at equal steps over a number of revolutions, the order and the amplitude of its
+   !> largest part. A Hann window and the higher neighbour tell them between the lines of the spectrum. Mean and drift
+   !> do not count, nor do orders that are closer to a whole number than `apart`.
+   subroutine dominant(signals, revolutions, apart, order, amplitude)
+      real(wp), intent(in) :: signals(:, :), revolutions, apart
+      real(wp), intent(out) :: order(:), amplitude(:)
+      real(wp) :: lines(0:size(signals, 1)/2, size(signals, 2))
+      integer :: i
+      lines = hann_amplitude(signals)
+      lines(:min(drift, size(lines, 1)) - 1, :) = 0
+      do i = 1, size(signals, 2)
+         call largest(lines(:, i), revolutions, apart, order(i), amplitude(i))
+      end do
+   end subroutine dominant
+
+   !> The same of one signal by the lines of its spectrum, from 0.
+   pure subroutine largest(lines, revolutions, apart, order, amplitude)
+      real(wp), intent(in) :: lines(0:), revolutions, apart
       real(wp), intent(out) :: order, amplitude
-      real(wp) :: lines(0:size(values)/2), ratio, beside, lost
-      integer :: k, n, top, side
-      n = size(values)
+      real(wp) :: ratio, beside, lost
+      integer :: k, top, side
       order = -1
       amplitude = 0
-      lines = hann_amplitude(values)
-      lines(:min(drift, size(lines)) - 1) = 0
       top = 0
-      do k = 1, n/2 - 1
+      do k = 1, ubound(lines, 1) - 1
          if (lines(k) <= lines(top)) cycle
          if (abs(k/revolutions - anint(k/revolutions)) >= apart) top = k
       end do
@@ -94,7 +106,7 @@ contains
       if (beside > 0) lost = sin(pi*beside)/(pi*beside*(1 - beside**2))
       order = (top + side*beside)/revolutions
       amplitude = lines(top)/lost
-   end subroutine dominant
+   end subroutine largest
 
    !> Values at equal steps of the rising angle, by the cubic through the four nearest samples.
    pure function evenly(angle, values) result(even)

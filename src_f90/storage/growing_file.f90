@@ -41,6 +41,8 @@ module growing_file
       !> The first sample (:, 0), and the last ones, each at its number modulo `room` (:, 1:).
       real(wp), allocatable, private :: values(:, :)
       integer, private :: room = 0
+      !> Samples as they are written, series by series; its memory is used again.
+      real(wp), allocatable, private :: arranged(:)
       !> Samples added, also before the run was resumed, and those of them that are in the file.
       integer(i8) :: samples = 0
       integer(i8), private :: written = 0
@@ -71,6 +73,8 @@ module growing_file
 
    character(len=*), parameter :: group = 'checkpoint/samples', first_sample = 'checkpoint/first_sample', &
       & sample_count = 'checkpoint/sample_count', series_names = 'checkpoint/series'
+   !> Samples that are arranged together.
+   integer, parameter :: together = 64
    !> Characters before the name of a series that is saved; most of a name with that of a scale.
    integer, parameter :: digits = 3, longest_names = 160
 
@@ -123,6 +127,7 @@ contains
       self%room = chunk_samples
       if (present(kept)) self%room = max(1, kept)
       if (allocated(self%values)) deallocate (self%values)
+      if (allocated(self%arranged)) deallocate (self%arranged)
       self%series = [series_type ::]
       self%declared = .false.
       self%samples = 0
@@ -173,7 +178,7 @@ contains
       class(growing_file_type), intent(inout) :: self
       real(wp), intent(in), contiguous :: values(:)
       self%declared = .true.
-      if (.not. allocated(self%values)) allocate (self%values(size(values), 0:self%room))
+      if (.not. allocated(self%values)) allocate (self%values(sum(self%series%width), 0:self%room))
       if (size(values) /= size(self%values, 1)) call self%check_read(-1, 'find all series')
       if (allocated(self%failure)) return
       if (self%samples == 0) self%values(:, 0) = values
@@ -192,21 +197,46 @@ contains
 
    !> Writes the samples that the file lacks, which are all in one chunk.
    subroutine write_held(self)
-      class(growing_file_type), intent(inout) :: self
+      class(growing_file_type), intent(inout), target :: self
+      real(wp), pointer, contiguous :: own_values(:, :)
       real(wp) :: started
-      integer :: k, from, to
+      integer :: k, from, to, n
       if (.not. self%in_file .or. self%written == self%samples) return
       started = wall_clock()
       from = place(self, self%written)
       to = place(self, self%samples - 1)
+      n = to - from + 1
+      call arrange(self, from, to)
       do k = 1, size(self%series)
          associate (own => self%series(k))
-            call own%data%append(self%hdf5_type, self%values(own%before + 1:own%before + own%width, from:to))
+            own_values(1:own%width, 1:n) => self%arranged(own%before*n + 1:(own%before + own%width)*n)
+            call own%data%append(self%hdf5_type, own_values)
          end associate
       end do
       self%written = self%samples
       self%writing_seconds = self%writing_seconds + wall_clock() - started
    end subroutine write_held
+
+   !> Arranges the samples at these places series by series, each as (value, sample): in parts that stay in the cache
+   !> while all series take theirs.
+   subroutine arrange(self, from, to)
+      class(growing_file_type), intent(inout) :: self
+      integer, intent(in) :: from, to
+      integer :: first, i, j, k, n
+      if (.not. allocated(self%arranged)) allocate (self%arranged(size(self%values, 1)*self%room))
+      n = to - from + 1
+      do first = from, to, together
+         do k = 1, size(self%series)
+            associate (before => self%series(k)%before, width => self%series(k)%width)
+               do j = 1, width
+                  do i = first, min(first + together - 1, to)
+                     self%arranged(before*n + (i - from)*width + j) = self%values(before + j, i)
+                  end do
+               end do
+            end associate
+         end do
+      end do
+   end subroutine arrange
 
    logical function has_series(self, name) result(has)
       class(growing_file_type), intent(inout) :: self

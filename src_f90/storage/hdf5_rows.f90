@@ -2,7 +2,7 @@
 !> appended. Where nothing was written it has a value of its own, and takes no room in the file. After a failure, which
 !> the file keeps, every routine does nothing.
 module hdf5_rows
-   use, intrinsic :: iso_c_binding, only: c_loc, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_int, c_int32_t, c_int64_t, c_loc, c_ptr, c_size_t
    use hdf5, only: hid_t, hsize_t, size_t, h5s_unlimited_f, h5s_select_set_f, h5screate_simple_f, h5sclose_f, &
       & h5sselect_hyperslab_f, h5dcreate_f, h5dwrite_f, h5dread_f, h5dclose_f, h5dset_extent_f, h5dget_space_f, &
       & h5pcreate_f, h5pclose_f, h5pset_chunk_f, h5pset_chunk_cache_f, h5pset_fill_value_f, h5p_dataset_create_f, &
@@ -26,6 +26,8 @@ module hdf5_rows
       integer(hid_t) :: id = -1
       !> Of the accesses to it, HDF5's list of properties.
       integer(hid_t), private :: transfer = -1
+      !> Rows in a chunk, where it was created to be appended to.
+      integer, private :: chunk = 0
       !> Sizes of the dimensions of a row, the fastest first, and how many rows there are; `length` is the same for
       !> series, which may be longer than `rows` can say.
       integer, allocatable :: extents(:)
@@ -43,6 +45,21 @@ module hdf5_rows
       procedure :: read => read_rows
       procedure :: read_behind
    end type hdf5_rows_type
+
+   interface
+      !> Writes a whole chunk, which no filter has changed (filters 0); < 0 after a failure.
+      integer(c_int) function h5dwrite_chunk(dataset, transfer, filters, start, bytes, values) &
+         & bind(c, name='H5Dwrite_chunk')
+         import :: c_int, c_int32_t, c_int64_t, c_ptr, c_size_t
+         !> hid_t, which is 64 bits wide since HDF5 1.10.
+         integer(c_int64_t), value :: dataset, transfer
+         integer(c_int32_t), value :: filters
+         !> The slowest dimension first; hsize_t.
+         integer(c_int64_t), intent(in) :: start(*)
+         integer(c_size_t), value :: bytes
+         type(c_ptr), value :: values
+      end function h5dwrite_chunk
+   end interface
 
 contains
 
@@ -70,7 +87,10 @@ contains
          if (whole) kind = h5kind_to_type(i8, h5_integer_kind)
       end if
       chunk = rows_a_chunk(rows, product(extents))
-      if (present(expected)) chunk = int(max(1_i8, min(expected, int(chunk_samples, i8))))
+      if (present(expected)) then
+         chunk = int(max(1_i8, min(expected, int(chunk_samples, i8))))
+         self%chunk = chunk
+      end if
       call h5screate_simple_f(size(most), dimensions(self, self%length), space, status, most)
       call h5pcreate_f(h5p_dataset_create_f, properties, status)
       call h5pset_chunk_f(properties, size(most), int([max(extents, 1), chunk], hsize_t), status)
@@ -186,9 +206,28 @@ contains
       if (allocated(file%failure) .or. size(values) == 0) return
       call h5dset_extent_f(self%id, dimensions(self, self%length + size(values, 2)), status)
       call file%check(status, 'lengthen a dataset')
-      call write_behind(self, file, self%length, values)
+      if (size(values, 2) == self%chunk .and. modulo(self%length, size(values, 2, i8)) == 0) then
+         call write_chunk(self, file, values)
+      else
+         call write_behind(self, file, self%length, values)
+      end if
       call set_length(self, self%length + size(values, 2))
    end subroutine append
+
+   !> Writes a whole chunk behind all rows as it lies in memory: HDF5 would clear one and copy into it.
+   subroutine write_chunk(self, file, values)
+      class(hdf5_rows_type), intent(in) :: self
+      class(hdf5_type), intent(inout) :: file
+      real(wp), intent(in), contiguous, target :: values(:, :)
+      integer(c_int64_t) :: start(size(self%extents) + 1)
+      integer :: status
+      if (allocated(file%failure)) return
+      start = 0
+      start(1) = self%length
+      status = h5dwrite_chunk(int(self%id, c_int64_t), int(self%transfer, c_int64_t), 0_c_int32_t, start, &
+         & int(size(values)*(storage_size(values)/8), c_size_t), c_loc(values))
+      call file%check(status, 'write '//trim(self%called))
+   end subroutine write_chunk
 
    !> Writes rows behind the first `skip` ones.
    subroutine write_behind(self, file, skip, values)

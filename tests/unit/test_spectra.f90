@@ -47,16 +47,42 @@ contains
       integer :: k, j
       time = [(real(j, wp)/n, j=0, n - 1)]
       do k = 1, (n - 1)/2
-         amplitude = one_sided_amplitude(3*sin(2*pi*k*time + 0.1_wp*k))
+         amplitude = spectrum_of(3*sin(2*pi*k*time + 0.1_wp*k))
          call expect_close(amplitude(k), 3.0_wp, rounding, 'sine '//to_text(k)//' of '//to_text(n)//' samples')
          amplitude(k) = 0
          call expect(all(amplitude < rounding), 'sine '//to_text(k)//' of '//to_text(n)//' leaks')
       end do
       if (mod(n, 2) == 0) then
-         amplitude = one_sided_amplitude(3*cos(pi*n*time))
+         amplitude = spectrum_of(3*cos(pi*n*time))
          call expect_close(amplitude(n/2), 3.0_wp, rounding, 'the highest frequency of '//to_text(n)//' samples')
       end if
    end subroutine sines
+
+   !> Of a signal that stands between others, which do not matter.
+   function spectrum_of(signal) result(amplitude)
+      real(wp), intent(in) :: signal(:)
+      real(wp) :: amplitude(0:size(signal)/2), all(0:size(signal)/2, 3)
+      all = one_sided_amplitude(beside_others(signal))
+      amplitude = all(:, 2)
+   end function spectrum_of
+
+   subroutine find_dominant(signal, turns, apart, order, amplitude)
+      real(wp), intent(in) :: signal(:), turns, apart
+      real(wp), intent(out) :: order, amplitude
+      real(wp), dimension(3) :: orders, amplitudes
+      call dominant(beside_others(signal), turns, apart, orders, amplitudes)
+      order = orders(2)
+      amplitude = amplitudes(2)
+   end subroutine find_dominant
+
+   pure function beside_others(signal) result(signals)
+      real(wp), intent(in) :: signal(:)
+      real(wp) :: signals(size(signal), 3)
+      integer :: k
+      signals(:, 1) = [(sin(0.7_wp*k), k=1, size(signal))]
+      signals(:, 2) = signal
+      signals(:, 3) = 100
+   end function beside_others
 
    subroutine square()
       call expect_close(path_integral([0.0_wp, 0.0_wp, 2.0_wp, 2.0_wp, 0.0_wp], &
@@ -115,7 +141,7 @@ contains
    subroutine one_tone()
       real(wp) :: order, amplitude, expected
       expected = between(0.2_wp, 10.0_wp)
-      call dominant(3.0_wp + tone(expected, 2e-3_wp), turns, 0.0_wp, order, amplitude)
+      call find_dominant(3.0_wp + tone(expected, 2e-3_wp), turns, 0.0_wp, order, amplitude)
       call expect_close(order, expected, 1e-3_wp/revolutions, 'order')
       call expect_close(amplitude, 2e-3_wp, 1e-3_wp*2e-3_wp, 'amplitude')
    end subroutine one_tone
@@ -125,20 +151,20 @@ contains
       real(wp) :: order, amplitude, drift(n)
       integer :: k
       drift = [(1e-2_wp*k/n, k=1, n)]
-      call dominant(tone(1.0_wp, 1e-3_wp) + tone(0.48_wp, 1.5e-3_wp) + drift, turns, 0.0_wp, order, amplitude)
+      call find_dominant(tone(1.0_wp, 1e-3_wp) + tone(0.48_wp, 1.5e-3_wp) + drift, turns, 0.0_wp, order, amplitude)
       call expect_close(order, 0.48_wp, 2e-3_wp, 'order of the larger')
       call expect_close(amplitude, 1.5e-3_wp, 5e-5_wp, 'its amplitude')
-      call dominant(tone(1.0_wp, 2e-3_wp) + tone(0.48_wp, 1.5e-3_wp), turns, 0.0_wp, order, amplitude)
+      call find_dominant(tone(1.0_wp, 2e-3_wp) + tone(0.48_wp, 1.5e-3_wp), turns, 0.0_wp, order, amplitude)
       call expect_close(order, 1.0_wp, 1e-4_wp, 'the shaft''s')
-      call dominant(tone(1.0_wp, 2e-3_wp) + tone(0.48_wp, 1.5e-3_wp), turns, 0.1_wp, order, amplitude)
+      call find_dominant(tone(1.0_wp, 2e-3_wp) + tone(0.48_wp, 1.5e-3_wp), turns, 0.1_wp, order, amplitude)
       call expect_close(order, 0.48_wp, 2e-3_wp, 'the other, where the shaft''s is left out')
    end subroutine two_tones
 
    subroutine nothing()
       real(wp) :: order, amplitude
-      call dominant(spread(1.0_wp, 1, n), turns, 0.0_wp, order, amplitude)
+      call find_dominant(spread(1.0_wp, 1, n), turns, 0.0_wp, order, amplitude)
       call expect(order < 0 .and. abs(amplitude) <= 0, 'a pad at rest has no order')
-      call dominant([1.0_wp], 1.0_wp, 0.0_wp, order, amplitude)
+      call find_dominant([1.0_wp], 1.0_wp, 0.0_wp, order, amplitude)
       call expect(order < 0, 'nor has a single sample')
    end subroutine nothing
 
@@ -181,7 +207,7 @@ contains
       real(wp) :: angle(n), order, amplitude
       integer :: k
       angle = [(2*pi*revolutions*(k + 0.5_wp*real(k, wp)**2/n)/(1.5_wp*n), k=0, n - 1)]
-      call dominant(evenly(angle, cos(0.48_wp*angle)), (angle(n) - angle(1))/(2*pi), 0.0_wp, order, amplitude)
+      call find_dominant(evenly(angle, cos(0.48_wp*angle)), (angle(n) - angle(1))/(2*pi), 0.0_wp, order, amplitude)
       call expect_close(order, 0.48_wp, 1e-3_wp, 'order')
       call expect_close(amplitude, 1.0_wp, 1e-3_wp, 'amplitude')
    end subroutine run_up

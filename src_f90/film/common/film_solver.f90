@@ -30,8 +30,8 @@ module film_solver
       !> Of a film that is not resolved its error.
       real(wp) :: residual = 0
       integer :: max_sweeps = 0
-      !> Whether the force came from tables, so that its pressures are left to `take_pressures`.
-      logical :: from_tables = .false.
+      !> Whether the force came from tables; whether its pressures are left to `take_pressures`.
+      logical :: from_tables = .false., lacks_pressures = .false.
    end type film_response
 
    !> Work done since the solver was made.

@@ -210,7 +210,7 @@ contains
       real(wp), intent(out) :: pressure
       complex(wp) :: part
       associate (room => 1 - t, value => node%data(:, 1), slope => node%data(:, 2:))
-         part = room**force_power*exp(cmplx(value(1), value(2), wp))
+         part = room**force_power*exp(value(1))*cmplx(cos(value(2)), sin(value(2)), wp)
          force = part - self%floor*room**force_power
          force_slopes(:3) = part*cmplx(slope(1, :3), slope(2, :3), wp)
          force_slopes(4) = 0

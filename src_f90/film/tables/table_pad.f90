@@ -47,6 +47,7 @@ module table_pad
       procedure, private :: set_force
       procedure, private :: set_cavitated_force
       procedure, private :: set_cavitated_pressure
+      procedure, private :: set_pressures
       procedure, private :: add_rotation
    end type table_pad_type
 
@@ -89,7 +90,7 @@ contains
       type(film_response), intent(inout) :: response
       type(middle_motion) :: seen
       type(middle_force) :: force
-      real(wp) :: part
+      real(wp) :: part, highest
       logical :: found
       seen = self%frame%motion(motion, oil, speed)
       ! with different pressures around a film that may cavitate, all of it is solved: the force must not jump between
@@ -97,15 +98,19 @@ contains
       if (.not. (all(seen%edges > 0) .and. (self%even_pressure .or. .not. may_cavitate))) return
       call self%add_rotation(tables, may_cavitate, seen, part, found)
       if (.not. found) return
+      response%lacks_pressures = .true.
       if (part >= 1) then
          response%force = self%ambient_force
          response%from_tables = .true.
          return
       end if
       if (part > 0) then
-         call self%set_cavitated_force(tables, seen, part, want_derivatives, counters, force, found)
+         call self%set_cavitated_force(tables, seen, part, want_derivatives, counters, force, found, highest)
+         ! seen in a mirror the film that is just full is another one
+         if (found .and. seen%w(1) > 0) call self%set_pressures(seen%w(1)*seen%scale*highest/self%square, 0.0_wp, &
+            & response)
       else
-         call self%set_force(tables, seen, seen%w, want_derivatives, counters, force, found)
+         call self%set_force(tables, seen, seen%w, want_derivatives, counters, force, found, highest)
       end if
       if (.not. found) return
       response%from_tables = .true.
@@ -198,8 +203,9 @@ contains
       end associate
    end subroutine set_part
 
-   !> Force of a cavitated film, 0 < T < 1, and its derivatives, where they are found.
-   subroutine set_cavitated_force(self, tables, seen, t, want_derivatives, counters, force, found)
+   !> Force of a cavitated film, 0 < T < 1, and its derivatives, where they are found; `highest`: where w_1 > 0 its
+   !> highest pressure over w_1 and the thickness scale, as of the unit pad.
+   subroutine set_cavitated_force(self, tables, seen, t, want_derivatives, counters, force, found, highest)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(middle_motion), intent(in) :: seen
@@ -208,6 +214,7 @@ contains
       type(film_counters), intent(inout) :: counters
       type(middle_force), intent(out) :: force
       logical, intent(out) :: found
+      real(wp), intent(out) :: highest
       type(cavitated_part) :: part
       type(middle_force) :: full
       complex(wp) :: full_force
@@ -215,8 +222,9 @@ contains
       call self%set_part(tables, seen, t, want_derivatives, counters, part)
       found = part%found
       if (.not. found) return
-      call self%set_force(tables, seen, onset(tables%pad, seen%w), want_derivatives, counters, full, found)
+      call self%set_force(tables, seen, onset(tables%pad, seen%w), want_derivatives, counters, full, found, highest)
       if (.not. found) return
+      highest = highest*part%pressure
       full_force = cmplx(full%value(1), full%value(2), wp)
       force%value = vector_of(part%force*full_force)
       if (.not. want_derivatives) return
@@ -238,8 +246,9 @@ contains
    end subroutine set_cavitated_force
 
    !> Force of a full film driven by w, by the rotation and by the pressure at its leading edge, and its derivatives,
-   !> where they are found.
-   subroutine set_force(self, tables, seen, w, want_derivatives, counters, force, found)
+   !> where they are found; `highest`: the highest pressure of the film that is just full, over w_1 and the thickness
+   !> scale, as of the unit pad.
+   subroutine set_force(self, tables, seen, w, want_derivatives, counters, force, found, highest)
       class(table_pad_type), intent(inout) :: self
       type(shape_tables), intent(inout) :: tables
       type(middle_motion), intent(in) :: seen
@@ -248,11 +257,13 @@ contains
       type(film_counters), intent(inout) :: counters
       type(middle_force), intent(out) :: force
       logical, intent(out) :: found
+      real(wp), intent(out) :: highest
       type(full_film_forces) :: film
       real(wp) :: m(simd_width)
       integer :: i
       call tables%full%look_up(seen%edges, want_derivatives, self%full_cell, counters, film, found)
       if (.not. found) return
+      highest = film%of_velocity(4)
       m = seen%scale*film%of_velocity
       force%value = m(1:2)*w(1) + m(2:3)*w(2)
       if (want_derivatives) then
@@ -310,10 +321,19 @@ contains
       if (.not. found) return
       if (.not. may_cavitate) call tables%full%highest_pressure(seen%edges, -seen%w, -rise, self%full_cell, &
          & counters, lowest)
-      response%max_pressure = self%gap%ambient_pressure + unit_pressure*highest
-      response%min_pressure = min(self%gap%ambient_pressure, self%gap%supply_pressure, &
-         & self%gap%ambient_pressure - unit_pressure*lowest)
+      call self%set_pressures(unit_pressure*highest, unit_pressure*lowest, response)
    end subroutine look_up_pressures
+
+   !> Sets the pressures of a film by how far they are above and below those around the pad, Pa.
+   pure subroutine set_pressures(self, highest, lowest, response)
+      class(table_pad_type), intent(in) :: self
+      real(wp), intent(in) :: highest, lowest
+      type(film_response), intent(inout) :: response
+      response%max_pressure = self%gap%ambient_pressure + highest
+      response%min_pressure = min(self%gap%ambient_pressure, self%gap%supply_pressure, &
+         & self%gap%ambient_pressure - lowest)
+      response%lacks_pressures = .false.
+   end subroutine set_pressures
 
    !> The highest pressure of a cavitated film of the unit pad, 0 < T < 1, where it is found.
    subroutine set_cavitated_pressure(self, tables, seen, t, counters, highest, found)
