@@ -39,8 +39,8 @@ module case_run
       type(machine_model) :: model
       !> What its equilibrium has made of all bearings, where that changes the shape of one.
       type(bearing_shape_type), allocatable :: shapes(:)
-      !> Remarks that were printed last, a line each.
-      character(len=:), allocatable :: remarks
+      !> Remarks on the case, and those that were printed last, a line each.
+      character(len=:), allocatable :: of_case, remarks
       !> Of all samples of each bearing.
       type(run_extremes_type), allocatable :: extremes(:)
       !> Simulated time reached, s.
@@ -129,7 +129,7 @@ contains
       class(case_run_type), intent(inout) :: self
       logical, intent(in) :: shown
       character(len=:), allocatable :: all
-      all = remarks_on_run(self%inputs, self%file)
+      all = remarks_on_run(self%of_case, self%inputs, self%file)
       call put_remarks(self%file, all)
       if (self%quiet .or. .not. shown) return
       call print_remarks(new_lines(all, self%remarks))

@@ -19,7 +19,7 @@ module run_case
    use stop_signals, only: stop_requested
    use working_file, only: clear_leftovers
    use case_run, only: case_run_type, begin_run, print_remarks
-   use factories, only: march_films, filled_films
+   use factories, only: march_films, static_films, filled_films
    use run_start, only: start_at_equilibrium
    use coefficients_task, only: run_coefficients
    use periodic_task, only: run_periodic
@@ -72,12 +72,14 @@ contains
       if (run%file%filed) call open_file(run, go_on, overwrite, complete, error)
       if (allocated(error)) return
       if (.not. complete .or. run%verified_states > 0) then
+         run%of_case = remarks_on_case(run%inputs)
          if (.not. quiet) then
-            run%remarks = remarks_on_case(run%inputs)
+            run%remarks = run%of_case
             call print_remarks(run%remarks)
             if (size_note(inputs, 1) /= '') print '(a)', size_note(inputs, 1)
          end if
-         run%model = new_machine_model(run%inputs, merge(filled_films, march_films, complete))
+         run%model = new_machine_model(run%inputs, merge(filled_films, merge(march_films, static_films, &
+            & run%inputs%moves()), complete))
          run%model%give_up => stop_requested
       end if
       if (.not. complete) then

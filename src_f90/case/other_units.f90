@@ -90,7 +90,7 @@ module other_units
 contains
 
    !> "; 50.8 mm are 0.0508", of each kind of units the first in which a variable is within a range, which has the unit
-   !> of the input, and of usual size; empty where there is none.
+   !> of the input, and of usual size; empty where there is none, or where the number itself is such.
    pure function in_other_units(x, name, unit, low, high) result(hint)
       real(wp), intent(in) :: x, low, high
       character(len=*), intent(in) :: name, unit
@@ -101,11 +101,14 @@ contains
       hint = ''
       found = .false.
       range = usual_size(name, unit)
+      range%low = max(low, range%low)
+      range%high = min(high, range%high)
+      if (x >= range%low .and. x <= range%high) return
       do i = 1, size(known)
          if (known(i)%of /= unit .or. abs(x) <= 0 .or. abs(x) > largest) cycle
          kind = merge(2, 1, known(i)%custom)
          associate (meant => known(i)%offset + known(i)%factor*x)
-            if (found(kind) .or. meant < max(low, range%low) .or. meant > min(high, range%high)) cycle
+            if (found(kind) .or. meant < range%low .or. meant > range%high) cycle
             hint = hint//'; '//to_text(x)//' '//trim(known(i)%name)//' are '//to_text(meant)
          end associate
          found(kind) = .true.
@@ -121,7 +124,8 @@ contains
       first = scan(name, ':(')
       if (first > 0) base = name(:first - 1)//name(index(name, '%'):)
       do i = 1, size(usual)
-         if (usual(i)%unit /= unit .or. index(base, trim(usual(i)%name)) /= 1) cycle
+         if (usual(i)%unit /= unit) cycle
+         if (index(base, usual(i)%name(:len_trim(usual(i)%name))) /= 1) cycle
          found = usual(i)
          return
       end do

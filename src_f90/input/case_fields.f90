@@ -27,11 +27,13 @@ module case_fields
 
 contains
 
-   !> The table of a case.
-   subroutine list_variables(inputs, table)
+   !> The table of a case; with the meanings of its variables where it is to be documented.
+   subroutine list_variables(inputs, table, documented)
       type(case_type), intent(in) :: inputs
       type(variable_table_type), intent(out) :: table
+      logical, intent(in), optional :: documented
       type(case_type) :: copy
+      if (present(documented)) table%documented = documented
       copy = inputs
       call go_along(copy, table, all=.false.)
    end subroutine list_variables
@@ -46,11 +48,12 @@ contains
    end subroutine put_variables
 
    !> The variables of all groups that any case has, each group once, with their defaults: those of a rigid journal in
-   !> one bearing, and those of a machine.
+   !> one bearing, and those of a machine; documented.
    subroutine list_all_variables(inputs, table)
       type(case_type), intent(in) :: inputs
       type(variable_table_type), intent(out) :: table
       type(case_type) :: copy
+      table%documented = .true.
       copy = inputs
       allocate (copy%rotor%elastic, copy%bearings(1)%support)
       call copy%rotor%elastic%begin(discs=1, unbalances=1, loads=1)

@@ -99,7 +99,8 @@ contains
             call fill_variable(parsed, at == i, list, error)
             do k = 1, table%count
                associate (v => table%variables(k))
-                  if (v%each /= list%counts .or. bearing_of(v%group) /= bearing_of(list%group)) cycle
+                  if (v%each /= list%counts) cycle
+                  if (bearing_of(v%group) /= bearing_of(list%group)) cycle
                   v%most = size(list%values)
                   v%values = spread(v%values(1), 1, v%most)
                end associate
@@ -108,7 +109,8 @@ contains
       end do
       do i = 1, table%count
          if (allocated(error)) return
-         if (table%variables(i)%counts == '') call fill_variable(parsed, at == i, table%variables(i), error)
+         if (table%variables(i)%counts == '' .and. any(at == i)) call fill_variable(parsed, at == i, &
+            & table%variables(i), error)
       end do
       if (.not. allocated(error)) call put_variables(table, inputs)
    end subroutine fill_variables
@@ -229,7 +231,7 @@ contains
       else if (size(given) == 1) then
          v%values = spread(given(1), 1, v%most)
       else
-         call refuse_it('takes one value for all '//v%each//' or one each ('//to_text(v%most)//')')
+         call refuse_it('takes one value for all '//trim(v%each)//' or one each ('//to_text(v%most)//')')
       end if
    contains
       !> "case.nml line 3: rotor%mass = -1: must be ...".

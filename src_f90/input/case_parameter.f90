@@ -158,7 +158,7 @@ contains
       call require(ok .and. parameter%group /= '' .and. parameter%name /= '', 'must be group%name or ' &
          & //'group%name(element)', error)
       if (allocated(error)) return
-      call list_variables(inputs, table)
+      call list_variables(inputs, table, documented=.true.)
       at = table%find(parameter%group, parameter%name)
       if (at == 0) call refuse('there is no such variable'//meant_variable(kind_of(parameter%group), &
          & parameter%name), error)

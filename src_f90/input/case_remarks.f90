@@ -199,7 +199,7 @@ contains
             if (v%each /= '') then
                if (all(abs(v%values) <= 0)) cycle
             else
-               if (lines_of(v, '') == lines_of(defaults%variables(defaults%find(v%group, v%name)), '')) cycle
+               if (v%is_same(defaults%variables(defaults%find(v%group, v%name)))) cycle
             end if
             group = v%group
             names = names//', '//v%name
@@ -323,7 +323,7 @@ contains
       usual = usual_size(name, v%unit)
       i = findloc(is_set(v%values) .and. abs(v%values) > 0 .and. (abs(v%values) < usual%low &
          & .or. abs(v%values) > usual%high), .true., dim=1)
-      if (usual%told .and. i > 0) line = name//' = '//to_text(v%values(i))//': seldom so in '//v%unit &
+      if (usual%told .and. i > 0) line = name//' = '//to_text(v%values(i))//': seldom so in '//trim(v%unit) &
          & //in_other_units(v%values(i), name, v%unit, v%low, v%high)//newline
    end function remark_on_number
 
@@ -391,7 +391,7 @@ contains
             if (all(abs(v%values - v%values(1)) <= 0)) shown%values = v%values(:1)
             line = lines_of(shown, '')
             text = text//', '//v%group//'%'//line(3:len(line) - 1)
-            if (v%unit /= '1') text = text//' '//v%unit
+            if (v%unit /= '1') text = text//' '//trim(v%unit)
          end associate
       end do
       if (text /= '') inputs%about%of_paper = text(3:)

@@ -86,9 +86,9 @@ contains
          allowed = to_text(v%low)//' to '//to_text(v%high)
          if (v%whole) allowed = 'whole, '//allowed
          if (v%any_length) meaning = meaning//'; 1 to '//to_text(v%most)//' of them'
-         if (v%each /= '') meaning = meaning//'; one for all '//v%each//' or one each'
+         if (v%each /= '') meaning = meaning//'; one for all '//trim(v%each)//' or one each'
       end if
-      text = '| `'//v%name//'` | '//default//' | '//v%unit//' | '//allowed//' | '//meaning//' |'//newline
+      text = '| `'//v%name//'` | '//default//' | '//trim(v%unit)//' | '//allowed//' | '//meaning//' |'//newline
    end function row
 
    ! What --check prints: the resolved case, where each value comes from, and what follows from the values.

@@ -16,14 +16,14 @@ module variable_table
 
    type :: variable_type
       character(len=:), allocatable :: group, name
-      !> For the input reference: of the group, and of the variable.
+      !> Of the group, and of the variable; where the table is documented.
       character(len=:), allocatable :: group_meaning, meaning
       !> A text: its value, and the allowed words, separated by blanks; empty where any text is allowed.
       logical :: is_text = .false.
       character(len=:), allocatable :: word, choices
       !> Numbers: their values and unit, what is allowed, and whether only whole numbers are.
       real(wp), allocatable :: values(:)
-      character(len=:), allocatable :: unit
+      character(len=16) :: unit = '1'
       real(wp) :: low = 0, high = 0
       logical :: whole = .false.
       !> Whether it is not set in the case that the table was filled from.
@@ -31,17 +31,18 @@ module variable_table
       !> Whether the list may have any length, up to the most values; what it tells the number of, "pads", and what
       !> has one value each; else empty.
       logical :: any_length = .false.
-      character(len=:), allocatable :: counts, each
+      character(len=8) :: counts = '', each = ''
       integer :: most = 1
    contains
       procedure :: allowed
+      procedure :: is_same
    end type variable_type
 
    type :: variable_table_type
       type(variable_type), allocatable :: variables(:)
       integer :: count = 0
-      !> False while the table is filled, true while a case is filled from it.
-      logical :: filled = .false.
+      !> False while the table is filled, true while a case is filled from it; whether it has the meanings.
+      logical :: filled = .false., documented = .false.
       !> The variable just seen, and its group.
       integer :: at = 0
       character(len=:), allocatable :: this_group, group_meaning
@@ -78,12 +79,10 @@ contains
       self%count = self%at
       associate (v => self%variables(self%at))
          v%group = self%this_group
-         v%group_meaning = self%group_meaning
          v%name = name
+         if (.not. self%documented) return
+         v%group_meaning = self%group_meaning
          v%meaning = meaning
-         v%unit = '1'
-         v%counts = ''
-         v%each = ''
       end associate
    end function next
 
@@ -197,8 +196,20 @@ contains
       class(variable_type), intent(in) :: self
       character(len=:), allocatable :: string
       string = to_text(self%low)//' to '//to_text(self%high)
-      if (self%unit /= '1' .and. self%unit /= '') string = string//' '//self%unit
+      if (self%unit /= '1' .and. self%unit /= '') string = string//' '//trim(self%unit)
    end function allowed
+
+   !> Whether it has the value of another one.
+   pure logical function is_same(self, other)
+      class(variable_type), intent(in) :: self
+      type(variable_type), intent(in) :: other
+      if (self%is_text) then
+         is_same = self%word == other%word
+      else
+         is_same = size(self%values) == size(other%values)
+         if (is_same) is_same = all(abs(self%values - other%values) <= 0)
+      end if
+   end function is_same
 
    ! Variables as namelist text.
 

@@ -66,7 +66,7 @@ contains
       part = new_bearing_file(file)
       call one('point', real(file%hdf5%samples + 1, wp), '1', 'point number')
       call one('branch', real(branch, wp), '1', 'branch number: 1 the first, then those of double period')
-      call one('parameter', point%parameter, parameter%unit, parameter%meaning)
+      call one('parameter', point%parameter, trim(parameter%unit), parameter%meaning)
       call one('arc_length', point%arc_length, '1', 'length of the branch')
       call one('stable', merge(1.0_wp, 0.0_wp, all(point%growth < 0)), '1', &
          & '1 where small disturbances die away'//frozen)
@@ -173,7 +173,7 @@ contains
       kinds = kinds_of_points(special%kind)
       call file%put(over, real(special%point, wp), '1', 'number of the point', over)
       call file%put('bifurcations/kind', kinds, 'kind of bifurcation point')
-      call file%put('bifurcations/parameter', special%parameter, parameter%unit, parameter%meaning, over)
+      call file%put('bifurcations/parameter', special%parameter, trim(parameter%unit), parameter%meaning, over)
       call file%put('bifurcations/branch', real(special%branch, wp), '1', 'branch number', over)
       call file%put('bifurcations/value_real', real(special%value, wp), '1', &
          & 'multiplier or eigenvalue (1/s) that crosses, real part', over)
@@ -222,7 +222,7 @@ contains
       logical, intent(inout) :: ok
       character(len=:), allocatable :: units
       integer :: k
-      call number('value', point%parameter, branches%parameter%unit, branches%parameter%meaning)
+      call number('value', point%parameter, trim(branches%parameter%unit), branches%parameter%meaning)
       call number('arc_length', point%arc_length, '1', 'length of the branch up to the point')
       call number('along', point%along, '1', 'length of the step to it')
       call numbers('change', point%change, '1', 'correction from where the equations were linearised')
@@ -232,7 +232,7 @@ contains
       do k = 1, size(point%place)
          associate (part => point%place(k))
             units = trim(part%units)
-            if (units == '') units = branches%parameter%unit
+            if (units == '') units = trim(branches%parameter%unit)
             call numbers(trim(part%name), part%values, units, trim(part%long_name))
          end associate
       end do

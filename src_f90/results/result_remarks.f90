@@ -6,7 +6,7 @@ module result_remarks
    use text, only: to_text, filled, line_if, behind, newline
    use case_groups, only: bearing_type
    use case_inputs, only: case_type
-   use case_remarks, only: remarks_on_case, remarks_on_load, remark_on_unbalance
+   use case_remarks, only: remarks_on_load, remark_on_unbalance
    use bearing_equilibrium, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
    use record, only: record_type, lines
@@ -37,15 +37,16 @@ module result_remarks
 
 contains
 
-   !> All remarks on a run so far, a line each.
-   function remarks_on_run(inputs, file) result(all)
+   !> All remarks on a run so far, a line each: those on its case, and others.
+   function remarks_on_run(of_case, inputs, file) result(all)
+      character(len=*), intent(in) :: of_case
       type(case_type), intent(in) :: inputs
       class(run_file_type), intent(inout), target :: file
       character(len=:), allocatable :: all, own
       type(bearing_file_type) :: part
       real(wp) :: loads(2, size(inputs%bearings))
       integer :: b
-      all = remarks_on_case(inputs)//on_damping(inputs, file)//on_unbalances(inputs, file)
+      all = of_case//on_damping(inputs, file)//on_unbalances(inputs, file)
       call file%get_list('equilibrium/bearing_load_y', loads(1, :))
       call file%get_list('equilibrium/bearing_load_z', loads(2, :))
       do b = 1, size(inputs%bearings)

@@ -218,7 +218,7 @@ contains
             if (target%subscript > 0) suffix = ', '//to_text(target%subscript)
             own%long_name = own%long_name//suffix
             own%is_text = variable%is_text
-            own%units = in_symbols(variable%unit)
+            own%units = in_symbols(trim(variable%unit))
             if (own%is_text) then
                own%units = ''
                own%long_name = singular(kind_of(target%group))//' '//own%long_name
