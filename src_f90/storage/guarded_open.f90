@@ -8,6 +8,7 @@ module guarded_open
    use record, only: record_type
    use record_file, only: read_record
    use processes, only: new_process, end_child, limit_child, exit_status
+   use files, only: is_readable
    use system_texts, only: system_reason
    implicit none (type, external)
    private
@@ -25,6 +26,10 @@ contains
       character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(out) :: refusal
       integer :: child
+      if (.not. is_readable(path)) then
+         refusal = 'cannot be read: '//system_reason()
+         return
+      end if
       child = new_reader()
       if (child < 0) then
          refusal = 'not looked at, as no process could be started for it: '//system_reason()

@@ -5,7 +5,7 @@ module files
    implicit none (type, external)
    private
    public :: rename_file, exchange_files, delete_file, create_file, copy_file, sync_file, begin_sync
-   public :: block_names, take_mode, is_writable
+   public :: block_names, take_mode, is_writable, is_readable
    public :: real_path, is_regular, file_identity, untold, make_folder, remove_folder, other_number
 
    !> Stands for the identity that the system does not tell.
@@ -47,6 +47,12 @@ module files
          import :: c_bool, c_char
          character(kind=c_char, len=*), intent(in) :: path
       end function is_writable
+
+      !> Whether the system lets an ordinary file be read.
+      logical(c_bool) function is_readable(path) bind(c, name='tiltpad_is_readable')
+         import :: c_bool, c_char
+         character(kind=c_char, len=*), intent(in) :: path
+      end function is_readable
 
       !> Copies a file into another that is there.
       logical(c_bool) function copy_file(old, new) bind(c, name='tiltpad_copy')

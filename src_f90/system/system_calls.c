@@ -170,6 +170,15 @@ bool tiltpad_is_writable(const text_t *path)
    return access(name, W_OK) == 0;
 }
 
+/* Whether the system lets an ordinary file be read. */
+bool tiltpad_is_readable(const text_t *path)
+{
+   C_STRING(name, path);
+   int file = open(name, O_RDONLY | O_CLOEXEC);
+   if (file >= 0) close(file);
+   return file >= 0;
+}
+
 /* Copies within the kernel into a file that is there, in place of what it contains. */
 bool tiltpad_copy(const text_t *old_path, const text_t *new_path)
 {

@@ -3,11 +3,15 @@
 import os
 import shutil
 import subprocess
+import tempfile
+from pathlib import Path
 
 import h5py
 import pytest
 from conftest import ENDLESS, EVERY_STEP, one_error, wait_for, wait_for_checkpoint
 
+#: A machine whose rotor is in a file that may not be read.
+ROTOR = "&rotor file='case.h5' /\n&bearing name='a', station=1 /\n&bearing name='b', station=2 /\n"
 CASE = "&operation duration=0.02 / &output checkpoint_seconds=0.005 /\n"
 
 
@@ -202,3 +206,35 @@ def test_a_folder_that_looks_like_the_trial_of_a_study(program, case):
     done = subprocess.run(command, cwd=case, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert [path.is_dir() for path in (case / "sweep").iterdir() if path.name.startswith(".part")] == [True]
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root may be another user")
+def test_what_the_user_may_not_read(program, tiltpad):
+    """Results, starts, rotors and studies: the reason is the system's."""
+    study = "&case task='equilibrium' /\n&sweep rotor%mass=1001:1002:1 /\n"
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        folder.chmod(0o755)
+        (folder / "case.nml").write_text("&case task='equilibrium' /\n")
+        (folder / "study.nml").write_text(study)
+        (folder / "rotor.nml").write_text(ROTOR)
+        for case in "case.nml", "study.nml":
+            tiltpad(case, "-q", cwd=folder, status=0)
+        for result in folder.glob("*.h5"):
+            result.chmod(0)
+        folder.chmod(0o777)
+        start = ["--set", "case%task=march", "--set", "start%from=file", "--set", "start%file=case.h5"]
+        for arguments, which, status in (
+            (["--resume", "case.h5"], "case.h5", 3),
+            (["case.nml"], "case.h5", 3),
+            (["case.nml", "--overwrite"], "case.h5", 3),
+            (["study.nml", "--overwrite"], "study.h5", 3),
+            (["case.nml", "-o", "other.h5", *start], "case.h5", 3),
+            (["rotor.nml"], "case.h5'", 1),
+        ):
+            command = ["setpriv", "--reuid=65534", "--clear-groups", program, "-q", *arguments]
+            done = subprocess.run(command, cwd=folder, text=True, capture_output=True)
+            assert done.returncode == status, done.stderr
+            assert done.stderr.count("\n") == 1
+            assert f"{which}: cannot be read: permission denied" in done.stderr
+        assert sorted(each.name for each in folder.glob("*.h5*")) == ["case.h5", "study.h5"]
