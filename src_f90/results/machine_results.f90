@@ -47,7 +47,8 @@ contains
       class(record_type), intent(inout) :: file
       real(wp), intent(in) :: t, states(:)
       call file%put(turned_time, t, 's', 'time of the last sample at which the shaft had turned whole revolutions')
-      call file%put(turned_state, states, '1', 'state of the rotor at that time: displacements, then rates')
+      call file%put(turned_state, states, '1', 'state of the rotor at that time: displacements, then rates', &
+         & turned_state)
    end subroutine put_turned_rotor
 
    !> Writes the rotor of a machine with its bearings; nothing of a rigid journal.

@@ -97,6 +97,16 @@ def test_a_bearing_is_a_run_of_one_bearing(machine):
         assert tiltpad.coefficients(run.bearings["free_end"]).stiffness.shape == (1, 2, 2)
 
 
+@pytest.mark.parametrize("task", ["march", "equilibrium", "coefficients", "periodic"])
+def test_all_that_a_file_has_is_shown_in_a_notebook(machine, task):
+    """Every dataset has its dimensions, of the machine and of its bearings."""
+    with tiltpad.read(machine(task)) as run:
+        for each in (run, *run.bearings.values()):
+            page = each._repr_html_()
+            for group in ("", *each.single_and_groups()[1]):
+                assert all(f"<td>{name}</td>" in page for name in each.names(group) if name not in run.GROUPS)
+
+
 def test_what_a_machine_has_not_is_said(machine):
     with tiltpad.read(machine("march")) as run:
         with pytest.raises(tiltpad.NotInRunError, match=r"as run.bearings\['drive_end'\]\['journal_y'\]"):
