@@ -17,9 +17,11 @@ environment=$destination/lib/tiltpad/python
 # the line of a file in the list
 line() { (cd "$destination" && sha256sum "$1"); }
 
-# put FILE NAME MODE
+# put FILE NAME MODE: what is there stays until the new one is whole, as somebody may be using it
 put() {
-   install -D -T -m "$3" "$1" "$destination/$2"
+   new=$destination/$2.new
+   install -D -T -m "$3" "$1" "$new"
+   mv -fT "$new" "$destination/$2"
    line "$2" >>"$list"
 }
 
@@ -37,7 +39,8 @@ if [ "$1" != --remove ]; then
    shift
    mkdir -p "${list%/*}"
    said=$(mktemp)
-   trap 'rm -f "$said" "$said.1"' EXIT
+   new=$said
+   trap 'rm -f "$said" "$said.1" "$new"' EXIT
    put_command tiltpad "$program"
    [ $# -gt 0 ] || exit 0
    if [ -e "$environment" ] && ! grep -qx environment "$list"; then

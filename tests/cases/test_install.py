@@ -99,6 +99,22 @@ def test_into_folders_of_any_name(make, checkout, tmp_path, relative, plots):
     assert "has written nothing" in make("uninstall", *words, status=2)
 
 
+def test_a_program_stays_until_the_new_one_is_whole(make, tmp_path, monkeypatch):
+    """A copy that fails half-way leaves the older one, which somebody may be about to start."""
+    program = tmp_path / "to/bin/tiltpad"
+    program.parent.mkdir(parents=True)
+    program.write_text("older")
+    (tmp_path / "install").write_text('#!/bin/sh\nfor last; do :; done\necho half >"$last"\nexit 1\n')
+    (tmp_path / "install").chmod(0o755)
+    with monkeypatch.context() as patch:
+        patch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+        make("install", "PLOTS=no", f"PREFIX={tmp_path}/to", status=2)
+    assert files(tmp_path / "to") == {"bin/tiltpad"}
+    assert program.read_text() == "older"
+    make("install", "PLOTS=no", f"PREFIX={tmp_path}/to")
+    assert files(tmp_path / "to") == of("tiltpad") | {"lib/tiltpad/installed"}
+
+
 def test_an_environment_of_somebody_else(make, tmp_path):
     (tmp_path / "to/lib/tiltpad/python").mkdir(parents=True)
     assert "none that make install has made" in make("install", f"PREFIX={tmp_path}/to", status=2)
