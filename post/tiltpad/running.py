@@ -79,6 +79,8 @@ def case_file(case: "str | os.PathLike | Groups | None", folder: Path) -> str | 
     """The file of a case; groups are written to one in the folder. A table of theirs stays where it is."""
     if isinstance(case, str | os.PathLike):
         return case
+    if not isinstance(case, Mapping | None):
+        raise TypeError(f"case = {case!r}: must be a file, or groups {{'operation': {{'speed_rpm': 4500}}}}")
     groups = dict(case or {"case": {}})
     study = namelist.variables(namelist.STUDY, groups.get(namelist.STUDY, {}))
     if isinstance(study.get(namelist.TABLE), str | os.PathLike):
@@ -100,17 +102,27 @@ def in_temporary_folder(work: Callable[[Path], Result]) -> Result:
 
 def result_of(case: str | os.PathLike, target: Path, options: Sequence[str]) -> Run | Study:
     """Runs the program."""
+    before = state_of(target)
     words = [program(), argument(case), "--output", os.fspath(target), *options]
     done = run_program(words, stderr=subprocess.PIPE)
     said = done.stderr.strip().removeprefix("tiltpad: error: ").removeprefix("--set: ")
     said = said.replace("--overwrite", "overwrite=True").replace("--output", "output")
     if done.returncode == INPUT_ERROR:
         raise ValueError(said)
-    # a study has the ending whether it was given or not
-    found = [path for path in (target, target.with_name(f"{target.name}.h5")) if path.is_file()]
-    if done.returncode not in (0, NUMERICS, STOPPED) or not found:
+    # a study has the ending whether it was given or not; a run always gets a new file
+    if target.suffix != ".h5" and state_of(target) == before:
+        target = target.with_name(f"{target.name}.h5")
+    if done.returncode not in (0, NUMERICS, STOPPED) or not target.is_file():
         raise RunError(said or f"the program ended with status {done.returncode}")
-    return read_either(max(found, key=lambda path: path.stat().st_mtime_ns))
+    return read_either(target)
+
+
+def state_of(path: Path) -> tuple[int, ...] | None:
+    """Differs once a file has been replaced, whatever the clock says; None where there is none."""
+    if not path.is_file():
+        return None
+    found = path.stat()
+    return found.st_ino, found.st_mtime_ns, found.st_size
 
 
 def argument(case: str | os.PathLike) -> str:

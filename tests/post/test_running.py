@@ -1,6 +1,7 @@
 """Running the program from Python, and the first calls of somebody who does not know the package yet."""
 
 import gc
+import os
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,15 @@ def test_a_case_in_a_file_and_a_result_in_a_file(tmp_path):
         tiltpad.run(case, tmp_path / "mine.h5", operation={"speed_rpm": 4000})
     with tiltpad.run(case, tmp_path / "mine.h5", overwrite=True, operation={"speed_rpm": 4000}) as run:
         assert run.speed[0] == pytest.approx(4000 * np.pi / 30)
+
+
+def test_a_result_is_told_from_another_of_its_name(tmp_path):
+    """That of a run without an ending and that of a study, also where the clock was wrong."""
+    cases = {tiltpad.Run: {}, tiltpad.Study: {"sweep": {"rotor%mass": [1000.0, 1001.0]}}}
+    for kind, own in (*cases.items(), *reversed(cases.items()), *cases.items()):
+        with tiltpad.run({"case": {"task": "equilibrium"}} | own, tmp_path / "x") as found:
+            assert type(found) is kind
+        os.utime(tmp_path / ("x" if kind is tiltpad.Run else "x.h5"), (4e9, 4e9))
 
 
 def test_the_name_of_a_case_is_no_option(tmp_path, monkeypatch):
