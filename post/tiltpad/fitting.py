@@ -1,9 +1,9 @@
 """Fitting: the numbers of a case that make its results those that were measured."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -141,10 +141,12 @@ def fit(
     on. What is wrong is a ValueError of one line, and so is a parameter on which nothing depends; runs that
     fail at the start, and fits that find no minimum, are a RunError.
     """
-    tests = [measured] if isinstance(measured, Measured) else list(measured)
+    tests = list(measured) if isinstance(measured, Iterable) else [measured]
     if not all(isinstance(each, Measured) for each in tests):
         raise TypeError("measured: must be tiltpad.Measured, or a list of them")
     model = FittedModel(case, tests, variables(free))
+    if not isinstance(start or {}, Mapping):
+        raise ValueError(f"start = {start!r}: must be values by name, {{'group%name': value}}")
     begin = np.array([start_of(each, start or {}) for each in model.parameters])
     unknown = [name for name in start or {} if name not in model.names]
     if unknown:
@@ -188,22 +190,28 @@ def variables(free: Free) -> Bounds:
         raise ValueError(f"free = {free!r}: must be bounds by name, {{'group%name': (low, high)}}")
     found = {}
     for names, bounds in free.items():
-        own = (names,) if isinstance(names, str) else tuple(names)
+        own: tuple[Any, ...] = names if isinstance(names, tuple) and names else (names,)
         for name in own:
             namelist.needs_variable(name, "free: ")
         try:
             low, high = (float(each) for each in bounds)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise ValueError(f"free: {own[0]}: {bounds!r}: must be two numbers, (low, high)") from None
-        if not (np.isfinite([low, high]).all() and low < high):
-            raise ValueError(f"free: {own[0]}: {bounds!r}: low must be less than high")
+        # no number where they are too far from each other, and one of them where they are too near
+        if not low < Parameter(own[0], low, high).value(0.5) < high:
+            raise ValueError(
+                f"free: {own[0]}: {bounds!r}: low must be less than high, and both of usual size"
+            )
         found[own] = (low, high)
     return found
 
 
 def start_of(parameter: Parameter, start: Mapping[str, float]) -> float:
     """The value from which a parameter starts."""
-    value = float(start.get(parameter.name, parameter.value(0.5)))
+    try:
+        value = float(start.get(parameter.name, parameter.value(0.5)))
+    except (TypeError, ValueError):
+        raise ValueError(f"start: {parameter.name}: {start[parameter.name]!r}: must be a number") from None
     if not parameter.low <= value <= parameter.high:
         bounds = f"its bounds {parameter.low:.6g} and {parameter.high:.6g}"
         raise ValueError(f"start: {parameter.name} = {value:.6g}: must be between {bounds}")

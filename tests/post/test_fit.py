@@ -170,6 +170,29 @@ WRONG = {
     "nothing free": (CASE, ORBIT, {}, None, "free = {}: must be bounds by name"),
     "no variable": (CASE, ORBIT, {"mass": (1, 2)}, None, "free: 'mass': must be a variable, group%name"),
     "bounds": (CASE, ORBIT, {"rotor%mass": (2, 1)}, None, "free: rotor%mass: (2, 1): low must be less than"),
+    "bounds too far": (
+        CASE,
+        ORBIT,
+        {"rotor%mass": (1e-300, 1e300)},
+        None,
+        "free: rotor%mass: (1e-300, 1e+300)",
+    ),
+    "bounds too near": (
+        *(CASE, ORBIT, {"rotor%mass": (2000.0, np.nextafter(2000, 3000))}, None),
+        "free: rotor%mass: (2000.0, ",
+    ),
+    "too long a bound": (CASE, ORBIT, {"rotor%mass": (1, 10**400)}, None, "free: rotor%mass: (1, 1000"),
+    "no name": (CASE, ORBIT, {3: (1, 2)}, None, "free: 3: must be a variable"),
+    "no names": (CASE, ORBIT, {(): (1, 2)}, None, "free: (): must be a variable"),
+    "start by no name": (CASE, ORBIT, MASS, ["rotor%mass"], "start = ['rotor%mass']: must be values by name"),
+    "start of no number": (
+        CASE,
+        ORBIT,
+        MASS,
+        {"rotor%mass": "x"},
+        "start: rotor%mass: 'x': must be a number",
+    ),
+    "one number": (CASE, Measured({"journal_y": 1.0}, 1.0), MASS, None, "journal_y: one number was measured"),
     "one bound": (
         CASE,
         ORBIT,
@@ -232,5 +255,33 @@ def test_what_no_run_has_and_runs_that_fail_are_told():
     for deviation in (0.0, np.nan, {"journal_z": 1.0}):
         with pytest.raises(ValueError, match=r"^journal_y: deviation = .*: a standard deviation above 0"):
             Measured({"journal_y": np.zeros(60)}, deviation)
-    with pytest.raises(ValueError, match="time: must rise"):
-        Measured({"time": [1.0, 0.0], "journal_y": [0.0, 0.0]}, 1.0)
+    with pytest.raises(tiltpad.NotInRunError, match=r"^equilibrium: no result of this case"):
+        tiltpad.fit(CASE, Measured({"equilibrium": 1.0}, 1.0), MASS)
+    for case, measured in ((CASE, None), (CASE, 3), (CASE, "orbit"), (3, ORBIT), ([1], ORBIT)):
+        with pytest.raises(TypeError, match="must be"):
+            tiltpad.fit(case, measured, MASS)
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        *(({"values": own}, "values: must be arrays by name") for own in (None, [1.0], {3: 1.0})),
+        *(
+            ({"values": {"journal_y": own}}, "journal_y: must be a number, or")
+            for own in ("x", 1j, [[1], [1, 2]])
+        ),
+        *(
+            ({"values": {"time": own, "journal_y": [0.0, 0.0]}}, "time: must rise, numbers in a list")
+            for own in ([1.0, 0.0], [0.0, np.nan], [0.0, np.inf], 3.0, [], [[0.0, 1.0]])
+        ),
+        *(
+            ({"deviation": own}, "journal_y: deviation = ")
+            for own in (None, "x", 1j, [1.0, 2.0], {"journal_y": "x"}, {"journal_y": [1, 2]}, np.inf, -1)
+        ),
+        *(({"revolutions": own}, "revolutions = ") for own in (0, -1, 1.5, np.nan, "x", None)),
+        *(({"case": own}, "case = ") for own in (3, "abc", None)),
+    ],
+)
+def test_wrong_fields_of_a_measurement_are_one_line(fields, message):
+    with pytest.raises(ValueError, match=f"^{message}"):
+        Measured(**{"values": {"journal_y": [0.0, 1.0]}, "deviation": 1.0} | fields)

@@ -55,15 +55,21 @@ class Measured:
     mean: bool = True
 
     def __post_init__(self) -> None:
-        own = {name: np.asarray(each, dtype=float) for name, each in self.values.items()}
+        if not isinstance(self.values, Mapping) or not all(isinstance(name, str) for name in self.values):
+            raise ValueError("values: must be arrays by name, {'journal_y': y}")
+        own = {name: numbers(name, each) for name, each in self.values.items()}
         object.__setattr__(self, "values", own)
         for name in self.names:
-            deviation = self.deviation_of(name)
-            if deviation is None or not (np.isfinite(deviation) and deviation > 0):
+            if not 0 < (self.deviation_of(name) or np.nan) < np.inf:
                 given = f"deviation = {self.deviation!r}"
                 raise ValueError(f"{name}: {given}: a standard deviation above 0 is needed, in its unit")
-        if TIME in own and not (np.diff(own[TIME]) > 0).all():
-            raise ValueError("time: must rise")
+        time = own.get(TIME, np.zeros(1))
+        if time.ndim != 1 or not time.size or not np.isfinite(time).all() or not (np.diff(time) > 0).all():
+            raise ValueError("time: must rise, numbers in a list")
+        if not isinstance(self.revolutions, int | np.integer) or self.revolutions < 1:
+            raise ValueError(f"revolutions = {self.revolutions!r}: must be a whole number above 0")
+        if not isinstance(self.case, Mapping):
+            raise ValueError(f"case = {self.case!r}: must be groups, {{'operation': {{'speed_rpm': 4500}}}}")
 
     @property
     def names(self) -> list[str]:
@@ -87,8 +93,12 @@ class Measured:
 
     def deviation_of(self, name: str) -> float | None:
         """Standard deviation of the values of this name."""
-        given = self.deviation
-        return given.get(name) if isinstance(given, Mapping) else float(given)
+        given: Any = self.deviation
+        given = given.get(name) if isinstance(given, Mapping) else given
+        try:
+            return float(given)
+        except (TypeError, ValueError):
+            return None
 
     @property
     def size(self) -> int:
@@ -125,7 +135,7 @@ class Measured:
     def series(self, run: Run, name: str) -> np.ndarray:
         """A series of a run at the measured times or angles; of any other dataset its values."""
         known = (*run.names(), *(f"{STATIC}{each}" for each in run.names("equilibrium")))
-        if name not in run:
+        if name not in run or name in run.GROUPS:
             raise NotInRunError(f"{name}: no result of this case{meant(name, known)}")
         if not run.is_series(name):
             return np.asarray(run[name])
@@ -134,9 +144,19 @@ class Measured:
             if wanted[0] < times[0] or wanted[-1] > times[-1]:
                 raise ValueError(f"time: measured up to {wanted[-1]:g} s, the run ends at {times[-1]:g} s")
             return at_angle(times, run[name], wanted)
+        if not self.values[name].ndim:
+            raise ValueError(f"{name}: one number was measured, and a series is needed")
         needs_revolutions(run, name, self.revolutions)
         part = last_revolutions(run, self.revolutions + 1)
         angle = run.values("shaft_angle", part)
         end = np.floor(angle[-1] / (2 * np.pi) + 1e-9)
         turns = end - self.revolutions * (1 - np.arange(count := len(self.values[name])) / count)
         return at_angle(angle, run.values(name, part), 2 * np.pi * turns)
+
+
+def numbers(name: str, values: Any) -> np.ndarray:
+    """The values of this name as an array; ValueError where they are none."""
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: must be a number, or an array of numbers") from None
