@@ -73,7 +73,7 @@ contains
       if (given%task == 'check') then
          call put(namelist_of(found%inputs), error)
       else
-         call try_files(given%resumed, found%inputs, error)
+         call read_named(given%resumed, found%inputs, error)
          if (allocated(error)) return
          call run_task(found%inputs, given%resumed, none, given%verify, .true., .false., given%quiet, results, error)
       end if
@@ -137,20 +137,18 @@ contains
       if (error%status == numerics_error) error%message = error%message//computed_in//output
    end subroutine treat_case
 
-   !> Refuses a result whose input names files that cannot be read. Nothing is said of what is in them: the result may
-   !> come from somebody else, and name any file.
-   subroutine try_files(path, given, error)
+   !> Reads the files that the input of a result names. Of one that cannot be read nothing is said of what is in it: the
+   !> result may come from somebody else, and name any file.
+   subroutine read_named(path, inputs, error)
       character(len=*), intent(in) :: path
-      type(case_type), intent(in) :: given
+      type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(error_type), allocatable :: reason
-      type(case_type) :: inputs
-      inputs = given
       call read_rotor(inputs%rotor, reason)
       if (.not. allocated(reason)) call read_tables(inputs, reason)
       if (allocated(reason)) call raise(error, system_error, path//': its input names a file that is not there, or ' &
          & //'not what the run has read; name the case, too: tiltpad --resume '//path//' CASE.nml')
-   end subroutine try_files
+   end subroutine read_named
 
    !> Prints the case of a study, or of one run (0: the first), whose tables are read as a run reads them.
    subroutine print_case(study, whole_study, run, error)

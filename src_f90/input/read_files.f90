@@ -249,7 +249,7 @@ contains
 
    ! Columns of numbers.
 
-   !> Reads the tables of a case's excitations and pivots.
+   !> Reads the tables of a case's excitations and pivots that it has not read.
    subroutine read_tables(inputs, error)
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
@@ -270,7 +270,7 @@ contains
          real(wp), allocatable :: numbers(:, :)
          real(wp) :: before(2)
          integer :: i, k, first
-         if (pivot%law /= 'table') return
+         if (pivot%law /= 'table' .or. allocated(pivot%points)) return
          call read_columns(pivot%file, of_pivots, numbers, error)
          if (.not. allocated(error)) then
             first = merge(2, 1, all(abs(numbers(:, 1)) <= 0))
@@ -296,7 +296,7 @@ contains
          integer :: i, k
          do i = 1, size(inputs%excitations)
             associate (x => inputs%excitations(i))
-               if (x%kind /= 'table') cycle
+               if (x%kind /= 'table' .or. allocated(x%table)) cycle
                call read_columns(x%file, of_excitations, numbers, error)
                if (.not. allocated(error)) then
                   x%time = numbers(1, :)

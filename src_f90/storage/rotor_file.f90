@@ -17,7 +17,7 @@ module rotor_file
 
 contains
 
-   !> Reads the file of an elastic rotor that is given as one.
+   !> Reads the file of an elastic rotor that is given as one, unless that is done.
    subroutine read_rotor(rotor, error)
       type(rotor_type), intent(inout) :: rotor
       type(error_type), allocatable, intent(out) :: error
@@ -26,7 +26,7 @@ contains
       logical :: exists
       if (rotor%is_rigid()) return
       associate (path => rotor%elastic%rotor_file)
-         if (path == '') return
+         if (path == '' .or. allocated(rotor%elastic%given)) return
          refusal = 'there is no such file'
          inquire (file=path, exist=exists)
          if (exists) refusal = 'a directory, device or pipe, not a file of matrices'

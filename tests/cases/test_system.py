@@ -14,7 +14,17 @@ import tempfile
 import h5py
 import numpy as np
 import pytest
-from conftest import ENDLESS, EVERY_STEP, TIMEOUT, arrays, one_error, shorten, wait_for, wait_for_checkpoint
+from conftest import (
+    ENDLESS,
+    EVERY_STEP,
+    TIMEOUT,
+    arrays,
+    one_error,
+    rows,
+    shorten,
+    wait_for,
+    wait_for_checkpoint,
+)
 
 CASE = "&friction model='lugre' / &operation duration=0.3 / &output checkpoint_seconds=0.01 /\n"
 #: The calendar jumps by years at every look, there and back.
@@ -205,6 +215,23 @@ def test_clocks_that_jump(start, tiltpad, case, loaded):
         assert years != {other.attrs["created"][:4]}
         assert 0 < file["statistics/wall_seconds"][()] < 1e6
         assert 0 <= file["statistics/checkpoint_seconds"][()] < 1e6
+    # studies, whole and in blocks
+    (case / "study.nml").write_text(
+        "&case task='equilibrium' /\n&output checkpoint_seconds=1e-9 /\n&sweep rotor%mass=1001:1009:1 /\n"
+    )
+    tiltpad("study.nml", "-q", "-o", "of", cwd=case, status=0)
+    for arguments in ([], ["--block", "1/2"], ["--block", "2/2"]):
+        output = "blocks" if arguments else "whole"
+        tiltpad("study.nml", "-q", "-o", output, *arguments, cwd=case, env=environment, status=0)
+    for output in "whole", "blocks":
+        found, expected = rows(case / f"{output}.h5"), rows(case / "of.h5")
+        assert all(np.array_equal(found[name], each) for name, each in expected.items())
+        # in the future, as after a clock that was wrong
+        os.utime(case / f"{output}.h5", (4e9, 4e9))
+        tiltpad("study.nml", "-q", "-o", output, cwd=case, status=0)
+        (case / f"{output}.h5").unlink()
+    for name in "of.h5", "study.nml":
+        (case / name).unlink()
     # checkpoints, stopping, rivals, going on
     (case / "case.h5").unlink()
     run = start(case, "-q", "case.nml", *ENDLESS, env=environment)
@@ -482,6 +509,20 @@ def test_all_that_the_program_touches(start, tiltpad, case, loaded, tmp_path):
     assert {"r case.nml"} < {line for line in found if line[0] == "r"} <= {
         f"r {name}" for name in (".", "case.nml", "case.h5.part", "case", "case/.", "case/N.h5.part")
     }  # fmt: skip
+
+
+def test_a_result_has_its_tables_read_once(start, tiltpad, case, loaded, tmp_path):
+    """What a run that goes on has read is not read again, when it may be another."""
+    (case / "force.csv").write_text("time,force_y,force_z\n0,0,0\n0.1,1,0\n9,0,0\n")
+    (case / "case.nml").write_text(f"{CASE}&excitation kind='table', file='force.csv' /\n")
+    run = start(case, "-q", "case.nml", *ENDLESS)
+    wait_for_checkpoint(case / "case.h5", run)
+    run.terminate()
+    one_error(run, 4)
+    shorten(case / "case.h5")
+    log = tmp_path / "log"
+    tiltpad("--resume", "case.h5", "-q", cwd=case, env=loaded(NOTES, LOG=str(log)), status=0)
+    assert len(re.findall(r"^r \S*force\.csv$", log.read_text(), re.MULTILINE)) == 1
 
 
 def test_neighbours_are_opened_once(tiltpad, case, loaded, tmp_path):
