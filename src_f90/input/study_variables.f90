@@ -2,7 +2,7 @@
 !> table: a CSV file whose first line names variables; every other line has a value of each.
 module study_variables
    use kinds, only: wp, i8
-   use text, only: to_text, exact_text, lower_case, shortened, checksum, newline
+   use text, only: to_text, exact_text, lower_case, shortened, checksum, newline, did_you_mean
    use errors, only: error_type, require, refuse, add_context
    use files, only: real_path
    use case_inputs, only: case_type
@@ -10,7 +10,7 @@ module study_variables
       & value_text, read_number, study_group, split_subscript, kind_of, is_spelled
    use variable_table, only: variable_table_type
    use case_fields, only: title_variable, list_all_variables
-   use case_parameter, only: meant_variable, meant_group, group_names
+   use case_parameter, only: meant_variable, group_names
    use read_files, only: csv_table_type, read_csv, cell_type, next_cell, content, blanks, tab
    implicit none (type, external)
    private
@@ -29,7 +29,8 @@ module study_variables
    !> A single value, or the numbers of a range.
    type :: piece_type
       type(token_type) :: token
-      integer :: count = 1
+      !> Values of the pieces before it, and its own.
+      integer :: before = 0, count = 1
       logical :: is_range = .false., geometric = .false.
       !> Stride, or factor where the range is geometric.
       real(wp) :: first = 0, step = 0
@@ -328,6 +329,7 @@ contains
          call read_piece(tokens(i), values%pieces(i), error)
          call add_context(error, name//' = '//shortened(value_text(tokens(i))))
          if (allocated(error)) return
+         if (i > 1) values%pieces(i)%before = values%pieces(i - 1)%before + values%pieces(i - 1)%count
       end do
    end subroutine read_varied_values
 
@@ -418,20 +420,25 @@ contains
       if (.not. ok) call read_number(lower_case(self%pieces(i)%token%text), x, ok)
    end subroutine number_of_list
 
-   !> Which piece has the n-th value, and its number where that is a range.
+   !> Which piece has the n-th value, by halving, and its number where that is a range.
    subroutine find_piece(self, n, i, x)
       class(varied_values_type), intent(in) :: self
       integer, intent(in) :: n
       integer, intent(out) :: i
       real(wp), intent(out) :: x
-      integer :: before
-      before = 0
-      x = 0
-      do i = 1, size(self%pieces)
-         if (n <= before + self%pieces(i)%count) exit
-         before = before + self%pieces(i)%count
+      integer :: beyond, middle
+      i = 1
+      beyond = size(self%pieces) + 1
+      do while (beyond - i > 1)
+         middle = (i + beyond)/2
+         if (self%pieces(middle)%before < n) then
+            i = middle
+         else
+            beyond = middle
+         end if
       end do
-      if (self%pieces(i)%is_range) x = number_in_range(self%pieces(i), n - before - 1)
+      x = 0
+      if (self%pieces(i)%is_range) x = number_in_range(self%pieces(i), n - self%pieces(i)%before - 1)
    end subroutine find_piece
 
    !> The number this many steps from the first of a range.
@@ -545,9 +552,12 @@ contains
       else if (.not. ok .or. new%group == '' .or. new%name == '' .or. index(name, ' ') > 0) then
          fault = ''''//shortened(name)//''': expected a variable, group%name or group%name(element)' &
             & //meant_variable('', new%name)
+      else if (new%group == study_group) then
+         fault = shortened(name)//' cannot be swept; the columns are variables of the case'
       else if (all([(known%variables(i)%group /= kind_of(new%group), i=1, known%count)]) &
          & .or. .not. is_spelled(new%group)) then
-         fault = 'unknown group '//shortened(new%group)//meant_group(kind_of(new%group))//'; known:'//group_names()
+         fault = 'unknown group '//shortened(new%group)//did_you_mean(kind_of(new%group), group_names())//'; known:' &
+            & //group_names()
       else
          variable = known%find(kind_of(new%group), new%name)
          if (variable == 0) fault = 'unknown variable '//shortened(name)//meant_variable(kind_of(new%group), new%name)

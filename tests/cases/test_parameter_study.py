@@ -328,13 +328,15 @@ def test_a_table_that_has_changed_is_noticed(tiltpad, tabled):
     ("text", "names"),
     [
         ("", ["members.csv: is empty"]),
+        ("sweep%file\na.csv", ["members.csv line 1, column 1: sweep%file cannot be swept; the columns are"]),
+        ("swep%file\na.csv", ["column 1: unknown group swep; known: case"]),
         (TABLE.replace(",", ";"), ["members.csv line 1, column 1", "commas must separate the columns"]),
         (TABLE + "5000", ["members.csv line 4", "1 values for 2 columns", "friction%model has none"]),
         (TABLE + "5000,5,none", ["members.csv line 4", "3 values for 2 columns", "decimals have a point"]),
         (TABLE.replace("speed_rpm", "speed"), ["column 1: unknown variable operation%speed", "speed_rpm"]),
         ("\0", ["members.csv: not a text file"]),
     ],
-    ids=["empty", "semicolons", "missing", "too many", "unknown", "no text"],
+    ids=["empty", "of a study", "no group", "semicolons", "missing", "too many", "unknown", "no text"],
 )
 def test_table_refused(tiltpad, tabled, text, names, options):
     folder = tabled(text)
