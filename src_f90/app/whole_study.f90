@@ -1,7 +1,7 @@
 !> A whole study: its file, with a row for each run, and where runs have files of their own the folder of these.
 module whole_study
    use kinds, only: wp, i8
-   use text, only: to_text, checksum, newline
+   use text, only: to_text, checksum, is_first, newline
    use errors, only: error_type, raise, input_error, stopped
    use case_inputs, only: case_type
    use result_size, only: size_note, result_bytes
@@ -17,7 +17,7 @@ module whole_study
    use study_child, only: study_runner_type
    use study_file, only: study_file_type
    use study_log, only: not_run, stays
-   use study_source, only: log_path
+   use study_source, only: log_path, read_states
    use study_blocks, only: block_type, path_type, block_paths, refuse_written
    use study_folder, only: result_path, prepare_folder, check_folder
    use study_runs, only: perform_runs, tally_type, new_tally, tell
@@ -124,7 +124,7 @@ contains
       type(study_file_type) :: table
       type(path_type), allocatable :: taken(:)
       integer :: status(study%runs), k, first, last
-      logical :: wanted(study%runs)
+      logical :: wanted(study%runs), joined
       first = share%first(study%runs)
       last = share%last(study%runs)
       path = share%path(runner%place%name)
@@ -134,11 +134,14 @@ contains
       else
          call find_rows(study, runner%place, runner%place%name//'.h5', way_out, status, error)
       end if
+      joined = all(stays(status(first:last)))
+      if (.not. allocated(error) .and. any(status(first:last) == 0)) call refuse_joined(study, share, runner, &
+         & status == 0, error)
       if (.not. allocated(error)) call find_rows(study, runner%place, path, way_out, status, error)
       if (allocated(error)) return
       tally = new_tally(status(first:last))
-      if (all(stays(status(first:last)) .and. .not. missing(first:last)) .and. runner%verified_states == 0 &
-         & .and. .not. is_begun(runner%place%name, path, share)) then
+      if (all(stays(status(first:last)) .and. .not. missing(first:last)) .and. (joined .or. &
+         & runner%verified_states == 0) .and. .not. is_begun(runner%place%name, path, share)) then
          call clear_leftovers(path)
          ! a block that has been joined
          if (.not. is_regular(path)) path = runner%place%name//'.h5'
@@ -159,6 +162,27 @@ contains
       if (.not. allocated(error)) call delete_blocks(taken)
       call table%abandon()
    end subroutine perform_block
+
+   !> Refuses to verify runs of a block that the whole study has, `done`, and without films in as many states: a run has
+   !> its row in one file.
+   subroutine refuse_joined(study, share, runner, done, error)
+      type(study_type), intent(in) :: study
+      type(block_type), intent(in) :: share
+      type(case_runner_type), intent(in) :: runner
+      logical, intent(in) :: done(:)
+      type(error_type), allocatable, intent(out) :: error
+      integer, allocatable :: states(:)
+      integer :: k
+      if (runner%verified_states == 0) return
+      call read_states(runner%place%name//'.h5', study, states, error)
+      if (allocated(error)) return
+      do k = share%first(study%runs), share%last(study%runs)
+         if (done(k) .and. states(k) /= runner%verified_states) call raise(error, input_error, runner%place%name &
+            & //'.h5: has run '//to_text(k)//' of this block already; --verify '//to_text(runner%verified_states) &
+            & //' without --block looks at its films')
+         if (allocated(error)) return
+      end do
+   end subroutine refuse_joined
 
    !> Whether the row of a run that is done is without films that were solved closely in this number of states.
    logical function lacks_states(table, k, states)
@@ -284,25 +308,6 @@ contains
          end do
       end do
    end subroutine find_marks
-
-   !> Which of some checksums are the first of their value.
-   pure function is_first(sums)
-      integer(i8), intent(in) :: sums(:)
-      logical :: is_first(size(sums))
-      !> By the place that a checksum asks for, or the next that was free: which was the first.
-      integer :: firsts(0:2*size(sums))
-      integer :: k, at
-      firsts = 0
-      do k = 1, size(sums)
-         at = int(modulo(sums(k), size(firsts, kind=i8)))
-         do while (firsts(at) > 0)
-            if (sums(firsts(at)) == sums(k)) exit
-            at = modulo(at + 1, size(firsts))
-         end do
-         is_first(k) = firsts(at) == 0
-         if (is_first(k)) firsts(at) = k
-      end do
-   end function is_first
 
    !> Those of one run; empty where it is not possible or a file cannot be read, as its row says.
    function marks_of_run(study, k, folder) result(marks)

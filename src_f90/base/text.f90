@@ -4,7 +4,7 @@ module text
    implicit none (type, external)
    private
    public :: to_text, list_text, exact_text, fixed_text, whole_number, lower_case, printable, shortened, replaced
-   public :: filled, line_if, behind, newline, is_utf8, checksum, find_similar, did_you_mean, unlike
+   public :: filled, line_if, behind, newline, is_utf8, checksum, is_first, find_similar, did_you_mean, unlike
 
    character(len=*), parameter :: newline = achar(10)
    !> Letters before the numbers of a template, as before units, and by what they multiply.
@@ -329,6 +329,25 @@ contains
       end do
       checksum = remainders(1)*2_i8**31 + remainders(2)
    end function checksum
+
+   !> Which of some checksums are the first of their value.
+   pure function is_first(sums)
+      integer(i8), intent(in) :: sums(:)
+      logical :: is_first(size(sums))
+      !> By the place that a checksum asks for, or the next that was free: which was the first.
+      integer :: firsts(0:2*size(sums))
+      integer :: k, at
+      firsts = 0
+      do k = 1, size(sums)
+         at = int(modulo(sums(k), size(firsts, kind=i8)))
+         do while (firsts(at) > 0)
+            if (sums(firsts(at)) == sums(k)) exit
+            at = modulo(at + 1, size(firsts))
+         end do
+         is_first(k) = firsts(at) == 0
+         if (is_first(k)) firsts(at) = k
+      end do
+   end function is_first
 
    !> " (did you mean mass?)", or nothing where no known word is like this one. `known` are separated by blanks.
    pure function did_you_mean(word, known) result(text)

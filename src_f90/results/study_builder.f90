@@ -13,10 +13,12 @@ module study_builder
    use study_log, only: study_log_type, row_type, not_run, unreadable, text_names, text_meanings
    implicit none (type, external)
    private
-   public :: write_table, missing_runs, run_scale
+   public :: write_table, missing_runs, run_scale, columns_mark
 
    !> The scale of the runs, and of the pads.
    character(len=*), parameter :: run_scale = 'run', pads = 'pad'
+   !> The attribute with a checksum of what columns it has.
+   character(len=*), parameter :: columns_mark = 'columns_mark'
    character(len=*), parameter :: status_meaning = 'exit status: 0 done, 2 numerics, 3 system, 4 stopped, ' &
       & //'-1 not ended, -2 not run yet; nan: its file cannot be read'
    !> Numbers that are held at a time, and layouts.
@@ -49,6 +51,7 @@ contains
       call put_parameters(log, file)
       call find_columns(log, table, error)
       if (allocated(error)) return
+      if (.not. log%header%is_collected) call file%put_text(columns_mark, to_text(table%layout%mark()))
       call put_dimensions(table%layout, file)
       call put_status(log, file)
       call put_rows(log, table, file, error)

@@ -12,7 +12,7 @@ module study_file
    use hdf5_file, only: hdf5_type
    use working_file, only: working_file_type
    use frame_log, only: is_log
-   use study_header, only: header_type, header_of
+   use study_header, only: header_type, header_of, own_build
    use study_layout, only: layout_type
    use study_log, only: study_log_type, row_type, stays
    use study_row, only: study_row_type
@@ -33,6 +33,8 @@ module study_file
       type(study_log_type), private :: log
       !> Whether the log has its name.
       logical, private :: named = .false.
+      !> Whether it says which builds made the rows that were taken.
+      logical, private :: has_builds = .false.
       type(error_type), allocatable, private :: failure
       !> Clock when the last checkpoint was done, and how long it took, s; whether rows have been added since.
       real(wp), private :: last_checkpoint = 0, taken = 0
@@ -95,15 +97,29 @@ contains
       character(len=*), intent(in) :: path
       logical, intent(out) :: other
       type(error_type), allocatable, intent(out) :: error
-      type(header_type) :: origin
+      type(header_type) :: origin, header
       integer :: status(study%runs)
       status = self%log%status
       call take_rows(path, study, status, other, error, self%log, origin)
-      if (allocated(error) .or. path /= self%name .or. .not. allocated(origin%created)) return
-      self%log%header%created = origin%created
-      self%log%header%version = origin%version
-      call self%log%put_header(self%log%header, error)
+      if (allocated(error) .or. .not. allocated(origin%created)) return
+      header = self%log%header
+      if (path == self%name) header%created = origin%created
+      if (.not. self%has_builds) header%version = ''
+      self%has_builds = .true.
+      call header%add_builds(origin%version)
+      call put_new(self, header, error)
    end subroutine take
+
+   !> Lets the log say when it was begun, and which builds made its rows, where that is new.
+   subroutine put_new(self, header, error)
+      class(study_file_type), intent(inout) :: self
+      type(header_type), intent(in) :: header
+      type(error_type), allocatable, intent(inout) :: error
+      associate (own => self%log%header)
+         if (header%created == own%created .and. header%version == own%version) return
+      end associate
+      call self%log%put_header(header, error)
+   end subroutine put_new
 
    !> Gives the log its name; rows may be added from now on.
    subroutine start(self, error)
@@ -161,6 +177,7 @@ contains
       character(len=*), intent(in) :: reason, own
       type(study_row_type), intent(in) :: row
       type(row_type) :: new
+      type(header_type) :: header
       if (allocated(self%failure)) return
       self%grown = .true.
       new%run = k
@@ -169,7 +186,10 @@ contains
       new%texts(2)%text = row%remarks
       new%texts(3)%text = own
       new%numbers = row%numbers
-      call self%log%describe(row%description, new%description, self%failure)
+      header = self%log%header
+      call header%add_builds(own_build)
+      call put_new(self, header, self%failure)
+      if (.not. allocated(self%failure)) call self%log%describe(row%description, new%description, self%failure)
       if (.not. allocated(self%failure)) call self%log%add(new, self%failure)
    end subroutine add
 

@@ -5,7 +5,7 @@ module study_header
    use kinds, only: wp
    use text, only: to_text, replaced
    use errors, only: error_type
-   use build_info, only: program_version
+   use build_info, only: program_version, program_commit
    use assignments, only: assignment_type, token_type, target_text, kind_of, identifier_of
    use case_inputs, only: case_type
    use variable_table, only: variable_table_type
@@ -17,7 +17,7 @@ module study_header
    use provenance, only: format_version, machine_version, now
    implicit none (type, external)
    private
-   public :: header_type, header_of, names_taken
+   public :: header_type, header_of, names_taken, own_build
 
    type :: parameter_type
       !> speed_rpm, arc_deg_1; operation%speed_rpm, pads%arc_deg(1); speed; arc, 1.
@@ -30,7 +30,9 @@ module study_header
 
    type :: header_type
       integer :: format_version = 0
-      character(len=:), allocatable :: version, created, title, input
+      !> The builds that made its rows, separated by commas.
+      character(len=:), allocatable :: version
+      character(len=:), allocatable :: created, title, input
       !> Runs of the whole study, and the number of the run of each row; 0 where the row is not this file's.
       integer :: runs = 0
       real(wp), allocatable :: numbers(:)
@@ -44,8 +46,10 @@ module study_header
       procedure :: names
       procedure :: variables
       procedure :: exchange
+      procedure :: add_builds
    end type header_type
 
+   character(len=*), parameter :: own_build = program_version//' ('//program_commit//')'
    !> Names of variables, among others, that other datasets of a study have.
    character(len=*), parameter :: taken = ' run pad revolution pivot frequency_ratio row column position_row ' &
       & //'position_column mode reason file runs status complete resumes checkpoint_seconds revolutions '
@@ -60,7 +64,7 @@ contains
       type(case_type) :: inputs
       type(error_type), allocatable :: error
       integer :: k
-      header%version = program_version
+      header%version = own_build
       header%created = now()
       ! the first run that is possible; runs that are not become rows with their reason
       do k = 1, study%runs
@@ -186,6 +190,27 @@ contains
       end do
       packed%ok = packed%ok .and. self%runs >= 1 .and. size(self%numbers) >= 1
    end subroutine exchange
+
+   !> Adds those of some builds, separated by commas, that it does not have.
+   pure subroutine add_builds(self, builds)
+      class(header_type), intent(inout) :: self
+      character(len=*), intent(in) :: builds
+      character(len=*), parameter :: comma = ', '
+      character(len=:), allocatable :: own
+      integer :: first, last
+      if (.not. allocated(self%version)) self%version = ''
+      first = 1
+      do while (first <= len(builds))
+         last = first + index(builds(first:)//comma, comma) - 2
+         own = builds(first:last)
+         if (self%version == '') then
+            self%version = own
+         else if (index(comma//self%version//comma, comma//own//comma) == 0) then
+            self%version = self%version//comma//own
+         end if
+         first = last + len(comma) + 1
+      end do
+   end subroutine add_builds
 
    !> The parameters of a study, the slowest first. A name that another group or another dataset has, too, gets its
    !> group before it, and so does every name in a group of which there are several.

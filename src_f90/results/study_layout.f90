@@ -1,7 +1,8 @@
 !> What the rows of a study have: columns, over dimensions with labels, numbers or texts.
 module study_layout
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-   use kinds, only: wp
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+   use kinds, only: wp, i8
+   use text, only: checksum, is_first
    use packet, only: packet_type, text_type
    implicit none (type, external)
    private
@@ -45,6 +46,7 @@ module study_layout
       !> Finds where the values of columns stand in a row.
       procedure :: place
       procedure :: exchange
+      procedure :: mark
       !> Adds a column of another layout, or what it lacks of one that is there: dimensions and labels.
       procedure :: take_column
       procedure :: take_dimension
@@ -81,14 +83,22 @@ contains
       end if
    end function place_of
 
-   !> Whether a label is there twice, so that values of one would be lost.
+   !> Whether a label is there twice, or is none, so that values of one would be lost.
    pure logical function has_twice(self)
       class(dimension_type), intent(in) :: self
+      integer(i8) :: sums(self%length())
       integer :: i
-      has_twice = .false.
-      do i = 1, self%length()
-         if (self%place_of(self, i) /= i) has_twice = .true.
+      has_twice = .not. all(ieee_is_finite(self%numbers))
+      if (has_twice) return
+      do i = 1, size(sums)
+         if (self%has_texts) then
+            sums(i) = checksum(self%texts(i)%text, 0_i8)
+         else
+            ! 0 and -0 are one
+            sums(i) = checksum(transfer(self%numbers(i) + 0, repeat(' ', 8)), 0_i8)
+         end if
       end do
+      has_twice = .not. all(is_first(sums))
    end function has_twice
 
    pure integer function find(self, name)
@@ -260,6 +270,29 @@ contains
       end do
       call self%place()
    end subroutine exchange
+
+   !> A checksum of all columns with their dimensions and labels, in whatever order they stand.
+   pure integer(i8) function mark(self)
+      class(layout_type), intent(in) :: self
+      type(layout_type) :: single
+      type(packet_type) :: packed
+      integer :: c, i
+      mark = 0
+      do c = 1, size(self%columns)
+         associate (over => self%columns(c)%over)
+            single = layout_type()
+            single%columns = self%columns(c:c)
+            allocate (single%dimensions(size(over)))
+            do i = 1, size(over)
+               single%dimensions(i) = self%dimensions(over(i))
+               single%columns(1)%over(i) = i
+            end do
+         end associate
+         packed = packet_type()
+         call single%exchange(packed)
+         mark = ieor(mark, checksum(packed%bytes(), 0_i8))
+      end do
+   end function mark
 
    pure subroutine exchange_dimension(self, packed)
       type(dimension_type), intent(inout) :: self

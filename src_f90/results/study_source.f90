@@ -18,10 +18,11 @@ module study_source
    use study_header, only: header_type
    use study_layout, only: layout_type, dimension_type, column_type, most_labels
    use study_log, only: study_log_type, row_type, not_run, stays, text_names
-   use study_builder, only: run_scale
+   use study_builder, only: run_scale, columns_mark
+   use verification_results, only: states_figure
    implicit none (type, external)
    private
-   public :: take_rows, log_path, is_collected, is_study
+   public :: take_rows, read_states, log_path, is_collected, is_study
 
    !> What the name of a log has behind that of the study's file.
    character(len=*), parameter, public :: log_ending = '.rows'
@@ -49,7 +50,8 @@ contains
 
    !> The exit status of each run of a study, where log or table of a path have a row of it that `status` has not, or
    !> only one that the system has failed; these rows are added to `log`. `other` is true where what is there is whole,
-   !> but not of this study, so that it may be replaced. `origin` says when the study was begun, and by which version.
+   !> but not of this study, so that it may be replaced. `origin` says when the study was begun, and
+   !> by which builds the rows were made.
    subroutine take_rows(path, study, status, other, error, log, origin)
       character(len=*), intent(in) :: path
       type(study_type), intent(in) :: study
@@ -70,7 +72,7 @@ contains
             wanted = lacking(status, there%status)
             if (present(log)) call log%take(there, wanted, error)
             where (wanted) status(:size(wanted)) = there%status
-            if (present(origin)) origin = there%header
+            if (present(origin) .and. any(wanted)) origin = there%header
          end if
          call there%close()
       end if
@@ -80,10 +82,34 @@ contains
          wanted = lacking(status, table%status)
          if (present(log)) call take_table(table, path, wanted, log, error)
          where (wanted) status(:size(wanted)) = table%status
-         if (present(origin)) call read_origin(table%file, origin)
+         if (present(origin) .and. any(wanted)) call read_origin(table%file, origin)
       end if
       call table%close()
    end subroutine take_rows
+
+   !> States of each run whose films were solved closely, by the table of a study; 0 where none were.
+   subroutine read_states(path, study, states, error)
+      character(len=*), intent(in) :: path
+      type(study_type), intent(in) :: study
+      integer, allocatable, intent(out) :: states(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(open_table_type) :: table
+      real(wp), allocatable :: values(:, :)
+      logical :: other
+      integer :: c, k
+      allocate (states(study%runs), source=0)
+      if (.not. is_regular(path)) return
+      call table%open(path, study, other, error)
+      if (allocated(error)) return
+      c = table%layout%find(states_figure)
+      if (c > 0) then
+         call table%columns(c)%read(table%file, 1, size(table%status), values)
+         do k = 1, size(values, 2)
+            if (.not. ieee_is_nan(values(1, k))) states(k) = nint(values(1, k))
+         end do
+      end if
+      call table%close()
+   end subroutine read_states
 
    !> Which rows are there that are not yet known, or only of runs that the system has failed.
    pure function lacking(known, there) result(wanted)
@@ -92,13 +118,14 @@ contains
       wanted = there /= not_run .and. .not. stays(known(:size(there)))
    end function lacking
 
-   !> When a study was begun, unless that is known.
+   !> When a study was begun, unless that is known, and which builds made its rows, beside those that are known.
    subroutine read_origin(file, origin)
       class(hdf5_type), intent(inout) :: file
       type(header_type), intent(inout) :: origin
-      if (allocated(origin%created)) return
-      call file%get_text('created', origin%created)
-      call file%get_text('version', origin%version)
+      character(len=:), allocatable :: builds
+      if (.not. allocated(origin%created)) call file%get_text('created', origin%created)
+      call file%get_text('version', builds)
+      call origin%add_builds(builds)
    end subroutine read_origin
 
    !> Refuses what is of another study than this one, which may be replaced, or of one with more runs.
@@ -195,6 +222,7 @@ contains
       character(len=*), intent(in) :: path
       integer, intent(in) :: runs
       type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: marked
       integer :: child
       child = new_reader()
       if (child == 0) then
@@ -207,7 +235,15 @@ contains
          call raise(error, system_error, path//': damaged: its rows cannot be read')
       else
          call read_layout(self, runs)
-         if (allocated(self%file%failure)) call raise(error, system_error, path//': damaged: '//self%file%failure)
+         marked = to_text(self%layout%mark())
+         ! earlier versions wrote none
+         if (self%file%has_attribute(columns_mark)) call self%file%get_text(columns_mark, marked)
+         if (allocated(self%file%failure)) then
+            call raise(error, system_error, path//': damaged: '//self%file%failure)
+         else if (marked /= to_text(self%layout%mark())) then
+            call raise(error, system_error, path//': its columns have other names, units or labels than the program '&
+               & //'gave them; something else has changed them')
+         end if
       end if
    end subroutine read_guarded
 

@@ -469,3 +469,21 @@ def test_a_disk_that_is_full_while_blocks_are_joined(tiltpad, program, case):
         assert "o space left on device" in done.stderr
         assert "case.1of3.h5\ncase.2of3.h5\n" in done.stdout
     assert full > 2
+
+
+def test_films_of_joined_blocks_are_verified_in_the_whole_study(tiltpad, case):
+    """Its rows are in one file: no block gets one again, and where they are verified it has nothing to do."""
+    folder = case(QUICK.format(last=1004))
+    for k in 1, 2:
+        tiltpad("case.nml", "-q", "--block", f"{k}/2", cwd=folder, status=0)
+    before = (folder / "case.h5").read_bytes()
+    refused = tiltpad("case.nml", "--block", "2/2", "--verify", "1", cwd=folder, status=1)
+    says = "case.h5: has run 3 of this block already; --verify 1 without --block looks at its films\n"
+    assert refused.stderr.endswith(says)
+    assert (folder / "case.h5").read_bytes() == before
+    assert left(folder) == ["case.h5"]
+    tiltpad("case.nml", "-q", "--verify", "1", cwd=folder, status=0)
+    before = (folder / "case.h5").read_bytes()
+    tiltpad("case.nml", "-q", "--block", "2/2", "--verify", "1", cwd=folder, status=0)
+    assert (folder / "case.h5").read_bytes() == before
+    assert left(folder) == ["case.h5"]

@@ -200,3 +200,64 @@ def test_a_run_that_is_called_like_a_block(tiltpad, case):
     tiltpad("case.nml", "-q", "--overwrite", cwd=folder, status=0)
     assert len(times(folder / "case.h5")) == 3
     assert (folder / "case.3of4.h5").read_bytes() == before
+
+
+def change(path, how):
+    """Another program changes a file: h5py, in place."""
+    with h5py.File(path, "r+") as file:
+        how(file)
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        lambda file: file["equilibrium_journal_y"].attrs.modify("units", "mm"),
+        lambda file: file.move("equilibrium_journal_y", "mine"),
+        lambda file: file["pad"].write_direct(np.array([2.0, 1.0])),
+    ],
+    ids=["unit", "name", "label"],
+)
+def test_a_block_whose_columns_were_changed(tiltpad, case, how):
+    """Its values would stand under the names and units of the others; with --overwrite, too."""
+    folder = case(SMALL.format(last=1004))
+    tiltpad("case.nml", "-q", "--block", "1/2", cwd=folder, status=0)
+    change(folder / "case.1of2.h5", how)
+    for arguments in (["--block", "2/2"], [], ["--overwrite"], ["--block", "1/2"]):
+        refused = tiltpad("case.nml", "-q", *arguments, cwd=folder, status=3)
+        assert "case.1of2.h5: its columns have other names, units or labels than the" in refused.stderr
+    (folder / "case.1of2.h5").unlink()
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    change(folder / "case.h5", how)
+    refused = tiltpad("case.nml", "-q", cwd=folder, status=3)
+    assert refused.stderr.endswith("something else has changed them; it is not replaced\n")
+
+
+def test_the_builds_of_all_rows_are_told(tiltpad, case):
+    """Of joined blocks, of a study that has grown, and of one that was collected."""
+    own = "{} {}".format(*tiltpad("--version").stdout.split()[1:])
+
+    def made_by(path, other="0.0.9 (0ldc0de)"):
+        change(path, lambda file: file.attrs.modify("version", other))
+
+    def builds(path):
+        with h5py.File(path) as file:
+            return file.attrs["version"]
+
+    folder = case(SMALL.format(last=1004))
+    for k in 1, 2, 3:
+        tiltpad("case.nml", "-q", "--block", f"{k}/3", cwd=folder, status=0)
+        if k < 3:
+            assert builds(folder / f"case.{k}of3.h5") == own
+            made_by(folder / f"case.{k}of3.h5")
+    assert builds(folder / "case.h5") == f"0.0.9 (0ldc0de), {own}"
+    made_by(folder / "case.h5")
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    assert builds(folder / "case.h5") == "0.0.9 (0ldc0de)"
+    case(SMALL.format(last=1005))
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    assert builds(folder / "case.h5") == f"0.0.9 (0ldc0de), {own}"
+    for k in 1, 2:
+        tiltpad("case.nml", "-q", "--run", k, "-o", "runs", cwd=folder, status=0)
+    change(folder / "runs/0002.h5", lambda file: file.attrs.modify("commit", "0ldc0de"))
+    package.collect(folder / "runs", folder / "of_runs.h5")
+    assert builds(folder / "of_runs.h5") == f"{own}, {own.split()[0]} (0ldc0de)"

@@ -20,6 +20,7 @@ program test_study_file
    use study_header, only: names_taken
    use study_row, only: study_row_type
    use study_builder, only: missing_runs
+   use study_layout, only: dimension_type
    use scratch, only: scratch_path, file_there, write_bytes, bytes_of
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
@@ -51,6 +52,7 @@ program test_study_file
    path = scratch_path('study.h5')
    other = scratch_path('other.h5')
    if (runs('values_and_labels')) call values_and_labels()
+   if (runs('labels_twice')) call labels_twice()
    if (runs('any_order')) call any_order()
    if (runs('failed_runs')) call failed_runs()
    if (runs('run_again')) call run_again()
@@ -456,6 +458,30 @@ contains
    end subroutine any_order
 
    !> Of a run that failed what it had before, and why it failed.
+   subroutine labels_twice()
+      integer, parameter :: labels = 200000
+      type(dimension_type) :: numbers, words
+      real(wp) :: from, to
+      integer :: i
+      numbers%numbers = [(real(i, wp), i=1, labels)]
+      allocate (numbers%texts(0), words%numbers(0))
+      call cpu_time(from)
+      call expect(.not. numbers%has_twice(), 'many numbers, each once')
+      call cpu_time(to)
+      call expect(to - from < 5, 'in a time that rises as their number')
+      numbers%numbers(labels) = 7
+      call expect(numbers%has_twice(), 'a number twice')
+      numbers%numbers = [0.0_wp, -0.0_wp]
+      call expect(numbers%has_twice(), 'zero with both signs')
+      numbers%numbers = [1.0_wp, ieee_value(1.0_wp, ieee_quiet_nan)]
+      call expect(numbers%has_twice(), 'not a number is no label')
+      words%has_texts = .true.
+      words%texts = [text_type('a'), text_type('b')]
+      call expect(.not. words%has_twice(), 'two texts')
+      words%texts = [text_type('a'), text_type('b'), text_type('a')]
+      call expect(words%has_twice(), 'a text twice')
+   end subroutine labels_twice
+
    subroutine failed_runs()
       type(study_type) :: study
       type(study_file_type) :: table
@@ -860,7 +886,7 @@ contains
       type(study_type) :: study
       type(study_file_type) :: table
       character(len=:), allocatable :: bytes
-      integer :: i, there, before, length
+      integer :: i, there, before, length, head
       real(wp) :: x
       call make_study(many, study)
       call begin(table, path, study)
@@ -868,10 +894,10 @@ contains
       call table%abandon()
       bytes = bytes_of(path//'.rows')
       before = 0
+      head = end_of_header(bytes)
       do i = 1, 50
          call random_number(x)
-         ! what says of which study it is comes first
-         length = 3000 + int(x*(len(bytes) - 3000))
+         length = head + int(x*(len(bytes) - head))
          call write_bytes(path//'.rows', bytes(:length)//repeat(achar(0), merge(0, 777, mod(i, 2) == 0)))
          call reopen(table, study)
          there = count([(table%has_row(before), before=1, many)])
@@ -881,6 +907,13 @@ contains
       end do
       call clear()
    end subroutine cut_log
+
+   !> The last byte of what a log says of its study, behind a line and the head of its frame.
+   pure integer function end_of_header(bytes) result(at)
+      character(len=*), intent(in) :: bytes
+      at = index(bytes, achar(10)) + 16
+      at = at + int(transfer(bytes(at - 7:at), 0_i8))
+   end function end_of_header
 
    !> Where bytes of a log are others, the rows that they are of are lost, and no other is.
    subroutine damaged_log()
@@ -895,9 +928,7 @@ contains
       call add(table, [(i, i=1, many)])
       call table%abandon()
       bytes = bytes_of(path//'.rows')
-      ! what a study says of itself, behind a line and the head of its frame
-      head = index(bytes, achar(10)) + 16
-      head = head + int(transfer(bytes(head - 7:head), 0_i8))
+      head = end_of_header(bytes)
       lost = 0
       do i = 1, 50
          call random_number(x)

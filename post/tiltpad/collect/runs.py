@@ -43,7 +43,7 @@ class StudyRun(NamedTuple):
     # checksums of the study: up to the run before, up to this one, of all; None where they are not known
     marks: tuple[str, str, str] | None = None
     input: dict[str, dict[str, Any]] = {}  # resolved namelist, empty where the file cannot be read
-    origin: dict[str, str] = {}  # version, title and input text
+    origin: dict[str, str] = {}  # build, title and input text
     values: dict[str, Any] = {}  # its columns of the study, with their dimensions less the run
     # of those that are datasets of its file: their names there, and these dimensions; of a bearing of a
     # machine both stand in its group
@@ -110,7 +110,7 @@ def measured(path: Path, run: Run) -> StudyRun:
         varied,
         marks,
         run.input,
-        {name: attributes[name] for name in ("version", "title", "input")},
+        {name: attributes[name] for name in ("title", "input")} | {"build": build_of(attributes)},
         values,
         found,
         labels
@@ -118,6 +118,11 @@ def measured(path: Path, run: Run) -> StudyRun:
         | {f"{group}revolution": range(1 - count, 1) for group, count in counts.items()},
         run.remarks,
     )
+
+
+def build_of(attributes: dict[str, Any]) -> str:
+    """Version and commit of the program that wrote a file: "0.1.0 (4ff53e12)"."""
+    return f"{attributes['version']} ({attributes.get('commit', 'unknown')})"
 
 
 def place(attributes: dict[str, Any]) -> tuple[int | None, int | None, dict[str, Any], Any]:

@@ -103,7 +103,7 @@ def header(runs: Sequence[StudyRun], missing: Sequence[int], taken: set[str]) ->
     return b"".join(
         (
             whole(MACHINE_VERSION if is_machine(first.input) else FORMAT_VERSION),
-            text(first.origin["version"]),
+            text(", ".join(dict.fromkeys(each.origin["build"] for each in readable))),
             text(datetime.now(UTC).isoformat(timespec="seconds")),
             text(titles.pop() if len(titles) == 1 else ""),
             text(first.origin["input"]),
