@@ -250,6 +250,7 @@ contains
          if (self%asperity(i)%touches) self%film_motion(i)%position = self%asperity(i)%film_position
       end do
       call evaluate_films(self, oil, speed, want_derivatives, chosen)
+      ok = .true.
       do i = 1, size(self%pads)
          if (skipped(i)) cycle
          ok = self%pads(i)%admitted(pads(i), self%response(i))

@@ -49,6 +49,8 @@ contains
       type(pad_state) :: pads(2), moved(2)
       character(len=:), allocatable :: refusal
       logical :: ok
+      ! what it is given stays there, unless it is set
+      logical, volatile :: given
       inputs = heavy_case('tilting_radial', 'none')
       inputs%bearings(1)%film%solver = solver
       bearing = new_tilting_pad_bearing(inputs, 1)
@@ -61,6 +63,9 @@ contains
       call expect_close(difference(bearing, all_pads, 1), 0.0_wp, 0.0_wp, solver//': a pad that is not chosen')
       call all_pads%evaluate(journal, moved, oil, speed, .true., refusal, ok)
       call expect_close(difference(bearing, all_pads, 2), 0.0_wp, 1e-9_wp, solver//': a chosen pad')
+      given = .false.
+      call bearing%evaluate(journal, moved, oil, speed, .true., refusal, given, [.false., .false.])
+      call expect(given, solver//': where no pad is chosen, none is refused')
       call expect(difference(bearing, all_pads, 1) > 1e-3_wp, solver//': the move is felt')
    end subroutine chosen_pads
 
