@@ -116,11 +116,14 @@ module newton_method
       procedure(asked_to_stop), pointer, nopass :: give_up => null()
    end type newton_options
 
-   !> Longest correction that is made in a plane: what is further away is sought by a shorter step.
+   !> Longest correction that is made: of a longer one a part, and in a plane none, as a shorter step is better.
    real(wp), parameter :: longest = 0.5_wp
    !> Iterations in which a correction that is longer must fall by half. Shorter ones may fall slowly, where places at
    !> which the derivatives jump go from interval to interval.
    integer, parameter :: looked_at_iterations = 8
+   !> Iterations after which the first corrections of a method that converges have become short: less than 0.01 in
+   !> whatever was tried.
+   integer, parameter :: first_iterations = 4
 
 contains
 
@@ -221,15 +224,23 @@ contains
             call raise(error, numerics_error, 'Newton''s method stopped after '//to_text(point%iterations) &
                & //' iterations at a correction of '//to_text(point%correction) &
                   & //' of the characteristic scale of the states')
-         else if (point%iterations > 0 .and. mod(point%iterations, looked_at_iterations) == 0) then
-            if (best > max(longest, 0.5_wp*best_before)) then
-               call raise(error, numerics_error, 'Newton''s method does not converge: its correction is still ' &
-                  & //to_text(best)//' of the characteristic scale of the states after ' &
-                  & //to_text(point%iterations)//' iterations')
-            end if
+         else if (stays_long()) then
+            call raise(error, numerics_error, 'Newton''s method does not converge: its correction is still ' &
+               & //to_text(best)//' of the characteristic scale of the states after '//to_text(point%iterations) &
+               & //' iterations')
+         else if (mod(point%iterations, looked_at_iterations) == 0) then
             best_before = best
          end if
       end subroutine check_progress
+
+      !> Whether the correction has not fallen by half, or, beyond the first iterations, is longer than the parts of it
+      !> that all iterations left may make.
+      logical function stays_long()
+         stays_long = .not. present(normal) .and. point%iterations >= first_iterations &
+            & .and. best > longest*(options%max_iterations - point%iterations)
+         if (point%iterations > 0 .and. mod(point%iterations, looked_at_iterations) == 0) stays_long = stays_long &
+            & .or. best > max(longest, 0.5_wp*best_before)
+      end function stays_long
 
       subroutine take_step()
          logical :: ok

@@ -8,7 +8,7 @@ module branch_problems
    use orbit_problem, only: parametric_ode_type
    implicit none (type, external)
    private
-   public :: parabola, turning_frame, duffing, oscillator_orbits
+   public :: far_away, parabola, turning_frame, duffing, oscillator_orbits
 
    !> x' = p - x**2 at rest: a fold at p = 0; values of p below `least` are refused. Where x = -1 it leaps by 2 `leap`:
    !> there is no equilibrium for p within `leap` of 1 on this side.
@@ -22,6 +22,14 @@ module branch_problems
       procedure :: get_place => parabola_place
       procedure :: go_to => put_parabola
    end type parabola
+
+   !> Corrections that begin with a thousand and fall by a fifth each, of which half a unit is made.
+   type, extends(parabola) :: far_away
+      integer :: asked = 0
+   contains
+      procedure :: linearize => far_equations
+      procedure :: move => move_nearer
+   end type far_away
 
    !> y = R(t/2) w or y = w: half a turn of the frame in the period 2 pi, or none. In the frame w_1' = p w_1 - w_1**3
    !> and w_2' = -w_2 (half a turn), or w_1 + i w_2 = z with z' = (p + i/sqrt(5)) z - |z|**2 z (none).
@@ -64,6 +72,23 @@ contains
       self%refused = self%parameter < self%least
       if (self%refused) call raise(error, input_error, 'too small')
    end subroutine parabola_equations
+
+   subroutine far_equations(self, matrix, b, error)
+      class(far_away), intent(inout) :: self
+      real(wp), intent(out) :: matrix(:, :), b(:)
+      type(error_type), allocatable, intent(out) :: error
+      matrix = 1
+      b = 1000*0.8_wp**self%asked
+      self%asked = self%asked + 1
+   end subroutine far_equations
+
+   subroutine move_nearer(self, change, closes)
+      class(far_away), intent(inout) :: self
+      real(wp), intent(in) :: change(:)
+      logical, intent(in) :: closes
+      self%x = self%x + min(0.5_wp, change(1))
+      self%correction = maxval(abs(change))
+   end subroutine move_nearer
 
    subroutine move_parabola(self, change, closes)
       class(parabola), intent(inout) :: self
@@ -191,19 +216,20 @@ end module branch_problems
 
 program test_continuation
    use kinds, only: wp, pi
-   use errors, only: error_type
-   use newton_method, only: branch_problem_type, branch_point_type, return_to
+   use errors, only: error_type, numerics_error
+   use newton_method, only: branch_problem_type, branch_point_type, newton_options, correct, return_to
    use continuation, only: branch_options, start_branch, advance, bifurcation_type, find_bifurcations
    use orbit_polynomials, only: orbit_type
    use constant_orbit, only: at_rest
    use orbit_problem, only: orbit_problem_type, begin_orbits
    use branch_progress, only: double_period
-   use branch_problems, only: parabola, turning_frame, duffing, oscillator_orbits
-   use check, only: runs, expect, expect_close, expect_no_error, report
+   use branch_problems, only: far_away, parabola, turning_frame, duffing, oscillator_orbits
+   use check, only: runs, expect, expect_close, expect_error, expect_no_error, report
    implicit none (type, external)
 
    if (runs('fold')) call fold()
    if (runs('leap')) call leap()
+   if (runs('hopeless')) call hopeless()
    if (runs('refused')) call refused()
    if (runs('return')) call return()
    if (runs('period_doubling')) call period_doubling()
@@ -257,6 +283,21 @@ contains
       call expect_close(here%arc_length, sqrt(5.0_wp) + 0.5_wp*asinh(2.0_wp), 2e-2_wp, 'length of the branch')
       call expect(here%growth(1) > 0, 'and it ends unstable')
    end subroutine fold
+
+   !> What the iterations that are left cannot reach is given up, though it falls; where they may, it is not.
+   subroutine hopeless()
+      type(far_away) :: problem
+      type(branch_point_type) :: point
+      type(error_type), allocatable :: error
+      problem%n = 1
+      problem%weight = [1.0_wp]
+      call correct(problem, newton_options(1e-8_wp, 30), point, error)
+      call expect_error(error, numerics_error, 'its correction is still 512 of the characteristic scale of the ' &
+         & //'states after 4 iterations', 'a correction that is far away')
+      problem%asked = 0
+      call correct(problem, newton_options(1e-8_wp, 2000), point, error)
+      call expect_no_error(error, 'a correction that falls')
+   end subroutine hopeless
 
    !> The same where the equations leap at the bound: the branch is not lost there.
    subroutine leap()
