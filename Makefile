@@ -175,7 +175,7 @@ venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
 .PHONY: help run build deps python again wheel test test-slurm test-debian13 stress realistic fuzz faults \
-        bench paper site unit test-programs lint format docs install uninstall clean
+        bench speed paper site unit test-programs lint format docs install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
 
@@ -191,6 +191,7 @@ help:
 	@echo 'make fuzz     tries random cases and arguments, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'
 	@echo 'make faults   injects faults from outside into all commands, 20 minutes; writes docs/faults.md (FAULTS=1500 SEED=1)'
 	@echo 'make bench    measures run time against error, and other programs, a quarter of an hour; writes docs/benchmarks.md'
+	@echo 'make speed OLD=COMMIT   compares the speed with that of an older commit, in pairs of runs, some minutes'
 	@echo 'make paper    makes the figures and checks the claims of the paper, a minute or two; writes docs/paper'
 	@echo 'make build    builds build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     installs missing packages (as root or with sudo; otherwise prints the list and stops)'
@@ -256,6 +257,14 @@ faults: build python
 # PARTS='films pads' runs these alone and takes the others from their last run
 bench: build python $(VENV)/ready-bench $(ross)/ready $(B)/bench/film_bench
 	PYTHONPATH=post $(venv_python) tests/bench/bench.py $(B)/bin/tiltpad $(if $(PARTS),--only $(PARTS))
+
+# OLD=COMMIT is built in a folder of its own, once, and compared with what is here, in pairs of runs
+older := build/speed/$(OLD)
+speed: build python
+	@test -n '$(OLD)' || { echo 'make speed OLD=COMMIT: which commit to compare with' >&2; exit 2; }
+	test -e $(older)/Makefile || { mkdir -p $(older) && git archive $(OLD) | tar -x -C $(older); }
+	env -u MAKELEVEL -u MAKEFLAGS $(MAKE) -C $(older) build
+	$(venv_python) tests/bench/speed.py $(older)/build/bin/tiltpad $(B)/bin/tiltpad
 
 # counterparts of the paper's figures, and its claims checked
 paper: build python

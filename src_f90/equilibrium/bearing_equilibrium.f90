@@ -68,13 +68,19 @@ contains
       type(search_traces) :: traces
       real(wp), allocatable :: y(:)
       integer :: guess
-      logical :: at_rest
+      !> Whether there is an equilibrium with these viscosities; with some, and a temperature for each pad.
+      logical :: at_rest, with_pads
       if (present(by_heat)) by_heat = .false.
+      if (pushed_away(model)) then
+         call raise(error, numerics_error, refusal(model, traces))
+         return
+      end if
       if (.not. has_warm_oil(model)) then
          call find_isothermal(model, found, error)
          return
       end if
       warm = model
+      with_pads = .false.
       do guess = 1, guesses
          call guess_oil(warm, guess)
          call find_isothermal(warm, found, error)
@@ -84,6 +90,7 @@ contains
             y = static%static_state(found%rotor, found%pads)
             call solve_thermal_equilibrium(static, y, found%residual, error, films=found%films)
             if (allocated(error) .and. .not. allocated(found%films)) call name_start()
+            with_pads = with_pads .or. allocated(found%films)
          end if
          if (allocated(error)) then
             if (error%status == stopped) return
@@ -97,7 +104,7 @@ contains
          call note_partial(model, traces)
          call raise(error, numerics_error, refusal(model, traces))
       end if
-      if (model%inputs%thermal%model == 'film') call offer_pads(model, error)
+      if (with_pads) call offer_pads(model, error)
 
    contains
 
@@ -388,15 +395,15 @@ contains
          if (.not. norm2(model%point%load) > 0 .and. pads <= 2) then
             cause = 'without load '//to_text(pads)//trim(merge(' pad pushes', ' pads push ', pads == 1)) &
                & //' the journal away; give it a load or pads on all sides'
-         else if (.not. model%layout%elements(1)%has(tilt) .and. load_on_pads(model)) then
+         else if (.not. model%layout%elements(1)%has(tilt) .and. load_on_pads(model, arcs=.true.)) then
             cause = 'the films do not hold the journal; try another load ('//of_load//') or clearance'
-         else if (pads == 1 .and. .not. load_on_pads(model)) then
+         else if (pads == 1 .and. .not. load_on_pads(model, arcs=.false.)) then
             cause = 'the load points past the only pad; turn the load ('//of_load//') or the pad ' &
                & //'(pads%pivot_angle_deg)'
          else if (pads == 1) then
             cause = 'one pad: the journal rolls off it; add a second pad (pads%pivot_angle_deg) or fix ' &
                & //'it (pads%motion = ''fixed'')'
-         else if (.not. load_on_pads(model)) then
+         else if (.not. load_on_pads(model, arcs=.not. model%layout%elements(1)%has(tilt))) then
             ! the angle counted as that of a pivot
             associate (load => model%point%load)
                cause = 'the load points to '//to_text(anint(10*atan2(load(1), load(2))/degree)/10) &
@@ -464,10 +471,24 @@ contains
       traces%leaving = edge >= moves*max(maxval(edge), norm2(abs(shapes(:2, k))))
    end subroutine note_divergence
 
-   !> True where pads can carry the load: a pad that tilts carries through its pivot, so that the load must lie between
-   !> pivots less than half a turn apart (or, of one pad, point through it); a fixed pad carries with all its arc.
-   pure logical function load_on_pads(model)
+   !> True where the films, which only push, push the journal the way of its load, so that there is no equilibrium.
+   logical function pushed_away(model)
       type(machine_model), intent(in) :: model
+      pushed_away = .false.
+      associate (bearing => model%bearings(1))
+         if (.not. bearing%film%cavitates()) return
+         if (any(bearing%pads%gap%ambient_pressure > bearing%pads%gap%cavitation_pressure)) return
+         pushed_away = .not. load_on_pads(model, arcs=.true.)
+      end associate
+   end function pushed_away
+
+   !> True where pads can carry the load: a pad that tilts carries through its pivot, so that the load must lie between
+   !> pivots less than half a turn apart (or, of one pad, point through it); a fixed pad carries with all its arc, and
+   !> so does any beside its own weight.
+   pure logical function load_on_pads(model, arcs)
+      type(machine_model), intent(in) :: model
+      !> With all their arcs, or through their pivots.
+      logical, intent(in) :: arcs
       real(wp), allocatable :: angles(:)
       real(wp) :: load(2), first(2), second(2), turn, part(2)
       integer :: i, k
@@ -476,7 +497,7 @@ contains
       associate (pads => model%bearings(1)%pads)
          load = in_mirror(pads(1)%position%mirrored, model%point%load/norm2(model%point%load))
          angles = pads%position%angle
-         if (.not. model%layout%elements(1)%has(tilt)) then
+         if (arcs) then
             angles = [angles - pads%gap%trailing_angle, angles + pads%gap%leading_angle]
             if (any(pads%gap%arc() >= pi)) return
          end if

@@ -1,0 +1,128 @@
+"""Compares the speed of two builds of the program: speed.py OLD NEW [--rounds N]
+
+In every round the old program runs twice and the new one once, each from nothing; the smallest processor times count.
+Where this machine counts instructions (by perf, or by valgrind), these are told, too: they have no noise. The status is
+1 where a case is slower than noise allows, or where the new program alone fails.
+"""
+
+import argparse
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from runner import launch
+from settings import ROOT
+
+#: Cases of input/ with what is changed in them: marches, statics, orbits, branches, machines and studies.
+CASES = {
+    "frictionless": ("paper/steady_tr.nml",),
+    "lugre": ("paper/steady_lugre.nml",),
+    "bengisu_akay": ("paper/steady_tr_ba.nml",),
+    "run_up": ("paper/runup_lugre.nml",),
+    "four_pads": ("examples/four_pads.nml",),
+    "five_pads": ("examples/five_pads.nml",),
+    "fixed_pads": ("examples/two_groove.nml",),
+    "equilibrium": ("examples/equilibrium.nml",),
+    "warm_equilibrium": ("examples/warm_five_pads.nml", "case%task=equilibrium"),
+    "map": ("examples/stability.nml",),
+    "study_of_equilibria": ("paper/steady_lugre.nml", "case%task=equilibrium", "sweep%rotor%mass=1500:1999:1"),
+    "study_of_marches": ("paper/steady_lugre.nml", "operation%duration=0.2", "sweep%rotor%mass=1900:1980:5"),
+    "orbit": ("paper/steady_lugre.nml", "case%task=periodic"),
+    "branch": ("paper/steady_tr.nml", "case%task=branch", "branch%parameter=operation%speed_rpm", "branch%last=7500"),
+    "machine": ("examples/overhung.nml",),
+    "bearings": ("examples/three_bearings.nml",),
+}
+#: How much slower a case may be in instructions, and beyond its noise in time.
+SAME_INSTRUCTIONS, SAME_TIME = 1.005, 0.01
+#: The least time, s, for which a case is repeated in a round.
+LEAST = 0.5
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("old", type=Path)
+    parser.add_argument("new", type=Path)
+    parser.add_argument("--rounds", type=int, default=5)
+    options = parser.parse_args()
+    count = counter()
+    print(f"{'case':20} {'time':>6} {'noise':>6} {'instructions':>13} {'s':>8}")
+    slower = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for name, (case, *changes) in CASES.items():
+            command = [ROOT / "input" / case, "--quiet", *(word for each in changes for word in ("--set", each))]
+            line, bad = compare(options.old, options.new, command, Path(folder), options.rounds, count)
+            print(f"{name:20} {line}{'  slower' if bad else ''}", flush=True)
+            slower += bad
+    print(f"{slower} of {len(CASES)} cases are slower")
+    return 1 if slower else 0
+
+
+def compare(
+    old: Path, new: Path, command: list, folder: Path, rounds: int, count: Callable[[list], int] | None
+) -> tuple[str, bool]:
+    """New over old, noise, instructions and seconds of a case as a line, and whether it is slower or fails."""
+    try:
+        before = seconds(old, command, folder, 1)
+    except RuntimeError as error:
+        return f"the old program does not run it: {error}", False
+    try:
+        repeats = max(1, round(LEAST / before))
+        best = [float("inf")] * 3
+        for _ in range(rounds):
+            times = [seconds(program, command, folder, repeats) for program in (old, old, new)]
+            best = list(map(min, best, times))
+        ratio, noise = best[2] / min(best[:2]), max(best[:2]) / min(best[:2])
+        if count is None:
+            return f"{ratio:6.3f} {noise:6.3f} {'':13} {best[2]:8.4f}", ratio > noise + SAME_TIME
+        counts = [count(emptied([program, *command], folder)) for program in (old, new)]
+        instructions = counts[1] / counts[0]
+        return f"{ratio:6.3f} {noise:6.3f} {instructions:13.4f} {best[2]:8.4f}", instructions > SAME_INSTRUCTIONS
+    except RuntimeError as error:
+        return f"the new program does not run it: {error}", True
+
+
+def seconds(program: Path, command: list, folder: Path, repeats: int) -> float:
+    """Mean processor time of runs from nothing, s."""
+    total = 0.0
+    for _ in range(repeats):
+        done = launch(emptied([program, *command], folder))
+        if done.status:
+            raise RuntimeError(done.said[-100:])
+        total += done.work
+    return total / repeats
+
+
+def emptied(command: list, folder: Path) -> list[str]:
+    """The command with its result in the folder, which holds nothing else."""
+    shutil.rmtree(folder)
+    folder.mkdir()
+    return [*map(str, command), "--jobs", "1", "--output", f"{folder}/result.h5"]
+
+
+def counter() -> Callable[[list[str]], int] | None:
+    """What counts the instructions of a command, of all its processes; None where nothing does."""
+    if shutil.which("perf") and (found := by_perf(["true"])):
+        return lambda command: by_perf(command) or sys.exit("perf does not count any more")
+    return by_valgrind if shutil.which("valgrind") else None
+
+
+def by_perf(command: list[str]) -> int:
+    words = ["perf", "stat", "-x", ",", "-e", "instructions:u", *command]
+    said = subprocess.run(words, text=True, capture_output=True).stderr
+    found = re.search(r"^(\d+),,instructions", said, re.MULTILINE)
+    return int(found[1]) if found else 0
+
+
+def by_valgrind(command: list[str]) -> int:
+    """Of all processes; a forked one counts on from where it began, in both programs."""
+    words = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *command]
+    said = subprocess.run(words, text=True, capture_output=True).stderr
+    return sum(int(found.replace(",", "")) for found in re.findall(r"I\s+refs:\s+([\d,]+)", said))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
