@@ -40,7 +40,7 @@ module case_remarks
    character(len=*), parameter :: own_size = ' bearing%journal_radius bearing%axial_length '
    character(len=*), parameter :: to_be_given = ' rotor%mass rotor%unbalance operation%speed_rpm ' &
       & //'bearing%journal_radius bearing%machined_clearance bearing%assembled_clearance bearing%axial_length ' &
-      & //'bearing%viscosity pads%pivot_angle_deg pads%arc_deg '
+      & //'bearing%viscosity pads%pivot_angle_deg pads%arc_deg pads%pivot_distance '
    !> Variables from which others of their groups follow, and these.
    character(len=*), parameter :: sources(2) = [character(len=26) :: 'preload machined_clearance', &
       & 'balance_grade unbalance']
@@ -337,7 +337,8 @@ contains
       if (.not. b%tilting()) return
       associate (p => b%pads)
          do i = 1, b%pad_count()
-            heaviest = densest*p%arc_deg(i)*degree*b%journal_radius*b%axial_length(i)*p%pivot_distance(i)
+            ! no pad is thicker than the radius of its journal
+            heaviest = densest*p%arc_deg(i)*degree*b%journal_radius**2*b%axial_length(i)
             largest = p%mass(i)*(widest*b%journal_radius)**2
             line = line_if(p%mass(i) > heaviest, 'pads%mass = {}: more than a pad of this size weighs', [p%mass(i)], &
                & in_other_units(p%mass(i), 'pads%mass', 'kg', 0.0_wp, heaviest))
@@ -410,6 +411,9 @@ contains
          integer :: k
          matters = all(is_set(v%values))
          if (v%name == 'unbalance') matters = inputs%moves()
+         ! beside a thickness that is not that of the paper's pads
+         if (v%name == 'pivot_distance') matters = matters .and. any([(given(k)%group == v%group &
+            & .and. given(k)%name == 'thickness', k=1, size(given))])
          if (bearing_of(v%group) == '') return
          matters = matters .and. any([(of_size(k) .and. bearing_of(given(k)%group) == bearing_of(v%group), &
             & k=1, size(given))])

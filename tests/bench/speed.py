@@ -1,8 +1,8 @@
 """Compares the speed of two builds of the program: speed.py OLD NEW [--rounds N]
 
-In every round the old program runs twice and the new one once, each from nothing; the smallest processor times count.
-Where this machine counts instructions (by perf, or by valgrind), these are told, too: they have no noise. The status is
-1 where a case is slower than noise allows, or where the new program alone fails.
+In every round the old program runs twice and the new one once, each from nothing; the smallest processor
+times count. Where this machine counts instructions (by perf, or by valgrind), these are told, too: they have
+no noise. The status is 1 where a case is slower than noise allows, or where the new program alone fails.
 """
 
 import argparse
@@ -29,10 +29,13 @@ CASES = {
     "equilibrium": ("examples/equilibrium.nml",),
     "warm_equilibrium": ("examples/warm_five_pads.nml", "case%task=equilibrium"),
     "map": ("examples/stability.nml",),
-    "study_of_equilibria": ("paper/steady_lugre.nml", "case%task=equilibrium", "sweep%rotor%mass=1500:1999:1"),
-    "study_of_marches": ("paper/steady_lugre.nml", "operation%duration=0.2", "sweep%rotor%mass=1900:1980:5"),
+    "equilibria": ("paper/steady_lugre.nml", "case%task=equilibrium", "sweep%rotor%mass=1500:1999:1"),
+    "marches": ("paper/steady_lugre.nml", "operation%duration=0.2", "sweep%rotor%mass=1900:1980:5"),
     "orbit": ("paper/steady_lugre.nml", "case%task=periodic"),
-    "branch": ("paper/steady_tr.nml", "case%task=branch", "branch%parameter=operation%speed_rpm", "branch%last=7500"),
+    "branch": (
+        *("paper/steady_tr.nml", "case%task=branch"),
+        *("branch%parameter=operation%speed_rpm", "branch%last=7500"),
+    ),
     "machine": ("examples/overhung.nml",),
     "bearings": ("examples/three_bearings.nml",),
 }
@@ -43,7 +46,7 @@ LEAST = 0.5
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("old", type=Path)
     parser.add_argument("new", type=Path)
     parser.add_argument("--rounds", type=int, default=5)
@@ -53,7 +56,8 @@ def main() -> int:
     slower = 0
     with tempfile.TemporaryDirectory() as folder:
         for name, (case, *changes) in CASES.items():
-            command = [ROOT / "input" / case, "--quiet", *(word for each in changes for word in ("--set", each))]
+            settings = (word for each in changes for word in ("--set", each))
+            command = [ROOT / "input" / case, "--quiet", *settings]
             line, bad = compare(options.old, options.new, command, Path(folder), options.rounds, count)
             print(f"{name:20} {line}{'  slower' if bad else ''}", flush=True)
             slower += bad
@@ -64,7 +68,7 @@ def main() -> int:
 def compare(
     old: Path, new: Path, command: list, folder: Path, rounds: int, count: Callable[[list], int] | None
 ) -> tuple[str, bool]:
-    """New over old, noise, instructions and seconds of a case as a line, and whether it is slower or fails."""
+    """New over old, noise, instructions and seconds of a case, and whether it is slower or fails."""
     try:
         before = seconds(old, command, folder, 1)
     except RuntimeError as error:
@@ -80,7 +84,8 @@ def compare(
             return f"{ratio:6.3f} {noise:6.3f} {'':13} {best[2]:8.4f}", ratio > noise + SAME_TIME
         counts = [count(emptied([program, *command], folder)) for program in (old, new)]
         instructions = counts[1] / counts[0]
-        return f"{ratio:6.3f} {noise:6.3f} {instructions:13.4f} {best[2]:8.4f}", instructions > SAME_INSTRUCTIONS
+        line = f"{ratio:6.3f} {noise:6.3f} {instructions:13.4f} {best[2]:8.4f}"
+        return line, instructions > SAME_INSTRUCTIONS
     except RuntimeError as error:
         return f"the new program does not run it: {error}", True
 
@@ -105,7 +110,7 @@ def emptied(command: list, folder: Path) -> list[str]:
 
 def counter() -> Callable[[list[str]], int] | None:
     """What counts the instructions of a command, of all its processes; None where nothing does."""
-    if shutil.which("perf") and (found := by_perf(["true"])):
+    if shutil.which("perf") and by_perf(["true"]):
         return lambda command: by_perf(command) or sys.exit("perf does not count any more")
     return by_valgrind if shutil.which("valgrind") else None
 

@@ -1,7 +1,7 @@
 !> Remarks on cases: what is seldom meant, what the paper's bearing lends a case, and groups of other tasks.
 program test_case_remarks
    use kinds, only: wp
-   use text, only: replaced, filled, line_if, behind
+   use text, only: filled, line_if, behind
    use input_cases, only: case_of
    use case_remarks, only: remarks_on_case
    use check, only: runs, expect, report
@@ -69,6 +69,9 @@ contains
          & //'2000 kg mm^2 are 0.002')
       call expect_remark('&pads mass = 1500, inertia = 3 /', 'pads%mass = 1500: more than a pad of this size weighs; ' &
          & //'1500 g are 1.5')
+      ! a mass that the case derives from a thickness above the paper's
+      call expect_remark('&pads density = 7850, thickness = 0.15, pivot_distance = 0.15 /', '')
+      call expect_remark('&pads density = 7850, thickness = 0.15 /', '')
    end subroutine units
 
    !> Of a machine: the density of the shaft, which a case may set to almost nothing, and discs wider than it is long.
@@ -158,8 +161,10 @@ contains
    !> What another bearing than the paper's does not give.
    subroutine lent_values()
       character(len=*), parameter :: begin = 'not given, and so as in the paper''s bearing: ', &
-         & rest = '&rotor mass = 100, unbalance = 0 / &operation speed_rpm = 3000 / &pads pivot_angle_deg = 0, 180, ' &
-         & //'arc_deg = 80 / &bearing journal_radius = 0.05, axial_length = 0.05, preload = 0, '
+         & rotor = '&rotor mass = 100, unbalance = 0 / ', &
+         & pads = rotor//'&operation speed_rpm = 3000 / &pads pivot_angle_deg = 0, 180, arc_deg = 80', &
+         & bearing = ' / &bearing journal_radius = 0.05, axial_length = 0.05, preload = 0, ', rest = pads//bearing, &
+         & thick = ', density = 7850, thickness = 0.02'
       call expect_remark(own, begin//'rotor%mass = 2000 kg, rotor%unbalance = 0.01 kg m, operation%speed_rpm = ' &
          & //'6500 rpm, bearing%machined_clearance = 1e-4 m, bearing%assembled_clearance = 8e-5 m, ' &
          & //'bearing%axial_length = 0.1 m, bearing%viscosity = 0.019 Pa s, pads%pivot_angle_deg = -45, 225 deg, ' &
@@ -169,9 +174,14 @@ contains
       call expect_remark(rest//'assembled_clearance = 6e-5, viscosity = 0.019 /', '')
       call expect_remark(rest//'assembled_clearance = 6e-5 / &oil grade = 32 /', '')
       ! equilibria know no unbalance
-      call expect_remark(replaced(rest, ', unbalance = 0', '')//'assembled_clearance = 6e-5, viscosity = 0.019 / ' &
-         & //'&case task = ''coefficients'' /', '')
+      call expect_remark('&rotor mass = 100 / '//rest(len(rotor) + 1:)//'assembled_clearance = 6e-5, viscosity = ' &
+         & //'0.019 / &case task = ''coefficients'' /', '')
       call expect_remark('&pivot socket_radius = 0.02 /', '')
+      ! how far the pivots are behind pads of another thickness
+      call expect_remark(pads//thick//bearing//'assembled_clearance = 6e-5, viscosity = 0.019 /', &
+         & begin//'pads%pivot_distance = 0.014 m'//achar(10))
+      call expect_remark(pads//thick//', pivot_distance = 0.02'//bearing//'assembled_clearance = 6e-5, ' &
+         & //'viscosity = 0.019 /', '')
    end subroutine lent_values
 
    subroutine idle_groups()

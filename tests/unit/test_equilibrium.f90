@@ -14,7 +14,8 @@ program test_equilibrium
    use check, only: runs, expect, expect_close, expect_no_error, expect_error, report
    implicit none (type, external)
    character(len=*), parameter :: upwards = ' &rotor static_load = 6e4, 0 /'
-   character(len=*), parameter :: above = '&pads pivot_angle_deg = 90 / ', reynolds = '&film cavitation = ''reynolds'' /'
+   character(len=*), parameter :: above = '&pads pivot_angle_deg = 90 / '
+   character(len=*), parameter :: reynolds = '&film cavitation = ''reynolds'' /'
 
    if (runs('nothing_held')) call nothing_held()
    if (runs('pad_held')) call pad_held()
@@ -27,7 +28,8 @@ program test_equilibrium
    if (runs('pushed_away')) then
       ! films that only push tell at once; where they may also pull, or reach below the load, they are solved
       call searched(above//reynolds, 'past the only pad', at_once=.true.)
-      call searched(above//reynolds//'&oil grade = 32 / &thermal model = ''film'' /', 'past the only pad', at_once=.true.)
+      call searched(above//reynolds//'&oil grade = 32 / &thermal model = ''film'' /', 'past the only pad', &
+         & at_once=.true.)
       call searched(above//'&film cavitation = ''gumbel'' /', 'past the only pad', at_once=.true.)
       call searched('&pads motion = ''fixed'', pivot_angle_deg = 80, arc_deg = 60 /'//reynolds, 'past the only pad', &
          & at_once=.true.)
