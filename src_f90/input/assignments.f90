@@ -7,8 +7,8 @@ module assignments
    implicit none (type, external)
    private
    public :: namelist_type, assignment_type, token_type, put_assignment, undoes, assignment_text, target_text, &
-      & place_of, value_text, study_group, split_subscript, is_special, read_number, counted, kind_of, bearing_of, &
-      & is_counted, may_have_bearing, naming_variable, group_heading, identifier_of, is_name, is_spelled, &
+      & place_of, variable_text, value_text, study_group, split_subscript, is_special, read_number, counted, kind_of, &
+      & bearing_of, is_counted, may_have_bearing, naming_variable, group_heading, identifier_of, is_name, is_spelled, &
       & longest_bearing
 
    !> Groups of what there may be several of on a rotor, and of each bearing.
@@ -30,6 +30,8 @@ module assignments
    !> `group%name(subscript) = values`, and where it was found: "case.nml line 3" or "--set".
    type :: assignment_type
       character(len=:), allocatable :: group, name, origin
+      !> The group as the case names it, where that is the one of all bearings.
+      character(len=:), allocatable :: named
       !> First element that the values go to; 0 where no subscript is given.
       integer :: subscript = 0
       !> True for an assignment of --set or of a run of a study: it may set an element that the file sets too.
@@ -186,14 +188,23 @@ contains
    pure function place_of(a) result(text)
       type(assignment_type), intent(in) :: a
       character(len=:), allocatable :: text
-      text = a%origin//': '//a%group//'%'//a%name
+      text = a%origin//': '//variable_text(a)
    end function place_of
+
+   !> "pads%mass", as the case names it.
+   pure function variable_text(a) result(text)
+      type(assignment_type), intent(in) :: a
+      character(len=:), allocatable :: text
+      text = a%group
+      if (allocated(a%named)) text = a%named
+      text = text//'%'//a%name
+   end function variable_text
 
    !> "pads%mass(2)".
    pure function target_text(a) result(text)
       type(assignment_type), intent(in) :: a
       character(len=:), allocatable :: text
-      text = a%group//'%'//a%name
+      text = variable_text(a)
       if (a%subscript > 0) text = text//'('//to_text(a%subscript)//')'
    end function target_text
 

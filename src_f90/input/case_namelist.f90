@@ -14,7 +14,8 @@ module case_namelist
    use case_parameter, only: complete_branch, check_branch_parameter, group_names, names_in, meant_variable, &
       & meant_group, meant_word
    use assignments, only: namelist_type, assignment_type, study_group, token_type, assignment_text, place_of, &
-      & is_special, read_number, undoes, counted, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable
+      & variable_text, is_special, read_number, undoes, counted, kind_of, bearing_of, is_counted, may_have_bearing, &
+      & naming_variable
    use namelist_text, only: parse_namelist
    use case_remarks, only: note_values_of_paper
    use other_units, only: in_other_units
@@ -151,7 +152,7 @@ contains
             if (at(i) > 0 .or. allocated(error)) cycle
             call refuse_other_rotor(a)
             call refuse_unknown_group(a, '')
-            if (.not. allocated(error)) call refuse(a%origin//': unknown variable '//a%group//'%'//a%name &
+            if (.not. allocated(error)) call refuse(a%origin//': unknown variable '//variable_text(a) &
                & //meant_variable(kind_of(a%group), a%name)//'; known:'//names_in(kind_of(a%group)), error)
          end associate
       end do
@@ -466,7 +467,10 @@ contains
          k = order(i)
          do b = 1, merge(size(bearings), 1, general(k))
             own = parsed%assignments(k)
-            if (general(k)) own%group = own%group//bearings(b)%suffix()
+            if (general(k)) then
+               own%named = own%group
+               own%group = own%group//bearings(b)%suffix()
+            end if
             own%of_all = defaults(k)
             if (is_undone()) cycle
             n = n + 1

@@ -65,6 +65,10 @@ SETS = {
     ":left%arc_deg=3": "unknown group :left; the name of a bearing",
     "bearing%station=3": "bearing%station: must be in a group &bearing with a name",
     "disc(2)%mass=1": "disc(2)%mass: must be disc(1)%mass",
+    # as the case names it, and not the bearing that is looked at first
+    "film%turbulence=1": "unknown variable film%turbulence; known",
+    "film%tolerance=-1": "film%tolerance = -1: must be",
+    "film:right%tolerance=-1": "film:right%tolerance = -1: must be",
 }
 
 
