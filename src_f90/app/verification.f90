@@ -109,7 +109,7 @@ contains
       integer :: n, k
       n = int(min(int(run%verified_states, i8), file%hdf5%samples))
       allocate (time(n), found(size(pads), n))
-      comparison = new_film_comparison(run%model%inputs)
+      comparison = new_film_comparison(run%model)
       do k = 1, n
          sample = sample_of(k, n, file%hdf5%samples, run%inputs%output%samples_per_revolution)
          call file%hdf5%part_of_samples('time', sample, 1, at)
@@ -169,7 +169,7 @@ contains
       end associate
       if (has_warm_oil(static)) call read_oil(file, 'equilibrium/', static%oil, error)
       if (allocated(error)) return
-      comparison = new_film_comparison(run%model%inputs)
+      comparison = new_film_comparison(run%model)
       call comparison%compare(static, 0.0_wp, static%static_state(journal, pads), &
          & found(:, 1))
    end subroutine verify_equilibrium

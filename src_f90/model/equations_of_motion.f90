@@ -61,16 +61,22 @@ module equations_of_motion
 contains
 
    !> The model of a valid case, at its operating point, with films for a march or, as factories has it, for something
-   !> else, and with these elements beside its bearings. Where its shaft has no equations, `refusal` says why.
-   function new_machine_model(inputs, accuracy, others) result(model)
+   !> else, and with these elements beside its bearings. `rotor` is that of the case, where there is one already. Where
+   !> its shaft has no equations, `refusal` says why.
+   function new_machine_model(inputs, accuracy, others, rotor) result(model)
       type(case_type), intent(in) :: inputs
       integer, intent(in), optional :: accuracy
       type(element_slot), intent(in), optional :: others(:)
+      class(rotor_type), intent(in), optional :: rotor
       type(machine_model) :: model
       integer :: b
       model%inputs = inputs
-      call make_rotor(inputs, model%rotor, model%refusal)
-      if (allocated(model%refusal)) return
+      if (present(rotor)) then
+         allocate (model%rotor, source=rotor)
+      else
+         call make_rotor(inputs, model%rotor, model%refusal)
+         if (allocated(model%refusal)) return
+      end if
       allocate (model%bearings(size(inputs%bearings)), model%others(0), model%oil(0))
       if (present(others)) model%others = others
       do b = 1, size(model%bearings)

@@ -45,14 +45,16 @@ module film_comparison
 
 contains
 
-   !> For the films of models of a case.
-   function new_film_comparison(inputs) result(comparison)
-      type(case_type), intent(in) :: inputs
+   !> For the films of a model.
+   function new_film_comparison(model) result(comparison)
+      type(machine_model), intent(in) :: model
       type(film_comparison_type) :: comparison
       real(wp), allocatable :: loads(:, :)
       integer :: b
-      comparison%close = new_machine_model(closely(inputs, closest, film_adapted), converged_films)
-      comparison%less_close = new_machine_model(closely(inputs, less_close, even), converged_films)
+      comparison%close = new_machine_model(closely(model%inputs, closest, film_adapted), converged_films, &
+         & rotor=model%rotor)
+      comparison%less_close = new_machine_model(closely(model%inputs, less_close, even), converged_films, &
+         & rotor=model%rotor)
       associate (close => comparison%close)
          loads = close%rotor%loads(close%point)
          allocate (comparison%least(0))

@@ -71,7 +71,7 @@ contains
    subroutine make_quick(static, quick)
       type(machine_model), intent(in) :: static
       type(machine_model), intent(out) :: quick
-      quick = new_machine_model(static%inputs, quick_films, static%others)
+      quick = new_machine_model(static%inputs, quick_films, static%others, static%rotor)
       quick%give_up => static%give_up
       call stand_still(quick, static%point%cavitation)
       quick%oil%viscosity = static%oil%viscosity
@@ -81,7 +81,7 @@ contains
    subroutine make_fine(model, fine)
       type(machine_model), intent(in) :: model
       type(machine_model), intent(out) :: fine
-      fine = new_machine_model(model%inputs, converged_films, model%others)
+      fine = new_machine_model(model%inputs, converged_films, model%others, model%rotor)
       fine%give_up => model%give_up
       call stand_still(fine, model%point%cavitation)
    end subroutine make_fine

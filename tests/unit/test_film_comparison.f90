@@ -40,7 +40,7 @@ contains
       type(film_comparison_type) :: comparison
       integer :: i
       model = new_machine_model(case_of(text))
-      comparison = new_film_comparison(model%inputs)
+      comparison = new_film_comparison(model)
       allocate (found(model%layout%pads))
       call comparison%compare(model, 0.0_wp, model%static_state(journal, &
          & [(pad_state(tilt(i)), i=1, size(tilt))]), found)
