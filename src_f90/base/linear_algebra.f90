@@ -4,8 +4,8 @@ module linear_algebra
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv, zgesv, dgbsv, dstev, dpotrf, dpotrs, dsygv, find_eigenvalues, largest_first, identity, &
-      & solve, solve_complex, solve_2x2, solve_few, simd_width, padded, apply
+   public :: dgesv, zgesv, dgbsv, zgbsv, dgbtrf, dgbtrs, dstev, dpbtrf, dpbtrs, dsygv, dsbgv, find_eigenvalues, &
+      & largest_first, identity, solve, solve_complex, solve_2x2, solve_few, simd_width, padded, apply
 
    !> Rows are filled up to a multiple of this, so that loops over them have no remainder.
    integer, parameter :: simd_width = 8
@@ -57,25 +57,62 @@ module linear_algebra
          integer, intent(out) :: info
       end subroutine dstev
 
-      !> Cholesky's factor, upper (uplo 'U') or lower ('L'), of a symmetric matrix; `info` /= 0: it is not positive
-      !> definite.
-      subroutine dpotrf(uplo, n, a, lda, info)
+      !> The factors of such a band matrix of m rows and n columns, in its place; `info` > 0: this pivot is 0.
+      subroutine dgbtrf(m, n, kl, ku, a, lda, ipiv, info)
          import :: wp
-         character(len=1), intent(in) :: uplo
-         integer, intent(in) :: n, lda
+         integer, intent(in) :: m, n, kl, ku, lda
          real(wp), intent(inout) :: a(lda, *)
-         integer, intent(out) :: info
-      end subroutine dpotrf
+         integer, intent(out) :: ipiv(*), info
+      end subroutine dgbtrf
 
-      !> Solves a x = b with this factor of a.
-      subroutine dpotrs(uplo, n, nrhs, a, lda, b, ldb, info)
+      !> Solves a x = b (trans 'N') with these factors of a.
+      subroutine dgbtrs(trans, n, kl, ku, nrhs, a, lda, ipiv, b, ldb, info)
          import :: wp
-         character(len=1), intent(in) :: uplo
-         integer, intent(in) :: n, nrhs, lda, ldb
+         character(len=1), intent(in) :: trans
+         integer, intent(in) :: n, kl, ku, nrhs, lda, ipiv(*), ldb
          real(wp), intent(in) :: a(lda, *)
          real(wp), intent(inout) :: b(ldb, *)
          integer, intent(out) :: info
-      end subroutine dpotrs
+      end subroutine dgbtrs
+
+      !> dgbsv of complex numbers.
+      subroutine zgbsv(n, kl, ku, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         integer, intent(in) :: n, kl, ku, nrhs, lda, ldb
+         complex(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         integer, intent(out) :: ipiv(*), info
+      end subroutine zgbsv
+
+      !> Cholesky's factor, upper (uplo 'U'), of a symmetric band matrix with kd diagonals above its own:
+      !> a(kd + 1 + i - j, j) is its element (i, j); `info` /= 0: it is not positive definite.
+      subroutine dpbtrf(uplo, n, kd, a, lda, info)
+         import :: wp
+         character(len=1), intent(in) :: uplo
+         integer, intent(in) :: n, kd, lda
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: info
+      end subroutine dpbtrf
+
+      !> Solves a x = b with this factor of a.
+      subroutine dpbtrs(uplo, n, kd, nrhs, a, lda, b, ldb, info)
+         import :: wp
+         character(len=1), intent(in) :: uplo
+         integer, intent(in) :: n, kd, nrhs, lda, ldb
+         real(wp), intent(in) :: a(lda, *)
+         real(wp), intent(inout) :: b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dpbtrs
+
+      !> Eigenvalues w (jobz 'N'), the smallest first, of a x = w b x, both symmetric band matrices as above (uplo 'U'),
+      !> ka >= kb, b positive definite; `info` /= 0: b is not, or it does not converge.
+      subroutine dsbgv(jobz, uplo, n, ka, kb, a, lda, b, ldb, w, z, ldz, work, info)
+         import :: wp
+         character(len=1), intent(in) :: jobz, uplo
+         integer, intent(in) :: n, ka, kb, lda, ldb, ldz
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         real(wp), intent(out) :: w(*), z(ldz, *), work(*)
+         integer, intent(out) :: info
+      end subroutine dsbgv
 
       !> Eigenvalues w, the smallest first, and eigenvectors (in a, x^T b x = 1) of a x = w b x (itype 1), a symmetric,
       !> b positive definite; `info` /= 0: b is not, or it does not converge.

@@ -3,9 +3,11 @@
 module rotor_component
    use kinds, only: wp, pi, degree
    use case_groups, only: elastic_type, given_rotor_type, load_type, unbalance_type
+   use sparse_matrix, only: sparse_matrix_type, sparse_of_elements, sparse_of_dense
    implicit none (type, external)
    private
-   public :: rotor_component_type, shaft_component, in_planes, beam_section_type, static_forces, unbalance_moments
+   public :: rotor_component_type, shaft_component, given_component, in_planes, beam_section_type, static_forces, &
+      & unbalance_moments
 
    !> A section of a shaft: lengths and diameters, m; Young's modulus, Pa; density, kg/m^3.
    type :: beam_section_type
@@ -19,12 +21,24 @@ module rotor_component
       procedure :: gyroscopic
    end type beam_section_type
 
-   !> Mass and gyroscopic matrix as of a section, and stiffness; (2*stations, 2*stations).
-   type :: shaft_matrices_type
-      real(wp), allocatable :: mass(:, :), gyroscopic(:, :), stiffness(:, :)
-   end type shaft_matrices_type
+   !> What sections and discs have of the matrices of a shaft in one plane, element by element: over deflection and
+   !> slope of station 1, of station 2, ... Both planes have the same. Mass and gyroscopic matrix as of a section.
+   type :: shaft_elements_type
+      integer, allocatable :: row(:), column(:)
+      real(wp), allocatable :: mass(:), gyroscopic(:), stiffness(:)
+   end type shaft_elements_type
 
-   type, extends(given_rotor_type) :: rotor_component_type
+   !> A rotor of n displacements.
+   type :: rotor_component_type
+      !> (n, n), SI units.
+      type(sparse_matrix_type) :: mass, damping, gyroscopic, stiffness
+      !> station%times(q) is y and z of station 1, y and z of station 2, ..., m; slope%times(q) are the slopes dy/dx and
+      !> dz/dx there: (2*stations, n).
+      type(sparse_matrix_type) :: station, slope
+      !> The mass matrix times a translation of 1 m along y, kg: what gravity acts on.
+      real(wp), allocatable :: weighed(:)
+      !> kg
+      real(wp) :: total_mass = 0
       !> 2: the displacements go in pairs, along y and z, and both planes have the same mass and stiffness; else 1.
       integer :: planes = 1
       !> The sense in which the shaft turns: 1 clockwise, from y to z, -1 anticlockwise.
@@ -131,36 +145,52 @@ contains
    pure subroutine turn_in(self, sense)
       class(rotor_component_type), intent(inout) :: self
       real(wp), intent(in) :: sense
-      self%gyroscopic = sense*self%sense*self%gyroscopic
+      self%gyroscopic%value = sense*self%sense*self%gyroscopic%value
       self%sense = sense
    end subroutine turn_in
 
-   !> A shaft with its discs, turning clockwise.
+   !> A shaft with its discs, turning clockwise. Deflection and slope of station 1, of station 2, ... along y and z take
+   !> turns.
    pure function shaft_component(rotor) result(component)
       type(elastic_type), intent(in) :: rotor
       type(rotor_component_type) :: component
-      type(shaft_matrices_type) :: shaft
-      real(wp), allocatable :: pick(:, :)
+      type(shaft_elements_type) :: shaft
       integer :: stations, n, i
-      shaft = new_shaft_matrices(rotor)
-      stations = size(shaft%mass, 1)/2
+      stations = size(rotor%shaft%length) + 1
       n = 4*stations
+      shaft = new_shaft_elements(rotor)
       component%planes = 2
-      component%mass = in_planes(shaft%mass, 2)
-      component%stiffness = in_planes(shaft%stiffness, 2)
-      allocate (component%damping(n, n), component%gyroscopic(n, n), source=0.0_wp)
-      component%gyroscopic(1::2, 2::2) = shaft%gyroscopic
-      component%gyroscopic(2::2, 1::2) = -shaft%gyroscopic
-      allocate (pick(stations, 2*stations), source=0.0_wp)
-      do i = 1, stations
-         pick(i, 2*i - 1) = 1
-      end do
-      component%station = in_planes(pick, 2)
-      component%slope = in_planes(cshift(pick, -1, dim=2), 2)
-      ! the mass times a translation along y
-      component%weighed = sum(component%mass(:, 1::4), dim=2)
+      associate (row => shaft%row, column => shaft%column)
+         associate (rows => [2*row - 1, 2*row], columns => [2*column - 1, 2*column])
+            component%mass = sparse_of_elements(n, n, rows, columns, [shaft%mass, shaft%mass])
+            component%stiffness = sparse_of_elements(n, n, rows, columns, [shaft%stiffness, shaft%stiffness])
+            component%damping = sparse_of_elements(n, n, rows(:0), columns(:0), shaft%mass(:0))
+         end associate
+         component%gyroscopic = sparse_of_elements(n, n, [2*row - 1, 2*row], [2*column, 2*column - 1], &
+            & [shaft%gyroscopic, -shaft%gyroscopic])
+      end associate
+      associate (rows => [(i, i=1, 2*stations)], one => [(1.0_wp, i=1, 2*stations)])
+         ! y and z of station i are displacements 4*i - 3 and 4*i - 2
+         component%station = sparse_of_elements(2*stations, n, rows, rows + 2*((rows - 1)/2), one)
+         component%slope = sparse_of_elements(2*stations, n, rows, rows + 2*((rows + 1)/2), one)
+      end associate
+      component%weighed = component%mass%times([(merge(1.0_wp, 0.0_wp, modulo(i, 4) == 1), i=1, n)])
       component%total_mass = sum(component%weighed(1::4))
    end function shaft_component
+
+   !> The rotor of another program.
+   pure function given_component(rotor) result(component)
+      type(given_rotor_type), intent(in) :: rotor
+      type(rotor_component_type) :: component
+      component%mass = sparse_of_dense(rotor%mass)
+      component%damping = sparse_of_dense(rotor%damping)
+      component%gyroscopic = sparse_of_dense(rotor%gyroscopic)
+      component%stiffness = sparse_of_dense(rotor%stiffness)
+      component%station = sparse_of_dense(rotor%station)
+      component%slope = sparse_of_dense(rotor%slope)
+      component%weighed = rotor%weighed
+      component%total_mass = rotor%total_mass
+   end function given_component
 
    !> A matrix that acts alike in this many planes, whose rows and columns take turns.
    pure function in_planes(matrix, planes) result(all)
@@ -174,39 +204,40 @@ contains
       end do
    end function in_planes
 
-   ! Matrices of a whole shaft with its discs in one plane: deflection and slope of station 1, of station 2, ... The
-   ! other plane has the same ones.
-
    !> Those of a shaft and its discs.
-   pure function new_shaft_matrices(rotor) result(matrices)
+   pure function new_shaft_elements(rotor) result(elements)
       type(elastic_type), intent(in) :: rotor
-      type(shaft_matrices_type) :: matrices
+      type(shaft_elements_type) :: elements
       type(beam_section_type) :: section
-      integer :: n, i, at
+      integer :: n, i, j, k
+      !> Places of a section's elements, by columns.
+      integer, parameter :: along(*) = [((i, i=0, 3), j=0, 3)], across(*) = [((j, i=0, 3), j=0, 3)]
       associate (s => rotor%shaft)
-         n = 2*(size(s%length) + 1)
-         allocate (matrices%mass(n, n), matrices%gyroscopic(n, n), matrices%stiffness(n, n), source=0.0_wp)
+         n = size(along)*size(s%length) + 2*size(rotor%discs)
+         allocate (elements%row(n), elements%column(n))
+         allocate (elements%mass(n), elements%gyroscopic(n), elements%stiffness(n), source=0.0_wp)
          do i = 1, size(s%length)
             section = beam_section_type(s%length(i), s%diameter(i), s%bore(i), s%young_modulus, s%poisson_ratio, &
                & s%density)
-            at = 2*i - 1
-            associate (m => matrices%mass(at:at + 3, at:at + 3), k => matrices%stiffness(at:at + 3, at:at + 3), &
-               & g => matrices%gyroscopic(at:at + 3, at:at + 3))
-               m = m + section%mass()
-               k = k + section%stiffness()
-               g = g + section%gyroscopic()
-            end associate
+            j = size(along)*(i - 1) + 1
+            k = size(along)*i
+            elements%row(j:k) = 2*i - 1 + along
+            elements%column(j:k) = 2*i - 1 + across
+            elements%mass(j:k) = reshape(section%mass(), [size(along)])
+            elements%gyroscopic(j:k) = reshape(section%gyroscopic(), [size(along)])
+            elements%stiffness(j:k) = reshape(section%stiffness(), [size(along)])
          end do
       end associate
       do i = 1, size(rotor%discs)
          associate (disc => rotor%discs(i))
-            at = 2*disc%station
-            matrices%mass(at - 1, at - 1) = matrices%mass(at - 1, at - 1) + disc%mass
-            matrices%mass(at, at) = matrices%mass(at, at) + disc%diametral_inertia
-            matrices%gyroscopic(at, at) = matrices%gyroscopic(at, at) + disc%polar_inertia
+            k = n - 2*(size(rotor%discs) - i)
+            elements%row(k - 1:k) = [2*disc%station - 1, 2*disc%station]
+            elements%column(k - 1:k) = elements%row(k - 1:k)
+            elements%mass(k - 1:k) = [disc%mass, disc%diametral_inertia]
+            elements%gyroscopic(k) = disc%polar_inertia
          end associate
       end do
-   end function new_shaft_matrices
+   end function new_shaft_elements
 
    ! Forces at the stations of a rotor, on y and z of station 1, y and z of station 2, ...
 

@@ -7,11 +7,12 @@ module rotor_factory
    use case_inputs, only: case_type
    use rigid_rotor, only: rotor_type, new_rigid_rotor
    use elastic_rotor, only: elastic_rotor_type, new_elastic_rotor
-   use case_groups, only: bearing_type
-   use rotor_component, only: rotor_component_type, shaft_component
-   use rotor_reduction, only: fixed_interface_type, find_fixed_interface, mode_selection_type, select_modes, &
-      & most_modes, rotor_matrices_type, reduced_rotor
-   use linear_algebra, only: dpotrf, dpotrs
+   use case_groups, only: bearing_type, given_rotor_type
+   use sparse_matrix, only: sparse_matrix_type
+   use rotor_component, only: rotor_component_type, shaft_component, given_component
+   use fixed_interface, only: fixed_interface_type, find_fixed_interface
+   use rotor_reduction, only: mode_selection_type, select_modes, most_modes, rotor_matrices_type, reduced_rotor
+   use linear_algebra, only: dpbtrf, dpbtrs
    implicit none (type, external)
    private
    public :: make_rotor, find_rotor
@@ -91,12 +92,11 @@ contains
       associate (rotor => inputs%rotor%elastic)
          if (rotor%rotor_file == '') then
             component = shaft_component(rotor)
-            call require(all(ieee_is_finite(component%mass)) .and. all(ieee_is_finite(component%stiffness)) &
-               & .and. all(ieee_is_finite(component%gyroscopic)), 'shaft: its mass or stiffness is too large for a ' &
+            call require(all(ieee_is_finite([component%mass%value, component%stiffness%value, &
+               & component%gyroscopic%value])), 'shaft: its mass or stiffness is too large for a ' &
                & //'number: lengths and diameters are in m, moduli in Pa', error)
          else if (allocated(rotor%given)) then
-            component%given_rotor_type = rotor%given
-            call check_component(inputs, component, error)
+            call check_given(inputs, rotor%given, component, error)
          else
             call raise(error, input_error, 'rotor%file = '''//rotor%rotor_file//''': is not read here')
          end if
@@ -111,6 +111,7 @@ contains
       if (allocated(error)) return
       if (present(modes)) then
          selection%modes = min(modes, size(fixed%frequency))
+         call fixed%find_modes(selection%modes)
       else
          call select_modes(inputs, component, fixed, border, highest_speed, selection)
          if (fixed%planes*selection%modes > most_modes) call raise(error, input_error, 'reduction%frequency = ' &
@@ -128,106 +129,119 @@ contains
       integer :: border(2*size(bearings)), b, p
       do b = 1, size(bearings)
          do p = 1, 2
-            border(2*(b - 1) + p) = maxloc(component%station(2*(bearings(b)%station - 1) + p, :), dim=1)
+            ! its row has one element
+            associate (station => component%station)
+               border(2*(b - 1) + p) = station%column(station%first(2*(bearings(b)%station - 1) + p))
+            end associate
          end do
       end do
    end function journal_displacements
 
    ! What matrices that another program made must be so that they are those of a rotor.
 
-   !> Raises an error for the first requirement that the matrices of a case's rotor do not meet. The name of the file
-   !> stands before it.
-   subroutine check_component(inputs, component, error)
+   !> The rotor of a case of these matrices. An error for the first requirement that they do not meet, behind the name
+   !> of the file.
+   subroutine check_given(inputs, given, component, error)
       type(case_type), intent(in) :: inputs
-      type(rotor_component_type), intent(in) :: component
+      type(given_rotor_type), intent(in) :: given
+      type(rotor_component_type), intent(out) :: component
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: file
-      !> (n, 1)
-      real(wp), allocatable :: translation(:, :)
+      real(wp), allocatable :: translation(:)
       file = 'rotor%file = '''//inputs%rotor%elastic%rotor_file//''': '
-      associate (c => component)
-         call require(all(ieee_is_finite(c%mass)) .and. all(ieee_is_finite(c%damping)) .and. &
-            & all(ieee_is_finite(c%gyroscopic)) .and. all(ieee_is_finite(c%stiffness)) .and. &
-            & all(ieee_is_finite(c%station)) .and. all(ieee_is_finite(c%slope)) .and. &
-            & all(ieee_is_finite(c%weighed)) .and. ieee_is_finite(c%total_mass), &
+      associate (r => given)
+         call require(all(ieee_is_finite(r%mass)) .and. all(ieee_is_finite(r%damping)) .and. &
+            & all(ieee_is_finite(r%gyroscopic)) .and. all(ieee_is_finite(r%stiffness)) .and. &
+            & all(ieee_is_finite(r%station)) .and. all(ieee_is_finite(r%slope)) .and. &
+            & all(ieee_is_finite(r%weighed)) .and. ieee_is_finite(r%total_mass), &
             & file//'its numbers must be finite', error)
          if (allocated(error)) return
-         call require(symmetric(c%mass, 1.0_wp), file//'mass: must be symmetric', error)
-         call check_translation(translation)
-         call require(symmetric(c%stiffness, 1.0_wp), file//'stiffness: must be symmetric', error)
-         if (.not. allocated(error)) call check_free(translation)
-         call require(symmetric(c%gyroscopic, -1.0_wp), file//'gyroscopic: must change its sign when it ' &
+         call require(symmetric(r%mass, 1.0_wp), file//'mass: must be symmetric', error)
+         call require(symmetric(r%stiffness, 1.0_wp), file//'stiffness: must be symmetric', error)
+         call require(symmetric(r%gyroscopic, -1.0_wp), file//'gyroscopic: must change its sign when it ' &
             & //'is transposed', error)
-         call check_stations()
       end associate
+      if (allocated(error)) return
+      component = given_component(given)
+      call check_translation(component, file, translation, error)
+      if (.not. allocated(error)) call check_free(component, file, translation, error)
+      if (.not. allocated(error)) call check_stations(inputs, component, file, error)
+   end subroutine check_given
 
-   contains
+   !> The mass matrix is that of a body whose translation along y moves all stations, weighs `weighed` and has its mass.
+   subroutine check_translation(component, file, translation, error)
+      type(rotor_component_type), intent(in) :: component
+      character(len=*), intent(in) :: file
+      real(wp), allocatable, intent(out) :: translation(:)
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), allocatable :: factor(:, :), right(:, :), moved(:, :)
+      integer :: n, k, info
+      n = component%mass%rows
+      k = component%mass%half_band_width()
+      factor = component%mass%band(0, k)
+      call dpbtrf('U', n, k, factor, k + 1, info)
+      call require(info == 0, file//'mass: must be positive definite', error)
+      if (allocated(error)) return
+      right = reshape(component%weighed, [n, 1])
+      call dpbtrs('U', n, k, 1, factor, k + 1, right, n, info)
+      translation = right(:, 1)
+      moved = reshape(component%station%times(translation), [2, component%station%rows/2])
+      call require(all(abs(moved(1, :) - 1) <= alike) .and. all(abs(moved(2, :)) <= alike), file &
+         & //'weighed: must be mass times a translation that moves all stations by 1 along y', error)
+      associate (mass => dot_product(component%weighed, translation))
+         call require(abs(component%total_mass - mass) <= alike*mass, file//'total_mass = ' &
+            & //to_text(component%total_mass)//': must be that of the translation in weighed, '//to_text(mass) &
+            & //' kg', error)
+      end associate
+   end subroutine check_translation
 
-      !> The mass matrix is that of a body whose translation along y moves all stations, weighs `weighed` and has its
-      !> mass.
-      subroutine check_translation(translation)
-         real(wp), allocatable, intent(out) :: translation(:, :)
-         real(wp), allocatable :: factor(:, :), moved(:, :)
-         integer :: n, info
-         n = size(component%weighed)
-         factor = component%mass
-         call dpotrf('U', n, factor, n, info)
-         call require(info == 0, file//'mass: must be positive definite', error)
-         if (allocated(error)) return
-         translation = reshape(component%weighed, [n, 1])
-         call dpotrs('U', n, 1, factor, n, translation, n, info)
-         moved = reshape(matmul(component%station, translation(:, 1)), [2, size(component%station, 1)/2])
-         call require(all(abs(moved(1, :) - 1) <= alike) .and. all(abs(moved(2, :)) <= alike), file &
-            & //'weighed: must be mass times a translation that moves all stations by 1 along y', error)
-         associate (mass => dot_product(component%weighed, translation(:, 1)))
-            call require(abs(component%total_mass - mass) <= alike*mass, file//'total_mass = ' &
-               & //to_text(component%total_mass)//': must be that of the translation in weighed, '//to_text(mass) &
-               & //' kg', error)
-         end associate
-      end subroutine check_translation
+   !> A shaft that bearings alone hold does not resist being moved as a whole.
+   subroutine check_free(component, file, translation, error)
+      type(rotor_component_type), intent(in) :: component
+      character(len=*), intent(in) :: file
+      real(wp), intent(in) :: translation(:)
+      type(error_type), allocatable, intent(inout) :: error
+      type(sparse_matrix_type) :: terms
+      real(wp) :: force(size(translation))
+      force = component%stiffness%times(translation)
+      terms = component%stiffness
+      terms%value = abs(terms%value)
+      associate (spring => dot_product(translation, force))
+         call require(maxval(abs(force)) <= alike*maxval(terms%times(abs(translation))), file &
+            & //'stiffness: resists a translation along y with '//to_text(spring)//' N/m; must be that of a free ' &
+            & //'shaft, without springs to ground, which would carry what bearings are to carry', error)
+      end associate
+   end subroutine check_free
 
-      !> A shaft that bearings alone hold does not resist being moved as a whole.
-      subroutine check_free(translation)
-         real(wp), intent(in) :: translation(:, :)
-         real(wp), dimension(size(translation)) :: force, terms
-         integer :: k
-         force = 0
-         terms = 0
-         do k = 1, size(force)
-            force = force + component%stiffness(:, k)*translation(k, 1)
-            terms = terms + abs(component%stiffness(:, k)*translation(k, 1))
-         end do
-         associate (spring => dot_product(translation(:, 1), force))
-            call require(maxval(abs(force)) <= alike*maxval(terms), file//'stiffness: resists a translation along y ' &
-               & //'with '//to_text(spring)//' N/m; must be that of a free shaft, without springs to ground, which ' &
-               & //'would carry what bearings are to carry', error)
-         end associate
-      end subroutine check_free
-
-      !> Stations of the case exist; those of bearings are displacements of their own.
-      subroutine check_stations()
-         integer :: stations, highest, b, row
-         stations = size(component%station, 1)/2
-         highest = max(maxval(inputs%bearings%station), 0)
-         associate (rotor => inputs%rotor%elastic)
-            if (size(rotor%unbalances) > 0) highest = max(highest, maxval(rotor%unbalances%station))
-            if (size(rotor%loads) > 0) highest = max(highest, maxval(rotor%loads%station))
-         end associate
-         call require(highest <= stations, file//'has '//to_text(stations)//' stations, but station = ' &
-            & //to_text(highest)//' is asked for', error)
-         call require(size(inputs%rotor%elastic%discs) == 0, file//'a group disc has no effect: its matrices contain ' &
-            & //'the discs', error)
-         if (allocated(error)) return
-         do b = 1, size(inputs%bearings)
-            do row = 2*inputs%bearings(b)%station - 1, 2*inputs%bearings(b)%station
-               associate (numbers => component%station(row, :))
-                  call require(abs(maxval(numbers) - 1) <= 0 .and. count(abs(numbers) > 0) == 1, file//'station: row ' &
+   !> Stations of the case exist; those of bearings are displacements of their own.
+   subroutine check_stations(inputs, component, file, error)
+      type(case_type), intent(in) :: inputs
+      type(rotor_component_type), intent(in) :: component
+      character(len=*), intent(in) :: file
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: stations, highest, b, row
+      stations = component%station%rows/2
+      highest = max(maxval(inputs%bearings%station), 0)
+      associate (rotor => inputs%rotor%elastic)
+         if (size(rotor%unbalances) > 0) highest = max(highest, maxval(rotor%unbalances%station))
+         if (size(rotor%loads) > 0) highest = max(highest, maxval(rotor%loads%station))
+      end associate
+      call require(highest <= stations, file//'has '//to_text(stations)//' stations, but station = ' &
+         & //to_text(highest)//' is asked for', error)
+      call require(size(inputs%rotor%elastic%discs) == 0, file//'a group disc has no effect: its matrices contain ' &
+         & //'the discs', error)
+      if (allocated(error)) return
+      do b = 1, size(inputs%bearings)
+         do row = 2*inputs%bearings(b)%station - 1, 2*inputs%bearings(b)%station
+            associate (first => component%station%first(row:row + 1))
+               associate (elements => component%station%value(first(1):first(2) - 1))
+                  call require(size(elements) == 1 .and. all(abs(elements - 1) <= 0), file//'station: row ' &
                      & //to_text(row)//', of a bearing, must have one element 1 and otherwise 0', error)
                end associate
-            end do
+            end associate
          end do
-      end subroutine check_stations
-   end subroutine check_component
+      end do
+   end subroutine check_stations
 
    !> Whether a matrix is `sign` times its transpose.
    pure logical function symmetric(matrix, sign)

@@ -1,50 +1,45 @@
-!> A rotor in few displacements: the basis of Craig and Bampton (AIAA Journal 6 (1968) 1313-1319), which are static
-!> deflections over displacements of the journals and vibration modes with the journals held; how many of these modes a
-!> rotor keeps, and what the others and the damping of the high ones cost; and the equations that the time integration
-!> has of a shaft.
+!> A rotor in few displacements: how many modes with its journals held (fixed_interface) it keeps, and what the others
+!> and the damping of the high ones cost; and the equations that the time integration has of a shaft.
 module rotor_reduction
    use kinds, only: wp, pi
-   use linear_algebra, only: dpotrf, dpotrs, dsygv, solve_complex
+   use linear_algebra, only: zgbsv, solve_complex
+   use sparse_matrix, only: sparse_matrix_type
    use case_groups, only: is_set, reduction_type
    use case_inputs, only: case_type
-   use rotor_component, only: rotor_component_type, in_planes, static_forces, unbalance_moments
+   use rotor_component, only: rotor_component_type, static_forces, unbalance_moments
+   use fixed_interface, only: fixed_interface_type
    use linear_element, only: relative_displacements, add_supports
    implicit none (type, external)
    private
-   public :: fixed_interface_type, find_fixed_interface, mode_selection_type, select_modes, most_modes, &
-      & rotor_matrices_type, reduced_rotor
+   public :: mode_selection_type, select_modes, most_modes, rotor_matrices_type, reduced_rotor
 
-   !> Of one plane where both are alike. `border`: displacements of the journals among all; `inner`: the others.
-   type :: fixed_interface_type
-      integer :: planes = 1
-      integer, allocatable :: border(:), inner(:)
-      !> Deflections over unit displacements of the journals, (displacement, journal's).
-      real(wp), allocatable :: static(:, :)
-      !> Modes with the journals held, (displacement, mode), with modal masses 1, the lowest first; rad/s.
-      real(wp), allocatable :: modes(:, :), frequency(:)
-      !> Cholesky factor of the inner stiffness.
-      real(wp), allocatable, private :: factor(:, :)
-   contains
-      procedure :: basis
-      procedure :: residual_deflection
-   end type fixed_interface_type
-
-   !> The smallest part of a stiffness that elimination may leave: less is rounding.
-   real(wp), parameter :: rounding = 1e-13_wp
-
-
-   !> A forced vibration at one frequency: D q = loads.
-   type :: response_problem_type
-      !> Dynamic stiffness, (n, n), N/m, without bearings.
-      complex(wp), allocatable :: stiffness(:, :)
-      !> (n, loads), and displacements that matter: matmul(observed, q).
-      real(wp), allocatable :: loads(:, :), observed(:, :)
+   !> A forced vibration q exp(rate*t) of a rotor at a speed, rad/s.
+   type :: vibration_type
+      real(wp) :: speed = 0
+      complex(wp) :: rate = 0
+      !> (n, loads), and displacements that matter: observed%times(q).
+      real(wp), allocatable :: loads(:, :)
+      type(sparse_matrix_type) :: observed
       !> Displacements of the journals, and the dynamic stiffness of their bearings, N/m.
       integer, allocatable :: journals(:)
       complex(wp), allocatable :: bearings(:)
    contains
+      procedure :: exact
       procedure :: reduced
-   end type response_problem_type
+   end type vibration_type
+
+   !> The same in few displacements x: stiffness x = loads; matmul(observed, x).
+   type :: reduced_vibration_type
+      complex(wp), allocatable :: stiffness(:, :)
+      real(wp), allocatable :: loads(:, :), observed(:, :)
+   contains
+      procedure :: amplitudes
+   end type reduced_vibration_type
+
+   !> Matrices of a rotor in few displacements.
+   type :: projection_type
+      real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness
+   end type projection_type
 
    !> Modes kept in a plane, and errors of amplitudes at the highest speed, relative to the largest one: of leaving out
    !> the others, and of damping those above `reduction%damp_above`; 0 where the number of modes was given.
@@ -89,184 +84,90 @@ module rotor_reduction
 
 contains
 
-   !> The basis of a rotor, and whether its journals hold it (else the basis is not found). `border`: the displacements
-   !> of the journals, y and z of each.
-   subroutine find_fixed_interface(component, border, fixed, held)
-      type(rotor_component_type), intent(in) :: component
-      integer, intent(in) :: border(:)
-      type(fixed_interface_type), intent(out) :: fixed
-      logical, intent(out) :: held
-      real(wp), allocatable :: mass(:, :), stiffness(:, :), right(:, :)
-      integer :: n, i, info
-      associate (p => component%planes)
-         fixed%planes = p
-         fixed%border = (border(::p) + p - 1)/p
-         mass = component%mass(::p, ::p)
-         stiffness = component%stiffness(::p, ::p)
-      end associate
-      n = size(mass, 1)
-      fixed%inner = pack([(i, i=1, n)], [(all(fixed%border /= i), i=1, n)])
-      fixed%factor = stiffness(fixed%inner, fixed%inner)
-      call dpotrf('U', size(fixed%inner), fixed%factor, size(fixed%inner), info)
-      held = info == 0
-      if (held) held = all([(fixed%factor(i, i)**2 > rounding*stiffness(fixed%inner(i), fixed%inner(i)), i=1, &
-         & size(fixed%inner))])
-      if (.not. held) return
-      right = -stiffness(fixed%inner, fixed%border)
-      call dpotrs('U', size(right, 1), size(right, 2), fixed%factor, size(right, 1), right, size(right, 1), info)
-      allocate (fixed%static(n, size(fixed%border)), source=0.0_wp)
-      fixed%static(fixed%inner, :) = right
-      do i = 1, size(fixed%border)
-         fixed%static(fixed%border(i), i) = 1
-      end do
-      call find_modes(mass(fixed%inner, fixed%inner), stiffness(fixed%inner, fixed%inner), n, fixed, held)
-   end subroutine find_fixed_interface
-
-   !> Modes of the inner displacements. M x = mu K x is solved, as the largest mu = 1/omega^2 are
-   !> the most accurate ones.
-   subroutine find_modes(mass, stiffness, n, fixed, found)
-      real(wp), intent(in) :: mass(:, :), stiffness(:, :)
-      integer, intent(in) :: n
-      type(fixed_interface_type), intent(inout) :: fixed
-      logical, intent(out) :: found
-      real(wp), allocatable :: vectors(:, :), factor(:, :), mu(:), work(:)
-      integer :: inner, count, i, info
-      inner = size(mass, 1)
-      vectors = mass
-      factor = stiffness
-      allocate (mu(inner), work(34*inner))
-      call dsygv(1, 'V', 'U', inner, vectors, inner, factor, inner, mu, work, size(work), info)
-      found = info == 0
-      if (.not. found) return
-      count = merge(0, 1, inner == 0)
-      if (count > 0) count = int(sum(merge(1, 0, mu > rounding*mu(inner))))
-      allocate (fixed%modes(n, count), source=0.0_wp)
-      allocate (fixed%frequency(count))
-      do i = 1, count
-         associate (value => mu(inner + 1 - i), vector => vectors(:, inner + 1 - i))
-            fixed%frequency(i) = 1/sqrt(value)
-            ! modes are found with stiffness 1
-            fixed%modes(fixed%inner, i) = vector/sqrt(value)
-         end associate
-      end do
-   end subroutine find_modes
-
-   !> Static deflections and this many modes, in all planes: (all displacements, journals and modes), y and z of
-   !> each one after the other.
-   pure function basis(self, modes)
-      class(fixed_interface_type), intent(in) :: self
-      integer, intent(in) :: modes
-      real(wp), allocatable :: basis(:, :), one(:, :)
-      allocate (one(size(self%static, 1), size(self%static, 2) + modes))
-      one(:, :size(self%static, 2)) = self%static
-      one(:, size(self%static, 2) + 1:) = self%modes(:, :modes)
-      basis = in_planes(one, self%planes)
-   end function basis
-
-   !> Static deflection under a force on all displacements, N, with the journals held, less what this many modes have
-   !> of it.
-   function residual_deflection(self, force, modes) result(deflection)
-      class(fixed_interface_type), intent(in) :: self
-      real(wp), intent(in) :: force(:)
-      integer, intent(in) :: modes
-      real(wp) :: deflection(size(force))
-      real(wp), allocatable :: inner(:, :), amplitude(:)
-      integer :: p, i, info
-      deflection = 0
-      do p = 1, self%planes
-         associate (plane => force(p::self%planes))
-            inner = reshape(plane(self%inner), [size(self%inner), 1])
-            call dpotrs('U', size(inner), 1, self%factor, size(inner), inner, size(inner), info)
-            amplitude = matmul(plane, self%modes(:, :modes))/self%frequency(:modes)**2
-         end associate
-         do i = 1, size(self%inner)
-            associate (row => self%inner(i))
-               deflection(self%planes*(row - 1) + p) = inner(i, 1) - dot_product(self%modes(row, :modes), amplitude)
-            end associate
-         end do
-      end do
-   end function residual_deflection
-
    ! How many modes are kept.
 
-   !> Chooses the modes for a highest speed, rad/s: by `reduction%frequency`, or else by the error of amplitudes.
-   !> More than `most_modes` are counted alone, to be refused.
+   !> Chooses the modes for a highest speed, rad/s: by `reduction%frequency`, or else by the error of amplitudes. These
+   !> are then found. More than `most_modes` are counted alone, to be refused.
    subroutine select_modes(inputs, component, fixed, border, highest_speed, selection)
       type(case_type), intent(in) :: inputs
       type(rotor_component_type), intent(in) :: component
-      type(fixed_interface_type), intent(in) :: fixed
+      type(fixed_interface_type), intent(inout) :: fixed
       !> Displacements of the journals.
       integer, intent(in) :: border(:)
       real(wp), intent(in) :: highest_speed
       type(mode_selection_type), intent(out) :: selection
-      type(response_problem_type) :: whole, reduced
+      type(vibration_type) :: whole
+      type(reduced_vibration_type) :: reduced
       complex(wp), allocatable :: exact(:, :), found(:, :)
       real(wp), allocatable :: damping(:)
-      complex(wp) :: rate
-      integer :: n, i
-      rate = highest_speed*cmplx(growth, 1.0_wp, wp)
-      whole = response_problem(inputs, component, fixed, border, highest_speed, rate)
-      exact = amplitudes(whole, size(whole%stiffness, 1))
-      reduced = whole%reduced(fixed%basis(size(fixed%frequency)))
-      if (is_set(inputs%rotor%elastic%reduction%frequency)) then
-         selection%modes = count(fixed%frequency <= 2*pi*inputs%rotor%elastic%reduction%frequency)
-      else
-         selection%modes = min(most_modes/fixed%planes, &
-            & count(fixed%frequency <= max(lowest_multiple*highest_speed, 2*pi*lowest_frequency)))
-      end if
-      if (fixed%planes*selection%modes > most_modes) return
-      do
-         n = size(border) + fixed%planes*selection%modes
-         found = amplitudes(reduced, n)
-         selection%truncation_error = amplitude_error(found, exact)
-         if (is_set(inputs%rotor%elastic%reduction%frequency) .or. selection%modes == size(fixed%frequency) &
-            & .or. fixed%planes*(selection%modes + 1) > most_modes .or. selection%truncation_error <= target_error) exit
-         selection%modes = selection%modes + 1
-      end do
-      damping = mode_damping(inputs%rotor%elastic%reduction, fixed, selection%modes)
-      do i = 1, size(damping)
-         associate (element => reduced%stiffness(size(border) + i, size(border) + i))
-            element = element + rate*damping(i)
-         end associate
-      end do
-      selection%damping_error = amplitude_error(amplitudes(reduced, n), found)
+      logical :: given
+      integer :: most, tried, i
+      associate (frequency => inputs%rotor%elastic%reduction%frequency, modes => selection%modes)
+         given = is_set(frequency)
+         most = min(size(fixed%frequency), most_modes/fixed%planes)
+         if (given) then
+            modes = count(fixed%frequency <= 2*pi*frequency)
+         else
+            modes = min(most, count(fixed%frequency <= max(lowest_multiple*highest_speed, 2*pi*lowest_frequency)))
+         end if
+         if (modes > most) return
+         whole = new_vibration(inputs, component, fixed, border, highest_speed)
+         exact = whole%exact(component)
+         tried = modes
+         call fixed%find_modes(tried)
+         reduced = whole%reduced(component, fixed%basis(tried))
+         do
+            found = reduced%amplitudes(size(border) + fixed%planes*modes)
+            selection%truncation_error = amplitude_error(found, exact)
+            if (given .or. modes == most .or. selection%truncation_error <= target_error) exit
+            modes = modes + 1
+            if (modes <= tried) cycle
+            ! twice as many, so that the matrices are projected a few times at most
+            tried = min(2*modes, most)
+            call fixed%find_modes(tried)
+            reduced = whole%reduced(component, fixed%basis(tried))
+         end do
+         damping = mode_damping(inputs%rotor%elastic%reduction, fixed, modes)
+         do i = 1, size(damping)
+            associate (element => reduced%stiffness(size(border) + i, size(border) + i))
+               element = element + whole%rate*damping(i)
+            end associate
+         end do
+         selection%damping_error = amplitude_error(reduced%amplitudes(size(border) + size(damping)), found)
+      end associate
    end subroutine select_modes
 
-   !> Vibration q exp(rate*t) of a rotor at a speed, rad/s: the loads are its mass along y, as of an even eccentricity,
+   !> Vibration of a rotor at a speed, rad/s: the loads are its mass along y, as of an even eccentricity,
    !> and its unbalances. Amplitudes are those of journals and discs: a force in between also deflects the shaft
    !> just where it acts, which takes many modes. The bearings are springs and dampers that resist the journals as
    !> much as the rotor itself does, where both matter most.
-   function response_problem(inputs, component, fixed, border, speed, rate) result(problem)
+   function new_vibration(inputs, component, fixed, border, speed) result(vibration)
       type(case_type), intent(in) :: inputs
       type(rotor_component_type), intent(in) :: component
       type(fixed_interface_type), intent(in) :: fixed
       integer, intent(in) :: border(:)
       real(wp), intent(in) :: speed
-      complex(wp), intent(in) :: rate
-      type(response_problem_type) :: problem
-      real(wp), allocatable :: static(:, :), moments(:, :)
+      type(vibration_type) :: vibration
+      type(projection_type) :: static
+      real(wp), allocatable :: moments(:, :)
       integer, allocatable :: rows(:)
       integer :: i
-      associate (c => component)
-         problem%stiffness = rate**2*c%mass + rate*(c%damping + speed*c%gyroscopic) + c%stiffness
-         allocate (problem%loads(size(c%mass, 1), 2))
-         problem%loads(:, 1) = c%weighed
-         moments = unbalance_moments(inputs%rotor%elastic%unbalances, size(c%station, 1), c%sense)
-         problem%loads(:, 2) = matmul(moments(1, :), c%station)
+      vibration%speed = speed
+      vibration%rate = speed*cmplx(growth, 1.0_wp, wp)
+      vibration%journals = border
+      static = projected_matrices(component, fixed%basis(0))
+      vibration%bearings = [(cmplx(1.0_wp, 1.0_wp, wp)*(static%stiffness(i, i) &
+         & + abs(vibration%rate)**2*static%mass(i, i)), i=1, size(border))]
+      associate (station => component%station)
+         moments = unbalance_moments(inputs%rotor%elastic%unbalances, station%rows, component%sense)
+         allocate (vibration%loads(station%columns, 2))
+         vibration%loads(:, 1) = component%weighed
+         vibration%loads(:, 2) = station%transposed_times(moments(1, :))
          rows = [inputs%bearings%station, inputs%rotor%elastic%discs%station]
          rows = [2*rows - 1, 2*rows]
-         problem%observed = c%station(rows, :)
-         static = fixed%basis(0)
-         problem%journals = border
-         problem%bearings = [(cmplx(1.0_wp, 1.0_wp, wp)*(quadratic(c%stiffness, static(:, i)) &
-            & + abs(rate)**2*quadratic(c%mass, static(:, i))), i=1, size(border))]
+         vibration%observed = station%part(rows)
       end associate
-   end function response_problem
-
-   pure real(wp) function quadratic(matrix, x)
-      real(wp), intent(in) :: matrix(:, :), x(:)
-      quadratic = dot_product(x, matmul(matrix, x))
-   end function quadratic
+   end function new_vibration
 
    !> Damping of the first modes in each plane, of modal mass 1, 1/s: those above `reduction%damp_above` have a damping
    !> ratio. Without damping they hold up an integrator of high order.
@@ -284,36 +185,56 @@ contains
 
    ! How well a reduced rotor vibrates: amplitudes of forced vibrations, compared with those of the whole one.
 
-   !> The same problem in displacements x with q = matmul(basis, x), of which the first are those of the journals.
-   pure function reduced(self, basis) result(problem)
-      class(response_problem_type), intent(in) :: self
+   !> Amplitudes of the whole rotor, (observed, load), m. A growing vibration on dampers has no resonance.
+   function exact(self, component)
+      class(vibration_type), intent(in) :: self
+      type(rotor_component_type), intent(in) :: component
+      complex(wp), allocatable :: exact(:, :), matrix(:, :), x(:, :)
+      integer :: pivots(size(self%loads, 1)), n, k, i, info
+      n = size(self%loads, 1)
+      associate (c => component, rate => self%rate)
+         k = max(c%mass%half_band_width(), c%damping%half_band_width(), c%gyroscopic%half_band_width(), &
+            & c%stiffness%half_band_width())
+         allocate (matrix(3*k + 1, n), source=(0.0_wp, 0.0_wp))
+         matrix(k + 1:, :) = rate**2*c%mass%band(k, k) + rate*(c%damping%band(k, k) + self%speed &
+            & *c%gyroscopic%band(k, k)) + c%stiffness%band(k, k)
+      end associate
+      do i = 1, size(self%journals)
+         associate (element => matrix(2*k + 1, self%journals(i)))
+            element = element + self%bearings(i)
+         end associate
+      end do
+      x = cmplx(self%loads, kind=wp)
+      call zgbsv(n, k, k, size(x, 2), matrix, 3*k + 1, pivots, x, n, info)
+      exact = cmplx(self%observed%times(x%re), self%observed%times(x%im), wp)
+   end function exact
+
+   !> The same vibration in displacements x with q = matmul(basis, x), of which the first are those of the journals.
+   pure function reduced(self, component, basis) result(problem)
+      class(vibration_type), intent(in) :: self
+      type(rotor_component_type), intent(in) :: component
       real(wp), intent(in) :: basis(:, :)
-      type(response_problem_type) :: problem
+      type(reduced_vibration_type) :: problem
+      type(projection_type) :: p
       integer :: i
-      problem%stiffness = matmul(transpose(basis), matmul(self%stiffness, basis))
+      p = projected_matrices(component, basis)
+      problem%stiffness = self%rate**2*p%mass + self%rate*(p%damping + self%speed*p%gyroscopic) + p%stiffness
+      do i = 1, size(self%bearings)
+         problem%stiffness(i, i) = problem%stiffness(i, i) + self%bearings(i)
+      end do
       problem%loads = matmul(transpose(basis), self%loads)
-      problem%observed = matmul(self%observed, basis)
-      problem%journals = [(i, i=1, size(self%journals))]
-      problem%bearings = self%bearings
+      problem%observed = self%observed%times(basis)
    end function reduced
 
    !> Amplitudes of the first n displacements' motion, the others being held: (observed, load), m.
-   function amplitudes(problem, n)
-      type(response_problem_type), intent(in) :: problem
+   function amplitudes(self, n)
+      class(reduced_vibration_type), intent(in) :: self
       integer, intent(in) :: n
-      complex(wp), allocatable :: amplitudes(:, :), matrix(:, :), x(:, :)
-      integer :: i
+      complex(wp), allocatable :: amplitudes(:, :), x(:, :)
       logical :: ignored
-      matrix = problem%stiffness(:n, :n)
-      do i = 1, size(problem%journals)
-         associate (element => matrix(problem%journals(i), problem%journals(i)))
-            element = element + problem%bearings(i)
-         end associate
-      end do
-      x = cmplx(problem%loads(:n, :), kind=wp)
-      call solve_complex(n, size(x, 2), matrix, x, ignored)
-      ! a growing vibration on dampers has no resonance
-      amplitudes = matmul(problem%observed(:, :n), x)
+      x = cmplx(self%loads(:n, :), kind=wp)
+      call solve_complex(n, size(x, 2), self%stiffness(:n, :n), x, ignored)
+      amplitudes = matmul(self%observed(:, :n), x)
    end function amplitudes
 
    !> The largest error of amplitudes, relative to the largest amplitude under the same load.
@@ -344,18 +265,18 @@ contains
       into = relative_displacements(inputs%bearings, size(basis, 2))
       offset = [(inputs%bearings(i)%offset, i=1, r%journals)]
       call reduce_matrices(component, basis, into, 2*r%journals, r)
-      force = matmul(static_forces(inputs%rotor%elastic%loads, size(component%station, 1)), component%station) &
+      force = component%station%transposed_times(static_forces(inputs%rotor%elastic%loads, component%station%rows)) &
          & - inputs%rotor%gravity*component%weighed
       deflection = matmul(basis(:, :2*r%journals), offset)
-      r%load = matmul(matmul(force - matmul(component%stiffness, deflection), basis), into)
+      r%load = matmul(matmul(force - component%stiffness%times(deflection), basis), into)
       deflection = deflection + fixed%residual_deflection(force, modes)
       basis = matmul(basis, into)
-      r%unbalance = transpose(matmul(unbalance_moments(inputs%rotor%elastic%unbalances, size(component%station, 1), &
-         & component%sense), matmul(component%station, basis)))
-      r%station = matmul(component%station, basis)
-      r%station_offset = matmul(component%station, deflection)
-      r%slope = matmul(component%slope, basis)
-      r%slope_offset = matmul(component%slope, deflection)
+      r%station = component%station%times(basis)
+      r%station_offset = component%station%times(deflection)
+      r%slope = component%slope%times(basis)
+      r%slope_offset = component%slope%times(deflection)
+      r%unbalance = transpose(matmul(unbalance_moments(inputs%rotor%elastic%unbalances, component%station%rows, &
+         & component%sense), r%station))
       r%total_mass = component%total_mass
       r%mode_frequency = fixed%frequency(:modes)/(2*pi)
       if (modes < size(fixed%frequency)) r%left_out_frequency = fixed%frequency(modes + 1)/(2*pi)
@@ -374,24 +295,34 @@ contains
       real(wp), intent(in) :: basis(:, :), into(:, :)
       integer, intent(in) :: journals
       type(rotor_matrices_type), intent(inout) :: r
-      real(wp), allocatable :: stiffness(:, :), mass(:, :)
+      type(projection_type) :: p
       real(wp) :: own
       integer :: i
-      mass = projected(component%mass, basis)
-      stiffness = projected(component%stiffness, basis)
+      p = projected_matrices(component, basis)
       do i = journals + 1, size(basis, 2)
-         own = stiffness(i, i)
-         stiffness(i, :) = 0
-         stiffness(:, i) = 0
-         stiffness(i, i) = own
-         mass(i, journals + 1:) = 0
-         mass(i, i) = 1
+         own = p%stiffness(i, i)
+         p%stiffness(i, :) = 0
+         p%stiffness(:, i) = 0
+         p%stiffness(i, i) = own
+         p%mass(i, journals + 1:) = 0
+         p%mass(i, i) = 1
       end do
-      r%mass = projected(mass, into)
-      r%stiffness = projected(stiffness, into)
-      r%damping = projected(projected(component%damping, basis), into)
-      r%gyroscopic = projected(projected(component%gyroscopic, basis), into)
+      r%mass = projected(p%mass, into)
+      r%stiffness = projected(p%stiffness, into)
+      r%damping = projected(p%damping, into)
+      r%gyroscopic = projected(p%gyroscopic, into)
    end subroutine reduce_matrices
+
+   !> The matrices of a rotor in displacements x with q = matmul(basis, x).
+   pure function projected_matrices(component, basis) result(p)
+      type(rotor_component_type), intent(in) :: component
+      real(wp), intent(in) :: basis(:, :)
+      type(projection_type) :: p
+      p%mass = matmul(transpose(basis), component%mass%times(basis))
+      p%damping = matmul(transpose(basis), component%damping%times(basis))
+      p%gyroscopic = matmul(transpose(basis), component%gyroscopic%times(basis))
+      p%stiffness = matmul(transpose(basis), component%stiffness%times(basis))
+   end function projected_matrices
 
    pure function projected(matrix, basis)
       real(wp), intent(in) :: matrix(:, :), basis(:, :)

@@ -3,7 +3,7 @@ program test_fixed_interface
    use kinds, only: wp, pi
    use case_inputs, only: case_type
    use rotor_component, only: rotor_component_type, shaft_component, beam_section_type
-   use rotor_reduction, only: fixed_interface_type, find_fixed_interface
+   use fixed_interface, only: fixed_interface_type, find_fixed_interface
    use example_machine, only: plain_shaft
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -11,6 +11,8 @@ program test_fixed_interface
 
    if (runs('frequencies')) call try_frequencies()
    if (runs('modes')) call try_modes()
+   if (runs('equal frequencies')) call try_equal_frequencies(10)
+   if (runs('equal frequencies of a wide band')) call try_equal_frequencies(5)
    if (runs('static deflection')) call try_static_deflection()
    if (runs('journals that hold nothing')) call try_not_held()
    call report()
@@ -80,29 +82,70 @@ contains
    subroutine try_modes()
       type(rotor_component_type) :: component
       type(fixed_interface_type) :: fixed
-      real(wp), allocatable :: basis(:, :), mass(:, :), stiffness(:, :), squares(:)
+      real(wp), allocatable :: basis(:, :)
       logical :: held
       integer :: i
       call hold(10, [2, 9], component, fixed, held)
       call expect(held, 'two bearings hold a shaft')
+      call fixed%find_modes(2)
+      call fixed%find_modes(6)
       basis = fixed%basis(6)
-      squares = [(fixed%frequency(i)**2, fixed%frequency(i)**2, i=1, 6)]
       call expect(all(shape(basis) == [44, 2*(2 + 6)]), 'as many displacements as journals and modes have')
-      mass = matmul(transpose(basis), matmul(component%mass, basis))
-      stiffness = matmul(transpose(basis), matmul(component%stiffness, basis))
-      do i = 5, 16
+      call expect_modes(component, basis, [(fixed%frequency(i)**2, fixed%frequency(i)**2, i=1, 6)])
+      call expect(maxval(abs(basis([5, 6, 33, 34], :4) - reshape([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], &
+         & [4, 4]))) <= 0, 'unit displacements of the journals, y and z of each')
+      ! two pins: a shaft follows them without bending
+      call expect_close(basis(21, 1), 3/7.0_wp, 1e-10_wp, 'what lies between the journals follows')
+   end subroutine try_modes
+
+   !> The basis of four displacements of journals and of modes with these squares of their frequencies, rad^2/s^2.
+   subroutine expect_modes(component, basis, squares)
+      type(rotor_component_type), intent(in) :: component
+      real(wp), intent(in) :: basis(:, :), squares(:)
+      real(wp), allocatable :: mass(:, :), stiffness(:, :)
+      integer :: i
+      mass = matmul(transpose(basis), component%mass%times(basis))
+      stiffness = matmul(transpose(basis), component%stiffness%times(basis))
+      do i = 5, size(basis, 2)
          call expect_close(mass(i, i), 1.0_wp, 1e-12_wp, 'modal mass')
          call expect_close(stiffness(i, i)/squares(i - 4), 1.0_wp, 1e-9_wp, 'modal stiffness')
          mass(i, i) = 0
          stiffness(i, i) = 0
       end do
       call expect(maxval(abs(mass(5:, 5:))) < 1e-11_wp, 'no mass joins the modes')
-      call expect(maxval(abs(stiffness(5:, :))) < 1e-9_wp*fixed%frequency(6)**2, 'no stiffness joins the modes')
-      call expect(maxval(abs(basis([5, 6, 33, 34], :4) - reshape([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], &
-         & [4, 4]))) <= 0, 'unit displacements of the journals, y and z of each')
-      ! two pins: a shaft follows them without bending
-      call expect_close(basis(21, 1), 3/7.0_wp, 1e-10_wp, 'what lies between the journals follows')
-   end subroutine try_modes
+      call expect(maxval(abs(stiffness(5:, :))) < 1e-9_wp*maxval(squares), 'no stiffness joins the modes')
+   end subroutine expect_modes
+
+   !> Both planes at once, alike or nearly: each frequency is double, and the last one has half of its modes.
+   subroutine try_equal_frequencies(sections)
+      integer, intent(in) :: sections
+      type(rotor_component_type) :: component
+      type(fixed_interface_type) :: one, both
+      logical :: held
+      integer :: i, k
+      real(wp), parameter :: stiffer(*) = [0.0_wp, 1e-12_wp, 1e-9_wp, 1e-8_wp, 1e-7_wp, 1e-5_wp, 1e-2_wp]
+      do k = 1, size(stiffer)
+         call hold(sections, [2, sections], component, one, held)
+         component%planes = 1
+         associate (stiffness => component%stiffness)
+            do i = 2, stiffness%rows, 2
+               associate (row => stiffness%value(stiffness%first(i):stiffness%first(i + 1) - 1))
+                  row = row*(1 + stiffer(k))
+               end associate
+            end do
+         end associate
+         call find_fixed_interface(component, [5, 6, 4*sections - 3, 4*sections - 2], both, held)
+         call expect(held, 'two bearings hold a shaft')
+         call expect(size(both%frequency) == 2*size(one%frequency), 'modes of both planes')
+         do i = 1, 4
+            call expect_close(both%frequency(2*i - 1)/one%frequency(i), 1.0_wp, 1e-10_wp, 'frequency along y')
+            call expect_close(both%frequency(2*i)/one%frequency(i), sqrt(1 + stiffer(k)), 1e-10_wp, &
+               & 'frequency along z')
+         end do
+         call both%find_modes(7)
+         call expect_modes(component, both%basis(7), both%frequency(:7)**2)
+      end do
+   end subroutine try_equal_frequencies
 
    !> 5 q L^4/(384 E I) + q L^2/(8 kappa G A) in the middle of a heavy shaft on two pins: modes have part of it, and the
    !> residual deflection has the rest.
@@ -120,6 +163,7 @@ contains
       exact = 5*q*span**4/(384*s%young_modulus*s%second_moment()) &
          & + q*span**2*2*(1 + s%poisson_ratio)/(8*s%shear_coefficient()*s%young_modulus*s%area())
       force = 9.81_wp*component%weighed
+      call fixed%find_modes(4)
       do modes = 0, 4, 2
          associate (basis => fixed%basis(modes))
             deflection = fixed%residual_deflection(force, modes)
@@ -148,10 +192,14 @@ contains
       type(fixed_interface_type) :: fixed
       type(case_type) :: machine
       logical :: held
+      integer, parameter :: many(*) = [60, 200, 499]
+      integer :: i
       call hold(6, [4], component, fixed, held)
       call expect(.not. held, 'a shaft turns about one bearing')
-      call hold(60, [1], component, fixed, held)
-      call expect(.not. held, 'also one of many sections')
+      do i = 1, size(many)
+         call hold(many(i), [1], component, fixed, held)
+         call expect(.not. held, 'also one of many sections')
+      end do
       call hold(100, [50, 51], component, fixed, held)
       call expect(held, 'two close bearings hold a shaft of many sections')
       machine = plain_shaft([0.2_wp, 0.2_wp, 0.2_wp], diameter)

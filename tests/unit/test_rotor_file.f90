@@ -4,6 +4,8 @@ program test_rotor_file
    use errors, only: error_type, input_error
    use case_groups, only: unset, given_rotor_type
    use case_inputs, only: case_type
+   use linear_algebra, only: identity
+   use sparse_matrix, only: sparse_matrix_type
    use rotor_component, only: rotor_component_type, shaft_component
    use rotor_reduction, only: rotor_matrices_type
    use rotor_factory, only: find_rotor
@@ -32,19 +34,28 @@ contains
       type(given_rotor_type) :: rotor
       type(rotor_component_type) :: shaft
       type(case_type) :: machine
-      integer :: n
+      integer :: n, i
       machine = turbine()
       shaft = shaft_component(machine%rotor%elastic)
-      n = size(shaft%mass, 1)
-      rotor%mass = shaft%mass(n:1:-1, n:1:-1)
-      rotor%damping = shaft%damping(n:1:-1, n:1:-1)
-      rotor%gyroscopic = shaft%gyroscopic(n:1:-1, n:1:-1)
-      rotor%stiffness = shaft%stiffness(n:1:-1, n:1:-1)
-      rotor%station = shaft%station(:, n:1:-1)
-      rotor%slope = shaft%slope(:, n:1:-1)
+      n = shaft%mass%rows
+      rotor%mass = turned(shaft%mass, [(i, i=n, 1, -1)])
+      rotor%damping = turned(shaft%damping, [(i, i=n, 1, -1)])
+      rotor%gyroscopic = turned(shaft%gyroscopic, [(i, i=n, 1, -1)])
+      rotor%stiffness = turned(shaft%stiffness, [(i, i=n, 1, -1)])
+      rotor%station = turned(shaft%station, [(i, i=1, n/2)])
+      rotor%slope = turned(shaft%slope, [(i, i=1, n/2)])
       rotor%weighed = shaft%weighed(n:1:-1)
       rotor%total_mass = shaft%total_mass
    end function turned_round
+
+   !> These rows of a matrix in full, its columns from the last one to the first.
+   function turned(matrix, rows)
+      type(sparse_matrix_type), intent(in) :: matrix
+      integer, intent(in) :: rows(:)
+      real(wp), allocatable :: turned(:, :), full(:, :)
+      full = matrix%times(identity(matrix%columns))
+      turned = full(rows, matrix%columns:1:-1)
+   end function turned
 
    !> Writes a file, whose matrices h5py shows as they are here.
    subroutine write_rotor(rotor)
