@@ -3,12 +3,13 @@ module case_run
    use kinds, only: wp, i8
    use case_inputs, only: case_type
    use parameter_study, only: run_tag
-   use errors, only: error_type, stopped
+   use errors, only: error_type, raise, system_error, stopped
    use ode_model, only: integrator_counts_type
    use film_solver, only: film_counters
    use equations_of_motion, only: machine_model
    use bearing_shape, only: bearing_shape_type
    use equilibrium_results, only: put_shape
+   use machine_results, only: mode_signs, other_signs
    use record, only: record_type
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
@@ -193,6 +194,10 @@ contains
       real(wp), intent(inout), optional :: state(:)
       integer :: k
       call self%file%resume(self%inputs, t, error, state)
+      if (allocated(error)) return
+      if (.not. self%inputs%rotor%is_rigid()) then
+         if (.not. self%file%has(mode_signs)) call raise(error, system_error, self%path//': '//other_signs)
+      end if
       if (allocated(error)) return
       do k = 1, self%file%count
          associate (own => self%file%datasets(k))

@@ -11,7 +11,7 @@ module last_state
    use state_layout, only: pad_state, element_layout_type
    use tilting_pad, only: pad_coordinates_type, new_pad_coordinates
    use equations_of_motion, only: machine_model
-   use machine_results, only: bearing_group, turned_time, turned_state
+   use machine_results, only: bearing_group, turned_time, turned_state, mode_signs, other_signs
    use restart, only: restart_type, read_result, open_result
    implicit none (type, external)
    private
@@ -47,6 +47,9 @@ contains
          if (.not. allocated(error)) call refuse_other_pads(path, found%inputs%bearings(b), model%layout%elements(b), &
             & error)
       end do
+      if (.not. (allocated(error) .or. inputs%rotor%is_rigid())) then
+         if (.not. file%has(mode_signs)) call raise(error, system_error, path//': '//other_signs)
+      end if
       call file%begin_series('time', 0_i8)
       if (.not. allocated(error) .and. file%samples == 0) call raise(error, system_error, path//': has no samples of ' &
          & //'a motion to start from')

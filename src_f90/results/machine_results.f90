@@ -1,7 +1,7 @@
 !> What the file of a run says of a machine as a whole: its shaft, its bearings, where its stations are. Names,
 !> dimensions and units as docs/results.md lists them.
 module machine_results
-   use kinds, only: wp, degree
+   use kinds, only: wp, i8, degree
    use record, only: record_type
    use case_inputs, only: case_type
    use case_groups, only: bearing_type, shaft_type
@@ -10,11 +10,14 @@ module machine_results
    implicit none (type, external)
    private
    public :: bearing_group, put_bearings, put_machine, put_machine_equilibrium, put_turned_rotor, turned_time, &
-      & turned_state
+      & turned_state, mode_signs, other_signs
 
    character(len=*), parameter :: group = 'rotor/'
    !> Where the state is from which another march may start, and its time.
    character(len=*), parameter :: turned_time = group//'turned_time', turned_state = group//'turned_state'
+   !> Which of its two signs each mode has; what is said of a file that does not tell, whose states do not fit.
+   character(len=*), parameter :: mode_signs = group//'mode_signs', other_signs = 'written by an earlier version of ' &
+      & //'tiltpad, in which modes of the shaft had other signs; its states fit no longer, run it anew'
 
 contains
 
@@ -74,6 +77,8 @@ contains
          call file%put_scale(group//'mode', size(m%mode_frequency), 'mode number')
          call file%put(group//'mode_frequency', m%mode_frequency, 'Hz', &
             & 'frequency of the kept mode of the shaft, its journals fixed', group//'mode')
+         call file%put(mode_signs, 1_i8, '1: the first component of each of these modes that is at least half as ' &
+            & //'large as the largest is positive')
          call file%put(group//'left_out_frequency', m%left_out_frequency, 'Hz', &
             & 'frequency of the first mode that is left out; 0: none is')
          call file%put(group//'truncation_error', m%truncation_error, '1', &

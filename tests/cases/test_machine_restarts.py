@@ -227,3 +227,16 @@ def test_a_damaged_state_is_no_start(tiltpad, orbit, tmp_path):
             if value is not None:
                 file[name] = value
         assert "damaged" in begun(tiltpad, tmp_path, MACHINE, status=3).stderr
+
+
+def test_states_of_modes_with_other_signs(start, tiltpad, orbit, tmp_path):
+    """A result that does not tell the signs of its modes neither goes on nor is a start."""
+    shutil.copy(orbit / "first.h5", tmp_path / "first.h5")
+    (tmp_path / "case.nml").write_text(MARCHES["friction"] + MACHINE)
+    stop(start, tmp_path, after=0.01)
+    for path in (tmp_path / "first.h5", tmp_path / "case.h5"):
+        with h5py.File(path, "r+") as file:
+            assert file["rotor/mode_signs"][()] == 1
+            del file["rotor/mode_signs"]
+    assert "had other signs" in begun(tiltpad, tmp_path, MACHINE, status=3).stderr
+    assert "had other signs" in tiltpad("--resume", "case.h5", cwd=tmp_path, status=3).stderr
