@@ -23,13 +23,14 @@ static void forget_runtime_variables(int count, char **arguments, char **environ
 
 /* ---- stack ------------------------------------------------------------------------------------- */
 
-/* Bytes of stack that are enough for all arrays that are on it, and below which nothing is begun. */
-enum { STACK = 8 << 20, LEAST_STACK = 128 << 10 };
+/* Bytes of stack that are enough for all arrays that are on it, and below which nothing is begun: zgbtrf of LAPACK has
+   133 kB on it. */
+enum { STACK = 8 << 20, LEAST_STACK = 256 << 10 };
 
 /* A smaller stack than is usual (ulimit -s) is enlarged where the system allows it; it grows up to its limit. */
 static void enlarge_stack(void)
 {
-   static const char line[] = "tiltpad: error: less than 128 kB of stack are allowed; ulimit -s 8192 allows 8 MB\n";
+   static const char line[] = "tiltpad: error: less than 256 kB of stack are allowed; ulimit -s 8192 allows 8 MB\n";
    struct rlimit limit, more;
    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= STACK) return;
    more = (struct rlimit){STACK, limit.rlim_max < STACK ? STACK : limit.rlim_max};

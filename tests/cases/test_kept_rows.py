@@ -148,7 +148,7 @@ def test_very_many_starts(tiltpad, case, loaded):
     assert done.stderr.endswith("; no run was started\n")
 
 
-@pytest.mark.parametrize("kilobytes", [64, 128])
+@pytest.mark.parametrize("kilobytes", [64, 256])
 def test_a_small_stack(program, case, kilobytes):
     """No array whose size comes from the input is on it; with next to none nothing is begun."""
     folder = case(
