@@ -186,9 +186,12 @@ contains
       new%texts(2)%text = row%remarks
       new%texts(3)%text = own
       new%numbers = row%numbers
-      header = self%log%header
-      call header%add_builds(own_build)
-      call put_new(self, header, self%failure)
+      ! not for each row: a header has a number for each run
+      if (.not. self%log%header%has_build(own_build)) then
+         header = self%log%header
+         call header%add_builds(own_build)
+         call put_new(self, header, self%failure)
+      end if
       if (.not. allocated(self%failure)) call self%log%describe(row%description, new%description, self%failure)
       if (.not. allocated(self%failure)) call self%log%add(new, self%failure)
    end subroutine add

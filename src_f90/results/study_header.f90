@@ -46,10 +46,11 @@ module study_header
       procedure :: names
       procedure :: variables
       procedure :: exchange
+      procedure :: has_build
       procedure :: add_builds
    end type header_type
 
-   character(len=*), parameter :: own_build = program_version//' ('//program_commit//')'
+   character(len=*), parameter :: own_build = program_version//' ('//program_commit//')', comma = ', '
    !> Names of variables, among others, that other datasets of a study have.
    character(len=*), parameter :: taken = ' run pad revolution pivot frequency_ratio row column position_row ' &
       & //'position_column mode reason file runs status complete resumes checkpoint_seconds revolutions '
@@ -191,11 +192,17 @@ contains
       packed%ok = packed%ok .and. self%runs >= 1 .and. size(self%numbers) >= 1
    end subroutine exchange
 
+   !> Whether a build is among those that made its rows.
+   pure logical function has_build(self, build)
+      class(header_type), intent(in) :: self
+      character(len=*), intent(in) :: build
+      has_build = index(comma//self%version//comma, comma//build//comma) > 0
+   end function has_build
+
    !> Adds those of some builds, separated by commas, that it does not have.
    pure subroutine add_builds(self, builds)
       class(header_type), intent(inout) :: self
       character(len=*), intent(in) :: builds
-      character(len=*), parameter :: comma = ', '
       character(len=:), allocatable :: own
       integer :: first, last
       if (.not. allocated(self%version)) self%version = ''
@@ -205,7 +212,7 @@ contains
          own = builds(first:last)
          if (self%version == '') then
             self%version = own
-         else if (index(comma//self%version//comma, comma//own//comma) == 0) then
+         else if (.not. self%has_build(own)) then
             self%version = self%version//comma//own
          end if
          first = last + len(comma) + 1
