@@ -16,7 +16,7 @@ ifeq ($(origin FC),default)
 FC := gfortran
 endif
 # names of files and of tests, which may have any character, reach the shell through the environment alone
-export FC CC LAPACK ARCHIVES PREFIX DESTDIR ONLY RECORD
+export FC CC LAPACK ARCHIVES PREFIX DESTDIR ONLY RECORD OLD
 # all processors, unless -j says otherwise
 ifeq ($(MAKELEVEL)$(filter -j% --jobs%,$(MAKEFLAGS)),0)
 MAKEFLAGS += --jobs=$(shell nproc)
@@ -259,12 +259,12 @@ bench: build python $(VENV)/ready-bench $(ross)/ready $(B)/bench/film_bench
 	PYTHONPATH=post $(venv_python) tests/bench/bench.py $(B)/bin/tiltpad $(if $(PARTS),--only $(PARTS))
 
 # OLD=COMMIT is built in a folder of its own, once, and compared with what is here, in pairs of runs
-older := build/speed/$(OLD)
 speed: build python
-	@test -n '$(OLD)' || { echo 'make speed OLD=COMMIT: which commit to compare with' >&2; exit 2; }
-	test -e $(older)/Makefile || { mkdir -p $(older) && git archive $(OLD) | tar -x -C $(older); }
-	env -u MAKELEVEL -u MAKEFLAGS $(MAKE) -C $(older) build
-	$(venv_python) tests/bench/speed.py $(older)/build/bin/tiltpad $(B)/bin/tiltpad
+	@test -n "$$OLD" || { echo 'make speed OLD=COMMIT: which commit to compare with' >&2; exit 2; }
+	commit=$$(git rev-parse --verify "$$OLD^{commit}") && older=build/speed/$$commit && mkdir -p $$older && \
+	   { test -e $$older/Makefile || git archive $$commit | tar -x -C $$older; } && \
+	   env -u MAKELEVEL -u MAKEFLAGS $(MAKE) -C $$older build && \
+	   $(venv_python) tests/bench/speed.py $$older/build/bin/tiltpad $(B)/bin/tiltpad
 
 # counterparts of the paper's figures, and its claims checked
 paper: build python
