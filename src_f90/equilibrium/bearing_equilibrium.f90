@@ -472,7 +472,7 @@ contains
    end subroutine note_divergence
 
    !> True where the films, which only push, push the journal the way of its load, so that there is no equilibrium.
-   logical function pushed_away(model)
+   pure logical function pushed_away(model)
       type(machine_model), intent(in) :: model
       pushed_away = .false.
       associate (bearing => model%bearings(1))

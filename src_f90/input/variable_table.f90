@@ -31,7 +31,7 @@ module variable_table
       !> Whether the list may have any length, up to the most values; what it tells the number of, "pads", and what
       !> has one value each; else empty.
       logical :: any_length = .false.
-      character(len=8) :: counts = '', each = ''
+      character(len=16) :: counts = '', each = ''
       integer :: most = 1
    contains
       procedure :: allowed
