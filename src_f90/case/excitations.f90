@@ -1,6 +1,7 @@
 !> A force over time that excites a rotor: the namelist group excitation, and the force at a time.
 module excitations
    use kinds, only: wp, pi, degree
+   use rising_numbers, only: number_up_to
    use case_groups, only: unset, is_set
    implicit none (type, external)
    private
@@ -107,19 +108,8 @@ contains
    pure integer function interval(self, after) result(low)
       class(excitation_type), intent(in) :: self
       real(wp), intent(in) :: after
-      integer :: high, middle
-      low = 0
-      high = size(self%time)
-      if (after < self%time(1) .or. after >= self%time(high)) return
-      low = 1
-      do while (high > low + 1)
-         middle = (low + high)/2
-         if (self%time(middle) <= after) then
-            low = middle
-         else
-            high = middle
-         end if
-      end do
+      low = number_up_to(self%time, after)
+      if (low == size(self%time)) low = 0
    end function interval
 
    !> Force along y and z at time t, s, N, and how it changes with time, N/s, where the shaft has turned by an angle,

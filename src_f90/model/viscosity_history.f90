@@ -1,6 +1,7 @@
 !> Viscosities of the oil on every pad over time: cubics between nodes, smooth across them.
 module viscosity_history
    use kinds, only: wp
+   use rising_numbers, only: number_up_to
    implicit none (type, external)
    private
    public :: viscosity_history_type, new_viscosity_history
@@ -58,7 +59,7 @@ contains
       real(wp) :: s, step
       integer :: k, n
       n = ubound(self%time, 1)
-      k = min(max(count(self%time <= time), 1), n)
+      k = min(max(number_up_to(self%time, time), 1), n)
       step = self%time(k) - self%time(k - 1)
       s = min(max((time - self%time(k - 1))/step, 0.0_wp), 1.0_wp)
       associate (a => self%value(:, k - 1), b => self%value(:, k))

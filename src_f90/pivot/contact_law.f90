@@ -5,6 +5,7 @@
 !> Hertz's law is the usual non-conformal one.
 module contact_law
    use kinds, only: wp, pi
+   use rising_numbers, only: number_up_to
    implicit none (type, external)
    private
    public :: contact_law_type, contact_point, make_contact_law, new_measured_contact
@@ -305,7 +306,7 @@ contains
       real(wp), intent(in) :: pivot_deflection
       type(contact_point) :: point
       real(wp) :: x, y, slope, t, width, rise
-      integer :: low, high, middle
+      integer :: low, high
       associate (n => size(self%x))
          x = log(pivot_deflection)
          if (x >= self%x(n)) then
@@ -313,17 +314,9 @@ contains
             point%force = exp(self%y(n)) + point%stiffness*(pivot_deflection - exp(self%x(n)))
             return
          end if
-         low = 1
-         high = n
       end associate
-      do while (high - low > 1)
-         middle = (low + high)/2
-         if (x < self%x(middle)) then
-            high = middle
-         else
-            low = middle
-         end if
-      end do
+      low = max(1, number_up_to(self%x, x))
+      high = low + 1
       width = self%x(high) - self%x(low)
       rise = self%y(high) - self%y(low)
       t = max(0.0_wp, x - self%x(low))/width

@@ -3,6 +3,7 @@
 module march_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi, degree
+   use rising_numbers, only: number_up_to
    use case_groups, only: bearing_type, pivot_type
    use case_inputs, only: case_type
    use loops, only: path_integral, harmonic, slow_share, integral_over_way
@@ -330,7 +331,7 @@ contains
       real(wp) :: found(size(values, 1)), weight
       integer :: number, first, i, j
       number = min(4, size(angle))
-      first = number_below(angle, wanted) - number/2 + 1
+      first = number_up_to(angle, wanted) - number/2 + 1
       first = max(1, min(first, size(angle) - number + 1))
       found = 0
       do i = first, first + number - 1
@@ -341,22 +342,6 @@ contains
          found = found + weight*values(:, i)
       end do
    end function at_angle
-
-   !> How many of the rising angles are below a limit, found by halving.
-   pure integer function number_below(angle, limit) result(below)
-      real(wp), intent(in) :: angle(:), limit
-      integer :: above, middle
-      below = 0
-      above = size(angle) + 1
-      do while (above - below > 1)
-         middle = (below + above)/2
-         if (angle(middle) < limit) then
-            below = middle
-         else
-            above = middle
-         end if
-      end do
-   end function number_below
 
    !> Extremes of values (:, time) in the whole revolutions before the last sample, the last of which is the last
    !> column; not a number where there are fewer revolutions than columns.
@@ -371,7 +356,7 @@ contains
       next = n + 1
       do k = 1, min(revolutions, size(lowest, 2))
          column = size(lowest, 2) + 1 - k
-         start = 1 + number_below(angle, angle(n) - 2*pi*k - rounding)
+         start = 1 + number_up_to(angle, angle(n) - 2*pi*k - rounding)
          lowest(:, column) = minval(values(:, start:next - 1), dim=2)
          highest(:, column) = maxval(values(:, start:next - 1), dim=2)
          next = start
