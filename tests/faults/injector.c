@@ -187,11 +187,12 @@ pid_t fork(void)
    return fails(FORK) ? -1 : NEXT(fork)();
 }
 
-/* The C library's own, as what looks for the next function asks for memory. */
-#define MEMORY_OF(name, declared, given) \
+/* The C library's own, as what looks for the next function asks for memory. A request for no bytes, as the compiler makes
+   for an empty array, needs none and does not fail. */
+#define MEMORY_OF(name, declared, given, bytes) \
 void *__libc_##name declared; \
-void *name declared { return fails(MEMORY) ? NULL : __libc_##name given; }
-MEMORY_OF(malloc, (size_t size), (size))
-MEMORY_OF(calloc, (size_t count, size_t size), (count, size))
-MEMORY_OF(realloc, (void *memory, size_t size), (memory, size))
-MEMORY_OF(memalign, (size_t alignment, size_t size), (alignment, size))
+void *name declared { return bytes && fails(MEMORY) ? NULL : __libc_##name given; }
+MEMORY_OF(malloc, (size_t size), (size), size)
+MEMORY_OF(calloc, (size_t count, size_t size), (count, size), size)
+MEMORY_OF(realloc, (void *memory, size_t size), (memory, size), size)
+MEMORY_OF(memalign, (size_t alignment, size_t size), (alignment, size), size)
