@@ -284,6 +284,26 @@ def test_the_output(copy, tmp_path, monkeypatch, capsys):
     assert not list(tmp_path.glob("**/*.part*"))
 
 
+def test_a_study_that_cannot_be_read_is_not_replaced(copy, tmp_path, monkeypatch, capsys):
+    """The attribute that tells what it is gives a KeyError where the disk fails, as where there is none."""
+    monkeypatch.chdir(tmp_path)
+    assert command.collect(["grid"]) == 0
+    before = (tmp_path / "grid.h5").read_bytes()
+    whole = h5py.AttributeManager.__getitem__
+
+    def failing(self, name):
+        if name == "task" and self._id.name == b"/" and self._id.file.name.endswith(b"/grid.h5"):
+            raise KeyError("Unable to synchronously open attribute (file read failed)")
+        return whole(self, name)
+
+    monkeypatch.setattr(h5py.AttributeManager, "__getitem__", failing)
+    assert command.collect(["grid"]) == 3
+    said = capsys.readouterr().err
+    assert "grid.h5: attribute 'task' cannot be read" in said
+    assert said.endswith("it is not replaced\n")
+    assert (tmp_path / "grid.h5").read_bytes() == before
+
+
 def test_runs_that_are_no_members(result, tmp_path):
     """Their parameters are the variables in which their inputs differ."""
     output = tmp_path / "runs.h5"

@@ -127,10 +127,11 @@ def check_replaceable(target: Path) -> None:
     if target.exists():
         try:
             with opened(os.fspath(target)) as file, reading(os.fspath(target), "attribute 'task'"):
-                task = file.attrs.get("task")
+                # get() would take one that cannot be read for one that is not there
+                study = "task" in file.attrs and file.attrs["task"] == "study"
         except RunError as error:
             raise RunError(f"{error}; it is not replaced") from error
-        if task != "study":
+        if not study:
             raise ValueError(
                 f"{target}: it exists and is not a study; remove it, or give the study another name"
             )
