@@ -230,7 +230,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         write_table(options, output)
         return
     mpl = matplotlib_for_files()
-    from tiltpad.draw import bearing, plots
+    from tiltpad.draw import bearing, layout, plots
 
     with ExitStack() as stack, mpl.style.context(plots.STYLE):
         if options.plot == MOVIE:
@@ -242,7 +242,7 @@ def draw(options: argparse.Namespace, output: Path) -> None:
         figure, told = make(options, stack)
         stack.callback(plots.plt.close, figure)
         content = io.BytesIO()
-        figure.savefig(content, format=form)
+        layout.write(figure, content, form)
         writing.write(output, content.getbuffer())
         tell_remarks(told)
 

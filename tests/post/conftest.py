@@ -11,9 +11,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import tiltpad as package
-from matplotlib.figure import Figure
 from result_files import replace_series
 from ross_machine import READY, questions
+from tiltpad.draw import layout
 
 mpl.use("agg")
 #: The paper's package, post/paper, is not installed.
@@ -57,13 +57,14 @@ def quick_pictures(closed_figures, monkeypatch):
 
     test_nothing_is_cut_off lays out every plot.
     """
-    whole = Figure.savefig
+    whole = layout.write
 
-    def savefig(self, *arguments, **options):
-        self.set_layout_engine("none")
-        return whole(self, *arguments, **{"dpi": 160} | options)
+    def write(figure, *arguments, **options):
+        figure.set_layout_engine("none")
+        with mpl.rc_context({"savefig.dpi": 160}):
+            whole(figure, *arguments, **options)
 
-    monkeypatch.setattr(Figure, "savefig", savefig)
+    monkeypatch.setattr(layout, "write", write)
 
 
 @pytest.fixture(scope="session")

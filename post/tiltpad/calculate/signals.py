@@ -3,7 +3,7 @@
 Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -178,13 +178,16 @@ def envelope(
     The spans turn the shaft by equal angles of at least one revolution, so that the band is that of the
     vibration; there are at most `spans` of them. Of spans that are shorter than `cover` revolutions the
     extremes are those of their neighbours, too: a motion of half the order would make a sawtooth. The run is
-    read a span at a time.
+    read in blocks of spans.
     """
     found = []
-    for part in spans_of(run, spans):
-        values = run.values(name, part)
-        found.append((ends(run, "time", part).mean(), values.min(axis=0), values.max(axis=0)))
-    time, low, high = (np.array(each) for each in zip(*found, strict=True))
+    for block in blocks_of(spans_of(run, spans)):
+        whole = slice(block[0].start, block[-1].stop)
+        starts = [span.start - whole.start for span in block]
+        times, values = run.values("time", whole), run.values(name, whole)
+        middles = (times[starts] + times[[span.stop - 1 - whole.start for span in block]]) / 2
+        found.append((middles, *(least.reduceat(values, starts) for least in (np.minimum, np.maximum))))
+    time, low, high = (np.concatenate(each) for each in zip(*found, strict=True))
     beside = round(cover / (turned(run) / len(time))) // 2
     around = [slice(max(0, k - beside), k + beside + 1) for k in range(len(time))]
     lowest, highest = (
@@ -230,13 +233,27 @@ def revolution_mean(angle: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 def spans_of(run: Run, spans: int) -> Iterator[slice]:
-    """Samples of at most this number of spans, which turn the shaft by equal angles of at least a
-    revolution."""
+    """Samples of at most this number of spans, which turn the shaft by equal angles of at least a revolution.
+
+    A span without samples is left out.
+    """
     last_revolutions(run)
     first, final = ends(run, "shaft_angle")
     count = max(1, min(spans, int((final - first) / (2 * np.pi) + 1e-9)))
     starts = edges(run, np.linspace(first, final, count + 1)[:-1])
-    return (slice(*each) for each in zip(starts, [*starts[1:], run.samples], strict=True))
+    borders = zip(starts, [*starts[1:], run.samples], strict=True)
+    return (slice(start, end) for start, end in borders if start < end)
+
+
+def blocks_of(spans: Iterable[slice]) -> Iterator[list[slice]]:
+    """Spans that follow one another, as many together as have BLOCK samples, or a longer one alone."""
+    block: list[slice] = []
+    for span in spans:
+        if block and span.stop - block[0].start > BLOCK:
+            yield block
+            block = []
+        block.append(span)
+    yield block
 
 
 def multipliers(run: Run) -> np.ndarray:

@@ -5,12 +5,13 @@ from collections.abc import Callable, Hashable, Iterable, Sequence
 from functools import cached_property, wraps
 from inspect import Parameter, signature
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import IO, Any, TypeVar
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backend_bases import get_registered_canvas_class
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize, to_hex
 from matplotlib.figure import Figure
@@ -136,6 +137,13 @@ def remark(fig: Figure, text: str, color: str = "0.3") -> None:
     look = {"x": 0.01, "ha": "left", "fontsize": "x-small", "color": color}
     fig.supxlabel("\n".join(line for line in (before, added) if line), **look)
     fig.set_figheight(fig.get_figheight() + 0.1 * len(added.splitlines()))
+
+
+def write(fig: Figure, stream: IO[bytes], form: str, **more: Any) -> None:
+    """Writes a picture in a format, as Figure.savefig does, which draws it all twice: once for the layout."""
+    fig.set_dpi(mpl.rcParams["savefig.dpi"])
+    canvas = get_registered_canvas_class(form)(fig)
+    getattr(canvas, f"print_{form}")(stream, **more)
 
 
 def spread(fig: Figure) -> None:
@@ -310,7 +318,10 @@ def grid(count: int, height: float) -> tuple[Figure, list[Axes]]:
 
 def mark_enlarged(whole: Axes, part: Axes) -> None:
     """Draws a frame in `whole` around the limits of `part`, to its right, and lines from one to the other."""
-    part.figure.draw_without_rendering()  # equal axes get their limits when they are drawn
+    if engine := part.figure.get_layout_engine():
+        engine.execute(part.figure)
+    part.apply_aspect()  # equal axes get their limits when their box is known
+    whole.set_zorder(part.get_zorder() + 0.5)  # drawn after it, as the lines end at its box
     (left, right), (low, high) = part.get_xlim(), part.get_ylim()
     line = {"edgecolor": "0.65", "linewidth": 0.6, "in_layout": False}
     whole.add_patch(Rectangle((left, low), right - left, high - low, facecolor="none", **line))

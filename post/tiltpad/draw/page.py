@@ -10,7 +10,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from tiltpad.draw import plots
+from tiltpad.draw import layout, plots
 from tiltpad.files.archive import Archive
 from tiltpad.files.units import Shown, fitted, numbers
 
@@ -99,7 +99,7 @@ def picture(name: str, draw: Callable[[], Figure], caption: str | None = None, r
                 figure.set_figheight(figure.get_figheight() - 0.1 * len(figure.get_supxlabel().splitlines()))
                 figure.supxlabel("")
             stream = io.BytesIO()
-            figure.savefig(stream, format="svg", metadata={"Date": None})
+            layout.write(figure, stream, "svg", metadata={"Date": None})
         finally:
             plt.close(figure)
     data = base64.b64encode(stream.getvalue()).decode("ascii")
