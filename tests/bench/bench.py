@@ -19,6 +19,8 @@ from cases import cases
 from diagram import diagram, ladder
 from figures import draw
 from films import films, pads
+from growth import growth
+from limits import limits
 from machine import described
 from machines import machines
 from maps import maps
@@ -41,6 +43,8 @@ PARTS = {
     "visits": visits,
     "skips": skips,
     "pads": pads,
+    "growth": growth,
+    "limits": limits,
     "orbits": orbits,
     "production": production,
     "studies": studies,

@@ -1,6 +1,8 @@
 """The page of the benchmark: its words. Every number in it comes from the rows."""
 
 import costs
+import growth
+import limits
 import machines
 import maps
 import orbits
@@ -192,6 +194,20 @@ is wall time without sampling, divided by the number of right-hand sides.
 
 {pads_words}
 
+## Growth
+
+How time and memory grow with the size of a task. The power is that of a law through the two largest sizes; 1
+is linear. Steps are given where a task marches: where they grow, too, the motion is another one.
+
+{growth}
+
+## Now over limit
+
+What users wait for, beside the part of it that the physics or a library takes in any case: below this no
+change of this program gets.
+
+{limits}
+
 ## Peers
 
 ![Wall seconds per second of simulated time](images/bench_peers.png)
@@ -300,6 +316,8 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         tolerances_words=costs.tolerances_words(rows["peers"]),
         pads=costs.pads(rows["pads"]),
         pads_words=costs.pads_words(rows["pads"]),
+        growth=growth.grown(rows["growth"]),
+        limits=limits.over(rows["limits"], rows["kernels"]),
         peers=costs.peers(rows["peers"]),
         peers_words=costs.peers_words(rows["peers"]),
         map_speeds=len(maps.SPEEDS),
