@@ -58,13 +58,16 @@ contains
       end associate
    end function sommerfeld_number
 
-   !> Which viscosity the Sommerfeld number has: "28.1 mPa s of the supply at 45 C".
+   !> Which viscosity the Sommerfeld number has, and of pads with a preload which clearance: "28.1 mPa s of the supply
+   !> at 45 C, c_r 120 um as assembled".
    pure function of_supply(bearing) result(words)
       type(bearing_type), intent(in) :: bearing
       character(len=:), allocatable :: words
       words = fixed_text(1e3_wp*reference_viscosity(bearing), 2)//' mPa s'
       if (bearing%oil%law /= 'constant') words = words//' of the supply at ' &
          & //to_text(bearing%oil%supply_temperature)//' C'
+      if (maxval(abs(preload(bearing))) > sqrt(epsilon(1.0_wp))) words = words//', c_r ' &
+         & //to_text(1e6_wp*bearing%clearance())//' um as assembled'
    end function of_supply
 
    !> Distance of the journal, at (y, z), m, from the middle over c_r.

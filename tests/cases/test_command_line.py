@@ -116,6 +116,7 @@ def test_check_marks_what_is_not_given(tiltpad, tmp_path):
     assert "!   preload            0.3  1 - c_r/c_m\n" in text
     # 9549*2.5*2000/3000 g mm
     assert "!   unbalance          0.015915  kg m" in text
+    assert ", c_r 80 um as assembled\n" in text
     sommerfeld = 0.019 * 50 * 0.1 * 0.0998 / (2000 * 9.81) * (49.9 / 0.08) ** 2
     assert float(re.search(r"Sommerfeld number +(\S+)", text)[1]) == pytest.approx(sommerfeld, rel=1e-5)
 
