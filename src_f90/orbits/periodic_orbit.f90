@@ -3,12 +3,12 @@
 module periodic_orbit
    use kinds, only: wp, i8, pi
    use text, only: to_text
-   use errors, only: error_type, add_context, numerics_error
+   use errors, only: error_type, raise, add_context, numerics_error
    use marching, only: march_options
    use ode_model, only: integrator_counts_type
    use cvode_integrator, only: integrator_type
    use equations_of_motion, only: machine_model
-   use orbit_polynomials, only: orbit_type
+   use orbit_polynomials, only: orbit_type, points
    use newton_method, only: newton_options
    use orbit_refinement, only: refined_orbit_type, close_on_meshes, linearize_along
    use orbit_problem, only: parametric_ode_type, orbit_problem_type, begin_orbits
@@ -65,6 +65,7 @@ module periodic_orbit
    contains
       procedure :: add
       procedure :: change
+      procedure :: decay
       procedure :: repeats
       procedure :: cause
    end type march_repetition_type
@@ -77,6 +78,8 @@ module periodic_orbit
    !> A motion creeps where its way over `most_periods` periods is straight: not shorter than this part of the sum of
    !> its changes.
    real(wp), parameter :: straight = 0.9_wp
+   !> Farthest that the last period of a march may be from the orbit to which it leads, over the extent of this.
+   real(wp), parameter :: allowed_distance = 1e-2_wp
 
 contains
 
@@ -162,8 +165,7 @@ contains
          if (.not. allocated(error)) return
          found%orbit = marched
          if (error%status /= numerics_error .or. found%marched < first_try .or. .not. repetition%repeats(1)) return
-         found%change = repetition%change(1)
-         call follow_march(model, found, error)
+         call follow_march(model, repetition, found, error)
       end subroutine close_or_accept
    end subroutine find_periodic_orbit
 
@@ -221,20 +223,48 @@ contains
       call begin_orbits(problem, ode, found%orbit, model%inputs%periodic%revolutions)
    end subroutine begin_problem
 
-   !> Takes the last period of a march that repeats as the orbit, with the multipliers along it.
-   subroutine follow_march(model, found, error)
+   !> Takes the last period of a march that repeats as the orbit, with the multipliers along it; a numerics error where
+   !> the changes to come add up to another orbit. They fall by the leading multiplier from period to period, or by what
+   !> they fell by, where friction or switching films make the multiplier that of one side alone.
+   subroutine follow_march(model, repetition, found, error)
       type(machine_model), intent(inout), target :: model
+      type(march_repetition_type), intent(in) :: repetition
       type(periodic_orbit_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       type(parametric_ode_type), target :: ode
       type(orbit_problem_type) :: problem
+      real(wp) :: extent, away
       call begin_problem(model, found, ode, problem)
       call linearize_along(problem, found%refined_orbit_type, error)
       found%evaluations = found%evaluations + problem%tangents
       if (allocated(error)) return
+      extent = extent_of(model, found%orbit)
+      away = repetition%change(1)/max(1 - min(abs(found%multipliers(1)), repetition%decay()), epsilon(away))
+      if (away > allowed_distance*extent) then
+         call raise(error, numerics_error, 'Newton''s method does not close it, and the march is still ' &
+            & //to_text(100*away/extent)//' % of the orbit away from where it leads: begin at the end of a longer ' &
+            & //'march (start%from = ''file'')')
+         return
+      end if
       found%closed = .false.
+      found%change = repetition%change(1)
       found%residual = problem%residual()
    end subroutine follow_march
+
+   !> The largest peak to peak of a displacement along an orbit, over its scale.
+   pure real(wp) function extent_of(model, orbit) result(extent)
+      type(machine_model), intent(in) :: model
+      type(orbit_type), intent(in) :: orbit
+      real(wp), allocatable :: least(:), most(:)
+      integer :: k
+      least = model%positions(orbit%start)
+      most = least
+      do k = 1, orbit%intervals()
+         least = min(least, model%positions(orbit%at(:, points, k)))
+         most = max(most, model%positions(orbit%at(:, points, k)))
+      end do
+      extent = maxval(most - least)
+   end function extent_of
 
    !> True where a small disturbance dies out, or where a march stays on the orbit.
    pure logical function is_stable(self)
@@ -346,6 +376,19 @@ contains
       end associate
    end function change
 
+   !> By which factor the changes fell from period to period, in the mean of the last ones; 1 where that is not known.
+   pure real(wp) function decay(self)
+      class(march_repetition_type), intent(in) :: self
+      real(wp) :: last, before
+      decay = 1
+      associate (n => size(self%at, 2))
+         if (n < most_periods + 2) return
+         last = maxval(abs(self%at(:, n) - self%at(:, n - 1)))
+         before = maxval(abs(self%at(:, n - most_periods) - self%at(:, n - most_periods - 1)))
+      end associate
+      if (last < before) decay = (last/before)**(1.0_wp/most_periods)
+   end function decay
+
    !> Whether the march repeats after a number of periods.
    pure logical function repeats(self, periods)
       class(march_repetition_type), intent(in) :: self
@@ -353,7 +396,7 @@ contains
       repeats = self%change(periods) < small
    end function repeats
 
-   !> Why there is no orbit of one period, which takes this number of revolutions.
+   !> Why there is no orbit of one period, which takes this number of revolutions; empty where the march repeats it.
    function cause(self, revolutions)
       class(march_repetition_type), intent(in) :: self
       integer, intent(in) :: revolutions
@@ -362,7 +405,7 @@ contains
       integer :: k, worst
       cause = ''
       associate (n => size(self%at, 2))
-         if (n < most_periods + looked_at) return
+         if (n < most_periods + looked_at .or. self%repeats(1)) return
          do k = 2, most_periods
             if (.not. self%repeats(k)) cycle
             cause = 'the march repeats after '//to_text(k)//' periods: try periodic%revolutions = ' &
