@@ -24,6 +24,7 @@ program test_elimination_film
    end do
    if (runs('empty_film')) call empty_film()
    if (runs('many_columns')) call many_columns()
+   if (runs('rounds')) call rounds()
    if (runs('highest')) call highest()
    call report()
 
@@ -124,6 +125,26 @@ contains
       call expect(fine%status == film_ok, 'the cavitation settles')
       call expect(deviation(coarse%force, fine%force) < 2e-3_wp, 'where it does on fewer columns')
    end subroutine many_columns
+
+   !> A film that diverges at its trailing edge ends beyond the cells that are left of the whole one. It grows to where
+   !> it ends in a few rounds; by one column a round it would take up to 40.
+   subroutine rounds()
+      type(elimination_film_type) :: film
+      type(film_counters) :: counters
+      type(film_response) :: r
+      integer :: k, most
+      most = 0
+      film = new_elimination_film(paper_pad(), 160, 10)
+      do k = 1, 9
+         counters%passes = 0
+         call film%start_from()
+         associate (motion => film_motion(clearance*[0.0_wp, 0.08_wp*k]))
+            call film%evaluate(motion, paper_oil, speed, .true., .false., counters, r)
+         end associate
+         most = max(most, int(counters%passes))
+      end do
+      call expect(most <= 8, 'rounds of a film at most: '//to_text(most))
+   end subroutine rounds
 
    !> A field that is a parabola along the arc, with its top between the middles of columns of any widths, and across
    !> the width an even polynomial of the degree that the rows allow: its top comes from its means to rounding. From

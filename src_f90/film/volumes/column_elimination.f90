@@ -180,6 +180,7 @@ contains
          per_pivot = 1/block(i, i)
          pivot_column = block(:, i)
          do j = 1, rows
+            if (.not. mask(j) > 0) cycle
             factor = pivot_column(j)*per_pivot
             !$omp simd
             do k = 1, m

@@ -17,8 +17,9 @@ module elimination_film
    private
    public :: elimination_film_type, new_elimination_film
 
-   !> Rounds at most, and those for each column: a film that reforms may grow by one column a round.
-   integer, parameter :: max_rounds = 100, rounds_a_column = 2
+   !> Rounds at most, and those for each column: a film that reforms may grow by one column a round. In the first of
+   !> them it grows by more (update_film); on its way to where it ends it may then grow too far, which the others mend.
+   integer, parameter :: max_rounds = 100, rounds_a_column = 2, rounds_of_growth = 4
    !> Pressure over the maximum below which a cell counts as empty: rounding must not decide.
    real(wp), parameter :: rounding = 1e-12_wp
 
@@ -74,7 +75,7 @@ contains
             call self%solve(-grid%source, -grid%edge_source, self%pressure)
             counters%passes = counters%passes + 1
             changed = .false.
-            if (cavitates) call update_film(self, changed)
+            if (cavitates) call update_film(self, round <= rounds_of_growth, changed)
             if (.not. changed) exit
          end do
          if (changed) response%status = film_not_converged
@@ -231,14 +232,16 @@ contains
 
    !> Takes cells below the cavitation pressure out of the film, and puts those back that would fill. A film
    !> whose pressure falls below that at its edges does so in a column with a source > 0; so the other whole
-   !> columns need no look.
-   pure subroutine update_film(self, changed)
+   !> columns need no look. `grows_far`: what flows into a cell beyond what fills it is handed on to the next column,
+   !> away from the film, as a flow changes little along the short way to where the film ends.
+   pure subroutine update_film(self, grows_far, changed)
       type(elimination_film_type), intent(inout) :: self
+      logical, intent(in) :: grows_far
       logical, intent(out) :: changed
       !> Pressure by rows, scaled, with a rim; on a fine grid too much for the stack.
       real(wp), allocatable :: p(:, :)
-      real(wp) :: floor, inflow, limit, new, changes
-      integer :: i, k, m
+      real(wp) :: floor, inflow, limit, new, changes, surplus(self%basis%m)
+      integer :: i, k, m, ends(2)
       m = self%basis%m
       allocate (p(0:m + 1, 0:self%grid%columns + 1))
       associate (grid => self%grid, rows => self%grid%rows, first => self%first, last => self%last, &
@@ -259,15 +262,19 @@ contains
          end do
          floor = -rounding*floor
          changes = 0
-         do i = 1, grid%columns
+         surplus = 0
+         ! a film that diverges at the trailing edge ends there
+         ends = merge([grid%columns, 1], [1, grid%columns], grid%source(1) > 0)
+         do i = ends(1), ends(2), sign(1, ends(2) - ends(1))
             if (.not. grid%source(i) > 0 .and. (i < first - 1 .or. i > last + 1)) cycle
             limit = -floor*(grid%along(i - 1) + grid%along(i) + 2*grid%beside(i))
             !$omp simd private(inflow, new) reduction(+:changes)
             do k = 1, rows
                inflow = grid%along(i - 1)*p(k, i - 1) + grid%along(i)*p(k, i + 1) &
                   & - grid%beside(i)*(across(k - 1)*p(k - 1, i) + across(k)*p(k + 1, i)) &
-                  & - root(k)*(grid%source(i) + merge(grid%edge_source(i), 0.0_wp, k == rows))
+                  & - root(k)*(grid%source(i) + merge(grid%edge_source(i), 0.0_wp, k == rows)) + surplus(k)
                new = merge(1.0_wp, 0.0_wp, merge(p(k, i) >= floor, inflow > limit, self%film(k, i) > 0))
+               surplus(k) = merge(inflow, 0.0_wp, grows_far .and. new > self%film(k, i))
                changes = changes + abs(new - self%film(k, i))
                self%film(k, i) = new
             end do

@@ -41,6 +41,8 @@ module volume_equations
       type(grid_modes_type) :: basis
       !> Cells that belong to the film: 1, the others 0 (row, column).
       real(wp), allocatable :: film(:, :)
+      !> How many cells of each column belong to the film, as eliminated last where it cavitates.
+      real(wp), allocatable :: filled(:)
       !> Columns that cavitate touches: first to last; none: first = columns + 1.
       integer :: first, last
       !> Reciprocal pivots outside them (mode, column); inverse blocks inside (row, row, column).
@@ -61,7 +63,7 @@ contains
       self%grid = grid
       self%basis = new_grid_modes(grid)
       associate (m => self%basis%m, rows => grid%rows, columns => grid%columns)
-         allocate (self%film(m, columns), source=0.0_wp)
+         allocate (self%film(m, columns), self%filled(columns), source=0.0_wp)
          self%film(:rows, :) = 1
          allocate (self%per_pivot(m, columns), self%block(m, rows, columns), source=0.0_wp)
       end associate
@@ -74,19 +76,16 @@ contains
       logical, intent(in) :: cavitates
       !> Added to the diagonal beside cavitated cells, (row, column).
       real(wp), intent(in), optional :: more(:, :)
-      logical :: touched(self%grid%columns)
       integer :: i, j, m
       m = self%basis%m
       associate (grid => self%grid, c => self%grid%along, n => self%grid%columns, rows => self%grid%rows)
          self%first = n + 1
          self%last = n
          if (cavitates) then
-            do i = 1, n
-               touched(i) = any(self%film(:rows, i) <= 0)
-            end do
-            if (any(touched)) then
-               self%first = findloc(touched, .true., dim=1)
-               self%last = findloc(touched, .true., dim=1, back=.true.)
+            self%filled = sum(self%film, dim=1)
+            if (any(self%filled < rows)) then
+               self%first = findloc(self%filled < rows, .true., dim=1)
+               self%last = findloc(self%filled < rows, .true., dim=1, back=.true.)
                if (present(more)) self%first = max(1, self%first - 1)
                if (present(more)) self%last = min(n, self%last + 1)
             end if
@@ -94,13 +93,11 @@ contains
          call factor_chain(m, n, 1, self%first - 1, c, grid%beside, self%basis%eigenvalue, self%per_pivot)
          call factor_chain(m, n, n, self%last + 1, c, grid%beside, self%basis%eigenvalue, self%per_pivot)
          do i = self%first, self%last
+            if (.not. self%filled(i) > 0) cycle
             associate (block => self%block(:, :, i))
-               if (.not. any(self%film(:rows, i) > 0)) then
-                  block = 0
-                  cycle
-               end if
                if (i > self%first) then
-                  block = -c(i - 1)**2*self%block(:, :, i - 1)
+                  block = 0
+                  if (self%filled(i - 1) > 0) block = -c(i - 1)**2*self%block(:, :, i - 1)
                else if (i > 1) then
                   block = self%basis%in_rows(-c(i - 1)**2*self%per_pivot(:, i - 1))
                else
@@ -137,6 +134,8 @@ contains
          call solve_chain(m, n, n, last + 1, c, self%per_pivot, load, self%basis%uniform, edge_load, &
             & self%basis%at_edge, x)
          do i = first, last
+            x(:, i) = 0
+            if (.not. self%filled(i) > 0) cycle
             next = load(i)*self%basis%root
             next(rows) = next(rows) + edge_load(i)*self%basis%root(rows)
             if (i > first) then
@@ -148,7 +147,7 @@ contains
             x(:, i) = apply(m, rows, self%block(:, :, i), next)
          end do
          do i = last - 1, first, -1
-            x(:, i) = x(:, i) + c(i)*apply(m, rows, self%block(:, :, i), x(:, i + 1))
+            if (self%filled(i) > 0) x(:, i) = x(:, i) + c(i)*apply(m, rows, self%block(:, :, i), x(:, i + 1))
          end do
          next = 0
          if (first <= n) next = apply(m, rows, self%basis%transposed, x(:, first))
