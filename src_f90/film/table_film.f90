@@ -149,6 +149,7 @@ contains
       if (response%from_tables) then
          if (self%counters%fourier == solved) self%counters%looked_up = self%counters%looked_up + 1
       else
+         response%lacks_pressures = .false.
          call self%direct_film_type%solve(i, motion, oil, speed, want_derivatives, response)
       end if
    end subroutine solve

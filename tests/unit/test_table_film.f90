@@ -28,6 +28,7 @@ program test_table_film
       if (runs('repeats')) call repeats(i)
    end do
    if (runs('unequal_pressures')) call unequal_pressures()
+   if (runs('solved_once')) call solved_once()
    if (runs('ambient')) call ambient()
    if (runs('alike')) call alike()
    if (runs('closed')) call closed()
@@ -273,6 +274,21 @@ contains
          end do
       end do
    end subroutine unequal_pressures
+
+   !> A film that nearly closes between its edges has no cell: it is solved, and its pressures with it.
+   subroutine solved_once()
+      type(table_film_type) :: film
+      type(film_response) :: found(1), again(1)
+      film = tables([paper_pad()], reynolds)
+      associate (motion => film_motion(clearance*[0.0_wp, 0.999_wp]))
+         call film%evaluate([motion], [paper_oil], speed, .true., found)
+         again = found
+         call film%take_pressures([motion], [paper_oil], speed, again)
+      end associate
+      call expect(film%counters%volumes == 1 .and. film%counters%nodes == 0, 'it is solved once')
+      call expect(again(1)%max_pressure > 0 .and. .not. abs(again(1)%max_pressure - found(1)%max_pressure) > 0, &
+         & 'with its pressures')
+   end subroutine solved_once
 
    !> The same pressure all around and inside, of any size, only presses from outside.
    subroutine ambient()
