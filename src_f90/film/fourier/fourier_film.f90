@@ -232,21 +232,11 @@ contains
       type(film_response), intent(inout) :: response
       !> Cavitation pressure less pressure, as q, and weights of what is missing, by point and node.
       real(wp), dimension(gauss, 0:pad%n) :: deficit, lost
-      real(wp) :: floor, missing, p(gauss), weights(0:pad%n)
+      real(wp) :: floor, missing, weights(0:pad%n)
       integer :: i, b, k, l, point
       associate (n => pad%n)
          floor = pad%gap%cavitation_pressure - pad%gap%ambient_pressure
-         deficit(:, 0) = floor*pad%lift(0)
-         deficit(:, n) = (floor - rise)*pad%lift(n)
-         do i = 1, n - 1
-            p = -pad%point_tail(:gauss)*pad%narrow(i)
-            do b = 1, pad%axial%blocks
-               do k = 1, simd_width
-                  p = p + pad%across(:, simd_width*(b - 1) + k)*pad%q(k, i, b)
-               end do
-            end do
-            deficit(:, i) = floor*pad%lift(i) - p
-         end do
+         call find_deficits(pad, rise, floor, deficit)
          do point = 1, gauss
             call clipped_weights(n, deficit(point, :), weights)
             lost(point, :) = (pad%d*point_weights(point)*pad%gap%axial_length)*weights
@@ -259,6 +249,7 @@ contains
          if (.not. want_shares) return
          pad%shares_are_stale = .true.
          do i = 0, n
+            if (.not. any(abs(lost(:, i)) > 0)) cycle
             lost(:, i) = lost(:, i)/(pad%d*pad%weight(i))
             pad%floor_share(i) = sum(lost(:, i))*floor
             pad%narrow_share(i) = pad%narrow_share(i) - dot_product(lost(:, i), pad%point_tail(:gauss))
@@ -271,6 +262,42 @@ contains
          end do
       end associate
    end subroutine cavitation
+
+   !> Cavitation pressure, `floor` above ambient, less pressure, as q, at Gauss's points by node. What lies below the
+   !> cavitation pressure is lowest where s > 0, and reaches from there to other nodes; those that are farther than the
+   !> two that weights follow from (clipped_weights) get some number below 0.
+   pure subroutine find_deficits(pad, rise, floor, deficit)
+      type(fourier_pad_type), intent(in) :: pad
+      real(wp), intent(in) :: rise, floor
+      real(wp), intent(out) :: deficit(gauss, 0:pad%n)
+      integer :: i, last
+      deficit = -1
+      deficit(:, 0) = floor*pad%lift(0)
+      deficit(:, pad%n) = (floor - rise)*pad%lift(pad%n)
+      last = -pad%n
+      do i = 1, pad%n - 1
+         if (pad%narrow(i) > 0 .or. i <= last + 2) deficit(:, i) = deficit_at(i)
+         if (any(deficit(:, i) > 0)) last = i
+      end do
+      last = 2*pad%n
+      do i = pad%n - 1, 1, -1
+         if (.not. pad%narrow(i) > 0 .and. i >= last - 2) deficit(:, i) = deficit_at(i)
+         if (any(deficit(:, i) > 0)) last = i
+      end do
+   contains
+      pure function deficit_at(i)
+         integer, intent(in) :: i
+         real(wp) :: deficit_at(gauss), p(gauss)
+         integer :: b, k
+         p = -pad%point_tail(:gauss)*pad%narrow(i)
+         do b = 1, pad%axial%blocks
+            do k = 1, simd_width
+               p = p + pad%across(:, simd_width*(b - 1) + k)*pad%q(k, i, b)
+            end do
+         end do
+         deficit_at = floor*pad%lift(i) - p
+      end function deficit_at
+   end subroutine find_deficits
 
    !> The shares of a film without cavitation.
    pure subroutine whole_shares(pad)
