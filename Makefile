@@ -132,9 +132,11 @@ short := equations_of_motion newton_system bordered_system rigid_rotor state_lay
          $(filter-out marching sor_film local_cavitation volume_flows fourier_field,\
          $(call modules_of,$(addprefix src_f90/,film/tables film/common film/volumes film/fourier pivot bearing integrate)))
 heaped := $(filter-out $(short),$(basename $(notdir $(sources))))
-# modules that compute little, and what their FFLAGS have besides; not those that a march calls at each step or sample
+# modules that compute little, and what their FFLAGS have besides; not those that a march calls at each step or sample.
+# Tests, which take longer to compile than the modules under test, have it with the checks alone.
 plain := $(filter-out excitations growing_file march_results summary_group recorder,\
-         $(call modules_of,$(addprefix src_f90/,system case input storage results app equilibrium branches)))
+         $(call modules_of,$(addprefix src_f90/,system case input storage results app equilibrium branches)) \
+         $(if $(filter debug,$(MODE)),$(call modules_of,tests)))
 plain_flags := $(if $(filter file override,$(origin FFLAGS)),$($(family).plain_$(if $(filter debug,$(MODE)),debug,release)))
 test_names := $(basename $(notdir $(filter tests/unit/test_% tests/physics/test_%,$(sources))))
 test_programs := $(addprefix $(B)/tests/,$(test_names))
