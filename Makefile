@@ -177,7 +177,7 @@ venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
 .PHONY: help run build deps python again wheel test test-slurm test-debian13 stress realistic fuzz faults \
-        bench speed paper site unit test-programs lint format docs install uninstall clean
+        bench speed paper site site-if-mkdocs unit test-programs debug-programs lint format docs install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
 
@@ -214,11 +214,17 @@ run: build python
 	   $(venv_python) $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; \
 	   echo "picture: build/run/$$plot.png"; done
 
-test: build python $(VENV)/compiled build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B)/stress/global_search
+test: build python $(VENV)/compiled build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B)/stress/global_search \
+      debug-programs site-if-mkdocs
+	@TILTPAD="$$PWD/$(B)/bin/tiltpad" $(venv_python) tests/run_all.py $(addprefix build/debug/tests/,$(test_names))
+
+# the debug build and the site, while other parts still load their packages
+debug-programs: | build/deps-checked
 	@$(MAKE) --no-print-directory MODE=debug test-programs build/debug/fuzz/fuzz_input
+
+site-if-mkdocs: | build/deps-checked
 	@if $(MAKE) --no-print-directory build/site/ready; then $(MAKE) --no-print-directory site; \
 	   else echo 'no mkdocs: the tests of the site are skipped'; fi
-	@TILTPAD="$$PWD/$(B)/bin/tiltpad" $(venv_python) tests/run_all.py $(addprefix build/debug/tests/,$(test_names))
 
 # starts munged, slurmctld and slurmd in a temporary folder, and stops them
 test-slurm: build python build/deps-slurm
