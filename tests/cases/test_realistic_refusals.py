@@ -4,6 +4,7 @@ and with a start from which it marches."""
 import re
 import shlex
 import sys
+from functools import cache
 from pathlib import Path
 
 import h5py
@@ -67,6 +68,22 @@ def test_film_temperatures_beside_a_fold(tiltpad, tmp_path):
     assert abs(one["maximum_temperature"] - other["maximum_temperature"]).max() < 1
 
 
+@pytest.fixture(scope="module")
+def refused(tiltpad, tmp_path_factory):
+    """refused(202): the folder of a bearing with film temperatures, its speed, the line that refuses it."""
+
+    @cache
+    def equilibrium(number):
+        folder = tmp_path_factory.mktemp("refused")
+        case = draw(SEED, number)
+        case["case"]["task"] = "equilibrium"
+        case["thermal"]["model"] = "film"
+        (folder / "case.nml").write_text(text(case))
+        return folder, case["operation"]["speed_rpm"], tiltpad("case.nml", cwd=folder, status=2).stderr
+
+    return equilibrium
+
+
 @pytest.mark.parametrize(
     ("number", "words"),
     [
@@ -74,30 +91,22 @@ def test_film_temperatures_beside_a_fold(tiltpad, tmp_path):
         (271, r"no equilibrium found at 3949\.07 rpm: .*try more preload"),
     ],
 )
-def test_film_temperatures_without_an_equilibrium(tiltpad, tmp_path, number, words):
+def test_film_temperatures_without_an_equilibrium(tiltpad, refused, number, words):
     """Unloaded pads on pivots in their middle: there is one with a temperature for each, and with preload."""
-    case = draw(SEED, number)
-    case["case"]["task"] = "equilibrium"
-    case["thermal"]["model"] = "film"
-    (tmp_path / "case.nml").write_text(text(case))
-    message = tiltpad("case.nml", cwd=tmp_path, status=2).stderr
+    folder, _, message = refused(number)
     assert re.search(words, message), message
     assert "; thermal%model = 'pad' has an equilibrium" in message
     for setting in ("thermal%model='pad'", "bearing%preload=0.2"):
-        tiltpad("case.nml", "-q", "--overwrite", overrides=(setting,), cwd=tmp_path, status=0)
+        tiltpad("case.nml", "-q", "--overwrite", overrides=(setting,), cwd=folder, status=0)
 
 
-def test_a_branch_shows_up_to_which_speed_films_have_temperatures(tiltpad, tmp_path):
+def test_a_branch_shows_up_to_which_speed_films_have_temperatures(tiltpad, refused):
     """That of the refusal of bearing 202 ends well below its speed."""
-    case = draw(SEED, 202)
-    case["case"]["task"] = "equilibrium"
-    case["thermal"]["model"] = "film"
-    (tmp_path / "case.nml").write_text(text(case))
-    refusal = tiltpad("case.nml", cwd=tmp_path, status=2).stderr
+    folder, speed, refusal = refused(202)
     _, settings = refusal.split("a branch of equilibria shows how far there are some: ")
     # it ends in a fold, or is lost beside one
-    tiltpad("case.nml", *shlex.split(settings), "-q", "--output", "branch.h5", cwd=tmp_path)
-    with h5py.File(tmp_path / "branch.h5") as file:
+    tiltpad("case.nml", *shlex.split(settings), "-q", "--output", "branch.h5", cwd=folder)
+    with h5py.File(folder / "branch.h5") as file:
         speeds = file["parameter"][()]
     assert len(speeds) > 10
-    assert 0.6 < speeds.max() / case["operation"]["speed_rpm"] < 0.9
+    assert 0.6 < speeds.max() / speed < 0.9
