@@ -65,6 +65,14 @@ contains
       path = over_orbit(model, found, station, n)
    end function path_of
 
+   !> That of the uneven rotor's disc, sought once for all cases.
+   function uneven_path() result(path)
+      real(wp) :: path(2, 0:n - 1)
+      real(wp), allocatable, save :: found(:, :)
+      if (.not. allocated(found)) found = path_of(uneven_rotor(), 6)
+      path = found
+   end function uneven_path
+
    !> Expects that two paths, um, are the same but for errors of orbits.
    subroutine expect_alike(path, other, what)
       real(wp), intent(in) :: path(:, :), other(:, :)
@@ -80,7 +88,7 @@ contains
       real(wp) :: path(2, 0:n - 1)
       integer :: sections
       inputs = uneven_rotor()
-      path = path_of(inputs, 6)
+      path = uneven_path()
       other = inputs
       other%bearings(1) = inputs%bearings(2)
       other%bearings(2) = inputs%bearings(1)
@@ -105,7 +113,7 @@ contains
       type(case_type) :: inputs
       real(wp) :: path(2, 0:n - 1), turned(2, 0:n - 1)
       inputs = uneven_rotor()
-      path = path_of(inputs, 6)
+      path = uneven_path()
       inputs%rotor%elastic%unbalances = spread(inputs%rotor%elastic%unbalances(1), 1, 2)
       inputs%rotor%elastic%unbalances%angle_deg = [60.0_wp, -60.0_wp]
       call expect_alike(path, path_of(inputs, 6), 'two unbalances')
@@ -121,7 +129,7 @@ contains
       real(wp), parameter :: offset(2) = [300e-6_wp, -200e-6_wp]
       integer :: b
       inputs = uneven_rotor()
-      path = path_of(inputs, 6)
+      path = uneven_path()
       do b = 1, 2
          inputs%bearings(b)%offset = offset
       end do
