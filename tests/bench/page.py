@@ -197,7 +197,9 @@ is wall time without sampling, divided by the number of right-hand sides.
 ## Growth
 
 How time and memory grow with the size of a task. The power is that of a law through the two largest sizes; 1
-is linear. Steps are given where a task marches: where they grow, too, the motion is another one.
+is linear. Steps are given where a task marches: where they grow, too, the motion is another one. On many
+bearings it is LAPACK's eigenvalues of the whole machine that grow faster, with the cube: one search says
+whether the equilibrium is stable, one at most which orders of BDF are.
 
 {growth}
 
