@@ -269,10 +269,12 @@ bench: build python $(VENV)/ready-bench $(ross)/ready $(B)/bench/film_bench
 # OLD=COMMIT is built in a folder of its own, once, and compared with what is here, in pairs of runs
 speed: build python
 	@test -n "$$OLD" || { echo 'make speed OLD=COMMIT: which commit to compare with' >&2; exit 2; }
-	commit=$$(git rev-parse --verify "$$OLD^{commit}") && older=build/speed/$$commit && mkdir -p $$older && \
+	commit=$$(git rev-parse --short=12 --verify "$$OLD^{commit}") && older=build/speed/$$commit && mkdir -p $$older && \
 	   { test -e $$older/Makefile || git archive $$commit | tar -x -C $$older; } && \
 	   env -u MAKELEVEL -u MAKEFLAGS $(MAKE) -C $$older build && \
-	   $(venv_python) tests/bench/speed.py $$older/build/bin/tiltpad $(B)/bin/tiltpad
+	   mkdir -p $(B)/bench && \
+	   $(venv_python) tests/bench/speed.py $$older/build/bin/tiltpad $(B)/bin/tiltpad --commit $$commit \
+	   --keep $(B)/bench/speed.txt
 
 # counterparts of the paper's figures, and its claims checked
 paper: build python

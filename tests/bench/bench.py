@@ -107,7 +107,9 @@ def main() -> None:
         writer.writerow([each.name for each in fields(Row)])
         writer.writerows(list(asdict(row).values()) for part in rows.values() for row in part)
     draw(rows, options.docs / "images")
-    (options.docs / "benchmarks.md").write_text(page(rows, described(found)))
+    speed = options.folder / "speed.txt"
+    text = page(rows, described(found), speed.read_text() if speed.exists() else "")
+    (options.docs / "benchmarks.md").write_text(text)
 
 
 if __name__ == "__main__":

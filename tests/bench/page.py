@@ -210,6 +210,13 @@ change of this program gets.
 
 {limits}
 
+## An older commit beside it
+
+The last comparison by `make speed OLD=COMMIT`: processor times in pairs and instructions, over those of the
+older commit; its noise is that of the older program against itself.
+
+{speed}
+
 ## Peers
 
 ![Wall seconds per second of simulated time](images/bench_peers.png)
@@ -276,8 +283,8 @@ this film.
 """
 
 
-def page(rows: dict[str, list[Row]], machine: str) -> str:
-    """The whole page."""
+def page(rows: dict[str, list[Row]], machine: str, speed: str) -> str:
+    """The whole page; `speed` is what make speed printed last, if it did."""
     return PAGE.format(
         machine=machine,
         allowed=settings.ALLOWED,
@@ -320,6 +327,7 @@ def page(rows: dict[str, list[Row]], machine: str) -> str:
         pads_words=costs.pads_words(rows["pads"]),
         growth=growth.grown(rows["growth"]),
         limits=limits.over(rows["limits"], rows["kernels"]),
+        speed=f"```text\n{speed}```" if speed else tables.NOT_RUN,
         peers=costs.peers(rows["peers"]),
         peers_words=costs.peers_words(rows["peers"]),
         map_speeds=len(maps.SPEEDS),

@@ -9,6 +9,7 @@ where a case is slower, where the new program alone fails, or where the old prog
 import argparse
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
@@ -50,20 +51,36 @@ def main() -> int:
     parser.add_argument("old", type=Path)
     parser.add_argument("new", type=Path)
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--commit", default="", help="of the old program, if it does not know it")
+    parser.add_argument("--keep", type=Path, help="file for what is printed, which make bench shows")
     options = parser.parse_args()
     count = counter()
-    print(f"{'case':20} {'time':>6} {'noise':>6} {'instructions':>13} {'s':>8}")
+    lines: list[str] = []
+
+    def say(line: str) -> None:
+        print(line, flush=True)
+        lines.append(line)
+
+    say(f"{version(options.new)} against {options.commit or version(options.old)}")
+    say(f"{'case':20} {'time':>6} {'noise':>6} {'instructions':>13} {'s':>8}")
     verdicts: list[bool | None] = []
     with tempfile.TemporaryDirectory() as folder:
         for name, (case, *changes) in CASES.items():
             settings = (word for each in changes for word in ("--set", each))
             command = [ROOT / "input" / case, "--quiet", *settings]
             line, bad = compare(options.old, options.new, command, Path(folder), options.rounds, count)
-            print(f"{name:20} {line}{'  slower' if bad else ''}", flush=True)
+            say(f"{name:20} {line}{'  slower' if bad else ''}")
             verdicts.append(bad)
     slower, missing = verdicts.count(True), verdicts.count(None)
-    print(f"{slower} of {len(verdicts) - missing} cases are slower; {missing} are not compared")
+    say(f"{slower} of {len(verdicts) - missing} cases are slower; {missing} are not compared")
+    if options.keep:
+        options.keep.write_text("\n".join(lines) + "\n")
     return 1 if slower or missing == len(verdicts) else 0
+
+
+def version(program: Path) -> str:
+    done = subprocess.run([program, "--version"], text=True, capture_output=True, check=True)
+    return done.stdout.strip()
 
 
 def compare(
