@@ -160,7 +160,7 @@ class Cluster:
             env=self.environment,
             text=True,
             capture_output=True,
-            timeout=60,
+            timeout=300,
         )
 
     def ask(self, *command: str | Path, cwd: Path | None = None) -> str:
