@@ -196,7 +196,10 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
 
 @contextmanager
 def signals_stop() -> Iterator[None]:
-    """Lets the signals that end a process stop the work as Ctrl-C does, so that nothing is left of it."""
+    """Lets the signals that end a process stop the work as Ctrl-C does, so that nothing is left of it.
+
+    What Python says where that of a handler is lost (writing.look) is no news.
+    """
 
     def stop(number: int, _: object) -> NoReturn:
         writing.came.append(number)
@@ -204,10 +207,13 @@ def signals_stop() -> Iterator[None]:
 
     ending = (each for each in (signal.SIGTERM, signal.SIGHUP) if signal.getsignal(each) == signal.SIG_DFL)
     former = {each: signal.signal(each, stop) for each in ending}
+    told = sys.unraisablehook
+    sys.unraisablehook = lambda what: None if writing.came else told(what)
     try:
         yield
         writing.look()
     finally:
+        sys.unraisablehook = told
         writing.came.clear()
         for each, handler in former.items():
             signal.signal(each, handler)

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from tiltpad.files.archive import RunError
+from tiltpad.files.writing import look
 
 Part = TypeVar("Part")
 Result = TypeVar("Result")
@@ -74,6 +75,8 @@ def side_by_side(work: Callable[[Part], Result], parts: Iterable[Part]) -> list[
     """
     with ExitStack() as stack:
         results = [started(stack, work, part) for part in parts]
+        # an interrupt may have come in the end of an object, where it is lost
+        look()
         return [each.recv() for each in results]
 
 
