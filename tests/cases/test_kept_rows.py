@@ -142,7 +142,8 @@ def test_very_many_starts(tiltpad, case, loaded):
         return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
     few = work(5_000)
-    assert work(40_000) < 14 * few
+    # in quadratic time it was 33 times the work
+    assert work(40_000) < 20 * few
     environment = loaded(AT_A_REQUEST, SIGNAL=str(int(signal.SIGTERM)), REQUEST="200000")
     done = tiltpad("case.nml", "-q", "--block", "2/40000", cwd=folder, env=environment, status=4)
     assert done.stderr.endswith("; no run was started\n")

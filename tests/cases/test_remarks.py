@@ -117,9 +117,10 @@ def test_a_march_adds_those_of_its_motion(run, tmp_path, tiltpad):
     assert any("without equilibrium; the march starts without tilt" in line for line in said)
 
 
-def test_the_sommerfeld_number_says_its_viscosity(run, tmp_path):
-    assert "(19.00 mPa s)" in run(())
-    assert "mPa s of the supply at 40 C)" in run(WARM)
+def test_the_sommerfeld_number_says_its_viscosity_and_clearance(run, tmp_path):
+    assert "(19.00 mPa s, c_r 80 um as assembled)" in run(())
+    assert "(19.00 mPa s)" in run(("bearing%preload=0",))
+    assert "mPa s of the supply at 40 C, c_r " in run(WARM)
     with h5py.File(tmp_path / "here.h5") as file:
         # the same words in every run, as it is one column of a study
         about = file["equilibrium/sommerfeld_number"].attrs["long_name"]
