@@ -11,9 +11,10 @@ module namelist_text
    private
    public :: parse_namelist, parse_override, read_text, parse_case
 
-   !> Maximum number of groups, assignments, or values of one assignment, and maximum length of a name.
-   integer, parameter :: most_items = 1000, longest_name = 60
-   character(len=*), parameter :: too_many = ': more than 1000 '
+   !> Maximum number of groups or of values of one assignment, of assignments (the resolved input of a machine has some
+   !> eighty for each bearing), and maximum length of a name.
+   integer, parameter :: most_items = 1000, most_assignments = 4000, longest_name = 60
+   character(len=*), parameter :: too_many = ': more than 1000 ', too_many_given = ': more than 4000 values given'
    character(len=*), parameter :: name_characters = 'abcdefghijklmnopqrstuvwxyz_0123456789'
 
    !> Longest input file, bytes.
@@ -80,7 +81,7 @@ contains
          allocate (own(0))
          call parse_group(scan, group, own, error)
          if (.not. allocated(error)) call name_group()
-         call require(size(parsed%assignments) + size(own) <= most_items, group%origin//too_many//'values given', error)
+         call require(size(parsed%assignments) + size(own) <= most_assignments, group%origin//too_many_given, error)
          if (allocated(error)) return
          parsed%groups = [parsed%groups, group]
          parsed%assignments = [parsed%assignments, own]
@@ -180,7 +181,7 @@ contains
             if (undoes(new, assignments(i))) call refuse(place_of(new)//' is given twice, first at ' &
                & //assignments(i)%origin, error)
          end do
-         call require(size(assignments) < most_items, new%origin//too_many//'values given', error)
+         call require(size(assignments) < most_assignments, new%origin//too_many_given, error)
          if (allocated(error)) return
          assignments = [assignments, new]
       end do

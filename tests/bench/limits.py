@@ -4,7 +4,6 @@ import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from production import copying
 from runner import Row, Runner, launch
 from settings import MAIN, ONE_FILMS, ONE_SOLVER
 from tables import short, table
@@ -18,7 +17,6 @@ NOW, LIMIT = "now", "limit"
 #: What is measured, by its name: what users wait for, and what the limit is.
 MEASURED = {
     "march": (f"march of 2 s (`{MAIN[1].name}`), its summary alone", "its films, each a look into a table"),
-    "samples": ("its samples and their file", "a plain copy of the file"),
     "equilibrium": ("task `equilibrium`", "the start of the program"),
     "plot": ("`tiltpad-plot orbit` of this march", "Python and its libraries, loaded"),
     "report": ("`tiltpad-report` of it", "Python and its libraries, loaded"),
@@ -30,9 +28,7 @@ def limits(runner: Runner) -> Iterator[Row]:
     march, path = runner.run(MAIN[1], NOW, "march", SUMMARY)
     path.unlink()
     yield march
-    whole, path = runner.run(MAIN[1], "all", "march")
-    yield Row(runner.part, "samples", NOW, "", wall_seconds=whole.wall_seconds - march.wall_seconds)
-    yield Row(runner.part, "samples", LIMIT, "", wall_seconds=copying(path))
+    _, path = runner.run(MAIN[1], "all", "march", timed=False)
     equilibrium, found = runner.run(MAIN[1], NOW, "equilibrium", ("case%task=equilibrium",))
     found.unlink()
     equilibrium.case = "equilibrium"

@@ -113,6 +113,8 @@ class Runner:
         row = Row(self.part, case.name, group, setting, " ".join(overrides))
         done, spent, left = launch(command, core), 0.0, REPEATS - 1 if timed and repeat else 0
         while left and done.status == 0 and spent + done.seconds < SHORT:
+            # from nothing: a study would go on from its rows
+            path.unlink()
             again = launch(command, core)
             done = min(done, again, key=lambda each: each.seconds)
             spent, left = spent + again.seconds, left - 1

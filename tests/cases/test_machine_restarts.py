@@ -240,3 +240,15 @@ def test_states_of_modes_with_other_signs(start, tiltpad, orbit, tmp_path):
             del file["rotor/mode_signs"]
     assert "had other signs" in begun(tiltpad, tmp_path, MACHINE, status=3).stderr
     assert "had other signs" in tiltpad("--resume", "case.h5", cwd=tmp_path, status=3).stderr
+
+
+def test_the_result_of_the_largest_machine_is_read_again(tiltpad, tmp_path):
+    """Twenty bearings, each with all its variables in the resolved input, which has 1600 values."""
+    bearings = "".join(f"&bearing name='b{k}', station={4 * k + 2} /\n" for k in range(20))
+    text = f"&operation duration=0.005 /\n&shaft length=78*0.5, diameter=78*0.3 /\n{bearings}"
+    (tmp_path / "case.nml").write_text(text)
+    for _ in range(2):
+        tiltpad("case.nml", "-q", "--overwrite", cwd=tmp_path, status=0)
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert file.attrs["input"].count("=") > 1500
+        assert len(file["bearings"]) == 20
