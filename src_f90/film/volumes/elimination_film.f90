@@ -17,8 +17,8 @@ module elimination_film
    private
    public :: elimination_film_type, new_elimination_film
 
-   !> Rounds at most, and those for each column: a film that reforms may grow by one column a round. In the first of
-   !> them it grows by more (update_film); on its way to where it ends it may then grow too far, which the others mend.
+   !> Rounds at most, and those for each column: a film that reforms may grow by one column a round. One that begins
+   !> whole grows by more in the first of them (update_film); it may then grow too far, which the others mend.
    integer, parameter :: max_rounds = 100, rounds_a_column = 2, rounds_of_growth = 4
    !> Pressure over the maximum below which a cell counts as empty: rounding must not decide.
    real(wp), parameter :: rounding = 1e-12_wp
@@ -67,15 +67,16 @@ contains
       type(film_counters), intent(inout) :: counters
       type(film_response), intent(out) :: response
       integer :: round
-      logical :: changed
+      logical :: changed, whole
       associate (grid => self%grid)
          call grid%set_motion(motion, oil, speed)
+         whole = all(self%film(:grid%rows, :) > 0)
          do round = 1, max(max_rounds, rounds_a_column*grid%columns)
             call self%eliminate(cavitates)
             call self%solve(-grid%source, -grid%edge_source, self%pressure)
             counters%passes = counters%passes + 1
             changed = .false.
-            if (cavitates) call update_film(self, round <= rounds_of_growth, changed)
+            if (cavitates) call update_film(self, whole .and. round <= rounds_of_growth, changed)
             if (.not. changed) exit
          end do
          if (changed) response%status = film_not_converged
