@@ -198,7 +198,7 @@ def finished(command: str, output: Path | str, work: Callable[[], None]) -> int:
 def signals_stop() -> Iterator[None]:
     """Lets the signals that end a process stop the work as Ctrl-C does, so that nothing is left of it.
 
-    What Python says where that of a handler is lost (writing.look) is no news.
+    Where Python ignores the exception of the handler (writing.look), its message about that is left out.
     """
 
     def stop(number: int, _: object) -> NoReturn:

@@ -134,16 +134,19 @@ def test_very_many_starts(tiltpad, case, loaded):
     """Eight times as many names take no more than some eight times the work; a signal is obeyed meanwhile."""
     folder = case("&start from='file' /\n&sweep file='t.csv' /\n")
 
-    def work(names):
+    def work(names, trial):
         (folder / "t.csv").write_text("start%file\n" + "".join(f"none/{k}.h5\n" for k in range(names)))
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        done = tiltpad("case.nml", "-q", "--block", f"1/{names}", "-o", f"{names}", cwd=folder)
+        done = tiltpad("case.nml", "-q", "--block", f"1/{names}", "-o", f"{names}_{trial}", cwd=folder)
         assert done.returncode == 3
         return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
-    few = work(5_000)
-    # in quadratic time it was 33 times the work
-    assert work(40_000) < 20 * few
+    def more(trial):
+        few = work(5_000, trial)
+        return work(40_000, trial) / few
+
+    # on a busy machine one trial may be dearer; in quadratic time each was 33 times the work
+    assert any(more(trial) < 14 for trial in range(3))
     environment = loaded(AT_A_REQUEST, SIGNAL=str(int(signal.SIGTERM)), REQUEST="200000")
     done = tiltpad("case.nml", "-q", "--block", "2/40000", cwd=folder, env=environment, status=4)
     assert done.stderr.endswith("; no run was started\n")
