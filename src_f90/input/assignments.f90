@@ -6,7 +6,7 @@ module assignments
    use text, only: to_text, shortened, replaced, whole_number
    implicit none (type, external)
    private
-   public :: namelist_type, assignment_type, token_type, put_assignment, undoes, assignment_text, target_text, &
+   public :: namelist_type, assignment_type, token_type, put_assignment, append, undoes, assignment_text, target_text, &
       & place_of, variable_text, value_text, study_group, split_subscript, is_special, read_number, counted, kind_of, &
       & bearing_of, is_counted, may_have_bearing, naming_variable, group_heading, identifier_of, is_name, is_spelled, &
       & longest_bearing
@@ -130,6 +130,21 @@ contains
       is_spelled = is_counted(kind) .and. group == kind//'('//number//')' .and. number /= '' &
          & .and. verify(number, '0123456789') == 0
    end function is_spelled
+
+   !> Puts an assignment behind the first n of a list, whose room doubles when it is full.
+   pure subroutine append(new, list, n)
+      type(assignment_type), intent(in) :: new
+      type(assignment_type), allocatable, intent(inout) :: list(:)
+      integer, intent(inout) :: n
+      type(assignment_type), allocatable :: larger(:)
+      if (n == size(list)) then
+         allocate (larger(2*n + 1))
+         larger(:n) = list
+         call move_alloc(larger, list)
+      end if
+      n = n + 1
+      list(n) = new
+   end subroutine append
 
    !> Adds an assignment and removes those that it replaces. It comes last; only that of a study takes the position of
    !> the first one that it replaces, as the order of varied variables is the order of the runs.

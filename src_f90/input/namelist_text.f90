@@ -2,7 +2,7 @@
 module namelist_text
    use text, only: to_text, lower_case, shortened, newline
    use errors, only: error_type, require, refuse
-   use assignments, only: namelist_type, assignment_type, token_type, put_assignment, undoes, split_subscript, &
+   use assignments, only: namelist_type, assignment_type, token_type, put_assignment, append, undoes, split_subscript, &
       & assignment_text, place_of, study_group, counted, kind_of, bearing_of, is_counted, may_have_bearing, &
       & naming_variable, is_name, longest_bearing
    use case_parameter, only: meant_variable
@@ -40,11 +40,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(scanner) :: scan
       type(assignment_type) :: group
-      type(assignment_type), allocatable :: own(:)
+      type(assignment_type), allocatable :: list(:)
       character(len=:), allocatable :: kind
+      integer :: first, last
 
       parsed%file = file
-      allocate (parsed%groups(0), parsed%assignments(0))
+      allocate (parsed%groups(0), list(0))
+      last = 0
       call require_text(text, file, error)
       if (allocated(error)) return
       scan%text = text
@@ -77,15 +79,13 @@ contains
          call require(size(parsed%groups) < most_items, group%origin//too_many//'groups', error)
          if (allocated(error)) return
          kind = group%group
-         if (allocated(own)) deallocate (own)
-         allocate (own(0))
-         call parse_group(scan, group, own, error)
+         first = last + 1
+         call parse_group(scan, group, list, last, error)
          if (.not. allocated(error)) call name_group()
-         call require(size(parsed%assignments) + size(own) <= most_assignments, group%origin//too_many_given, error)
          if (allocated(error)) return
          parsed%groups = [parsed%groups, group]
-         parsed%assignments = [parsed%assignments, own]
       end do
+      parsed%assignments = list(:last)
       call require(size(parsed%groups) > 0, file//': no namelist group in it; expected &name ... /', error)
    contains
       !> Gives a group and its assignments its number, where it is one of several, or the name of the bearing that one
@@ -97,22 +97,25 @@ contains
          if (is_counted(kind)) then
             ending = counted(1 + count([(kind_of(parsed%groups(i)%group) == kind, i=1, size(parsed%groups))]))
          else if (may_have_bearing(kind)) then
-            at = findloc([(own(i)%name == naming_variable(kind), i=1, size(own))], .true., dim=1)
-            if (at > 0) then
-               associate (named => own(at), value => own(at)%values(1))
+            at = first - 1 + findloc([(list(i)%name == naming_variable(kind), i=first, last)], .true., dim=1)
+            if (at >= first) then
+               associate (named => list(at), value => list(at)%values(1))
                   call require(size(named%values) == 1 .and. named%subscript == 0 .and. value%quoted &
                      & .and. is_name(lower_case(value%text)), named%origin//': '//assignment_text(named)//': must be ' &
                      & //'one name in quotes, of at most '//to_text(longest_bearing)//' letters, digits and ' &
                      & //'underscores behind a letter', error)
                   ending = ':'//lower_case(value%text)
                end associate
-               own = pack(own, [(i /= at, i=1, size(own))])
+               do i = at + 1, last
+                  list(i - 1) = list(i)
+               end do
+               last = last - 1
             end if
          end if
          if (allocated(error)) return
          group%group = kind//ending
-         do i = 1, size(own)
-            own(i)%group = group%group
+         do i = first, last
+            list(i)%group = group%group
          end do
          at = findloc([(parsed%groups(i)%group == group%group, i=1, size(parsed%groups))], .true., dim=1)
          if (at == 0) return
@@ -130,7 +133,7 @@ contains
       type(scanner) :: scan
       type(assignment_type) :: group
       type(assignment_type), allocatable :: new(:)
-      integer :: percent
+      integer :: percent, n
       percent = index(text, '%')
       group%origin = '--set '//shortened(text)
       call require(control_character(text) == 0, group%origin//': a control character is no part of a value', error)
@@ -143,9 +146,10 @@ contains
       scan%text = text(percent + 1:)//' /'
       scan%file = group%origin
       allocate (new(0))
-      call parse_group(scan, group, new, error)
+      n = 0
+      call parse_group(scan, group, new, n, error)
       call scan%skip_blank('')
-      call require(size(new) == 1 .and. scan%peek() == '', group%origin//': expected one group%name=value; a text ' &
+      call require(n == 1 .and. scan%peek() == '', group%origin//': expected one group%name=value; a text ' &
          & //'with a / stands in quotes within those of the shell: "group%name=''a/b''"', error)
       if (allocated(error)) return
       new(1)%origin = '--set'
@@ -153,15 +157,18 @@ contains
       call put_assignment(new(1), parsed)
    end subroutine parse_override
 
-   !> Reads a group from behind its name to behind its end.
-   subroutine parse_group(scan, group, assignments, error)
+   !> Reads a group from behind its name to behind its end. What it gives comes behind the first `last` assignments, and
+   !> `last` is then the last of its own.
+   subroutine parse_group(scan, group, assignments, last, error)
       type(scanner), intent(inout) :: scan
       type(assignment_type), intent(in) :: group
       type(assignment_type), allocatable, intent(inout) :: assignments(:)
+      integer, intent(inout) :: last
       type(error_type), allocatable, intent(out) :: error
       type(assignment_type) :: new
       character(len=:), allocatable :: next
-      integer :: i
+      integer :: i, first
+      first = last + 1
       do
          call scan%skip_blank(',')
          next = lower_case(scan%text(scan%at:min(scan%at + 3, len(scan%text))))
@@ -177,13 +184,13 @@ contains
          call parse_target()
          if (.not. allocated(error)) call parse_values()
          if (allocated(error)) return
-         do i = 1, size(assignments)
+         do i = first, last
             if (undoes(new, assignments(i))) call refuse(place_of(new)//' is given twice, first at ' &
                & //assignments(i)%origin, error)
          end do
-         call require(size(assignments) < most_assignments, new%origin//too_many_given, error)
+         call require(last < most_assignments, new%origin//too_many_given, error)
          if (allocated(error)) return
-         assignments = [assignments, new]
+         call append(new, assignments, last)
       end do
    contains
       !> Reads "name [(subscript)] =".
