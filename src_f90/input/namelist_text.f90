@@ -309,7 +309,8 @@ contains
       class(scanner), intent(inout) :: self
       character(len=:), allocatable :: found
       integer :: length
-      length = scan(self%text(self%at:)//' ', ' ,=/&!''"'//tab//newline//carriage) - 1
+      length = scan(self%text(self%at:), ' ,=/&!''"'//tab//newline//carriage) - 1
+      if (length < 0) length = len(self%text(self%at:))
       found = self%text(self%at:self%at + length - 1)
       self%at = self%at + length
    end function word
