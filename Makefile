@@ -41,7 +41,7 @@ endif
 #   heap             added for modules whose arrays may be long
 #   modules          stands before the folder of module files
 #   release, debug   FFLAGS, if they are not given; plain_release, plain_debug: added to them for modules that compute
-#                    little, which compile in half the time
+#                    little, which compile in half the time; quick_debug: for those whose loops take the tests' time
 #   any, alone       FFLAGS for any processor of this kind, and what links the compiler's own libraries in: for a wheel
 machine := $(shell uname -m)
 family := $(or $(findstring flang,$(notdir $(FC))),$(findstring ifx,$(notdir $(FC))),gfortran)
@@ -52,6 +52,7 @@ gfortran.modules  := -J
 gfortran.release  := -O3 -march=native -mprefer-vector-width=256 -fstack-arrays
 gfortran.plain_release := -O1
 gfortran.plain_debug   := -O0
+gfortran.quick_debug   := -O2
 gfortran.debug    := -O1 -g1 -fcheck=all,no-array-temps -fbacktrace -ffpe-trap=invalid,zero,overflow -Wall -Wextra \
                      -Wno-unused-dummy-argument -Wno-uninitialized -Wno-maybe-uninitialized -Wno-compare-reals -Werror
 gfortran.any      := -O3 -fstack-arrays
@@ -138,6 +139,10 @@ plain := $(filter-out excitations growing_file march_results summary_group recor
          $(call modules_of,$(addprefix src_f90/,system case input storage results app equilibrium branches)) \
          $(if $(filter debug,$(MODE)),$(call modules_of,tests)))
 plain_flags := $(if $(filter file override,$(origin FFLAGS)),$($(family).plain_$(if $(filter debug,$(MODE)),debug,release)))
+# loops over nodes and matrices: more than half of the time of the test programs, which have their checks all the same
+quick := column_elimination interval_maps linear_algebra sommerfeld_nodes sor_sweeps \
+         $(call modules_of,src_f90/film/fourier)
+quick_flags := $(if $(filter debug,$(MODE)),$(if $(filter file override,$(origin FFLAGS)),$($(family).quick_debug)))
 test_names := $(basename $(notdir $(filter tests/unit/test_% tests/physics/test_%,$(sources))))
 test_programs := $(addprefix $(B)/tests/,$(test_names))
 programs := $(B)/bin/tiltpad $(test_programs) $(B)/fuzz/fuzz_input $(B)/bench/film_bench $(B)/stress/global_search
@@ -159,7 +164,8 @@ module build_info
    character(len=*), parameter :: program_flags = ''$(foreach flag,$(FFLAGS), &$(newline)     & //' $(subst ','',$(flag))')
 end module build_info
 endef
-flags := $(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) heap:$($(family).heap) $(heaped) plain:$(plain_flags) $(plain)
+flags := $(COMPILE) $(prefixes) $(LAPACK) $(ARCHIVES) heap:$($(family).heap) $(heaped) plain:$(plain_flags) $(plain) \
+         quick:$(quick_flags) $(quick)
 ifeq ($(only_tells),)
 $(shell mkdir -p $(B)/obj $(B)/mod)
 # $1: a file, $2: what it must say
@@ -407,6 +413,7 @@ $(B)/lib/unused.o: $(B)/lib/flags
 
 $(call object,$(heaped)): private override FFLAGS += $($(family).heap)
 $(call object,$(plain)): private override FFLAGS += $(plain_flags)
+$(call object,$(quick)): private override FFLAGS += $(quick_flags)
 
 test-programs: $(test_programs)
 
