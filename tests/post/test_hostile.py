@@ -170,20 +170,32 @@ FALSE = {
 ATTACKS = OUTSIDE | FALSE
 
 
+@pytest.fixture(scope="module")
+def attacked(result, tmp_path_factory):
+    """attacked("virtual"): the file of that attack, which is made once, as the largest take seconds."""
+    folder = tmp_path_factory.mktemp("attacks")
+
+    def path(attack):
+        file = folder / f"{list(ATTACKS).index(attack)}.h5"
+        if not file.exists():
+            file.write_bytes(result("lugre").read_bytes())
+            with h5py.File(file, "r+") as edited:
+                ATTACKS[attack](edited)
+        return file
+
+    return path
+
+
 @pytest.fixture
-def hostile(result, tmp_path):
+def hostile(attacked, tmp_path):
     """hostile("virtual"): the file of that attack, beside a pipe that nobody writes into and a secret."""
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "secret").write_bytes(b"SECRET01" * 10_000)
 
-    def make(attack):
-        path = tmp_path / "hostile.h5"
-        path.write_bytes(result("lugre").read_bytes())
-        with h5py.File(path, "r+") as file:
-            ATTACKS[attack](file)
-        return path
+    def copy(attack):
+        return shutil.copyfile(attacked(attack), tmp_path / "hostile.h5")
 
-    return make
+    return copy
 
 
 def run_limited(words, folder, **variables):
