@@ -376,11 +376,14 @@ $(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
 	@touch $@
 
 # ROSS, in an environment of its own. It asks for a later Python than it needs; what it uses is installed as usual.
-# Where it cannot be installed, its tests are skipped.
+# Where it cannot be installed, its tests are skipped. Of its packages only what it loads is compiled.
 $(ross)/ready: tests/post/ross_requirements.txt | build/deps-checked
-	@($(PYTHON) -m venv $(ross) && $(ross)/bin/python -m pip install -q --disable-pip-version-check -r $< && \
-	   $(ross)/bin/python -m pip install -q --disable-pip-version-check --no-deps --ignore-requires-python \
-	   ross-rotordynamics==3.1.0 && touch $@) || echo 'no ROSS: its tests are skipped'
+	@($(PYTHON) -m venv $(ross) && \
+	   $(ross)/bin/python -m pip install -q --disable-pip-version-check --no-compile -r $< && \
+	   $(ross)/bin/python -m pip install -q --disable-pip-version-check --no-compile --no-deps --ignore-requires-python \
+	   ross-rotordynamics==3.1.0 && touch $@ && \
+	   { PYTHONDONTWRITEBYTECODE= $(ross)/bin/python -c 'import ross' >/dev/null 2>&1 || true; }) || \
+	   echo 'no ROSS: its tests are skipped'
 
 # ---- build -------------------------------------------------------------------------------------
 build: $(B)/bin/tiltpad
