@@ -24,6 +24,8 @@ module pad_elimination
    integer, parameter :: pad_iterations = 40, journal_iterations = 60
    !> Least part of a film that a move leaves. Of 250 bearings 0.1 loses none, 0.6 two.
    real(wp), parameter :: least_film = 0.3_wp
+   !> Film, over the bearing clearance, up to which a pad closes in: one that no film stops waits there.
+   real(wp), parameter :: thinnest_film = 1e-6_wp
    !> Time step, in radians of the shaft, below which a pad stays where it is.
    real(wp), parameter :: shortest_step = 1e-12_wp
    !> Gaps over the pad clearance, from just above the least one on, and parts of the tilt that closes a gap, from which
@@ -126,7 +128,8 @@ contains
       end subroutine move_journal
    end subroutine eliminate_pads
 
-   !> Every pad to its own equilibrium with the journal where it is; which of them found it.
+   !> Every pad to its own equilibrium with the journal where it is; which of them found it. A pad that stands on its
+   !> asperities has none: with the journal elsewhere a film may carry it.
    subroutine settle_pads(model, journal, pads, in_equilibrium, ok)
       type(machine_model), intent(inout) :: model
       type(journal_motion), intent(in) :: journal
@@ -134,6 +137,7 @@ contains
       logical, intent(inout) :: in_equilibrium(:)
       logical, intent(out) :: ok
       real(wp), dimension(size(pads)) :: time_step, unbalanced, last
+      logical :: on_asperities(size(pads))
       real(wp) :: limit
       integer :: iteration, i, k
       time_step = 1/model%point%speed(0.0_wp)
@@ -142,9 +146,10 @@ contains
          if (.not. ok) return
          associate (bearing => model%bearings(1), n => model%layout%elements(1)%coordinates)
             unbalanced = [(maxval([(abs(bearing%own_force(i, k))/bearing%length(i, k), k=1, n)]), i=1, size(pads))]
+            on_asperities = [(bearing%asperity(i)%carried() > 0.5_wp*norm2(bearing%loads(i)%journal), i=1, size(pads))]
          end associate
          limit = pad_limit*reference_force(model)
-         in_equilibrium = in_equilibrium .or. unbalanced <= limit
+         in_equilibrium = in_equilibrium .or. unbalanced <= limit .and. .not. on_asperities
          if (all(in_equilibrium) .or. iteration == pad_iterations) exit
          if (iteration > 0) time_step = next_time_step(time_step, last, unbalanced)
          last = unbalanced
@@ -225,7 +230,7 @@ contains
       type(pad_state) :: trial
       real(wp), allocatable, dimension(:, :) :: over_positions, over_rates, stiffness, damping
       real(wp), allocatable :: force(:), step(:)
-      real(wp) :: clearance, film
+      real(wp) :: clearance, thinnest
       integer :: k
       clearance = model%bearings(1)%clearance
       associate (bearing => model%bearings(1), n => model%layout%elements(1)%coordinates, own => of_journal + 1)
@@ -234,14 +239,14 @@ contains
          stiffness = over_positions(own:, own:)
          damping = over_rates(own:, own:) - trace*model%point%speed(0.0_wp)*bearing%coordinates%masses(bearing%pads(i))
       end associate
-      film = film_of(model, i, journal, pad)
+      thinnest = max(least_film*film_of(model, i, journal, pad), thinnest_film*clearance)
       do
          step = solve_few(stiffness + damping/time_step, -force)
          associate (of => model%bearings(1)%pads(i), kind => model%bearings(1)%coordinates%kind(:size(step)))
             trial = pad_state()
             trial%x(kind) = pad%x(kind) + step
             if (maxval(abs(step)*merge(of%gap%arc()*of%gap%pad_radius(), 1.0_wp, kind == tilt)) &
-               & <= longest_move*clearance .and. film_of(model, i, journal, trial) >= least_film*film &
+               & <= longest_move*clearance .and. film_of(model, i, journal, trial) >= thinnest &
                & .and. abs(trial%x(tilt)) < of%largest_tilt) exit
          end associate
          time_step = 0.5_wp*time_step

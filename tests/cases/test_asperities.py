@@ -86,3 +86,24 @@ def test_a_pad_dropped_on_a_rotating_journal(run):
     assert carried.mean() == pytest.approx(weight, rel=0.05)
     assert (asperities[-1000:] == 0).all()
     assert -film[-360:].mean() == pytest.approx(weight, rel=1e-3)
+
+
+@pytest.mark.parametrize("mass", [20, 42.8])
+def test_asperities_that_touch_nowhere_find_no_equilibrium_that_is_none_without(tiltpad, tmp_path, mass):
+    """Without preload one pad has no film where the journal starts, and its weight closes it: it waits at the journal
+    until this has moved to where it has one."""
+    (tmp_path / "case.nml").write_text(
+        f"""&case task='equilibrium' /
+&rotor mass={mass} /
+&operation speed_rpm=3000 /
+&bearing journal_radius=0.05, axial_length=0.1, assembled_clearance=100e-6, preload=0, viscosity=0.02 /
+&pads motion='tilting_only', pivot_angle_deg=-90,0,90,180, arc_deg=80, thickness=0.02, pivot_distance=0.02,
+  density=7850 /
+"""
+    )
+    found = {}
+    for model in ("none", "greenwood_tripp"):
+        tiltpad("case.nml", "-q", "-o", f"{model}.h5", overrides=(f"asperity%model={model}",), cwd=tmp_path, status=0)
+        with h5py.File(tmp_path / f"{model}.h5") as file:
+            found[model] = np.array([file[f"equilibrium/{name}"][()] for name in ("journal_y", "journal_z")])
+    np.testing.assert_allclose(found["none"], found["greenwood_tripp"], rtol=0, atol=1e-6 * 100e-6)
