@@ -6,19 +6,16 @@ module coefficients_task
    use errors, only: error_type, add_context, stopped
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model
-   use equilibrium_record, only: equilibrium_type
-   use static_model, only: make_fine
    use force_balance, only: is_of_rotor, position_names
    use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type, &
       & rotor_response_type, find_rotor_response
-   use equilibrium, only: settle_equilibrium
    use stability_threshold, only: find_thresholds
    use coefficient_results, only: put_coefficients, put_modes, put_shapes, put_thresholds, put_rotor_response
    use bearing_file, only: bearing_file_type
    use stop_signals, only: stop_reason
    use case_run, only: case_run_type
-   use run_start, only: seek_equilibrium
-   use equilibrium_notes, only: note_equilibrium
+   use run_start, only: find_converged_equilibrium
+   use film_network, only: warm_films_type
    implicit none (type, external)
    private
    public :: run_coefficients
@@ -34,19 +31,14 @@ contains
       type(case_run_type), intent(inout), target :: run
       type(error_type), allocatable, intent(out) :: error
       type(machine_model) :: fine
-      type(equilibrium_type) :: static
       type(bearing_coefficients_type) :: found
+      type(warm_films_type), allocatable :: films(:)
       real(wp), allocatable :: y(:)
-      call seek_equilibrium(run, static, error)
+      call find_converged_equilibrium(run, fine, y, error, films)
       if (allocated(error)) return
-      call make_fine(run%model, fine)
-      call settle_equilibrium(fine, static, y, error)
-      if (.not. allocated(error)) then
-         call note_equilibrium(run, static)
-         call find_coefficients(fine, y, found, error)
-      end if
+      call find_coefficients(fine, y, found, error)
       if (.not. allocated(error) .and. run%inputs%coefficients%threshold_up_to_rpm > 0) then
-         call find_thresholds(fine, y, found, error, static%films)
+         call find_thresholds(fine, y, found, error, films)
       end if
       if (allocated(error)) then
          call add_context(error, 'with converged films')

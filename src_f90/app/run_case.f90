@@ -7,7 +7,7 @@ module run_case
    use case_inputs, only: case_type
    use result_size, only: memory_bytes, memory_advice, bytes_text, size_note
    use parameter_study, only: run_tag
-   use equations_of_motion, only: new_machine_model
+   use equations_of_motion, only: machine_model, new_machine_model
    use record, only: record_type, move_record
    use record_file, only: read_record
    use hdf5_file, only: hdf5_type
@@ -20,7 +20,7 @@ module run_case
    use working_file, only: clear_leftovers
    use case_run, only: case_run_type, begin_run, print_remarks
    use factories, only: march_films, static_films, filled_films
-   use run_start, only: start_at_equilibrium
+   use run_start, only: find_converged_equilibrium
    use coefficients_task, only: run_coefficients
    use periodic_task, only: run_periodic
    use branch_task, only: run_branch
@@ -111,6 +111,8 @@ contains
    subroutine perform(run, error)
       type(case_run_type), intent(inout), target :: run
       type(error_type), allocatable, intent(out) :: error
+      type(machine_model) :: converged
+      real(wp), allocatable :: y(:)
       ! every task has a line here, and where it is more than the start of others a module of its own
       if (allocated(run%model%refusal)) then
          call raise(error, input_error, run%model%refusal)
@@ -119,7 +121,7 @@ contains
       end if
       select case (run%inputs%about%task)
       case ('equilibrium')
-         call start_at_equilibrium(run, error)
+         call find_converged_equilibrium(run, converged, y, error)
       case ('coefficients')
          call run_coefficients(run, error)
       case ('periodic')

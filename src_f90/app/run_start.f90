@@ -11,7 +11,10 @@ module run_start
    use state_layout, only: pad_state, tilt, pivot_deflection
    use equilibrium_record, only: equilibrium_type
    use bearing_equilibrium, only: find_partial_equilibrium
-   use equilibrium, only: find_equilibrium
+   use equilibrium, only: find_equilibrium, settle_equilibrium
+   use equations_of_motion, only: machine_model
+   use static_model, only: make_fine
+   use film_network, only: warm_films_type
    use heat_balance_equations, only: has_warm_oil
    use equilibrium_notes, only: note_equilibrium
    use last_state, only: read_last_state
@@ -27,7 +30,7 @@ module run_start
    use thermal_equilibrium, only: find_groove_transient
    implicit none (type, external)
    private
-   public :: start_at_equilibrium, seek_equilibrium, make_start, take_oil, restore_shape, restore_oil
+   public :: start_at_equilibrium, seek_equilibrium, find_converged_equilibrium, make_start, take_oil, restore_shape, restore_oil
    public :: continue_from_checkpoint
 
 contains
@@ -48,17 +51,39 @@ contains
       if (run%tag%number > 0) call run%file%put_tag(run%tag)
    end subroutine create_file
 
-   !> Creates the file, finds the equilibrium and writes it; y is its state. All of the task 'equilibrium'.
+   !> Creates the file, finds the equilibrium from which a motion starts and writes it; y is its state.
    subroutine start_at_equilibrium(run, error, y)
       type(case_run_type), intent(inout) :: run
       type(error_type), allocatable, intent(out) :: error
-      real(wp), allocatable, intent(out), optional :: y(:)
+      real(wp), allocatable, intent(out) :: y(:)
       type(equilibrium_type) :: static
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
       call note_equilibrium(run, static)
-      if (present(y)) y = run%model%static_state(static%rotor, static%pads)
+      y = run%model%static_state(static%rotor, static%pads)
    end subroutine start_at_equilibrium
+
+   !> Creates the file, finds the equilibrium of converged films, y in their model, and writes it.
+   subroutine find_converged_equilibrium(run, fine, y, error, films)
+      type(case_run_type), intent(inout) :: run
+      type(machine_model), intent(out) :: fine
+      real(wp), allocatable, intent(out) :: y(:)
+      type(error_type), allocatable, intent(out) :: error
+      !> Temperatures in the films, where these have some.
+      type(warm_films_type), allocatable, intent(out), optional :: films(:)
+      type(equilibrium_type) :: static
+      call seek_equilibrium(run, static, error)
+      if (allocated(error)) return
+      call make_fine(run%model, fine)
+      call settle_equilibrium(fine, static, y, error)
+      if (allocated(error)) then
+         call add_context(error, 'with converged films')
+         call say_nothing_computed(error)
+         return
+      end if
+      call note_equilibrium(run, static)
+      if (present(films) .and. allocated(static%films)) films = static%films
+   end subroutine find_converged_equilibrium
 
    !> Creates the file and finds the equilibrium.
    subroutine seek_equilibrium(run, static, error)

@@ -12,7 +12,7 @@ module verification
    use state_layout, only: pad_state
    use equations_of_motion, only: machine_model
    use film_comparison, only: film_comparison_type, film_difference, new_film_comparison
-   use static_model, only: make_static, make_fine
+   use static_model, only: make_fine
    use heat_balance_equations, only: has_warm_oil
    use run_file, only: run_file_type
    use last_state, only: read_states, all_finite
@@ -143,7 +143,7 @@ contains
       end associate
    end function sample_of
 
-   !> The films at the equilibrium; coefficients have converged ones.
+   !> The films at the equilibrium, which are converged ones.
    subroutine verify_equilibrium(run, file, time, found, error)
       type(case_run_type), intent(inout) :: run
       type(run_file_type), intent(inout) :: file
@@ -156,11 +156,7 @@ contains
       real(wp) :: journal(2)
       integer :: k
       allocate (time(0), found(size(pads), 1))
-      if (file%has('coefficients')) then
-         call make_fine(run%model, static)
-      else
-         call make_static(run%model, run%model%point%cavitation, static)
-      end if
+      call make_fine(run%model, static)
       journal = [file%get_real('equilibrium/journal_y'), file%get_real('equilibrium/journal_z')]
       associate (coordinates => static%bearings(1)%coordinates)
          do k = 1, coordinates%n
