@@ -6,7 +6,7 @@ module march_task
    use ode_model, only: integrator_counts_type
    use result_size, only: sample_interval, sample_count
    use case_run, only: case_run_type
-   use march_settings, only: march_settings_of
+   use march_settings, only: march_settings_of, has_light_vibrations
    use run_start, only: make_start, continue_from_checkpoint
    use recorder, only: recorder_type, begin_recording
    implicit none (type, external)
@@ -24,6 +24,7 @@ contains
       real(wp), allocatable :: y(:)
       real(wp) :: t
       integer :: b
+      logical :: light
       if (run%resumed) then
          call continue_from_checkpoint(run, t, y, error)
       else
@@ -42,7 +43,9 @@ contains
       end if
       if (allocated(error)) return
       call begin_recording(observer, run, t)
-      call march(run%model, march_settings_of(run%model, run%earlier_steps()), t, &
+      light = .false.
+      if (run%model%rotor%is_identity) light = has_light_vibrations(run%model, y)
+      call march(run%model, march_settings_of(run%model, run%earlier_steps(), light), t, &
          & run%inputs%operation%duration, plan, y, observer, counts, error)
       run%counts = counts
       call observer%progress%clear()

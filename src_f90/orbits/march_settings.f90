@@ -9,10 +9,11 @@ module march_settings
    use text, only: to_text
    use errors, only: error_type, raise, add_context, numerics_error, stopped, asked
    use cvode_integrator, only: integrator_type
+   use linear_algebra, only: find_eigenvalues
    use orbit_polynomials, only: orbit_type, points, place
    implicit none (type, external)
    private
-   public :: march_settings_of, march_period, mesh_options
+   public :: march_settings_of, has_light_vibrations, march_period, mesh_options
 
 
    !> Steps after which the derivatives are taken anew without friction: the motion is smooth, the steps are long.
@@ -22,10 +23,12 @@ module march_settings
    real(wp), parameter :: rigid_tolerance = 0.3_wp
    !> And with friction over those without: what its moment errs by is above what the states do.
    real(wp), parameter :: friction_tolerance = 0.5_wp
-   !> And of an elastic rotor: in its light vibrations above the speed BDF of the orders 3 to 5 is unstable, so that
-   !> they go on as large as the error test lets them. The run-up of tests/bench/machines.py errs by 3e-3 of its largest
-   !> amplitude with 1, and by 3e-4 with 0.1, for a quarter more steps.
-   real(wp), parameter :: elastic_tolerance = 0.1_wp
+   !> And of light vibrations above the speed, which elastic rotors have: there BDF of the orders 3 to 5 is unstable, so
+   !> that they go on as large as the error test lets them. The run-up of tests/bench/machines.py errs by 3e-3 of its
+   !> largest amplitude with 1, and by 3e-4 with 0.1, for a quarter more steps.
+   real(wp), parameter :: light_tolerance = 0.1_wp
+   !> How fast a light vibration is at least, over the speed of the shaft.
+   real(wp), parameter :: fast = 2
 
    !> Steps in a revolution from which on low orders are tried. Of 70 cases of the stress test (seed 1) with lightly
    !> damped modes or many steps, 100 completes all that any way completes; 300 and 1000 leave one, and take up to 3 and
@@ -44,9 +47,11 @@ module march_settings
 contains
 
    !> Those of a model after this many steps.
-   type(march_options) function march_settings_of(model, steps) result(options)
+   type(march_options) function march_settings_of(model, steps, light) result(options)
       type(machine_model), intent(in), target :: model
       integer(i8), intent(in) :: steps
+      !> Whether a rigid journal and its pads have light vibrations; an elastic rotor always has.
+      logical, intent(in), optional :: light
       logical :: smooth
       type(element_pointer), allocatable :: elements(:)
       integer :: e
@@ -62,14 +67,29 @@ contains
          smooth = all([(elements(e)%to%is_smooth(), e=1, size(elements))])
          if (smooth) options%derivatives_age = smooth_derivatives_age
          if (.not. model%rotor%is_identity) then
-            tolerance = elastic_tolerance*tolerance
+            tolerance = light_tolerance*tolerance
          else if (.not. all([(model%layout%elements(e)%has(pivot_deflection), e=1, size(model%bearings))])) then
             tolerance = rigid_tolerance*tolerance
          else if (.not. smooth) then
             tolerance = friction_tolerance*tolerance
          end if
+         if (present(light)) tolerance = merge(light_tolerance, 1.0_wp, light)*tolerance
       end associate
    end function march_settings_of
+
+   !> Whether there are light vibrations about the state y: faster than the shaft, and they lose or gain less than a
+   !> factor e in a revolution, so that what the integrator raises of them stays.
+   logical function has_light_vibrations(model, y)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(in) :: y(:)
+      real(wp) :: rates(size(y)), jacobian(size(y), size(y)), speed
+      complex(wp) :: values(size(y))
+      logical :: ok
+      call model%rhs_and_jacobian(0.0_wp, y, rates, jacobian, ok)
+      if (ok) call find_eigenvalues(jacobian, values, ok)
+      speed = model%inputs%highest_speed()
+      has_light_vibrations = ok .and. any(abs(values%im) > fast*speed .and. abs(values%re) < speed/(2*pi))
+   end function has_light_vibrations
 
    !> How to march for a mesh, where a march would be so, and a revolution takes this time, s.
    pure type(march_options) function mesh_options(march, revolution) result(options)
