@@ -9,7 +9,7 @@ module coefficient_results
    use linear_bearing, only: bearing_coefficients_type, vibration_modes_type, rotor_response_type
    implicit none (type, external)
    private
-   public :: put_coefficients, put_modes, put_shapes, put_thresholds, put_rotor_response
+   public :: put_coefficients, put_one_sided, put_modes, put_shapes, put_thresholds, put_rotor_response
 
    character(len=*), parameter :: of_journal = 'pivot frequency_ratio row column'
    character(len=*), parameter :: of_positions = 'position_row position_column', of_modes = 'pivot mode'
@@ -39,6 +39,14 @@ contains
          & 'damping of the bearing at the journal, the pads condensed', of_journal)
       call put_full(file, found, layout%all_positions())
    end subroutine put_coefficients
+
+   !> Pads whose film only just begins to carry.
+   subroutine put_one_sided(file, begins)
+      class(record_type), intent(inout) :: file
+      logical, intent(in) :: begins(:)
+      call file%put('coefficients/one_sided', merge(1.0_wp, 0.0_wp, begins), '1', &
+         & '1 where the film only just begins to carry: its stiffness and damping hang on the side', 'pad')
+   end subroutine put_one_sided
 
    !> Rows after columns, as files have them.
    pure function across(matrices)

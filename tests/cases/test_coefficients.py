@@ -2,6 +2,7 @@
 
 import h5py
 import numpy as np
+import pytest
 
 TASK = "case%task=coefficients"
 
@@ -76,6 +77,30 @@ def test_the_equilibrium_is_that_of_converged_films(tiltpad, tmp_path):
     assert (found == journal("coefficients")).all()
     volumes = ("film%solver=direct", "film%circumferential_cells=320", "film%axial_cells=32")
     assert np.linalg.norm(found - journal("equilibrium", *volumes)) <= 4e-5 * CLEARANCE
+
+
+#: Four pads with the load on one, whose neighbours lie in films of even thickness.
+EVEN = """&rotor mass=180, unbalance=0 /
+&operation speed_rpm=3000 /
+&bearing journal_radius=0.05, axial_length=0.1, assembled_clearance=100e-6, preload=0, viscosity=0.02 /
+&pads motion='tilting_only', pivot_angle_deg=-90,0,90,180, arc_deg=80, {} /
+"""
+
+
+def test_a_film_that_only_just_begins_to_carry_is_told(tiltpad, tmp_path):
+    """Pads without weight lie beside the journal without pressure, where C_zz is half of that of steel pads, whose
+    weight the films carry: one side counts, the other does not."""
+    light = "mass=1e-3, inertia=1e-7, centre_tangential=0, centre_radial=0"
+    steel = "density=7850, thickness=0.02, pivot_distance=0.02"
+    damping = {}
+    for name, pads, told in (("light", light, True), ("steel", steel, False)):
+        (tmp_path / f"{name}.nml").write_text(EVEN.format(pads))
+        said = tiltpad(f"{name}.nml", overrides=(TASK,), cwd=tmp_path, status=0).stdout
+        assert ("the film of pad 2 only just begins to carry" in said) == told
+        with h5py.File(tmp_path / f"{name}.h5") as file:
+            assert file["coefficients/one_sided"][:].any() == told
+            damping[name] = file["coefficients/damping"][0, 0, 1, 1]
+    assert damping["light"] == pytest.approx(0.5 * damping["steel"], rel=0.01)
 
 
 def test_study_goes_on_without_equilibrium(tiltpad, root, tmp_path):
