@@ -3,13 +3,13 @@ module assignments
    use, intrinsic :: ieee_arithmetic, only: ieee_overflow, ieee_get_halting_mode, ieee_set_flag, &
       & ieee_set_halting_mode
    use kinds, only: wp
-   use text, only: to_text, shortened, replaced, whole_number
+   use text, only: to_text, exact_text, shortened, replaced, whole_number
    implicit none (type, external)
    private
-   public :: namelist_type, assignment_type, token_type, put_assignment, append, undoes, assignment_text, target_text, &
-      & place_of, variable_text, value_text, study_group, split_subscript, is_special, read_number, counted, kind_of, &
-      & bearing_of, is_counted, may_have_bearing, naming_variable, group_heading, identifier_of, is_name, is_spelled, &
-      & longest_bearing
+   public :: namelist_type, assignment_type, token_type, put_assignment, append, undoes, assignment_text, &
+      & target_text, place_of, variable_text, value_text, study_group, split_subscript, is_special, read_number, &
+      & meant_range, counted, kind_of, bearing_of, is_counted, may_have_bearing, naming_variable, group_heading, &
+      & identifier_of, is_name, is_spelled, longest_bearing
 
    !> Groups of what there may be several of on a rotor, and of each bearing.
    character(len=*), parameter :: several = ' disc unbalance load excitation '
@@ -285,6 +285,26 @@ contains
       call ieee_set_halting_mode(ieee_overflow, halting)
       ok = status == 0
    end subroutine read_number
+
+   !> The range first:last:stride that a word such as 1000-6000 or 1000..6000 means, with a tenth of the way as its
+   !> stride; empty for others.
+   function meant_range(word) result(range)
+      character(len=*), intent(in) :: word
+      character(len=:), allocatable :: range
+      real(wp) :: ends(2)
+      integer :: last
+      logical :: ok(2)
+      range = ''
+      last = len(word) - scan(word, '-.', back=.true.)
+      if (last == 0 .or. last == len(word)) return
+      associate (first => verify(word(:len(word) - last), '-.', back=.true.))
+         if (first == 0) return
+         call read_number(word(:first), ends(1), ok(1))
+         call read_number(word(len(word) - last + 1:), ends(2), ok(2))
+      end associate
+      if (all(ok) .and. ends(2) > ends(1)) range = exact_text(ends(1))//':'//exact_text(ends(2))//':' &
+         & //exact_text((ends(2) - ends(1))/10)
+   end function meant_range
 
    !> True for words that mean infinity or no number.
    pure logical function is_special(word)

@@ -14,8 +14,8 @@ module case_namelist
    use case_parameter, only: complete_branch, check_branch_parameter, group_names, names_in, meant_variable, &
       & meant_group, meant_word
    use assignments, only: namelist_type, assignment_type, study_group, token_type, assignment_text, place_of, &
-      & variable_text, is_special, read_number, undoes, counted, kind_of, bearing_of, is_counted, may_have_bearing, &
-      & naming_variable
+      & variable_text, is_special, read_number, meant_range, undoes, counted, kind_of, bearing_of, is_counted, &
+      & may_have_bearing, naming_variable
    use namelist_text, only: parse_namelist
    use case_remarks, only: note_values_of_paper
    use other_units, only: in_other_units
@@ -302,7 +302,7 @@ contains
          type(token_type), intent(in) :: token
          real(wp), intent(out) :: x
          integer, intent(out) :: repeat
-         character(len=:), allocatable :: digits
+         character(len=:), allocatable :: digits, range
          integer :: star
          logical :: ok
          digits = lower_case(token%text)
@@ -316,7 +316,10 @@ contains
          else if (index(token%text, ':') > 0 .and. .not. token%quoted) then
             call refuse_it('must be a number, '//v%allowed()//several_runs())
          else if (repeat < 1 .or. repeat >= 1000000 .or. token%quoted .or. .not. ok) then
-            call refuse_it('must be a number, '//v%allowed())
+            range = meant_range(digits)
+            if (range /= '') range = '; for one run of each value: '//study_group//'%'//a%group//'%'//a%name//' = ' &
+               & //range
+            call refuse_it('must be a number, '//v%allowed()//range)
          else if (.not. ieee_is_finite(x)) then
             call refuse_it('must be finite, '//v%allowed())
          else if (v%may_be_unset .and. v%low >= 0 .and. abs(x + 1) <= 0) then

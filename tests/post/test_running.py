@@ -1,5 +1,6 @@
 """Running the program from Python, and the first calls of somebody who does not know the package yet."""
 
+import copy
 import gc
 import os
 from pathlib import Path
@@ -178,12 +179,25 @@ def test_to_xarray_and_csv(run, tmp_path):
     assert head == "time,pad_tilt_1,pad_tilt_2,journal_y"
     values = np.loadtxt(tmp_path / "some.csv", delimiter=",", skiprows=1)
     np.testing.assert_array_equal(values, np.column_stack([case.time, case.pad_tilt, case.journal_y]))
+    table = case.to_pandas(["pad_tilt", "journal_y"])
+    assert [table.index.name, *table.columns] == head.split(",")
+    np.testing.assert_array_equal(table.reset_index().to_numpy(), values)
     case.to_csv(tmp_path / "all.csv")
     assert "friction_moment_2" in (tmp_path / "all.csv").read_text().split("\n", 1)[0]
     with pytest.raises(ValueError, match="nix is no series of this run: "):
         case.to_csv(tmp_path / "no.csv", ["nix"])
     with pytest.raises(tiltpad.NotInRunError, match="nothing was marched"):
         run("equilibrium").to_csv(tmp_path / "no.csv")
+
+
+def test_what_is_in_a_group_stands_behind_a_point_too(run):
+    case = run("lugre")
+    assert case.equilibrium.journal_y == case["equilibrium/journal_y"] == case.equilibrium["journal_y"]
+    assert "journal_y" in dir(case.equilibrium)
+    said = r"no jurnal_y in equilibrium \(did you mean journal_y\?\): there are "
+    with pytest.raises(AttributeError, match=said):
+        _ = case.equilibrium.jurnal_y
+    assert copy.deepcopy(case.equilibrium).journal_y == case.equilibrium.journal_y
 
 
 def test_a_study_as_csv(result, tmp_path):
@@ -194,6 +208,9 @@ def test_a_study_as_csv(result, tmp_path):
         place = head.split(",").index("orbit_y")
         assert [float(row.split(",")[place]) for row in rows] == list(study.orbit_y)
         assert study.to_xarray().orbit_y.dims == ("run",)
+        table = study.to_pandas()
+        assert [table.index.name, *table.columns] == head.split(",")
+        np.testing.assert_array_equal(table.orbit_y, study.orbit_y)
 
 
 def test_brute_force_goes_up_and_down_from_the_end_of_each_march(tmp_path):

@@ -80,6 +80,9 @@ contains
       call expect_refused('&operation speed_rpm = 9,000 /', 'a decimal has a point (9.000), and thousands have no ' &
          & //'comma (9000)')
       call expect_refused('&bearing viscosity = 0,019 /', 'a decimal has a point (0.019)')
+      call expect_refused('&operation speed_rpm = 1000-6000 /', 'must be a number, 0.001 to 1e6 rpm; for one run of ' &
+         & //'each value: sweep%operation%speed_rpm = 1000:6000:500')
+      call expect_refused('&operation speed_rpm = 1000..6000 /', 'sweep%operation%speed_rpm = 1000:6000:500')
       call expect_refused('&operation speed_rpm = 3000, 5000 /', 'for one run of each value: sweep%operation%speed_rpm')
    end subroutine hints
 

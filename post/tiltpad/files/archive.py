@@ -54,6 +54,23 @@ def not_in_run(run: "Archive", what: str, why: str) -> NotInRunError:
     return NotInRunError(f"{run.path}: no {what} in this run: {why}")
 
 
+class Group(dict[str, Any]):
+    """The values of a group by their names, in brackets or behind a point."""
+
+    def __init__(self, name: str, values: dict[str, Any]):
+        super().__init__(values)
+        self._name = name  # the group, for messages
+
+    def __getattr__(self, name: str) -> Any:
+        if name in self:
+            return self[name]
+        there = f"there are {', '.join(self)}"
+        raise AttributeError(f"no {shown(name)} in {self.__dict__.get('_name')}{meant(name, self)}: {there}")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self]
+
+
 class Archive:
     """An HDF5 file of tiltpad, open for reading; a dataset is loaded when it is used."""
 
@@ -166,7 +183,7 @@ class Archive:
         if isinstance(found, h5py.Group):
             if "/" in name:
                 raise damaged(self.path, name, "a group in a group")
-            return {each: self.values(f"{name}/{each}") for each in self.names(name)}
+            return Group(name, {each: self.values(f"{name}/{each}") for each in self.names(name)})
         with reading(self.path, name):
             return self.sound(name, found[part if found.shape else ()])
 

@@ -56,7 +56,7 @@ class Run(Archive):
 
         run.journal_y, run["journal_y"]      dataset as an array, (time,) or (time, pad), SI units
         run.values("journal_y", part)        the same, only the samples of the slice `part`
-        run.equilibrium                      group as a dictionary of arrays
+        run.equilibrium                      group as a dictionary of arrays; run.equilibrium.journal_y
         run["equilibrium/journal_y"]         one of them
         run.title, run.complete, ...         attributes of the file; run.attributes has all of them
         run.input["bearing"]                 resolved namelist, a dictionary a group
@@ -120,19 +120,31 @@ class Run(Archive):
 
     def to_csv(self, path: str | os.PathLike, names: Sequence[str] | None = None) -> None:
         """Writes series over the time, by default all, a column each; of pads pad_tilt_1, pad_tilt_2, ..."""
+        columns = self._columns(names)
+        with replacing(path) as file:
+            table = np.column_stack(list(columns.values()))
+            np.savetxt(file, table, "%.17g", ",", header=",".join(columns), comments="")
+
+    def to_pandas(self, names: Sequence[str] | None = None) -> Any:
+        """The table of `to_csv` as a pandas.DataFrame over the time; needs pandas."""
+        import pandas as pd
+
+        return pd.DataFrame(self._columns(names)).set_index("time")
+
+    def _columns(self, names: Sequence[str] | None) -> dict[str, np.ndarray]:
+        """The time and series, by default all, a column each."""
         if not self.samples:
             raise NotInRunError(f"{self.path}: no series in this run: {self.why_not('time')}")
         there = [name for name in self.names() if self.is_series(name)]
         for name in names or ():
             if name not in there:
                 raise ValueError(f"{self.path}: {name} is no series of this run: {', '.join(there)}")
-        head, columns = ["time"], [self.time]
+        columns = {"time": self.time}
         for name in (name for name in names or there if name != "time"):
             values = self[name]
-            columns += [values] if values.ndim == 1 else list(values.T)
-            head += [name] if values.ndim == 1 else [f"{name}_{k + 1}" for k in range(values.shape[1])]
-        with replacing(path) as file:
-            np.savetxt(file, np.column_stack(columns), "%.17g", ",", header=",".join(head), comments="")
+            several = {f"{name}_{k + 1}": each for k, each in enumerate(values.T)} if values.ndim > 1 else {}
+            columns |= several or {name: values}
+        return columns
 
     def is_series(self, name: str) -> bool:
         """True for datasets over the time."""

@@ -147,6 +147,17 @@ class Study(Archive):
 
         Results of a bearing of a machine have the bearing's name before their own: left/orbit_y.
         """
+        columns = self._columns()
+        write_csv(path, [columns, *zip(*columns.values(), strict=True)])
+
+    def to_pandas(self) -> Any:
+        """The table of `to_csv` as a pandas.DataFrame over the runs; needs pandas."""
+        import pandas as pd
+
+        return pd.DataFrame(self._columns()).set_index("run")
+
+    def _columns(self) -> dict[str, np.ndarray]:
+        """Parameters and results of one number, a column each."""
         others = {*RUN, *self.parameters, *self.GROUPS}
         there = [name for name in self.names() if name not in others]
         columns = {name: self[name] for name in ("run", *self.parameters)}
@@ -154,7 +165,7 @@ class Study(Archive):
         for bearing, own in self.bearings.items():
             mine = (name for name in own.inner(own.group) if own.scales(name) == RUN)
             columns |= {f"{bearing}/{name}": own[name] for name in mine}
-        write_csv(path, [columns, *zip(*columns.values(), strict=True)])
+        return columns
 
     @cached_property
     def bearings(self) -> "dict[str, BearingStudy]":
