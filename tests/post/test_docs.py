@@ -123,6 +123,27 @@ def test_the_notebook(root, program, tmp_path, monkeypatch, capsys):
     plots.plt.close("all")
 
 
+def test_the_index_of_terms_names_what_is_there(root):
+    """Its input variables, plots, sections and datasets are those of the program."""
+    from tiltpad import command
+
+    page = (root / "docs/terms.md").read_text()
+    inputs, results = ((root / f"docs/{name}.md").read_text() for name in ("inputs", "results"))
+    for group, name in re.findall(r"`(\w+)%(\w+)", page):
+        section = inputs.partition(f"\n## &{group}\n")[2].partition("\n## ")[0]
+        assert f"| `{name}`" in section, f"{group}%{name}"
+    names = re.findall(r"`(?:equilibrium|summary|modes|coefficients)/(\w+)`", page)
+    assert len(names) > 5
+    for name in names:
+        assert name in results, name
+    assert set(re.findall(r"tiltpad-plot (\w+)", page)) <= set(command.PLOTS)
+    for target, anchor in re.findall(r"\]\(([\w/.]+)#([\w-]+)\)", page):
+        titles = re.findall(r"^#+ (.*)$", (root / "docs" / target).read_text(), re.M)
+        assert anchor in {re.sub(r"[^\w -]", "", each.lower()).replace(" ", "-") for each in titles}, anchor
+    for term in ("LBP", "LOP", "API 617", "log dec", "half-frequency whirl", "Gumbel", "DyRoBeS", "XLTRC2"):
+        assert term in page
+
+
 def test_the_version_is_the_same_everywhere(root):
     places = {"Makefile": r"^VERSION := (.*)$", "post/pyproject.toml": r'^version = "(.*)"$'}
     places["CITATION.cff"] = r"^version: (.*)$"

@@ -60,7 +60,9 @@ async function search(words) {
       if (target.endsWith('.html') && !(target in pages)) waiting.push(target);
     }
   }
-  const told = {pages: pages, files: files, found: await search('pivot_ratio')};
+  const found = {};
+  for (const word of ['pivot_ratio', 'LBP', 'gumbel', 'log dec']) found[word] = await search(word);
+  const told = {pages: pages, files: files, found: found};
   await fetch('/told', {method: 'POST', body: JSON.stringify(told)});
 })();
 </script></body>"""
@@ -145,8 +147,10 @@ def seen(root):
     return server.told | {"strangers": server.strangers, "console": console}
 
 
-def test_a_search_finds_an_input_variable(seen):
-    assert any("docs/inputs.html" in link for link in seen["found"])
+def test_a_search_finds_an_input_variable_and_the_terms_of_the_trade(seen):
+    assert any("docs/inputs.html" in link for link in seen["found"].pop("pivot_ratio"))
+    for word, links in seen["found"].items():
+        assert any("docs/terms.html" in link for link in links), word
 
 
 def test_no_link_is_broken(seen):
