@@ -312,11 +312,12 @@ def write_table(options: argparse.Namespace, output: Path) -> None:
         raise ValueError("--station: for the picture, the table has all stations")
     where = kept(options) or None
     with read_either(options.files[0]) as source:
-        own = one_bearing(source, options) if isinstance(source, Run) else source
         if options.plot == RESPONSE:
-            found = critical_speeds(own, where, options.pivot, options.operating)
+            of = source if options.bearing is None else bearings_of(source, options)[0]
+            found = critical_speeds(of, where, options.pivot, options.operating)
             write_critical_speeds(found, output)
         else:
+            own = one_bearing(source, options) if isinstance(source, Run) else source
             write_coefficients(own, output, pivot=options.pivot, where=where)
         tell_remarks([source])
 

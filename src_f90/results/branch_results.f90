@@ -120,7 +120,7 @@ contains
             call each(series//'_amplitude', [(whirls(i)%amplitude(axis), i=1, size(whirls))], 'm', &
                & direction//' '//vibration//' with the shaft, amplitude', across)
             call each(series//'_phase', [(whirls(i)%phase(axis), i=1, size(whirls))], 'rad', &
-               & 'angle by which it comes after the unbalance', across)
+               & direction//' '//vibration//' with the shaft, phase behind the unbalance', across)
          end do
       end subroutine put_whirls
 

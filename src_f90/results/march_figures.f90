@@ -153,7 +153,7 @@ contains
                   & trim(directions(k))//' journal vibration '//words//', amplitude')
                if (order < 1) cycle
                call put_figure(file, journal//name//'phase', -atan2(part(1)%im, part(1)%re), 'rad', &
-                  & 'angle by which it comes after the unbalance')
+                  & trim(directions(k))//' journal vibration '//words//', phase behind the unbalance')
             end associate
          end do
          if (tilting) call put_figure(file, 'pad_tilt'//name//'amplitude', abs(parts('pad_tilt', order)), 'rad', &
@@ -240,7 +240,7 @@ contains
          call put_figure(file, 'pad_unloaded', merge(1.0_wp, 0.0_wp, found%unloaded), '1', '1 where it carries no load')
          call put_figure(file, 'pad_lifted', found%lifted, '1', 'share of the time lifted off its pivot')
          call put_figure(file, 'pad_order', known(found%order), '1', 'dominant order of the tilt')
-         call put_figure(file, 'pad_order_amplitude', found%amplitude, 'rad', 'amplitude at this order')
+         call put_figure(file, 'pad_order_amplitude', found%amplitude, 'rad', 'tilt at its dominant order, amplitude')
          call put_figure(file, 'pad_flutters', merge(1.0_wp, 0.0_wp, found%flutters), '1', '1 where it flutters')
       end if
       call take('journal_y', y)
@@ -250,7 +250,7 @@ contains
          & 'revolutions over which lift-off, orders and shares are')
       call put_figure(file, 'whirl_order', known(order), '1', &
          & 'order of the largest journal motion that is no multiple of 1x')
-      call put_figure(file, 'whirl_amplitude', amplitude, 'm', 'its amplitude')
+      call put_figure(file, 'whirl_amplitude', amplitude, 'm', 'amplitude of this order')
       call put_figure(file, 'whirls', merge(1.0_wp, 0.0_wp, whirls), '1', '1 where the journal whirls at this order')
    contains
       !> A series but its last sample, which begins the next revolution, at equal steps of the shaft angle.

@@ -1,5 +1,7 @@
 """Results of machines: their stations and bearings, every plot of them, their report, and what is refused."""
 
+import re
+import shutil
 import subprocess
 
 import h5py
@@ -7,7 +9,7 @@ import numpy as np
 import pytest
 import tiltpad
 from tiltpad import command, figures
-from tiltpad.calculate import stations
+from tiltpad.calculate import stations, vibration_limits
 from tiltpad.draw import machine_report, machines
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
@@ -393,6 +395,12 @@ def test_the_report_tells_of_the_machine_and_of_each_bearing(machine, tmp_path):
         found = stations.station_modes(run)
     assert f"<td>mass of the rotor</td><td>{mass:.0f}</td>" in text
     assert f"<td>{load:.2f}</td>" in text
+    first = text[: text.index("<details>")]
+    with tiltpad.read(machine("coefficients")) as run:
+        shaft = found.own & (found.frequency > 0) & np.char.startswith(run["modes/name"][0], "shaft")
+    least = found.log_decrement[shaft].min()
+    assert f"The shaft is stable with pivots free: least logarithmic decrement {least:.3g}" in first
+    assert all(f"<td>{name}</td>" in first for name in ("drive_end", "free_end"))
     k = np.flatnonzero(found.frequency > 0)[0]
     assert f"<td>{found.frequency[k]:.5g}</td>" in text
     pictures = ("machine", "shaft", "shapes", "stability", "bearing", "equilibrium", "film")
@@ -404,4 +412,33 @@ def test_the_report_tells_of_the_machine_and_of_each_bearing(machine, tmp_path):
     text = page.read_text()
     assert text.count('<img alt="stations"') == 1
     assert text.count('<img alt="orbit"') == 2
-    assert "peak to peak y" in text
+    assert "peak to peak y, z (µm)" in text
+    assert "1 where" not in text
+    first = text[: text.index("<details>")]
+    with tiltpad.read(machine("march")) as run:
+        sizes = np.maximum(run["summary/station_y_size"], run["summary/station_z_size"])
+        limit = vibration_limits.of_api_617(run.input["operation"]["speed_rpm"])
+    assert f"The shaft moves most at station {sizes.argmax() + 1} " in first
+    assert f"API 617 allows {1e6 * limit:.2f} µm (kept), zone A of ISO 7919-3" in first
+
+
+def test_a_load_that_is_nothing_beside_the_others_is_told_as_0(machine, tmp_path):
+    path = tmp_path / "upright.h5"
+    shutil.copy(machine("equilibrium"), path)
+    with h5py.File(path, "r+") as file:
+        file["equilibrium/bearing_load_z"][...] = [-1e-11, 4e-15]
+    with tiltpad.read(path) as run:
+        text = machine_report.bearing_figures(run)
+    assert re.search("<td>load of the rotor, horizontal</td><td>0.00</td><td>0.00</td><td>kN</td>", text)
+
+
+def test_the_table_of_critical_speeds_of_one_result_has_all_stations(machine, tmp_path, closed_figures):
+    table = tmp_path / "x.csv"
+    result = str(machine("branch"))
+    assert command.main(["response", result, "-o", str(table)]) == 0
+    with tiltpad.read(result) as run:
+        found = tiltpad.critical_speeds(run)
+        stations_of = range(1, run.length("station") + 1)
+        peaks = {each: tiltpad.response(run, station=each).peaks for each in stations_of}
+    assert [(each.station, each.peak) for each in found] == [(k, own) for k in peaks for own in peaks[k]]
+    assert len(table.read_text().splitlines()) == 1 + len(found)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import tiltpad
 from tiltpad import command, summary
+from tiltpad.calculate import vibration_limits
 from tiltpad.draw import layout
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
@@ -20,9 +21,11 @@ SHOWN = ("lugre", "runup", "equilibrium")
 BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 #: Run by the browser in a copy of the page: what it made of it.
 PROBE = """<pre id=probe></pre><script>addEventListener('load', () => {
+  const short = document.body.innerText;
+  document.querySelectorAll('details').forEach(each => each.open = true);
   const images = [...document.images].map(i => [i.alt, i.complete, i.naturalWidth, i.naturalHeight, i.width]);
   const page = document.documentElement;
-  const found = {title: document.title, text: document.body.innerText, images: images,
+  const found = {title: document.title, short: short, text: document.body.innerText, images: images,
                  wide: page.scrollWidth - page.clientWidth};
   const told = encodeURIComponent(JSON.stringify(found));
   document.getElementById('probe').textContent = 'PROBE' + told + 'PROBE';
@@ -52,6 +55,8 @@ class Outline(HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.open, self.headings, self.images, self.rows, self.sources = [], [], [], {}, []
+        #: The rows of the first table, which the page begins with.
+        self.facts = {}
         self.feed(text)
         assert self.open == []
 
@@ -69,6 +74,8 @@ class Outline(HTMLParser):
         assert self.open.pop() == tag
         if tag == "tr":
             self.rows[self.row[0]] = self.row[1:]
+            if "Key figures" not in self.headings:
+                self.facts[self.row[0]] = self.row[1:]
 
     def handle_data(self, data):
         if self.open[-1:] in (["h1"], ["h2"]):
@@ -209,6 +216,8 @@ def test_a_browser_shows_it(page, run, tmp_path, case_name):
     for name, complete, width, height, shown in found["images"]:
         assert complete, name
         assert min(width, height, shown) > 100, name
+    assert "minimum film thickness" in found["short"]
+    assert "samples_per_revolution" not in found["short"]
     for text in (
         "Key figures",
         "equilibrium: journal displacement, vertical",
@@ -218,3 +227,57 @@ def test_a_browser_shows_it(page, run, tmp_path, case_name):
         assert text in found["text"]
     if case_name != "equilibrium":
         assert f"{1e6 * tiltpad.orbit_size(run(case_name))[0]:.4g}\tµm" in found["text"]
+
+
+def test_the_page_begins_with_stability_loads_films_and_losses(page, run):
+    first = page("offset")[: page("offset").index("<details>")]
+    case = run("offset")
+    found = tiltpad.modes(case)
+    journal = np.char.startswith(found.name, "journal") & (found.frequency > 0)
+    decrement = found.log_decrement[journal].min()
+    assert f"The journal is stable with pivots free: least logarithmic decrement {decrement:.3g}" in first
+    rows = Outline(page("offset")).facts
+    load = np.hypot(1200 * 9.81, 4000)
+    assert rows["load"][:2] == [f"{1e-3 * load:.2f}", "kN"]
+    film = case.equilibrium["min_film_thickness"]
+    assert rows["minimum film thickness"] == [f"{1e6 * film.min():.2f}", "µm", f"pad {film.argmin() + 1}"]
+    assert float(rows["power loss"][0]) == pytest.approx(
+        1e-3 * case["equilibrium/total_power_loss"], rel=1e-3
+    )
+    k = tiltpad.coefficients(case).stiffness[0]
+    assert float(rows["stiffness K yy"][0]) == pytest.approx(1e-6 * k[0, 0], rel=1e-3)
+
+
+def test_a_vibration_is_told_against_the_limits_of_standards(page, run):
+    first = page("none")[: page("none").index("<details>")]
+    size = run("none")["summary/orbit_size"]
+    assert f"API 617 allows 25.40 µm ({'kept' if size <= 25.4e-6 else 'exceeded'})" in first
+    # above 12000 rpm as the root of the speed; zones end at 4800, 9000 and 13200 over that of the speed
+    assert vibration_limits.of_api_617(48000) == pytest.approx(12.7e-6)
+    assert vibration_limits.of_api_617(3000) == pytest.approx(25.4e-6)
+    sizes = [47e-6, 49e-6, 89e-6, 91e-6, 131e-6, 133e-6]
+    assert [vibration_limits.zone(each, 10000) for each in sizes] == list("ABBCCD")
+
+
+def test_remarks_stand_in_the_order_of_their_weight(changed, tmp_path):
+    told = [
+        "surface speed 1 m/s at 200 rpm: seldom so low",
+        "at the equilibrium pad 3 carries no load; unloaded pads may flutter",
+        "pad 4 flutters at 0.475 of the shaft speed, amplitude of the tilt 2.6 mrad",
+        "pad 3 carries next to no load (mean 17.8 N); it rubs on the journal 0.4 % of the time",
+        "the journal whirls at 0.494 of the shaft speed, amplitude 91.777 um",
+        "Reynolds number of the film of pad 3: 557; above 500 films may be turbulent",
+        "the oil warms by 60.0 K although every pad draws fresh oil",
+    ]
+
+    def edit(file):
+        file["summary"].pop("remarks", None)
+        file.create_dataset("summary/remarks", data=np.array(told, dtype="S")).make_scale("summary/remarks")
+
+    path = tmp_path / "a.html"
+    assert command.report([str(changed("none", edit)), "-o", str(path)]) == 0
+    text = path.read_text()
+    places = [text.index(f"{told[k][0].upper()}{told[k][1:]}.") for k in (3, 4, 2, 1, 6, 0, 5)]
+    assert places == sorted(places)
+    # the heaviest on the first screen
+    assert places[4] < text.index("<h2>Further remarks</h2>") < places[5]

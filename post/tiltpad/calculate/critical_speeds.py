@@ -12,7 +12,7 @@ import numpy as np
 
 from tiltpad.calculate.response import STATION, Peak, response
 from tiltpad.calculate.selection import Where
-from tiltpad.files.read import Run
+from tiltpad.files.read import Bearing, Run
 from tiltpad.files.study import Study
 from tiltpad.files.writing import write_csv
 
@@ -54,7 +54,7 @@ def critical_speeds(
     """
     ends = (np.nan, np.nan) if operating is None else operating_range(operating)
     stations: list[int | None] = [None]
-    if isinstance(source, Study) and STATION in source:
+    if STATION in source and not isinstance(source, Bearing):
         stations = list(range(1, source.length(STATION) + 1))
     return [
         CriticalSpeed(station, peak, *margins(peak, *ends))

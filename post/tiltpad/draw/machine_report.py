@@ -20,16 +20,15 @@ from tiltpad.files.units import SHOWN, Shown, described, digits, fitted, numbers
 WHOLE = ("shaft", "stations", "shapes", "multipliers", "stability")
 #: What the rotor is, in the order of the table.
 ROTOR = ("total_mass", "left_out_frequency", "truncation_error", "damping_error")
+#: Loads of the bearings along y and z.
+LOADS = ("equilibrium/bearing_load_y", "equilibrium/bearing_load_z")
 #: Heads of the columns of a mode.
 VIBRATION = ("frequency (Hz)", "damping ratio (%)", "logarithmic decrement")
 #: Figures of the stations, and their words at the head of the table.
 STATIONS = {
-    "equilibrium/station_y": "equilibrium y",
-    "equilibrium/station_z": "equilibrium z",
-    "summary/station_y_size": "peak to peak y",
-    "summary/station_z_size": "peak to peak z",
-    "summary/station_y_amplitude": "1x amplitude y",
-    "summary/station_z_amplitude": "1x amplitude z",
+    "equilibrium/station_{}": "equilibrium",
+    "summary/station_{}_size": "peak to peak",
+    "summary/station_{}_amplitude": "1x amplitude",
 }
 
 
@@ -53,9 +52,11 @@ def bearing_figures(run: Run) -> str:
     rows = []
     if "rotor/bearing_station" in run:
         rows.append(("station", *(f"{each:.0f}" for each in run["rotor/bearing_station"]), ""))
-    for axis, way in (("y", "vertical"), ("z", "horizontal")):
-        if (name := f"equilibrium/bearing_load_{axis}") in run:
-            rows.append(row(Shown(f"load of the rotor, {way}", 1e-3, "kN"), run[name]))
+    loads = [run[name] for name in LOADS if name in run]
+    shown = fitted(Shown("load of the rotor", 1e-3, "kN"), np.ravel(loads))
+    texts = iter(numbers(shown, np.ravel(loads)))
+    for way in ("vertical", "horizontal")[: len(loads)]:
+        rows.append((f"{shown.text}, {way}", *(next(texts) for _ in names), shown.unit))
     whole = {each.name for each in summary.journal(run)}
     found = [{each.name: each for each in summary.journal(own)} for own in run.bearings.values()]
     for name in dict.fromkeys(name for own in found for name in own if name not in whole):
@@ -67,14 +68,17 @@ def bearing_figures(run: Run) -> str:
 
 def station_figures(run: Run) -> str:
     """Where the shaft is at the stations, and how far they move in the last revolution."""
-    there = {name: words for name, words in STATIONS.items() if name in run}
+    there = {name: words for name, words in STATIONS.items() if name.format("y") in run}
     if not there:
         return ""
     columns, heads = [], []
     for name, words in there.items():
-        shown = fitted(described(run, name, "journal_y"), run[name])
-        columns.append(numbers(shown, run[name]))
-        heads.append(f"{words} ({shown.unit})")
+        both = np.concatenate([run[name.format(axis)] for axis in "yz"])
+        shown = fitted(described(run, name.format("y"), "journal_y"), both)
+        texts = numbers(shown, both)
+        half = len(texts) // 2
+        columns.append([f"{y}, {z}" for y, z in zip(texts[:half], texts[half:], strict=True)])
+        heads.append(f"{words} y, z ({shown.unit})")
     what, x = attached(run.input), positions(run)
     known = "rotor/station_position" in run
     rows: list[Sequence[str]] = []

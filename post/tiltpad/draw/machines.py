@@ -13,10 +13,12 @@ from tiltpad.calculate import stations as of_stations
 from tiltpad.draw import layout
 from tiltpad.files.archive import NotInRunError, RunError
 from tiltpad.files.read import Run
-from tiltpad.files.units import SHOWN, digits, literal
+from tiltpad.files.units import SHOWN, Shown, digits, literal, numbers
 
 #: Modes of a damping ratio above this are not drawn, and this number of modes is.
 DAMPED, MOST_MODES = 0.6, 6
+#: How loads of bearings are shown.
+LOAD = Shown("load", 1e-3, "kN")
 #: Points of the ellipse on which a station moves.
 ELLIPSE = 73
 #: Height of the picture of a machine over its length: at least and at most.
@@ -200,11 +202,12 @@ def shaft(runs: Sequence[Run]) -> Figure:
             ax.plot(x, values, color=color, marker="o", markersize=3)
             at = run["rotor/bearing_station"].astype(int) - 1
             ax.plot(x[at], values[at], "^", color=color, markersize=8, markerfacecolor="white")
-            loads = run[f"equilibrium/bearing_load_{axis}"]
+            both = [run[f"equilibrium/bearing_load_{each}"] for each in "yz"]
+            loads = numbers(LOAD, np.ravel(both))["yz".index(axis) * len(at) :]
             for k, name in enumerate(run["bearing"] if len(runs) == 1 else []):
                 share = (x[at[k]] - x[0]) / (x[-1] - x[0])
                 side = {"ha": "left" if share < 0.15 else "right" if share > 0.85 else "center"}
-                words = f"{literal(str(name))}: {digits(1e-3 * loads[k], 4)} kN"
+                words = f"{literal(str(name))}: {loads[k]} {LOAD.unit}"
                 place = {"xycoords": ("data", "axes fraction"), "va": "top", **NOTE, **side}
                 ax.annotate(words, (x[at[k]], 0.96), **place)
         ax.set_ylabel(f"${axis}$ (µm)")

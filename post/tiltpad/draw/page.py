@@ -45,6 +45,9 @@ PICTURES = {
     "scatter": "Results over the inputs, a point for each run.",
 }
 
+#: How the meaning of a number begins that is 1 where something holds, and 0 elsewhere.
+FLAG = "1 where "
+
 
 def page(of: Archive, parts: Iterable[str]) -> str:
     """The whole page about a file; the first of the parts tells its origin, empty ones are left out."""
@@ -62,9 +65,15 @@ def section(title: str, content: str) -> str:
     return f"<section><h2>{title}</h2>{content}</section>" if content else ""
 
 
+def folded(title: str, content: str) -> str:
+    """A section of which a reader sees the title, and the content where it is clicked."""
+    head = f"<summary><h2>{title}</h2></summary>"
+    return f"<details>{head}<section>{content}</section></details>" if content else ""
+
+
 def given(title: str, of: Archive) -> str:
     """The input of a run, or of the first run of a study."""
-    return section(title, f"<pre>{escape(of.attributes.get('input', '').strip())}</pre>")
+    return folded(title, f"<pre>{escape(of.attributes.get('input', '').strip())}</pre>")
 
 
 def paragraph(text: str, warning: bool = False) -> str:
@@ -74,14 +83,25 @@ def paragraph(text: str, warning: bool = False) -> str:
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]], words: bool = False) -> str:
     """A table whose first column is text and whose others are numbers, or with `words` texts."""
-    lines = ["<tr>" + "".join(f"<th>{escape(each)}</th>" for each in head) + "</tr>"]
-    lines += ["<tr>" + "".join(f"<td>{escape(each)}</td>" for each in row) + "</tr>" for row in rows]
-    whole = f"<div class=wide><table{' class=words' * words}>{''.join(lines)}</table></div>"
-    return whole if len(lines) > 1 else ""
+    first = "<tr>" + "".join(f"<th>{escape(each)}</th>" for each in head) + "</tr>"
+    lines = ["<tr>" + "".join(f"<td>{escape(each)}</td>" for each in row) + "</tr>" for row in rows]
+    whole = f"<div class=wide><table{' class=words' * words}>{first}{''.join(lines)}</table></div>"
+    return whole if lines else ""
+
+
+def facts_table(rows: Iterable[Sequence[str]]) -> str:
+    """A table of a few facts, without heads: name, number, unit, and what belongs to it in words."""
+    lines = ["<tr>" + "".join(f"<td>{escape(each)}</td>" for each in row) + "</tr>" for row in rows]
+    return f"<table class=facts>{''.join(lines)}</table>" if lines else ""
 
 
 def row(quantity: Shown, values: Sequence[float]) -> tuple[str, ...]:
-    """Numbers of a quantity between its name and its unit, which suits the largest of them."""
+    """Numbers of a quantity between its name and its unit, which suits the largest of them.
+
+    Yes and no stand for what is 1 where something holds.
+    """
+    if quantity.text.partition(FLAG)[1]:
+        return (quantity.text.replace(FLAG, ""), *("yes" if each else "no" for each in values), "")
     shown = fitted(quantity, values)
     return (shown.text, *numbers(shown, values), shown.unit)
 

@@ -16,7 +16,8 @@ from tiltpad.draw import figures, machine_report
 from tiltpad.draw.bearing import bearing
 from tiltpad.draw.branches import in_words as critical
 from tiltpad.draw.machine_report import VIBRATION, threshold, vibration
-from tiltpad.draw.page import PICTURES, given, page, paragraph, picture, row, section, table
+from tiltpad.draw.overview import further_remarks, overview, sentence
+from tiltpad.draw.page import PICTURES, folded, given, page, paragraph, picture, row, table
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Bearing, Run
 from tiltpad.files.units import SHOWN, digits, in_words
@@ -27,12 +28,11 @@ def report(run: Run) -> str:
     by = run.attributes
     parts = [
         f"written by {by['program']} {by['version']} ({by['commit']}), {by['created']}",
-        incomplete(run),
-        orbit_stability(run),
-        section("Remarks", "".join(paragraph(sentence(each), warning=True) for each in run.remarks)),
+        overview(run),
+        folded("Further remarks", further_remarks(run)),
         *(of_machine(run) if run.bearings else of_bearing(run)),
         given("Input", run),
-        section("Cost", statistics(run)),
+        folded("Cost", statistics(run)),
     ]
     return page(run, parts)
 
@@ -41,43 +41,26 @@ def of_bearing(run: Run) -> Iterable[str]:
     """What the page about one bearing has."""
     rows = [row(shown, list(np.atleast_1d(value))) for _, shown, value in summary.journal(run)]
     yield paragraph(peaks(run))
-    yield section("Key figures", table(("journal and film", "value", "unit"), rows))
-    yield section("Pads", pad_figures(run))
-    yield section("Films, solved closely", verification(run))
-    yield section("Spectrum", spectrum_peaks(run))
-    yield section("Stiffness and damping", coefficient_table(run))
-    yield section("Modes", mode_table(run))
-    yield section("Pictures", "".join(pictures(run)))
+    yield folded("Key figures", table(("journal and film", "value", "unit"), rows))
+    yield folded("Pads", pad_figures(run))
+    yield folded("Films, solved closely", verification(run))
+    yield folded("Spectrum", spectrum_peaks(run))
+    yield folded("Stiffness and damping", coefficient_table(run))
+    yield folded("Modes", mode_table(run))
+    yield folded("Pictures", "".join(pictures(run)))
 
 
 def of_machine(run: Run) -> Iterable[str]:
     """What the page about a machine has: the whole of it, then each of its bearings."""
-    yield section("Rotor", machine_report.rotor_figures(run))
-    yield section("Bearings", machine_report.bearing_figures(run))
-    yield section("Stations", machine_report.station_figures(run))
-    yield section("Films, solved closely", verification(run))
-    yield section("Modes", machine_report.mode_table(run))
-    yield section("Pictures", "".join(machine_report.pictures(run)))
+    yield folded("Rotor", machine_report.rotor_figures(run))
+    yield folded("Bearings", machine_report.bearing_figures(run))
+    yield folded("Stations", machine_report.station_figures(run))
+    yield folded("Films, solved closely", verification(run))
+    yield folded("Modes", machine_report.mode_table(run))
+    yield folded("Pictures", "".join(machine_report.pictures(run)))
     for name, own in run.bearings.items():
         tables = (pad_figures(own), spectrum_peaks(own), coefficient_table(own))
-        yield section(escape(f"Bearing {name}"), "".join([*tables, *pictures(own)]))
-
-
-def incomplete(run: Run) -> str:
-    return "" if run.complete else paragraph(f"Incomplete run{run.end()}.", warning=True)
-
-
-def orbit_stability(run: Run) -> str:
-    """Whether a periodic orbit is stable; a warning where it is not."""
-    if "periodic" not in run:
-        return ""
-    if run["periodic/stable"]:
-        return paragraph("The periodic orbit is stable: small disturbances die out.")
-    return paragraph("The periodic orbit is unstable: no motion stays on it.", warning=True)
-
-
-def sentence(words: str) -> str:
-    return f"{words[0].upper()}{words[1:]}."
+        yield folded(escape(f"Bearing {name}"), "".join([*tables, *pictures(own)]))
 
 
 def peaks(run: Run) -> str:

@@ -12,7 +12,7 @@ from tiltpad.calculate.statistics import common_remarks
 from tiltpad.draw import figures
 from tiltpad.draw.diagrams import label
 from tiltpad.draw.layout import not_run_yet
-from tiltpad.draw.page import given, page, paragraph, picture, section, table
+from tiltpad.draw.page import folded, given, page, paragraph, picture, section, table
 from tiltpad.draw.sample_report import sample
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.study import Study
@@ -31,11 +31,11 @@ def study_report(study: Study, operating: tuple[float, float] | None = None) -> 
     parts = [
         f"{by['program']} {by['version']}, {by['created']}",
         summary(study),
-        *(sample(study) if sampled(study, whole) else [section("Curves", "".join(curves(study)))]),
         section("Critical speeds", critical(study, operating)),
         section("Runs that were not done", failures(study)),
         section("Remarks", remarks(study)),
-        section("Runs", runs(study)),
+        *(sample(study) if sampled(study, whole) else [folded("Curves", "".join(curves(study)))]),
+        folded("Runs", runs(study)),
         given("Input of the first run", study),
     ]
     return page(study, parts)
@@ -72,8 +72,9 @@ def critical(study: Study, operating: tuple[float, float] | None) -> str:
     if operating:
         text += f" Operating speeds: {written(operating[0])} to {written(operating[1])} rpm."
     heads = ("pivots", "station", "direction", "N (rpm)", "amplitude (µm)", "N1 (rpm)", "N2 (rpm)", "AF")
-    margins = ("required SM below (%)", "required SM above (%)", "SM (%)", "required SM (%)")
-    return table((*heads, *margins), rows) + paragraph(text) if rows else ""
+    margins = ("required SM below, above (%)", *(("SM (%)", "required SM (%)") if operating else ()))
+    wanted = len(heads) + len(margins)
+    return table((*heads, *margins), [row[:wanted] for row in rows]) + paragraph(text) if rows else ""
 
 
 def critical_row(pivot: str | None, own: CriticalSpeed) -> tuple[str, ...]:
@@ -81,9 +82,10 @@ def critical_row(pivot: str | None, own: CriticalSpeed) -> tuple[str, ...]:
     peak = own.peak
     size = digits(SHOWN["amplitude"].factor * peak.amplitude)
     edges = (peak.below_rpm, peak.above_rpm, peak.amplification_factor)
-    numbers = (*edges, peak.margin_below, peak.margin_above, own.margin, own.required)
+    sides = ", ".join(digits(each, 3) for each in (peak.margin_below, peak.margin_above))
     place = (pivot or "–", f"{own.station or '–'}", peak.direction, digits(peak.speed_rpm))
-    return (*place, size, *(digits(each) for each in numbers))
+    asked = (digits(each, 3) for each in (own.margin, own.required))
+    return (*place, size, *(digits(each) for each in edges), sides, *asked)
 
 
 def failures(study: Study) -> str:
