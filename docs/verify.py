@@ -139,6 +139,17 @@ K c/W and C c omega/W, x along the load.
 |---|---|---|---|---|---|---|---|---|---|---|
 {lund_thomsen}
 
+### Where Someya's tables are not met
+
+Some rows of these tables, in a copy that is public, cannot be those of the bearing that heads them. The rows of four
+pads with the load on a pad are headed L/D = 0.5 and are those of L/D = 1. At light load this program and ROSS 3 agree,
+and the tables have up to twice their numbers. Who compares a program with these tables should take loaded bearings, as
+above. x is along the load, e the eccentricity over the clearance.
+
+| bearing | number | program | ROSS 3 | table |
+|---|---|---|---|---|
+{lightly_loaded}
+
 ## Losses and flows
 
 Pad 1 of the paper's bearing on rigid pivots at 6500 rpm, without cavitation, against an independent program.

@@ -56,6 +56,17 @@ LUND_THOMSEN = {
     (1.0, 0.235): (0.460, 49.27, 2.19, 3.57, -0.80, 1.55, 7.36, 1.89, 1.89, 2.19),
 }
 
+# Where Someya's tables (1989, in a public copy) are not met: what, L/D, S, pads, and the known numbers of
+# ROSS 3 and of the tables; x along the load. The rows of load on pad are headed L/D = 0.5.
+SOMEYA_ON_PAD = {"e": 0.2, "Kxx": 1.67, "Cxx": 7.18}
+LIGHTLY = (
+    ("four pads of 80 degrees, load on pad", 0.5, 1.42, "on", {}, SOMEYA_ON_PAD),
+    ("four pads of 80 degrees, load on pad", 1.0, 1.42, "on", {}, SOMEYA_ON_PAD),
+    ("four pads of 80 degrees, load between pads", 0.5, 5.76, "between", {"e": 0.052}, {"e": 0.10}),
+    ("two grooves, pads of 170 degrees", 0.5, 5.96, "grooves", {"Kyx": -7.39}, {"Kyx": -13.1}),
+    ("two grooves, pads of 170 degrees", 1.0, 0.689, "grooves", {"Kyx": -2.02}, {"Kyx": -4.38}),
+)
+
 PLAIN = """\
 &case task = 'coefficients' /
 &rotor mass = 1000, unbalance = 0 /
@@ -67,6 +78,8 @@ FOUR_PADS = """\
 &pads pivot_angle_deg = -45, 45, 135, 225, arc_deg = 80, motion = 'tilting_only',
   mass = 1e-6, inertia = 1e-9 /
 """
+ON_PAD = "&pads pivot_angle_deg = -90, 0, 90, 180, arc_deg = 80, motion = 'tilting_only' /\n"
+NARROW_GROOVES = "&pads motion = 'fixed', pivot_angle_deg = -90, 90, arc_deg = 170 /\n"
 TWO_GROOVES = "&pads motion = 'fixed', pivot_angle_deg = -90, 90, arc_deg = 160 /\n"
 LOAD, RADIUS, CLEARANCE, SPEED = 9810.0, 0.05, 1e-4, 100 * math.pi
 
@@ -188,6 +201,26 @@ def lund_thomsen(program, folder):
         )
 
 
+def lightly_loaded(program, folder):
+    """Rows of bearings for which the program and Someya's tables are not the same: program / ROSS / table."""
+    case = Path(folder) / "light.nml"
+    pads = {"on": ON_PAD, "between": FOUR_PADS, "grooves": NARROW_GROOVES}
+    for what, ratio, sommerfeld, which, ross, table in LIGHTLY:
+        length = 2 * RADIUS * ratio
+        viscosity = (
+            sommerfeld * LOAD / (SPEED / (2 * math.pi) * length * 2 * RADIUS) * (CLEARANCE / RADIUS) ** 2
+        )
+        case.write_text(PLAIN.format(length=length, viscosity=f"{viscosity:.17g}") + pads[which])
+        with run(program, case, folder) as result:
+            at = tiltpad.coefficients(result)
+            found = {"e": result["equilibrium/eccentricity_ratio"]}
+        k, c = (each[0] * CLEARANCE / LOAD for each in (at.stiffness, at.damping))
+        found |= {"Kxx": k[0, 0], "Cxx": SPEED * c[0, 0], "Kyx": k[1, 0]}
+        for name in table:
+            cells = (f"{found[name]:.3g}", ross.get(name, "-"), table[name])
+            yield row(f"{what}, L/D {ratio}, S {sommerfeld}", name, *cells)
+
+
 def losses(program, folder):
     """Rows of losses and flows of a pad."""
     inputs = ("pads%motion=tilting_only", "case%task=equilibrium", "film%cavitation=none")
@@ -203,4 +236,4 @@ def losses(program, folder):
             yield row(label, f"{here:.4f}", reference, f"{abs(here / reference - 1):.1e}")
 
 
-TABLES = (independent, close_films, thresholds, someya, lund_thomsen, losses)
+TABLES = (independent, close_films, thresholds, someya, lund_thomsen, lightly_loaded, losses)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 import tiltpad
 from tiltpad import figures, plots
 
@@ -142,6 +143,24 @@ def test_the_index_of_terms_names_what_is_there(root):
         assert anchor in {re.sub(r"[^\w -]", "", each.lower()).replace(" ", "-") for each in titles}, anchor
     for term in ("LBP", "LOP", "API 617", "log dec", "half-frequency whirl", "Gumbel", "DyRoBeS", "XLTRC2"):
         assert term in page
+
+
+def test_where_someya_s_tables_are_not_met(root, program, tmp_path, monkeypatch):
+    """The page has the numbers of this program: near those of ROSS, and of the table of another L/D."""
+    monkeypatch.syspath_prepend(root / "docs")
+    from verify_coefficients import lightly_loaded
+
+    rows = list(lightly_loaded(program, tmp_path))
+    page = (root / "docs/verification.md").read_text()
+    assert all(f"{row}\n" in page for row in rows)
+    for row in rows:
+        own, ross, table = (None if each == "-" else float(each) for each in row.strip("| ").split(" | ")[2:])
+        if ross is not None:
+            assert own == pytest.approx(ross, rel=0.03)
+        elif "L/D 1.0" in row:
+            assert own == pytest.approx(table, rel=0.09)
+        else:
+            assert own != pytest.approx(table, rel=0.25)
 
 
 def test_the_version_is_the_same_everywhere(root):
