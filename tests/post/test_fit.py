@@ -6,6 +6,7 @@ import tiltpad
 from scipy import stats
 from tiltpad import Measured
 from tiltpad.calculate.estimation import Parameter, estimate
+from tiltpad.draw import fits
 
 FRICTION = ("friction%static_coefficient", "friction%dynamic_coefficient")
 BRISTLES, CLEARANCE, VISCOSITY = (
@@ -157,6 +158,18 @@ def test_missing_values_do_not_count_and_the_picture_has_the_others(orbit):
     np.testing.assert_allclose(fitted.get_ydata()[:-1], 1e6 * fit.fitted[0]["journal_y"])
     np.testing.assert_allclose(start.get_xdata()[:-1], 1e6 * fit.started[0]["journal_z"])
     assert ax.figure.get_supxlabel().startswith(f"{CLEARANCE} = {fit.in_words(0)}")
+
+
+@pytest.mark.usefixtures("closed_figures")
+@pytest.mark.parametrize("others", [{}, {"journal_y": np.zeros(60), "journal_z": np.ones(60)}])
+def test_the_legend_of_a_fit_has_the_symbols_of_its_panels(others):
+    values = {"stiffness": 1e8 * np.eye(2), **others}
+    fig = fits.comparison([Measured(values, 1e-6)], [values], [values], [])
+    shown = {line.get_label(): line for line in fig.legends[0].get_lines()}
+    for k, name in enumerate(("measured", "start", "fitted")):
+        drawn = [ax.get_lines()[k] for ax in fig.axes]
+        assert {line.get_marker() for line in drawn} - {"None"} == {shown[name].get_marker()}
+        assert {line.get_linestyle() for line in drawn} - {"None"} == {shown[name].get_linestyle()} - {"None"}
 
 
 ORBIT = Measured({"journal_y": np.zeros(60)}, 1e-6)

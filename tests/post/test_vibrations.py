@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from tiltpad.calculate import modes
 from tiltpad.calculate.coefficients import condensed
+from tiltpad.draw import vibrations
 
 RANDOM = np.random.default_rng(7)
 STIFFNESS, DAMPING = RANDOM.normal(size=(2, 6, 6)) + 6 * np.eye(6)
@@ -83,3 +84,14 @@ def test_whirl_from_y_to_z_is_forward(z, ahead):
     turned = np.unwrap(np.arctan2(z_of_time, y_of_time))
     assert (turned[-1] > turned[0]) == ahead
     assert modes.whirl(np.array([1, z, 0])) == (1 if ahead else -1)
+
+
+def test_where_modes_cross_the_speed_of_the_shaft():
+    """Between runs, of modes that are there in both; one that only comes or goes crosses nothing."""
+    speed = np.array([3000.0, 6000.0, 9000.0])
+    frequency = np.array(
+        [[80.0, 40.0, np.nan, 10.0], [80.0, 90.0, 120.0, np.nan], [80.0, 140.0, 100.0, 200.0]]
+    )
+    at, of = vibrations.crossings(speed, frequency)
+    np.testing.assert_allclose(at, [4800, 6000 + 3000 * 2 / 7])
+    np.testing.assert_allclose(of, at / 60)

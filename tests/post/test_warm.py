@@ -155,7 +155,9 @@ def test_a_picture_of_a_branch(folder, tiltpad, opened):
     np.testing.assert_array_equal(upper.lines[0].get_xdata(), run["parameter"])
     np.testing.assert_array_equal(upper.lines[1].get_ydata(), run["mean_temperature"][:, 1])
     np.testing.assert_array_equal(lower.lines[0].get_ydata(), 1e3 * run["viscosity"][:, 1])
-    texts = [text.get_text() for text in figures.branch([run]).legends[0].get_texts()]
+    fig = figures.branch([run])
+    texts = [text.get_text() for text in fig.legends[0].get_texts()]
+    assert all(ax.get_ylabel().endswith("highest and lowest") for ax in fig.axes)
     assert texts[0] == "stable at frozen viscosity"
     with pytest.raises(ValueError, match="a branch has a picture of temperatures of its own"):
         figures.temperatures([run, run])

@@ -106,7 +106,8 @@ def branch(runs: Sequence[Run | Study], pad: int | None = None) -> Figure:
         for k, run in enumerate(found):
             draw_branches(run, ax, name, own, f"C{k}" if several else None)
         whose = f", pad {own}" if own else ""
-        ax.set(ylabel=SHOWN[name].label + whose, xlabel=parameter_of(found[0]).label)
+        ends = f"{SHOWN[name].label}{whose}\nhighest and lowest"
+        ax.set(ylabel=ends, xlabel=parameter_of(found[0]).label)
         ax.margins(y=0.1)
     if several:
         names = [(literal(text), {"color": f"C{k}"}) for k, text in enumerate(layout.labels(found))]

@@ -79,6 +79,9 @@ def film(runs: Sequence[Run], pad: int | None = None, time: float | None = None)
         name = f"pad {k}" if k == 1 or len(pads) <= MOST_NAMED else f"{k}"
         upper.annotate(name, (geometry.of_pads(runs[0].input, "pads%pivot_angle_deg")[k - 1], 1.03), **place)
     upper.set(ylabel="film thickness (µm)", ylim=(0, None))
+    for side, height in (("journal", 0.03), ("pads: the lines", 0.97)):
+        place = {"ha": "left", "va": "bottom" if height < 0.5 else "top", "fontsize": "small", "color": "0.3"}
+        upper.annotate(side, (0.01, height), xycoords="axes fraction", **place)
     senses = {sense(run.input) for run in runs}
     moves = f"; the surface of the journal moves to the {'left' if senses == {1} else 'right'}"
     label = f"angle from $+z$ towards $+y$ (deg){moves if len(senses) == 1 else ''}"

@@ -21,6 +21,9 @@ LABELS = (SHOWN["journal_z"].label, SHOWN["journal_y"].label)
 POINTS: dict[str, Any] = {"color": "0.45", "linestyle": "", "marker": ".", "markersize": 3}
 START: dict[str, Any] = {"color": "C1", "linestyle": "--", "linewidth": 0.8}
 FITTED: dict[str, Any] = {"color": "C0"}
+LOOKS = (POINTS, START, FITTED)
+#: Marks of points that are no line.
+MARKS = tuple({"marker": each, "markersize": 5} for each in ".+x")
 Values = Mapping[str, Any]
 
 
@@ -46,18 +49,25 @@ def comparison(
         fig, axes = layout.grid(len(found), 2.7)
         for ax, panel in zip(axes, found, strict=True):
             draw(ax, panel)
-        layout.heading(fig, [("measured", POINTS), ("start", START), ("fitted", FITTED)], "")
+        layout.heading(fig, legend(found), "")
         for text in told:
             layout.remark(fig, text)
         layout.spread(fig)
     return fig
 
 
+def legend(found: Sequence[Panel]) -> list[tuple[str, dict[str, Any]]]:
+    """Measured, start and fitted as the panels have them: lines, marks, or both where panels differ."""
+    joined, alone = (any(panel.joined is each for panel in found) for each in (True, False))
+    both = {} if joined else {"linestyle": ""}
+    looks = [look | (mark | both if alone else {}) for look, mark in zip(LOOKS, MARKS, strict=True)]
+    return [*zip(("measured", "start", "fitted"), looks, strict=True)]
+
+
 def draw(ax: Axes, panel: Panel) -> None:
     """Measured as points, start and fitted as lines or marks."""
-    for (x, y), look, mark in zip(panel.parts, (POINTS, START, FITTED), (".", "+", "x"), strict=True):
-        alone = {"markersize": 5, "linestyle": "", "marker": mark}
-        ax.plot(x, y, **look if panel.joined else look | alone)
+    for (x, y), look, mark in zip(panel.parts, LOOKS, MARKS, strict=True):
+        ax.plot(x, y, **look if panel.joined else look | mark | {"linestyle": ""})
     ax.set(title=panel.title, xlabel=panel.labels[0], ylabel=panel.labels[1])
     if panel.names:
         ax.set_xticks(range(len(panel.names)), panel.names)

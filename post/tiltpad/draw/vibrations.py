@@ -39,6 +39,8 @@ UNSTABLE = ("C1", "C3")
 KINDS = ("journal", "pads")
 
 
+#: Where a mode of the rotor has the frequency of the shaft.
+CROSSING: dict[str, Any] = {"linestyle": "", "marker": "x", "color": "0.1", "markersize": 6, "zorder": 5}
 #: Points of modes of the journal, and of pads.
 POINTS: tuple[dict[str, Any], ...] = ({}, {"markerfacecolor": "none"})
 #: Lines of modes of the journal, and of pads, which lie above them where both are equal.
@@ -201,7 +203,10 @@ def campbell(
         own = modes(one.source, one.pivot, one.where or None)
         own = own._replace(frequency=np.where(own.frequency > 0, own.frequency, np.nan))
         shade = own_color if len(found) > 1 else "0.8"
-        ax.plot(own.speed_rpm, own.frequency, color=shade, linewidth=0.8, zorder=1)
+        # modes of pads leap from run to run: they are points alone
+        of_rotor = np.where(of_journal(own.name), own.frequency, np.nan)
+        ax.plot(own.speed_rpm, of_rotor, color=shade, linewidth=0.8, zorder=1)
+        ax.plot(*crossings(own.speed_rpm, of_rotor), **CROSSING)
         points = campbell_points(ax, own, own_color if len(found) > 1 else None)
         mark_failed(ax, own.speed_rpm[np.isnan(own.frequency).all(axis=1)], None)
         top = max(top, ORDERS * own.speed_rpm.max() / 60)
@@ -218,9 +223,19 @@ def campbell(
     marks += [("pads", mark | {"marker": "o", "markersize": 2})]
     rings = zip((f"{rotor} unstable", "pad unstable"), UNSTABLE, strict=True)
     marks += [(text, ring | {"markeredgecolor": color}) for text, color in rings]
+    marks += [("crossing", CROSSING)]
     marks += [("shaft speed", {"color": "0.3"}), ("0.5x", {"color": "0.3", "linestyle": "--"})]
     heading(fig, [*names([one.text for one in found]), *marks], title(runs))
     return fig
+
+
+def crossings(speed_rpm: np.ndarray, frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Speeds, rpm, and frequencies where modes, (run, mode), have that of the shaft; linear between runs."""
+    away = frequency - speed_rpm[:, None] / 60
+    run, mode = np.nonzero(away[:-1] * away[1:] < 0)
+    before, after = away[run, mode], away[run + 1, mode]
+    speed = speed_rpm[run] + before / (before - after) * (speed_rpm[run + 1] - speed_rpm[run])
+    return speed, speed / 60
 
 
 def campbell_points(ax: Axes, own: Modes, color: str | None) -> Any:
