@@ -191,7 +191,7 @@ contains
       type(machine_model), intent(out) :: model
       type(error_type), allocatable, intent(out) :: error
       integer :: i
-      call case_from_text(text, name, inputs, error)
+      call case_from_text(text, name, inputs, error, of_result=.true.)
       if (.not. allocated(error)) call read_tables(inputs, error)
       if (allocated(error)) return
       if (inputs%bearings(1)%pad_count() /= size(viscosity)) then
@@ -228,7 +228,7 @@ contains
       integer, intent(in) :: pad
       type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      call case_from_text(text, name, inputs, error)
+      call case_from_text(text, name, inputs, error, of_result=.true.)
       if (.not. allocated(error)) call read_tables(inputs, error)
       if (allocated(error)) return
       if (pad < 1 .or. pad > inputs%bearings(1)%pad_count()) call raise(error, input_error, name//': no pad ' &

@@ -4,6 +4,7 @@ module whole_study
    use text, only: to_text, checksum, is_first, newline
    use errors, only: error_type, raise, input_error, stopped
    use case_inputs, only: case_type
+   use case_completion, only: fill_replaced
    use result_size, only: size_note, result_bytes
    use assignments, only: assignment_type, token_type, target_text
    use parameter_study, only: study_type, run_tag
@@ -272,6 +273,7 @@ contains
       end if
       ! only the time between checkpoints may differ
       first%output%checkpoint_seconds = 0
+      call fill_replaced(first)
       call find_marks(study, folder, marks, error)
       if (.not. allocated(error)) call study%mark(namelist_of(first)//marks)
    end subroutine mark_study

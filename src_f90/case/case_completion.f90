@@ -1,18 +1,18 @@
-!> What a case may leave out, because it follows from other variables: final speed, pad clearance, law of the oil, which
-!> samples are kept, and mass, inertia and centre of gravity of the pads.
+!> What a case may leave out, because it follows from other variables: final speed, unbalance, pad clearance, law of the
+!> oil, damping of bristles, which samples are kept, and mass, inertia and centre of gravity of the pads.
 module case_completion
    use kinds, only: wp, degree, rpm, pi
    use text, only: to_text, list_text, filled
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: bearing_type, oil_type, unset, is_set, mass_range, inertia_range, centre_range, &
-      & clearance_range, temperature_range, viscosity_range, in_range
+   use case_groups, only: bearing_type, oil_type, rotor_type, friction_type, unset, is_set, mass_range, &
+      & inertia_range, centre_range, clearance_range, temperature_range, viscosity_range, in_range
    use case_inputs, only: case_type
    use excitations, only: excitation_type
    use other_units, only: in_other_units
    use oil_properties, only: reference_viscosity, density, grades
    implicit none (type, external)
    private
-   public :: leave_out, complete_case, annular_sector_type, new_annular_sector
+   public :: leave_out, leave_out_replaced, fill_replaced, complete_case, annular_sector_type, new_annular_sector
 
    !> Density of steel, kg/m^3.
    real(wp), parameter :: steel = 7850
@@ -38,12 +38,14 @@ contains
       type(case_type), intent(inout) :: inputs
       integer :: b
       inputs%operation%final_speed_rpm = unset
+      inputs%rotor%unbalance = unset
       inputs%output%keep = ''
       do b = 1, size(inputs%bearings)
          associate (bearing => inputs%bearings(b), pads => inputs%bearings(b)%pads)
             bearing%machined_clearance(:) = unset
             bearing%viscosity = unset
             bearing%oil%law = ''
+            bearing%friction%characteristic_load = unset
             pads%mass(:) = unset
             pads%inertia(:) = unset
             pads%centre_tangential(:) = unset
@@ -51,6 +53,33 @@ contains
          end associate
       end do
    end subroutine leave_out
+
+   !> Leaves out what another variable replaces: results once had both.
+   subroutine leave_out_replaced(inputs)
+      type(case_type), intent(inout) :: inputs
+      integer :: b
+      associate (r => inputs%rotor)
+         if (is_set(r%balance_grade)) r%unbalance = unset
+         if (.not. is_set(r%balance_grade)) r%balance_speed_rpm = unset
+      end associate
+      do b = 1, size(inputs%bearings)
+         associate (f => inputs%bearings(b)%friction)
+            if (is_set(f%bristle_damping)) f%characteristic_load = unset
+         end associate
+      end do
+   end subroutine leave_out_replaced
+
+   !> Gives it the paper's values, as in texts that once had both.
+   subroutine fill_replaced(inputs)
+      type(case_type), intent(inout) :: inputs
+      type(rotor_type) :: rotor
+      type(friction_type) :: friction
+      integer :: b
+      call fill(inputs%rotor%unbalance, rotor%unbalance)
+      do b = 1, size(inputs%bearings)
+         call fill(inputs%bearings(b)%friction%characteristic_load, friction%characteristic_load)
+      end do
+   end subroutine fill_replaced
 
    !> Finds what is left out; afterwards only the variables from which it follows are unset. Of a machine the message of
    !> an error names the bearing.
@@ -62,12 +91,15 @@ contains
       ! what has no samples is a row of a study alone, unless a file of each run is asked for
       if (inputs%output%keep == '') inputs%output%keep = trim(merge('summary', 'all    ', &
          & any(inputs%about%task == ['equilibrium ', 'coefficients'])))
+      call set_unbalance(inputs%rotor)
+      if (allocated(error)) return
       do b = 1, size(inputs%bearings)
          associate (bearing => inputs%bearings(b))
             do i = 1, bearing%pad_count()
                call set_clearance(bearing, i)
             end do
             if (.not. allocated(error)) call complete_oil(bearing, error)
+            if (.not. allocated(error)) call set_bristles(bearing%friction)
             do i = 1, bearing%pad_count()
                if (.not. allocated(error)) call set_pad(bearing, i, inputs%thermal%model == 'film')
             end do
@@ -77,6 +109,28 @@ contains
       end do
       call complete_excitations()
    contains
+      !> As given, the paper's, or none where a grade is given.
+      subroutine set_unbalance(r)
+         type(rotor_type), intent(inout) :: r
+         type(rotor_type) :: paper
+         call require(.not. all(is_set([r%balance_grade, r%unbalance])), 'rotor%balance_grade = {}: ' &
+            & //'rotor%unbalance = {} is given too; give one of them (-1 takes one back)', [r%balance_grade, &
+            & r%unbalance], error)
+         call require(is_set(r%balance_grade) .or. .not. is_set(r%balance_speed_rpm), 'rotor%balance_speed_rpm = {}: ' &
+            & //'has no effect without rotor%balance_grade', [r%balance_speed_rpm], error)
+         if (.not. is_set(r%balance_grade)) call fill(r%unbalance, paper%unbalance)
+      end subroutine set_unbalance
+
+      !> The damping of the bristles as given, or the load from which it follows.
+      subroutine set_bristles(f)
+         type(friction_type), intent(inout) :: f
+         type(friction_type) :: paper
+         call require(.not. all(is_set([f%bristle_damping, f%characteristic_load])), 'friction%bristle_damping = {}: ' &
+            & //'friction%characteristic_load = {} is given too; give one of them', [f%bristle_damping, &
+            & f%characteristic_load], error)
+         if (.not. is_set(f%bristle_damping)) call fill(f%characteristic_load, paper%characteristic_load)
+      end subroutine set_bristles
+
       !> A pad's clearance: as given, by the preload, or the paper's.
       subroutine set_clearance(b, i)
          type(bearing_type), intent(inout) :: b

@@ -305,7 +305,7 @@ module case_groups
       type(elastic_type), allocatable :: elastic
       !> Mass carried by the bearing, kg; unbalance, kg m.
       real(wp) :: mass = 2000, unbalance = 0.010_wp
-      !> ISO 21940-11 grade, mm/s, that replaces the unbalance; its speed (unset: the highest of the run).
+      !> ISO 21940-11 grade, mm/s, instead of the unbalance; its speed (unset: the highest of the run).
       real(wp) :: balance_grade = unset, balance_speed_rpm = unset
       real(wp) :: gravity = 9.81_wp
       !> Extra force on the journal along y and z, N.

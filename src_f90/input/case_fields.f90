@@ -421,7 +421,7 @@ contains
          call v%number(f%viscous_coefficient, 'viscous_coefficient', 0.0_wp, 1e6_wp, 's/m', &
             & 'LuGre: viscous coefficient sigma_2')
          call v%number(f%characteristic_load, 'characteristic_load', 1e-6_wp, 1e12_wp, 'N', &
-            & 'LuGre: characteristic load N_m of eq (28)')
+            & 'LuGre: characteristic load N_m of eq (28), where bristle_damping is left out')
       end subroutine list_friction
 
       subroutine list_film(film)

@@ -8,7 +8,7 @@ module case_namelist
    use case_inputs, only: case_type
    use excitations, only: make_excitations
    use case_checks, only: check_case
-   use case_completion, only: leave_out, complete_case
+   use case_completion, only: leave_out, leave_out_replaced, complete_case
    use variable_table, only: variable_type, variable_table_type
    use case_fields, only: list_variables, list_all_variables, put_variables
    use case_parameter, only: complete_branch, check_branch_parameter, group_names, names_in, meant_variable, &
@@ -32,32 +32,36 @@ module case_namelist
 
 contains
 
-   !> The case of a text, everything checked; a study is refused. `file` is for messages.
-   subroutine case_from_text(text, file, inputs, error)
+   !> The case of a text, everything checked; a study is refused. `file` is for messages. That of a result may have what
+   !> another variable replaces.
+   subroutine case_from_text(text, file, inputs, error, of_result)
       character(len=*), intent(in) :: text, file
       type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: parsed
       integer :: i
       call parse_namelist(text, file, parsed, error)
+      logical, intent(in), optional :: of_result
       do i = 1, size(parsed%groups)
          call require(parsed%groups(i)%group /= study_group, parsed%groups(i)%origin//': a study, where one case is ' &
             & //'expected; tiltpad --check --run K prints those of a study', error)
       end do
-      if (.not. allocated(error)) call case_from_namelist(parsed, inputs, error)
+      if (.not. allocated(error)) call case_from_namelist(parsed, inputs, error, of_result)
    end subroutine case_from_text
 
    !> The case of assignments, everything checked.
-   subroutine case_from_namelist(parsed, inputs, error)
+   subroutine case_from_namelist(parsed, inputs, error, of_result)
       type(namelist_type), intent(in) :: parsed
       type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(namelist_type) :: given
       call fill_case(parsed, inputs, error, given)
       if (allocated(error)) return
+      logical, intent(in), optional :: of_result
       call complete_case(inputs, error)
       if (.not. allocated(error)) call complete_branch(inputs)
       if (.not. allocated(error)) call note_values_of_paper(given%assignments, inputs)
+      if (present(of_result)) call leave_out_replaced(inputs)
       if (.not. allocated(error)) call check_case(inputs, error)
       if (.not. allocated(error)) call check_branch_parameter(inputs, error)
       call add_context(error, parsed%file)

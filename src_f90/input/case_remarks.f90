@@ -41,9 +41,8 @@ module case_remarks
    character(len=*), parameter :: to_be_given = ' rotor%mass rotor%unbalance operation%speed_rpm ' &
       & //'bearing%journal_radius bearing%machined_clearance bearing%assembled_clearance bearing%axial_length ' &
       & //'bearing%viscosity pads%pivot_angle_deg pads%arc_deg pads%pivot_distance '
-   !> Variables from which others of their groups follow, and these.
-   character(len=*), parameter :: sources(2) = [character(len=26) :: 'preload machined_clearance', &
-      & 'balance_grade unbalance']
+   !> A variable from which another of its group follows, and this.
+   character(len=*), parameter :: source = 'preload machined_clearance'
 
 contains
 
@@ -401,8 +400,8 @@ contains
       logical function has_own(v)
          type(variable_type), intent(in) :: v
          integer :: k
-         has_own = any([(given(k)%group == v%group .and. (given(k)%name == v%name .or. any(given(k)%name//' '//v%name &
-            & == sources)), k=1, size(given))])
+         has_own = any([(given(k)%group == v%group .and. (given(k)%name == v%name .or. given(k)%name//' '//v%name &
+            & == source), k=1, size(given))])
       end function has_own
 
       !> Whether a variable that is left out has an effect; of a bearing, whether the case gives it a size.

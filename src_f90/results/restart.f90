@@ -85,7 +85,7 @@ contains
       if (allocated(file%failure)) call raise(error, system_error, path//': damaged: '//file%failure)
       call file%close()
       if (allocated(error)) return
-      call case_from_text(input, path, found%inputs, error)
+      call case_from_text(input, path, found%inputs, error, of_result=.true.)
       if (allocated(error)) then
          error%status = system_error
          call add_context(error, path//': its input cannot be read')

@@ -249,6 +249,21 @@ def test_input_of_the_result_runs_again(tiltpad, case):
         assert (file["journal_y"][:] == first).all()
 
 
+def test_a_result_that_has_a_grade_and_an_unbalance_goes_on(tiltpad, case):
+    """Results once had both, of which the grade held; a case or study that gives both is refused."""
+    folder = case
+    (folder / "case.nml").write_text("&rotor balance_grade=2.5 /\n" + LONG)
+    for given in ("rotor%unbalance=0.02", "sweep%rotor%unbalance=0.02,0.03"):
+        said = tiltpad("case.nml", cwd=folder, overrides=[given], status=1).stderr
+        assert "rotor%balance_grade = 2.5: rotor%unbalance = 0.02 is given too; give one of them" in said
+    tiltpad("case.nml", "-q", cwd=folder, status=0)
+    with h5py.File(folder / "case.h5", "r+") as file:
+        text = file.attrs["input"]
+        assert " unbalance" not in text
+        file.attrs["input"] = text.replace("  balance_grade", "  unbalance = 0.01\n  balance_grade")
+    tiltpad("--resume", "case.h5", "--verify", "2", "-q", cwd=folder, status=0)
+
+
 def test_a_log_is_plain_lines(tiltpad, tmp_path, loaded):
     (tmp_path / "case.nml").write_text(LONG)
     run = tiltpad("case.nml", cwd=tmp_path, env=loaded(FAST_CLOCK), status=0)

@@ -31,7 +31,7 @@ CASE = {
     "pivot": {"socket_radius": 0.013, "radius_difference": 15e-6, "young_modulus": (2.1e11, 2.1e11)},
     "friction": {
         "model": "lugre", "stribeck_velocity": 1e-3, "bristle_stiffness": 1e6, "bristle_damping": 10,
-        "characteristic_load": 1e4, "critical_velocity": 1e-5, "decay": 1000,
+        "critical_velocity": 1e-5, "decay": 1000,
     },
     "asperity": {"roughness": 5e-7, "elastic_modulus": 4.7e10},
     "output": {"samples_per_revolution": 72},
@@ -43,7 +43,7 @@ UNITS = """
 1 0 0: mass
 1 1 0: unbalance
 0 1 -2: gravity
-1 1 -2: static_load characteristic_load pivot_load film_force_radial asperity_force load
+1 1 -2: static_load pivot_load film_force_radial asperity_force load
 0 0 -1: speed_rpm final_speed_rpm eigenvalue_real eigenvalue_imag
 0 0 1: duration time period
 0 1 0: journal_radius assembled_clearance machined_clearance axial_length pivot_distance centre_radial

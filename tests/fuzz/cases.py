@@ -36,7 +36,12 @@ TOGETHER = (
 INSTEAD = ("bearing%preload", "pads%density", "pads%thickness")
 #: What changes the shape of the bearing; not drawn: it needs much else of the case.
 SHAPE = ("bearing%clearance_temperature", "pads%bending", "pads%temperature")
-ALONE = ("rotor%balance_speed_rpm", "film%circumferential_cells", "film%axial_cells")
+ALONE = ("film%circumferential_cells", "film%axial_cells")
+#: Variables of which one stands in the place of the other; the last one belongs to the grade.
+EITHER = (
+    *("rotor%unbalance", "friction%characteristic_load", "rotor%balance_grade", "friction%bristle_damping"),
+    "rotor%balance_speed_rpm",
+)
 #: Where a march starts; the values of the pads are not drawn.
 START = (
     *("start%from", "start%file", "start%journal", "start%journal_velocity", "start%pad_tilt"),
@@ -61,7 +66,7 @@ OF_MARCH = ("operation%final_speed_rpm", "output%start_time", "integration%stop_
 SPECIAL = {
     "case%task",
     "pivot%file",
-    *(key for group in (*TOGETHER, ALONE, INSTEAD, SHAPE, START, OIL) for key in group),
+    *(key for group in (*TOGETHER, ALONE, EITHER, INSTEAD, SHAPE, START, OIL) for key in group),
 }
 #: Circumferential times squared axial cells of all pads.
 MOST_IN_BLOCKS = 2e8
@@ -79,7 +84,11 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
     for group, together in zip(TOGETHER, (operation, bearing, pressures, pivot, friction), strict=True):
         if dice.random() < few:
             found.update(zip(group, together(dice, len(around.get(PIVOTS, (-45, 225)))), strict=True))
-    if dice.random() < few:
+    for pair in zip(EITHER[:2], EITHER[2:4], strict=True):
+        if dice.random() < few:
+            key = dice.choice(pair)
+            found[key] = anything(dice, variables[key])
+    if "rotor%balance_grade" in found and dice.random() < 0.5:
         found["rotor%balance_speed_rpm"] = (dice.choice((-1.0, 1.0, 1e6, dice.uniform(1, 1e6))),)
     if dice.random() < few:
         found["film%circumferential_cells"] = (float(dice.choice((0, 8, 2000, 2 * dice.randint(4, 1000)))),)

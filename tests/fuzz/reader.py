@@ -229,7 +229,15 @@ SIZE = (
 )
 BODY = ("pads%mass", "pads%inertia", "pads%centre_tangential", "pads%centre_radial")
 #: What may be left out though it has a default, and is never below 0.
-FOLLOWING = ("bearing%machined_clearance", "bearing%viscosity", "pads%mass", "pads%inertia")
+FOLLOWING = (
+    *("bearing%machined_clearance", "bearing%viscosity", "pads%mass", "pads%inertia"),
+    *("rotor%unbalance", "friction%characteristic_load"),
+)
+#: What stands in the place of which of these.
+REPLACED = (
+    ("rotor%balance_grade", "rotor%unbalance"),
+    ("friction%bristle_damping", "friction%characteristic_load"),
+)
 
 
 def pad_clearances(found: dict[str, tuple | None]) -> tuple[float | None, ...]:
@@ -244,6 +252,14 @@ def pad_clearances(found: dict[str, tuple | None]) -> tuple[float | None, ...]:
 def complete(found: dict[str, tuple | None], given: dict[str, list], variables: dict[str, Variable]) -> None:
     """What follows from other variables."""
     complete_oil(found, given)
+    for key, other in REPLACED:
+        if found[key] == (None,):
+            continue
+        if other in given:
+            raise Refused(f"{key} and {other}")
+        found[other] = ()
+    if found["rotor%balance_grade"] == (None,) != found["rotor%balance_speed_rpm"]:
+        raise Refused("the speed of no grade")
     bodies = [each for key in (*BODY, "pads%density", "pads%thickness") for each in given.get(key, ())]
     if any(value != variables[key].default[0] for key in SIZE for value in found[key]):
         # no closed forms here; pads may also have values given in part

@@ -5,12 +5,14 @@ program test_case_completion
    use case_groups, only: is_set
    use case_inputs, only: case_type
    use input_cases, only: case_of, expect_refused
-   use case_completion, only: annular_sector_type, new_annular_sector
+   use errors, only: error_type
+   use case_namelist, only: case_from_text
+   use case_completion, only: annular_sector_type, new_annular_sector, fill_replaced
    use bearing_numbers, only: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number
-   use namelist_writer, only: derived_text
+   use namelist_writer, only: derived_text, namelist_of
    use case_remarks, only: remarks_on_case
    use result_size, only: sample_count, result_bytes, bytes_text, size_note
-   use check, only: runs, expect, expect_close, between, report
+   use check, only: runs, expect, expect_close, expect_no_error, between, report
    implicit none (type, external)
    integer :: i
 
@@ -24,6 +26,7 @@ program test_case_completion
    if (runs('each_pad')) call each_pad()
    if (runs('preloads')) call preloads()
    if (runs('refused')) call refused()
+   if (runs('replaced')) call replaced()
    if (runs('numbers')) call numbers()
    if (runs('samples')) call samples()
    if (runs('sizes')) call sizes()
@@ -176,7 +179,35 @@ contains
          & 'pads%thickness = 0.1: has no effect')
       call expect_refused('&bearing journal_radius = 1e-3, axial_length = 1e-4 /' &
          & //' &pads thickness = 1e-6, density = 1000 /', 'from the size of the pad: must be 1e-9 to 1e9')
+      call expect_refused('&rotor balance_grade = 2.5, unbalance = 0.01 /', 'rotor%balance_grade = 2.5: ' &
+         & //'rotor%unbalance = 0.01 is given too; give one of them')
+      call expect_refused('&rotor balance_speed_rpm = 3000 /', 'rotor%balance_speed_rpm = 3000: has no effect without')
+      call expect_refused('&friction bristle_damping = 5, characteristic_load = 1e4 /', 'friction%bristle_damping = ' &
+         & //'5: friction%characteristic_load = 10000 is given too; give one of them')
+      call expect_refused('&case task = ''branch'' / &rotor balance_grade = 2.5 / &branch parameter = ' &
+         & //'''rotor%unbalance'', last = 0.02 /', 'has no value of its own here')
    end subroutine refused
+
+   !> What another variable replaces is not in the text of a case; that of an older result may have it.
+   subroutine replaced()
+      character(len=*), parameter :: given = '&rotor balance_grade = 2.5 / &friction bristle_damping = 5 /', &
+         & older = '&rotor unbalance = 0.01, balance_grade = 2.5 / &friction bristle_damping = 5, ' &
+         & //'characteristic_load = 1e4 /'
+      type(case_type) :: inputs, found
+      type(error_type), allocatable :: error
+      inputs = case_of(given)
+      call expect(index(namelist_of(inputs), ' unbalance') == 0, 'left out: unbalance')
+      call expect(index(namelist_of(inputs), 'characteristic') == 0, 'left out: load')
+      call case_from_text(older, 'older.h5', found, error, of_result=.true.)
+      call expect_no_error(error, 'an older result')
+      call expect(namelist_of(found) == namelist_of(inputs), 'the same case')
+      call fill_replaced(found)
+      call expect(index(namelist_of(found), '  unbalance = 0.01') > 0, 'the text of an older study: unbalance')
+      call expect(index(namelist_of(found), 'characteristic_load = 10000') > 0, 'the text of an older study: load')
+      call case_from_text('&rotor balance_speed_rpm = 3000 /', 'older.h5', found, error, of_result=.true.)
+      call expect_no_error(error, 'an older result with a speed of no grade')
+      call expect(index(namelist_of(case_of('&case /')), '  unbalance = 0.01') > 0, 'the paper''s unbalance')
+   end subroutine replaced
 
    !> The numbers of the five-pad bearing, by hand.
    subroutine numbers()
