@@ -10,6 +10,7 @@ module case_remarks
    use case_fields, only: list_variables
    use assignments, only: assignment_type, kind_of, bearing_of
    use operating_point, only: operating_point_type
+   use oil_properties, only: reference_viscosity
    use other_units, only: in_other_units, usual_size, usual_type
    implicit none (type, external)
    private
@@ -80,11 +81,24 @@ contains
             lines = lines//line_if(.not. bearing%tilting() .and. any(abs(preload(bearing)) > 0), 'each lobe has a ' &
                & //'centre of its own: eccentricity ratio and attitude angle are about the centre of the bearing and ' &
                & //'over its clearance, so that they differ from those of a cylindrical bore')
+            lines = lines//on_cold_oil(bearing)
             lines = lines//line_if(inputs%thermal%model == 'pad' .and. surface > compared_up_to, 'surface speed {.1} ' &
                & //'m/s: above {} m/s a temperature for each pad shows trends, and stiffness may be off by more than ' &
                & //'10 % (docs/warm_oil.md)', [surface, compared_up_to])
          end associate
       end function on_bearing
+
+      !> A viscosity over the temperature, and no film that heats the oil.
+      function on_cold_oil(bearing) result(line)
+         type(bearing_type), intent(in) :: bearing
+         character(len=:), allocatable :: line
+         line = ''
+         if (inputs%thermal%model /= 'none' .or. bearing%oil%law == 'constant') return
+         line = line_if(.true., 'thermal%model = ''none'': all oil has oil%supply_temperature = {} C and {.4} Pa s, ' &
+            & //'as if no film heated it, and losses, stiffness and damping are those of such oil; thermal%model ' &
+            & //'= ''pad'' or ''film'' finds the temperatures of the films', [bearing%oil%supply_temperature, &
+            & reference_viscosity(bearing)])
+      end function on_cold_oil
 
       !> Steady forces that a case gives, the tables of its pivots beside them, and what depends on the load and the
       !> unbalance of a rigid journal, a line each.

@@ -14,6 +14,7 @@ program test_case_remarks
    if (runs('frequencies')) call frequencies()
    if (runs('loads')) call loads()
    if (runs('speeds_and_forces')) call speeds_and_forces()
+   if (runs('cold_oil')) call cold_oil()
    if (runs('lent_values')) call lent_values()
    if (runs('idle_groups')) call idle_groups()
    if (runs('templates')) then
@@ -43,11 +44,12 @@ contains
    end subroutine expect_remark
 
    subroutine units()
+      character(len=*), parameter :: warm = '&thermal model = ''pad'' / &oil grade = 46, supply_temperature = '
       call expect_remark('&case /', '')
-      call expect_remark('&oil grade = 46, supply_temperature = 150 /', '')
-      call expect_remark('&oil grade = 46, supply_temperature = 160 /', &
+      call expect_remark(warm//'150 /', '')
+      call expect_remark(warm//'160 /', &
          & 'oil%supply_temperature = 160: seldom so in C; 160 F are 71.1111')
-      call expect_remark('&oil grade = 46, supply_temperature = 313.15 /', 'seldom so in C; 313.15 K are 40')
+      call expect_remark(warm//'313.15 /', 'seldom so in C; 313.15 K are 40')
       call expect_remark('&bearing machined_clearance = 4.98e-4, assembled_clearance = 4.98e-4 /', '')
       call expect_remark('&bearing machined_clearance = 2e-3, assembled_clearance = 2e-3 /', 'bearing%assembled_' &
          & //'clearance = 0.002: 0.0400802 of the radius of the journal; usual are 0.001 to 0.003; ' &
@@ -158,6 +160,16 @@ contains
          & 'load(1)%force: 0.5 N are nothing beside the weight of 604.823 N; 0.5 kN are 500'//achar(10))
    end subroutine speeds_and_forces
 
+   !> Oil that no film heats, where its viscosity over the temperature is given.
+   subroutine cold_oil()
+      ! by the law, 0.05 Pa s halved at 40 C + ln 2/0.02
+      call expect_remark('&oil reference_viscosity = 0.05, temperature_exponent = 0.02, supply_temperature = ' &
+         & //'74.6573590279973 /', 'thermal%model = ''none'': all oil has oil%supply_temperature = 74.6574 C and ' &
+         & //'0.0250 Pa s, as if no film heated it')
+      call expect_remark('&oil grade = 46 / &thermal model = ''film'' /', '')
+      call expect_remark('&bearing viscosity = 0.03 /', '')
+   end subroutine cold_oil
+
    !> What another bearing than the paper's does not give.
    subroutine lent_values()
       character(len=*), parameter :: begin = 'not given, and so as in the paper''s bearing: ', &
@@ -172,7 +184,7 @@ contains
       call expect_remark(rest//'assembled_clearance = 6e-5 /', begin//'bearing%viscosity = 0.019 Pa s'//achar(10))
       call expect_remark(rest//'viscosity = 0.019 /', begin//'bearing%assembled_clearance = 8e-5 m'//achar(10))
       call expect_remark(rest//'assembled_clearance = 6e-5, viscosity = 0.019 /', '')
-      call expect_remark(rest//'assembled_clearance = 6e-5 / &oil grade = 32 /', '')
+      call expect_remark(rest//'assembled_clearance = 6e-5 / &oil grade = 32 / &thermal model = ''pad'' /', '')
       ! equilibria know no unbalance
       call expect_remark('&rotor mass = 100 / '//rest(len(rotor) + 1:)//'assembled_clearance = 6e-5, viscosity = ' &
          & //'0.019 / &case task = ''coefficients'' /', '')
