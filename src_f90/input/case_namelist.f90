@@ -27,6 +27,9 @@ module case_namelist
    integer, parameter :: longest_text = 1000
    !> Groups that only a machine has.
    character(len=*), parameter :: of_machine = ' shaft disc unbalance load support reduction '
+   !> What they are refused without.
+   character(len=*), parameter :: needs_shaft = &
+      & 'needs a shaft (&shaft) in bearings that have names (&bearing name = ...)'
    !> Most values of a list that has one for each of something.
    integer, parameter :: most_each = max(max_pads, most_sections)
 
@@ -38,10 +41,10 @@ contains
       character(len=*), intent(in) :: text, file
       type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(in), optional :: of_result
       type(namelist_type) :: parsed
       integer :: i
       call parse_namelist(text, file, parsed, error)
-      logical, intent(in), optional :: of_result
       do i = 1, size(parsed%groups)
          call require(parsed%groups(i)%group /= study_group, parsed%groups(i)%origin//': a study, where one case is ' &
             & //'expected; tiltpad --check --run K prints those of a study', error)
@@ -54,14 +57,14 @@ contains
       type(namelist_type), intent(in) :: parsed
       type(case_type), intent(out) :: inputs
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(in), optional :: of_result
       type(namelist_type) :: given
       call fill_case(parsed, inputs, error, given)
       if (allocated(error)) return
-      logical, intent(in), optional :: of_result
+      if (present(of_result)) call leave_out_replaced(inputs)
       call complete_case(inputs, error)
       if (.not. allocated(error)) call complete_branch(inputs)
       if (.not. allocated(error)) call note_values_of_paper(given%assignments, inputs)
-      if (present(of_result)) call leave_out_replaced(inputs)
       if (.not. allocated(error)) call check_case(inputs, error)
       if (.not. allocated(error)) call check_branch_parameter(inputs, error)
       call add_context(error, parsed%file)
@@ -169,7 +172,7 @@ contains
          character(len=:), allocatable :: instead
          call list_all_variables(case_type(), all)
          if (all%find(kind_of(a%group), a%name) == 0) return
-         instead = 'needs a shaft (&shaft) in bearings that have names (&bearing name = ...)'
+         instead = needs_shaft
          if (elastic) then
             select case (a%name)
             case ('mass')
@@ -348,11 +351,23 @@ contains
       type(namelist_type), intent(in) :: parsed
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(inout) :: error
+      logical :: of_shaft(size(parsed%groups) + size(parsed%assignments))
       integer :: i
       call make_excitations(count_of(parsed, 'excitation('), inputs%excitations)
       associate (groups => parsed%groups, a => parsed%assignments)
-         if (any([(is_of_machine(groups(i)%group), i=1, size(groups)), (is_of_machine(a(i)%group) &
-            & .or. a(i)%group//'%'//a(i)%name == 'rotor%file', i=1, size(a))])) call make_machine(parsed, inputs, error)
+         of_shaft = [(groups(i)%group == 'shaft', i=1, size(groups)), (a(i)%group == 'shaft' .or. a(i)%group//'%' &
+            & //a(i)%name == 'rotor%file', i=1, size(a))]
+         if (any(of_shaft)) then
+            call make_machine(parsed, inputs, error)
+         else
+            do i = 1, size(groups)
+               call require(.not. is_of_machine(groups(i)%group), groups(i)%origin//': &'//kind_of(groups(i)%group) &
+                  & //': '//needs_shaft, error)
+            end do
+            do i = 1, size(a)
+               call require(.not. is_of_machine(a(i)%group), place_of(a(i))//': '//needs_shaft, error)
+            end do
+         end if
          do i = 1, size(groups)
             call look_at(groups(i), inputs, error)
          end do
@@ -417,8 +432,9 @@ contains
          if (kind == 'disc') call look_at_number(size(elastic%discs))
          if (kind == 'unbalance') call look_at_number(size(elastic%unbalances))
          if (kind == 'load') call look_at_number(size(elastic%loads))
-         if (kind == 'support' .and. name == '' .and. .not. any([(allocated(bearings(b)%support), &
-            & b=1, size(bearings))])) call refuse(place_of(a)//': the case has no group &support', error)
+         if (kind == 'support' .and. name == '' .and. size(bearings) > 0 .and. .not. any([(allocated( &
+            & bearings(b)%support), b=1, size(bearings))])) call refuse(place_of(a)//': the case has no group ' &
+            & //'&support', error)
          if (a%group == 'bearing' .and. a%name == 'station') call refuse(place_of(a)//': must be in a group &bearing ' &
             & //'with a name, as each bearing has a station of its own', error)
          if (a%group /= kind .and. .not. is_counted(kind) .and. (name == '' .or. .not. may_have_bearing(kind) &

@@ -105,11 +105,12 @@ contains
       type(variable_table_type) :: table, defaults
       integer :: i, k
       call fill_case(parsed, default, error, given)
-      ! the paper's bearing with the pivots of the case, a machine with as many sections
+      ! the paper's bearing with the pivots of the case, a machine with as many sections or the same matrices
       pivots%file = parsed%file
       pivots%groups = parsed%groups
       pivots%assignments = pack(parsed%assignments, [(any(kind_of(parsed%assignments(i)%group)//'%' &
-         & //parsed%assignments(i)%name == counting_variables), i=1, size(parsed%assignments))])
+         & //parsed%assignments(i)%name == [counting_variables, 'rotor%file          ']), i=1, &
+         & size(parsed%assignments))])
       call fill_case(pivots, default, error)
       if (.not. allocated(error)) call complete_case(default, error)
       call list_variables(inputs, table)

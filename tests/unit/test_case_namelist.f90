@@ -30,6 +30,7 @@ program test_case_namelist
    if (runs('awkward_titles')) call awkward_titles()
    if (runs('refused_values')) call refused_values()
    if (runs('hints')) call hints()
+   if (runs('no_shaft')) call no_shaft()
    if (runs('branches')) call branches()
    call report()
 
@@ -89,6 +90,14 @@ contains
    subroutine expect_list(found, expected, what)
       real(wp), intent(in) :: found(:), expected(:)
       character(len=*), intent(in) :: what
+   !> Groups of machines in a case of one bearing, where they stand.
+   subroutine no_shaft()
+      call expect_refused(newline//'&support mass = 100 /', 'case.nml line 2: &support: needs a shaft (&shaft)')
+      call expect_refused('&case /'//newline//'&disc station = 1 /', 'case.nml line 2: &disc: needs a shaft')
+      call expect_refused('&pads bearing = ''left'', arc_deg = 60 /', 'case.nml line 1: &pads: needs a shaft')
+      call expect_refused('&shaft length = 1, diameter = 0.1 / &support mass = 100 /', 'two or more groups &bearing')
+   end subroutine no_shaft
+
       call expect(size(found) == size(expected), 'how many: '//what)
       if (size(found) == size(expected)) call expect_close(maxval(abs(found - expected)), 0.0_wp, 0.0_wp, what)
    end subroutine expect_list
