@@ -33,7 +33,7 @@ module case_parameter
       & '--member', '--run'], [2, 6])
 
    !> Names as data sheets and other programs have them, each with what is meant, in pairs.
-   character(len=*), parameter :: common_names(2, 17) = reshape([character(len=47) :: &
+   character(len=*), parameter :: common_names(2, 30) = reshape([character(len=47) :: &
       & 'clearance', 'machined_clearance or assembled_clearance', &
       & 'radial_clearance', 'bearing%assembled_clearance', &
       & 'bearing_clearance', 'bearing%assembled_clearance', &
@@ -45,12 +45,25 @@ module case_parameter
       & 'width', 'bearing%axial_length', &
       & 'length', 'bearing%axial_length', &
       & 'pivot_offset', 'pads%pivot_ratio', &
+      & 'offset', 'pads%pivot_ratio', &
+      & 'pad_offset', 'pads%pivot_ratio', &
+      & 'offset_factor', 'pads%pivot_ratio', &
+      & 'pad_arc_length', 'pads%arc_deg', &
+      & 'span', 'pads%arc_deg', &
+      & 'bore', 'bearing%journal_radius and the clearances', &
+      & 'n_pads', 'pads%pivot_angle_deg, one for each pad', &
+      & 'inlet_temperature', 'oil%supply_temperature', &
+      & 'vg', 'oil%grade', &
+      & 'iso_vg', 'oil%grade', &
+      & 'viscosity_grade', 'oil%grade', &
+      & 'pivot_stiffness', 'pivot%law and pivot%file', &
+      & 'stiffness', 'pivot%law and pivot%file', &
       & 'number', 'pads%pivot_angle_deg, one for each pad', &
       & 'number_of_pads', 'pads%pivot_angle_deg, one for each pad', &
       & 'clearance_ratio', 'bearing%assembled_clearance', &
       & 'weight', 'rotor%mass in kg', &
       & 'elastic_modulus', 'young_modulus', &
-      & 'load', 'rotor%static_load along y and z, or rotor%mass'], [2, 17])
+      & 'load', 'rotor%static_load along y and z, or rotor%mass'], [2, 30])
 
    type, extends(variable_type) :: case_parameter_type
       !> 0: all elements have the value.

@@ -75,6 +75,9 @@ contains
       call expect_refused('&pads mass = 1500 /', '0.153015 (pad 1); 1500 g are 1.5')
       call expect_refused('&rotor weight = 1500 /', '(did you mean rotor%mass in kg?)')
       call expect_refused('&pads pivot_offset = 0.5 /', '(did you mean pads%pivot_ratio?)')
+      call expect_refused('&pads offset = 0.5 /', '(did you mean pads%pivot_ratio?)')
+      call expect_refused('&pads stiffness = 1e9 /', '(did you mean pivot%law and pivot%file?)')
+      call expect_refused('&oil vg = 46 /', '(did you mean oil%grade?)')
       call expect_refused('&bearing radial_clearance = 1e-4 /', '(did you mean bearing%assembled_clearance?)')
       call expect_refused('&bearing diameter = 0.1 /', '(did you mean bearing%journal_radius, half of it?)')
       call expect_refused('&pads arc_deg(0) = 60 /', 'pads%arc_deg(0): elements count from 1')
@@ -87,9 +90,6 @@ contains
       call expect_refused('&operation speed_rpm = 3000, 5000 /', 'for one run of each value: sweep%operation%speed_rpm')
    end subroutine hints
 
-   subroutine expect_list(found, expected, what)
-      real(wp), intent(in) :: found(:), expected(:)
-      character(len=*), intent(in) :: what
    !> Groups of machines in a case of one bearing, where they stand.
    subroutine no_shaft()
       call expect_refused(newline//'&support mass = 100 /', 'case.nml line 2: &support: needs a shaft (&shaft)')
@@ -98,6 +98,9 @@ contains
       call expect_refused('&shaft length = 1, diameter = 0.1 / &support mass = 100 /', 'two or more groups &bearing')
    end subroutine no_shaft
 
+   subroutine expect_list(found, expected, what)
+      real(wp), intent(in) :: found(:), expected(:)
+      character(len=*), intent(in) :: what
       call expect(size(found) == size(expected), 'how many: '//what)
       if (size(found) == size(expected)) call expect_close(maxval(abs(found - expected)), 0.0_wp, 0.0_wp, what)
    end subroutine expect_list
