@@ -116,7 +116,7 @@ contains
       integer :: b
       if (self%inputs%about%task == 'branch' .or. self%file%hdf5%samples == 0) return
       call put_progress(self%file)
-      if (self%model%rotor%stations > 0) call put_station_figures(self%file)
+      if (self%model%rotor%stations > 0) call put_station_figures(self%file, self%inputs)
       associate (loads => self%model%rotor%loads(self%model%point))
          do b = 1, size(self%inputs%bearings)
             file = self%bearing(b)

@@ -205,27 +205,33 @@ contains
    !> Prints the figures of the march, or of the orbit, of all bearings.
    subroutine print_bearings(run)
       type(case_run_type), intent(inout) :: run
-      character(len=:), allocatable :: title
+      character(len=:), allocatable :: title, span
       integer :: b
-      if (run%model%rotor%stations > 0) call print_stations(run%file)
+      span = 'last revolution'
+      associate (revolutions => run%inputs%periodic%revolutions)
+         if (run%inputs%about%task == 'periodic' .and. revolutions > 1) span = filled('period of {} revolutions', &
+            & [real(revolutions, wp)])
+      end associate
+      if (run%model%rotor%stations > 0) call print_stations(run%file, span)
       do b = 1, size(run%inputs%bearings)
          title = run%inputs%bearings(b)%title()
-         call print_march('last revolution'//merge(': ', ', ', title == '')//title, run%bearing(b), &
+         call print_march(span//merge(': ', ', ', title == '')//title, run%bearing(b), &
             & run%inputs%bearings(b)%tilting())
       end do
    end subroutine print_bearings
 
-   !> The stations that move most in the last revolution.
-   subroutine print_stations(file)
+   !> The stations that move most in this span of the motion.
+   subroutine print_stations(file, span)
       class(record_type), intent(in) :: file
+      character(len=*), intent(in) :: span
       real(wp), allocatable :: y(:), z(:)
       y = file%get_all('summary/station_y_size')
       z = file%get_all('summary/station_z_size')
-      print '(a)', filled('last revolution, shaft: moves most at station {} along y, {u.3} um peak to peak, and at ' &
+      print '(a)', span//filled(', shaft: moves most at station {} along y, {u.3} um peak to peak, and at ' &
          & //'station {} along z, {u.3} um', [real(wp) :: maxloc(y), maxval(y), maxloc(z), maxval(z)])
    end subroutine print_stations
 
-   !> Figures of a bearing in the last revolution (or in what there is), behind this title; of pivots where pads tilt.
+   !> Figures of a bearing in the last revolution or the period, behind this title; of pivots where pads tilt.
    subroutine print_march(title, file, tilting)
       character(len=*), intent(in) :: title
       class(record_type), intent(in) :: file
@@ -244,7 +250,8 @@ contains
             if (tilting) then
                before = filled('tilt {m.4} to {m.4} mrad, ', [lowest(i), highest(i)])
                after = filled(', mean contact {.1} N', [contact(i)])
-               if (has_figure(file, 'pad_friction_work')) after = after//filled(', friction work {m.3} mJ', [work(i)])
+               if (has_figure(file, 'pad_friction_work')) after = after &
+                  & //filled(', friction work {m.3} mJ a revolution', [work(i)])
                if (has_figure(file, 'pad_wear_rate')) then
                   after = after//filled(', wear {.2} mm^3', [1e9_wp*thousand_hours*worn(i)])
                   if (.not. ieee_is_nan(deep(i))) after = after//filled(' and {.2} um', [1e6_wp*thousand_hours*deep(i)])

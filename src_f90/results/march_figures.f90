@@ -1,5 +1,6 @@
-!> Figures of a march or a periodic orbit, from its samples: of the last revolution, of the last revolutions (as many as
-!> the spectra may have), and of the whole run. Console, report and studies take them from the file.
+!> Figures of a march or a periodic orbit, from its samples: of the last revolution or the period of the orbit, of the
+!> last revolutions (as many as the spectra may have), and of the whole run. Console, report and studies take them from
+!> the file.
 module march_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi, degree
@@ -47,9 +48,10 @@ contains
       real(wp), intent(in) :: load
       real(wp), allocatable :: time(:, :), angle(:, :)
       real(wp) :: revolutions
-      integer :: n
+      integer :: n, whole
       revolutions = file%run%sampled_revolutions()
-      n = file%run%last_revolutions(1)
+      whole = whole_turns(file%run, inputs)
+      n = file%run%last_revolutions(whole)
       call file%last_samples('shaft_angle', n, angle)
       call file%last_samples('time', n, time)
       call extremes%write(file, load, (time(1, n) - time(1, 1))/max(1, n - 1))
@@ -59,7 +61,7 @@ contains
          if (tilting) call put_tilt(file, n)
          call put_last_revolutions(file, inputs, bearing, int(revolutions + rounding))
          if (revolutions < 1 - rounding) return
-         call put_harmonics(file, tilting, inputs%about%task == 'periodic', int(revolutions + rounding))
+         call put_harmonics(file, tilting, whole, int(revolutions + rounding))
          if (tilting .and. bearing%friction%model /= 'none') call put_friction(file, bearing, time(1, :), &
             & (angle(1, n) - angle(1, 1))/(2*pi))
          if (tilting .and. bearing%pivot%wear_coefficient > 0) call put_wear(file, bearing%pivot, time(1, :))
@@ -67,6 +69,14 @@ contains
          call put_revolutions(file, tilting, n, inputs%output%spectrum_revolutions)
       end associate
    end subroutine put_march_figures
+
+   !> The revolutions at the end that figures are of: one, of a periodic orbit all of its period.
+   integer function whole_turns(file, inputs)
+      class(run_file_type), intent(inout) :: file
+      type(case_type), intent(in) :: inputs
+      whole_turns = 1
+      if (inputs%about%task == 'periodic') whole_turns = max(1, int(file%sampled_revolutions() + rounding))
+   end function whole_turns
 
    !> The orbit of the journal in the last n samples.
    subroutine put_journal(file, n)
@@ -103,8 +113,9 @@ contains
       real(wp), allocatable :: film(:, :), pressure(:, :)
       call file%last_samples('min_film_thickness', n, film)
       call file%last_samples('max_pressure', n, pressure)
-      call put_figure(file, 'min_film_thickness', minval(film), 'm', 'minimum film thickness, last revolution')
-      call put_figure(file, 'max_pressure', maxval(pressure), 'Pa', 'maximum pressure, last revolution')
+      call put_figure(file, 'min_film_thickness', minval(film), 'm', 'minimum film thickness, last revolution or ' &
+         & //'period')
+      call put_figure(file, 'max_pressure', maxval(pressure), 'Pa', 'maximum pressure, last revolution or period')
       call put_figure(file, 'pad_min_film_thickness', minval(film, dim=2), 'm', 'minimum film thickness')
       call put_figure(file, 'pad_max_pressure', maxval(pressure, dim=2), 'Pa', 'maximum pressure')
    end subroutine put_film
@@ -125,14 +136,12 @@ contains
       call put_figure(file, 'pad_contact_force', [(mean(contact(i, :)), i=1, size(contact, 1))], 'N', 'mean pivot load')
    end subroutine put_tilt
 
-   !> Vibrations with the shaft, and at half its speed, over the last revolution and the last two; of a `periodic` orbit
-   !> over all of it.
-   subroutine put_harmonics(file, tilting, periodic, revolutions)
+   !> Vibrations with the shaft over the last `whole` revolutions, and at half its speed over an even number of them.
+   subroutine put_harmonics(file, tilting, whole, revolutions)
       type(bearing_file_type), intent(inout) :: file
-      logical, intent(in) :: tilting, periodic
-      integer, intent(in) :: revolutions
-      integer :: n, whole
-      whole = merge(revolutions, 1, periodic)
+      logical, intent(in) :: tilting
+      integer, intent(in) :: whole, revolutions
+      integer :: n
       n = file%run%last_revolutions(whole)
       call put_order(1.0_wp, '_', 'with the shaft')
       if (revolutions < 2) return
@@ -363,15 +372,17 @@ contains
       end do
    end subroutine find_extremes
 
-   ! Figures of the stations of a shaft in a march or a periodic orbit, from its samples: of the last revolution.
+   ! Figures of the stations of a shaft in a march or a periodic orbit, from its samples: of the last revolution or the
+   ! period.
 
    !> Writes how far each station moves, and how much of it with the shaft.
-   subroutine put_station_figures(file)
+   subroutine put_station_figures(file, inputs)
       class(run_file_type), intent(inout) :: file
+      type(case_type), intent(in) :: inputs
       real(wp), allocatable :: angle(:, :), values(:, :)
       complex(wp), allocatable :: parts(:)
       integer :: n, i, k
-      n = file%last_revolutions(1)
+      n = file%last_revolutions(whole_turns(file, inputs))
       call file%hdf5%last_samples('shaft_angle', n, angle)
       do i = 1, 2
          associate (name => 'station_'//'yz'(i:i))
@@ -395,8 +406,8 @@ contains
       end subroutine put
    end subroutine put_station_figures
 
-   ! Wear of the pivots in the last revolution of a march, by Archard's law: the worn volume is the wear coefficient
-   ! times the integral of the pivot load over the distance slid.
+   ! Wear of the pivots in the last revolution of a march or the period of an orbit, by Archard's law: the worn volume
+   ! is the wear coefficient times the integral of the pivot load over the distance slid.
 
    !> The rates at which the pivots wear in the last samples, at these times, s: volume, and depth over the area of the
    !> contact under the mean pivot load. What LuGre's bristles give back is not slid.

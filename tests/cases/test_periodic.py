@@ -3,6 +3,7 @@
 import h5py
 import numpy as np
 import pytest
+import tiltpad as package
 from conftest import one_error, wait_for_line
 
 LUGRE = "&friction model='lugre' / &output samples_per_revolution=90 /\n"
@@ -180,6 +181,28 @@ def test_two_revolutions_square_the_multipliers(run, tmp_path):
             for each in (one, two)
         ]
         assert modulus[1] == pytest.approx(modulus[0] ** 2, rel=1e-3)
+
+
+def test_figures_are_of_the_whole_period(run, tmp_path):
+    """A force at half the speed makes two revolutions that differ: work, extremes and loops are of both."""
+    half = "&excitation amplitude=6000, frequency_ratio=0.5 /\n"
+    done = run(LUGRE + half, PERIODIC)
+    assert "period of 2 revolutions" in done.stdout
+    assert "last revolution" not in done.stdout
+    with package.read(tmp_path / "case.h5") as orbit:
+        tilt, moment, y = (orbit[name] for name in ("pad_tilt", "friction_moment", "journal_y"))
+        steps = np.diff(tilt, axis=0) * (moment[1:] + moment[:-1]) / 2
+        work = steps.sum(axis=0) / 2
+        # of one revolution they are others
+        assert np.abs(steps[:90].sum(axis=0) / work - 1).max() > 0.05
+        np.testing.assert_allclose(orbit["summary/pad_friction_work"], work, rtol=1e-9)
+        assert orbit["summary/friction_work"] == pytest.approx(work.sum(), rel=1e-9)
+        assert orbit["summary/orbit_y"] == pytest.approx(np.ptp(y), rel=1e-12)
+        assert np.ptp(y[:91]) < 0.99 * np.ptp(y) or np.ptp(y[90:]) < 0.99 * np.ptp(y)
+        loop = package.hysteresis(orbit, 1)
+        assert len(loop[0]) == len(tilt)
+        assert package.friction_work(orbit, 1) == pytest.approx(work[0], rel=1e-9)
+        assert len(package.orbit(orbit)[0]) == len(tilt)
 
 
 def test_an_orbit_that_the_march_has_left_for_the_doubled_one(run, tmp_path):

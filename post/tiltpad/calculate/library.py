@@ -128,7 +128,7 @@ def pressure(
     return Pressure(at, field.T, phi.T, z.T, force.T, max_pressure, min_film_thickness)
 
 
-def losses(run: Run, last: float = 1) -> Losses:
+def losses(run: Run, last: float | None = None) -> Losses:
     """Load, power loss and oil flow of every pad over the last revolutions, from the archived states.
 
     The film of each sample is solved anew, whatever solver the run had: some microseconds for a pad with a

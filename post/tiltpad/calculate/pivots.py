@@ -1,6 +1,7 @@
 """Friction of the pivots: sliding, sticking, work.
 
-Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, `pad` is 1, 2, ...
+Everything is in SI units; `last` is a number of shaft revolutions at the end of the run, by default one, of a
+periodic orbit its period; `pad` is 1, 2, ...
 Without friction in the case all but `sliding_velocity` raise NotInRunError.
 """
 
@@ -29,7 +30,7 @@ def friction_model(run: Run) -> str:
     return model
 
 
-def hysteresis(run: Run, pad: int = 1, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
+def hysteresis(run: Run, pad: int = 1, last: float | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Tilt, rad, and friction moment, N m, of a pad over the last revolutions, each (time,)."""
     friction_model(run)
     part = last_revolutions(run, last)
@@ -49,7 +50,7 @@ def path_integral(x: np.ndarray, y: np.ndarray) -> float:
     return float(0.5 * np.sum(np.diff(x) * (y[1:] + y[:-1])))
 
 
-def friction_work(run: Run, pad: int = 1, last: float = 1) -> float:
+def friction_work(run: Run, pad: int = 1, last: float | None = None) -> float:
     """Mean work that friction in the pivot of a pad dissipates in each of the last revolutions, J.
 
     It is the integral of the friction moment over the tilt. At least one revolution is needed.
@@ -59,17 +60,17 @@ def friction_work(run: Run, pad: int = 1, last: float = 1) -> float:
     return path_integral(tilt, moment) / turned(run, last_revolutions(run, last))
 
 
-def friction_power(run: Run, pad: int = 1, last: float = 1) -> float:
+def friction_power(run: Run, pad: int = 1, last: float | None = None) -> float:
     """Mean power that friction in the pivot of a pad dissipates over the last revolutions, W."""
     return path_integral(*hysteresis(run, pad, last)) / lasted(run, last_revolutions(run, last))
 
 
-def sliding_velocity(run: Run, pad: int = 1, last: float = 1) -> np.ndarray:
+def sliding_velocity(run: Run, pad: int = 1, last: float | None = None) -> np.ndarray:
     """Velocity of the ball's surface in the socket, eq (21): R1 times the tilt rate, (time,), m/s."""
     return ball_radius(run, pad) * series(run, "pad_tilt_rate", last_revolutions(run, last), pad)
 
 
-def friction_coefficient(run: Run, pad: int = 1, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
+def friction_coefficient(run: Run, pad: int = 1, last: float | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Sliding velocity, m/s, and friction coefficient of a pivot, each (time,).
 
     The coefficient is the friction moment over pivot load and R1, with the sign of the moment; nan where
@@ -92,7 +93,7 @@ def stick_velocity(run: Run) -> float:
     return float(run["summary/stick_velocity"])
 
 
-def sticking(run: Run, pad: int = 1, last: float = 1, below: float | None = None) -> np.ndarray:
+def sticking(run: Run, pad: int = 1, last: float | None = None, below: float | None = None) -> np.ndarray:
     """True in the samples where a pivot sticks, (time,): it slides slower than `below`, m/s.
 
     Without `below` the limit is stick_velocity(run).
@@ -101,7 +102,9 @@ def sticking(run: Run, pad: int = 1, last: float = 1, below: float | None = None
     return np.abs(sliding_velocity(run, pad, last)) < limit
 
 
-def stick_intervals(run: Run, pad: int = 1, last: float = 1, below: float | None = None) -> np.ndarray:
+def stick_intervals(
+    run: Run, pad: int = 1, last: float | None = None, below: float | None = None
+) -> np.ndarray:
     """Times between which a pivot sticks, (k, 2), s, cut off at the ends of the last revolutions.
 
     Between samples the velocity is a straight line, so that the times do not depend on the sampling: a pad
@@ -132,7 +135,7 @@ def slow_intervals(time: np.ndarray, velocity: np.ndarray, limit: float) -> np.n
     return np.column_stack([begin[first], end[final]])
 
 
-def stick_fraction(run: Run, pad: int = 1, last: float = 1, below: float | None = None) -> float:
+def stick_fraction(run: Run, pad: int = 1, last: float | None = None, below: float | None = None) -> float:
     """Share of the time of the last revolutions in which a pivot sticks; `below` as in sticking."""
     duration = lasted(run, last_revolutions(run, last))
     return float(np.diff(stick_intervals(run, pad, last, below)).sum() / duration)

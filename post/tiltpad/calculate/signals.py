@@ -21,12 +21,15 @@ STATES = (
 )
 
 
-def last_revolutions(run: Run, count: float = 1) -> slice:
+def last_revolutions(run: Run, count: float | None = None) -> slice:
     """Samples of the last `count` shaft revolutions, both ends included; all where there are fewer.
 
+    Without `count` they are those of the last revolution, and of a periodic orbit those of its period.
     At constant speed and n samples a revolution these are count * n + 1 samples. They are searched for
     in the file; the shaft angle is not loaded.
     """
+    if count is None:
+        count = run.input["periodic"]["revolutions"] if run.task == "periodic" else 1
     if not count > 0:
         raise ValueError(f"last = {count:g}: must be a number of revolutions above 0")
     if run.samples < 2:
@@ -94,19 +97,19 @@ def series(run: Run, name: str, part: slice = slice(None), pad: int | None = Non
     return run.values(name, part)[:, pad - 1 if name.startswith("station") else pad_column(run, pad)]
 
 
-def orbit(run: Run, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
+def orbit(run: Run, last: float | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Journal centre y (up) and z over the last revolutions, each (time,), m."""
     part = last_revolutions(run, last)
     return run.values("journal_y", part), run.values("journal_z", part)
 
 
-def orbit_size(run: Run, last: float = 1) -> tuple[float, float]:
+def orbit_size(run: Run, last: float | None = None) -> tuple[float, float]:
     """Peak-to-peak of the journal's y and z over the last revolutions, m."""
     y, z = orbit(run, last)
     return float(np.ptp(y)), float(np.ptp(z))
 
 
-def waveform(run: Run, name: str, last: float = 5) -> tuple[np.ndarray, np.ndarray]:
+def waveform(run: Run, name: str, last: float | None = 5) -> tuple[np.ndarray, np.ndarray]:
     """Time (time,), s, and a dataset, (time,) or (time, pad), over the last revolutions."""
     part = last_revolutions(run, last)
     return run.values("time", part), run.values(name, part)

@@ -55,7 +55,7 @@ def station_modes(run: Run, pivot: str | None = None) -> StationModes:
     return StationModes(str(run["pivot"][k]), *figures, ~(part > MOSTLY))
 
 
-def station_orbit(run: Run, station: int, last: float = 1) -> tuple[np.ndarray, np.ndarray]:
+def station_orbit(run: Run, station: int, last: float | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Displacement y (up) and z of a station (1, 2, ...) over the last revolutions, each (time,), m."""
     needs_machine(run)
     part, k = signals.last_revolutions(run, last), column(run, station)

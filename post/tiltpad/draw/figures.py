@@ -56,7 +56,7 @@ def spectrum(runs: Sequence[Run], last: float | None = None, orders: float | Non
 
 
 def panel_a_pad(
-    runs: Sequence[Run], pad: int | None, last: float, draw: Callable[..., Axes]
+    runs: Sequence[Run], pad: int | None, last: float | None, draw: Callable[..., Axes]
 ) -> tuple[Figure, list[tuple[Axes, int, list[Run]]]]:
     """A panel for each of the shown pads, two in a row: its axes, the pad, and the runs that have it."""
     pads = layout.shown_pads(runs, pad)
@@ -72,10 +72,10 @@ def panel_a_pad(
 @layout.of_several
 def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Friction moment over tilt, a panel for each pad, with the work dissipated in a revolution."""
-    fig, panels = panel_a_pad(runs, pad, last or 1, plots.hysteresis)
+    fig, panels = panel_a_pad(runs, pad, last, plots.hysteresis)
     for ax, k, those in panels:
         ax.margins(y=0.1)
-        work = [pivots.friction_work(run, k) for run in those]
+        work = [pivots.friction_work(run, k, last) for run in those]
         ax.set_title(f"pad {k}: {in_words('work', work)} per revolution")
     layout.legend(fig, runs, [])
     return fig
@@ -84,7 +84,7 @@ def hysteresis(runs: Sequence[Run], last: float | None = None, pad: int | None =
 @layout.of_several
 def friction(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Friction coefficient over sliding velocity, a panel for each pad."""
-    fig, panels = panel_a_pad(runs, pad, last or 1, plots.friction_coefficient)
+    fig, panels = panel_a_pad(runs, pad, last, plots.friction_coefficient)
     for ax, k, _ in panels:
         ax.set_title(f"pad {k}")
     layout.legend(fig, runs, [])

@@ -168,7 +168,7 @@ def stations(runs: Sequence[Run], last: float | None = None, station: Sequence[i
     for ax, number in zip(panels, chosen, strict=True):
         sizes = []
         for i, run in enumerate(runs):
-            color, path = layout.colors(runs)[i], of_stations.station_orbit(run, number, last or 1)
+            color, path = layout.colors(runs)[i], of_stations.station_orbit(run, number, last)
             y, z = (SHOWN["journal_y"].factor * each for each in path)
             ax.plot(z, y, color=color)
             sizes.append(max(np.ptp(y), np.ptp(z)))

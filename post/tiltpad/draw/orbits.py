@@ -31,8 +31,8 @@ def orbit(runs: Sequence[Run], last: float | None = None) -> Figure:
     for (whole, enlarged), group in zip(panels, groups, strict=True):
         surroundings(whole, runs, group)
         for i in group:
-            plots.orbit(runs[i], whole, last or 1, direction=False, **layout.look(i, 0, runs))
-            plots.orbit(runs[i], enlarged, last or 1, **layout.look(i, 0, runs))
+            plots.orbit(runs[i], whole, last, direction=False, **layout.look(i, 0, runs))
+            plots.orbit(runs[i], enlarged, last, **layout.look(i, 0, runs))
         enlarged.yaxis.tick_right()  # the lines between the panels are on the left
         enlarged.yaxis.set_label_position("right")
         enlarged.yaxis.set_ticks_position("both")

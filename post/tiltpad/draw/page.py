@@ -27,7 +27,7 @@ PICTURES = {
     "waterfall": "Amplitudes over speed and frequency.",
     "branch": "Highest and lowest values along the branches; bifurcation points by their letters.",
     "response": "First harmonic of the journal: critical speeds, and their amplification factors (AF).",
-    "hysteresis": "Friction moment over tilt: the area is the work dissipated in the last revolution.",
+    "hysteresis": "Friction moment over tilt: the area is the work dissipated, last revolution or period.",
     "friction": "Friction coefficient over sliding velocity, last revolution.",
     "sticking": "Tilt rate, bold where the pivot sticks, over the last two revolutions.",
     "poincare": "Once a revolution, on the path of the last ones; of the pads, the one that moves most.",

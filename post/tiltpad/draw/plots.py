@@ -60,7 +60,7 @@ def on_axes(draw: Callable[..., Axes]) -> Callable[..., Axes]:
 
 
 @on_axes
-def orbit(run: Run, ax: Axes, last: float = 1, direction: bool = True, **line: Any) -> Axes:
+def orbit(run: Run, ax: Axes, last: float | None = None, direction: bool = True, **line: Any) -> Axes:
     """Path of the journal centre, z to the right and y up, with its direction.
 
     A cross marks the equilibrium if the speed is constant and the run started there.
@@ -176,7 +176,7 @@ def poincare(
 
 
 @on_axes
-def orbit_size(run: Run, ax: Axes, name: str = "journal_y", last: float = 1, **line: Any) -> Axes:
+def orbit_size(run: Run, ax: Axes, name: str = "journal_y", last: float | None = None, **line: Any) -> Axes:
     """Peak-to-peak of journal_y or journal_z over the speed; a run at constant speed is a point.
 
     The drift of the mean in a run-up is not in it.
@@ -312,7 +312,7 @@ def mark_orders(ax: Axes, speed: np.ndarray, orders: float) -> None:
 
 
 @on_axes
-def hysteresis(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -> Axes:
+def hysteresis(run: Run, ax: Axes, pad: int = 1, last: float | None = None, **line: Any) -> Axes:
     """Friction moment over the tilt of a pad; the area of the loop is the work that friction dissipates."""
     tilt, moment = pivots.hysteresis(run, pad, last)
     x, y = SHOWN["pad_tilt"].factor * tilt, SHOWN["friction_moment"].factor * moment
@@ -323,7 +323,7 @@ def hysteresis(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -
 
 
 @on_axes
-def friction_coefficient(run: Run, ax: Axes, pad: int = 1, last: float = 1, **line: Any) -> Axes:
+def friction_coefficient(run: Run, ax: Axes, pad: int = 1, last: float | None = None, **line: Any) -> Axes:
     """Friction coefficient of a pivot over its sliding velocity, where it carries load."""
     velocity, coefficient = pivots.friction_coefficient(run, pad, last)
     ax.plot(SHOWN["sliding_velocity"].factor * velocity, coefficient, **line)

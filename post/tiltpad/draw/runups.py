@@ -147,7 +147,7 @@ def size(runs: Sequence[Run], last: float | None = None) -> Figure:
         found = []
         for i, run in enumerate(runs):
             for k, name in enumerate(coordinates):
-                plots.orbit_size(run, ax, name, last or 1, **layout.look(i, k, runs))
+                plots.orbit_size(run, ax, name, last, **layout.look(i, k, runs))
                 if not signals.steady(run):
                     color = layout.look(i, k, runs)["color"]
                     found.append(mark_peak(ax, *signals.swing(run, name), "size", color))
@@ -156,7 +156,7 @@ def size(runs: Sequence[Run], last: float | None = None) -> Figure:
             layout.remark(fig, f"{axis}: {each}")
         layout.legend(fig, runs, layout.parts(["$y$", "$z$"], runs))
         return fig
-    sizes = SHOWN["size"].factor * np.array([signals.orbit_size(run, last or 1) for run in runs]).T
+    sizes = SHOWN["size"].factor * np.array([signals.orbit_size(run, last) for run in runs]).T
     varied = differences.varied([run.input for run in runs])
     dashes = ["-", "--" if varied else "-"]
     if varied:
