@@ -4,7 +4,7 @@ module march_results
    use kinds, only: wp, i8, pi
    use errors, only: error_type
    use case_inputs, only: case_type
-   use spectra, only: one_sided_amplitude, full_amplitude
+   use spectra, only: one_sided_amplitude, full_amplitude, windowed
    use periodic_orbit, only: periodic_orbit_type
    use record, only: record_type
    use summary_group, only: put_figure
@@ -19,6 +19,8 @@ module march_results
 
    !> Values of a sample: of the shaft, of a journal, and of a pad at most.
    integer, parameter :: of_shaft = 3, of_journal = 4, of_pad = 8 + 2*most_coordinates
+   !> Revolutions of a spectrum from which on a window leaves whole orders and halves of them apart.
+   integer, parameter :: fewest_under_window = 8
 
 contains
 
@@ -186,7 +188,9 @@ contains
    end subroutine put_viscosity_history
 
    !> Writes amplitude spectra of bearing b of a case over the last whole revolutions of a run at constant speed; none
-   !> where it was not sampled over one.
+   !> where it was not sampled over one. Under a Hann window what lies between the lines does not spread over all of
+   !> them; of a periodic orbit, whose period they cover, nothing lies there, and of few revolutions lines are too far
+   !> apart.
    subroutine put_spectra(file, inputs, b, interval)
       type(bearing_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
@@ -194,8 +198,10 @@ contains
       !> Between samples, s.
       real(wp), intent(in) :: interval
       real(wp), allocatable, dimension(:, :) :: y, z, tilt, signals, amplitudes
+      real(wp), allocatable :: means(:), full(:)
       real(wp) :: step
       integer :: revolutions, n, k
+      logical :: under_window
       if (.not. inputs%is_steady()) return
       associate (samples => inputs%output%samples_per_revolution)
          revolutions = int(min(int(inputs%output%spectrum_revolutions, i8), (file%run%hdf5%samples - 1)/samples))
@@ -213,7 +219,11 @@ contains
          call file%last_samples('pad_tilt', n, tilt)
          signals = reshape([signals, transpose(tilt)], [n, 2 + size(tilt, 1)])
       end if
+      under_window = inputs%about%task == 'march' .and. revolutions >= fewest_under_window
+      means = sum(signals, 1)/n
+      if (under_window) signals = windowed(signals)
       amplitudes = one_sided_amplitude(signals)
+      if (under_window) amplitudes(lbound(amplitudes, 1), :) = abs(means)
       call put('journal_y', amplitudes(:, 1), 'm', 'amplitude of journal_y', 'frequency')
       call put('journal_z', amplitudes(:, 2), 'm', 'amplitude of journal_z', 'frequency')
       if (size(signals, 2) > 2) call file%put('spectrum/pad_tilt', amplitudes(:, 3:), 'rad', 'amplitude of pad_tilt', &
@@ -221,10 +231,12 @@ contains
       ! at k/T with k = -((n-1)/2) .. n/2
       call put('full_frequency', [(k*step, k=-((n - 1)/2), n/2)], 'Hz', 'frequency, positive for forward whirl', &
          & 'full_frequency')
-      call put('journal_full', full_amplitude(cmplx(y(1, :), inputs%sense()*z(1, :), wp)), 'm', &
-         & 'amplitude of journal_y + i journal_z, or - i journal_z where the shaft turns anticlockwise', &
-         & 'full_frequency')
+      full = full_amplitude(cmplx(signals(:, 1), inputs%sense()*signals(:, 2), wp))
+      if (under_window) full(lbound(full, 1) + (n - 1)/2) = norm2(means(:2))
+      call put('journal_full', full, 'm', 'amplitude of journal_y + i journal_z, or - i journal_z where the shaft ' &
+         & //'turns anticlockwise', 'full_frequency')
       call file%put('spectrum/revolutions', int(revolutions, i8), 'revolutions covered')
+      call file%put('spectrum/window', merge(1_i8, 0_i8, under_window), '1: Hann window, amplitudes restored; 0: none')
    contains
       subroutine put(name, values, units, long_name, over)
          character(len=*), intent(in) :: name, units, long_name, over

@@ -2,7 +2,7 @@
 !> the journal whirls.
 module pad_behaviour
    use kinds, only: wp, pi
-   use spectra, only: hann_amplitude
+   use spectra, only: one_sided_amplitude, windowed
    implicit none (type, external)
    private
    public :: pad_behaviour_type, behaviour_of, whirl_of, dominant, evenly, smallest_share
@@ -77,7 +77,7 @@ contains
       real(wp), intent(out) :: order(:), amplitude(:)
       real(wp) :: lines(0:size(signals, 1)/2, size(signals, 2))
       integer :: i
-      lines = hann_amplitude(signals)
+      lines = one_sided_amplitude(windowed(signals))
       lines(:min(drift, size(lines, 1)) - 1, :) = 0
       do i = 1, size(signals, 2)
          call largest(lines(:, i), revolutions, apart, order(i), amplitude(i))

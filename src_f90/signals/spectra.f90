@@ -1,10 +1,10 @@
 !> Amplitude spectra by FFTW. The only file that knows FFTW.
 module spectra
    use, intrinsic :: iso_c_binding, only: c_double_complex, c_int, c_ptr
-   use kinds, only: wp
+   use kinds, only: wp, pi
    implicit none (type, external)
    private
-   public :: one_sided_amplitude, hann_amplitude, full_amplitude
+   public :: one_sided_amplitude, full_amplitude, windowed
 
    interface
       type(c_ptr) function fftw_plan_dft_1d(n, in, out, sign, flags) bind(c)
@@ -37,30 +37,23 @@ contains
       real(wp) :: amplitude(0:size(signals, 1)/2, size(signals, 2))
       integer :: n
       n = size(signals, 1)
-      amplitude = 2*abs(half_transformed(signals))/n
+      amplitude = 2*size_of(half_transformed(signals))/n
       amplitude(0, :) = 0.5_wp*amplitude(0, :)
       if (mod(n, 2) == 0) amplitude(n/2, :) = 0.5_wp*amplitude(n/2, :)
    end function one_sided_amplitude
 
-   !> The same of signals less their means under a Hann window, 1 - cos(2 pi j/n), between the first and the last
-   !> frequency: the window takes half of both neighbours off each line.
-   function hann_amplitude(signals) result(amplitude)
+   !> Signals, (sample, signal), less their means, under a Hann window, 1 - cos(2 pi j/n). A sine keeps its amplitude in
+   !> the line of its frequency and has half of it in both neighbours; between lines it reaches 0.85 of it at least.
+   pure function windowed(signals)
       real(wp), intent(in) :: signals(:, :)
-      real(wp) :: amplitude(0:size(signals, 1)/2, size(signals, 2))
-      complex(wp) :: spectrum(0:size(signals, 1)/2, size(signals, 2))
-      integer :: i, k, n
+      real(wp) :: windowed(size(signals, 1), size(signals, 2)), window(size(signals, 1))
+      integer :: i, j, n
       n = size(signals, 1)
-      spectrum = half_transformed(signals)
-      spectrum(0, :) = 0
-      amplitude = 0
+      window = 1 - cos(2*pi*[(j, j=0, n - 1)]/n)
       do i = 1, size(signals, 2)
-         do k = 1, n/2 - 1
-            associate (line => spectrum(k, i) - 0.5_wp*(spectrum(k - 1, i) + spectrum(k + 1, i)))
-               amplitude(k, i) = 2*sqrt(line%re**2 + line%im**2)/n
-            end associate
-         end do
+         windowed(:, i) = (signals(:, i) - sum(signals(:, i))/n)*window
       end do
-   end function hann_amplitude
+   end function windowed
 
    !> Amplitudes of a complex signal y + i z of n samples at the frequencies k/(n dt), k = -((n-1)/2) ..
    !> n/2, in that order: positive frequencies turn from y towards z, negative ones back.
@@ -76,9 +69,15 @@ contains
       call fftw_execute_dft(plan, work, spectrum)
       call fftw_destroy_plan(plan)
       do k = lbound(amplitude, 1), ubound(amplitude, 1)
-         amplitude(k) = abs(spectrum(modulo(k, n)))/n
+         amplitude(k) = size_of(spectrum(modulo(k, n)))/n
       end do
    end function full_amplitude
+
+   !> As abs, which takes care of numbers near the largest and the smallest and several times as long.
+   elemental real(wp) function size_of(z)
+      complex(wp), intent(in) :: z
+      size_of = sqrt(z%re**2 + z%im**2)
+   end function size_of
 
    !> sum_j signal(j) exp(-2 pi i j k / n) of real signals, (sample, signal), k = 0 .. n/2: (k, signal). One plan serves
    !> them all, as it takes longer to make than their transforms; that of real signals would take three times as long.

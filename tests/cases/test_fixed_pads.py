@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import tiltpad as package
 from peer_film import linearised
+from tiltpad.calculate import summary
 
 #: Below its threshold speed; an unbalance keeps it moving.
 CASE = """&pads motion='fixed', pivot_angle_deg=-90,90, arc_deg=160 /
@@ -80,6 +81,22 @@ def test_oil_whirl_of_the_example(tiltpad, root, tmp_path):
     with package.read(tmp_path / "above.h5") as run:
         frequency, amplitude = package.full_spectrum(run)
         assert 0.4 < frequency[np.argmax(amplitude)] / (8500 / 60) < 0.52
+        # the whirl stands between lines; console, report and picture tell it alike
+        order, size = (run[f"summary/whirl_{name}"] for name in ("order", "amplitude"))
+        first = summary.peaks(run)[0]
+        assert first.order == pytest.approx(order, abs=1e-3)
+        assert max(first.y, first.z) == pytest.approx(size, rel=5e-3)
+        # the file's part begins a sample later
+        assert run["spectrum/window"] == 1
+        for name in ("journal_y", "journal_z"):
+            here, there = package.one_sided(run, name, 50)[1], run[f"spectrum/{name}"]
+            np.testing.assert_allclose(here, there, atol=1e-2 * size)
+        here, there = package.full(run, 50)[1], run["spectrum/journal_full"]
+        assert (np.argmax(here[1:]), here.max()) == pytest.approx((np.argmax(there), there.max()), rel=1e-2)
+        for last in (None, 50):
+            axes = [package.plots.spectrum(run, name=f"journal_{axis}", last=last) for axis in "yz"]
+            drawn = max(np.nanmax(ax.get_lines()[0].get_ydata()) for ax in axes)
+            assert drawn == pytest.approx(1e6 * size, rel=5e-3)
 
 
 def test_a_study_is_collected(tiltpad, run):

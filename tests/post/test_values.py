@@ -127,9 +127,13 @@ def test_spectra_are_those_of_the_last_samples(run, case_name):
     np.testing.assert_allclose(case["spectrum/frequency"], frequency, rtol=1e-12)
     np.testing.assert_allclose(case["spectrum/order"], frequency * 60 / 6500, rtol=1e-12)
 
+    window = 1 - (n >= 8 * 360) * np.cos(2 * np.pi * np.arange(n) / n)
+    assert case["spectrum/window"] == (n >= 8 * 360)
+
     def amplitude(signal):
-        each = 2 * np.abs(np.fft.rfft(signal, axis=0)) / n
-        each[0] /= 2
+        mean = signal.mean(axis=0)
+        each = 2 * np.abs(np.fft.rfft(((signal - mean).T * window).T, axis=0)) / n
+        each[0] = np.abs(mean)
         each[-1] /= 2
         return each
 
@@ -139,7 +143,9 @@ def test_spectra_are_those_of_the_last_samples(run, case_name):
     expected = amplitude(case.pad_tilt[-n:]).T
     np.testing.assert_allclose(case["spectrum/pad_tilt"], expected, atol=1e-13 * expected.max() * n)
 
-    full = np.abs(np.fft.fft(case.journal_y[-n:] + 1j * case.journal_z[-n:])) / n
+    motion = case.journal_y[-n:] + 1j * case.journal_z[-n:]
+    full = np.abs(np.fft.fft((motion - motion.mean()) * window)) / n
+    full[0] = np.abs(motion.mean())
     # numpy puts the Nyquist frequency first, the file puts it last
     order = np.arange(-(n // 2) + 1, n // 2 + 1)
     np.testing.assert_allclose(case["spectrum/full_frequency"], order / (n * case.time[1]), rtol=1e-12)

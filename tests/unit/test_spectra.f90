@@ -3,7 +3,7 @@
 program test_spectra
    use kinds, only: wp, pi
    use text, only: to_text
-   use spectra, only: one_sided_amplitude
+   use spectra, only: one_sided_amplitude, windowed
    use loops, only: path_integral, harmonic, slow_share, periodicity, new_periodicity
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, dominant, evenly
    use result_remarks, only: pad_diagnosis
@@ -20,6 +20,7 @@ program test_spectra
       call sines(64)
       call sines(99)
    end if
+   if (runs('window')) call window()
    if (runs('square')) call square()
    if (runs('ellipse')) call ellipse()
    if (runs('line')) call line()
@@ -57,6 +58,23 @@ contains
          call expect_close(amplitude(n/2), 3.0_wp, rounding, 'the highest frequency of '//to_text(n)//' samples')
       end if
    end subroutine sines
+
+   !> Under the window a sine keeps its amplitude and gives half of it to both neighbours alone; one between lines falls
+   !> with the third power of the distance, where without a window it falls with the first.
+   subroutine window()
+      integer, parameter :: n = 360
+      real(wp) :: amplitude(0:n/2, 2), at(n)
+      integer :: k
+      at = [(2*pi*k/n, k=0, n - 1)]
+      amplitude = one_sided_amplitude(windowed(reshape([7 + 3*sin(20*at + 0.3_wp), 3*sin(20.5_wp*at)], [n, 2])))
+      call expect_close(amplitude(20, 1), 3.0_wp, rounding, 'on a line')
+      call expect_close(maxval(abs(amplitude([19, 21], 1) - 1.5_wp)), 0.0_wp, rounding, 'beside it')
+      call expect(all(amplitude(:18, 1) < rounding) .and. all(amplitude(22:, 1) < rounding), 'nothing elsewhere')
+      ! sin(pi d)/(pi d (1 - d**2)) of both lines at d = 1/2, and less than twice 1/(pi d**3) at d = 30.5; the other
+      ! side of the spectrum adds its own, from 40 lines away
+      call expect_close(amplitude(20, 2), 3*8/(3*pi), 3*2/(pi*40**3), 'between two lines')
+      call expect(amplitude(51, 2) < 2*3/(pi*30.5_wp**3), 'far from it: '//to_text(amplitude(51, 2)))
+   end subroutine window
 
    !> Of a signal that stands between others, which do not matter.
    function spectrum_of(signal) result(amplitude)

@@ -12,6 +12,12 @@ from tiltpad.calculate.rotation import sense
 from tiltpad.files.archive import not_in_run
 from tiltpad.files.read import Run
 
+#: As in the program: the spectrum of a march over this number of revolutions, or more, is under a Hann
+#: window, whose amplitudes are restored; others are not, as that of a periodic orbit, whose period it covers.
+FEWEST = 8
+#: Tops are drawn that are as far off a line, over the distance of two.
+OFF = 0.01
+
 
 def spectrum(run: Run, name: str = "journal_y") -> tuple[np.ndarray, np.ndarray]:
     """Frequency (k,), Hz, and one-sided amplitude of journal_y, journal_z (k,), m, or pad_tilt (pad, k), rad.
@@ -37,11 +43,11 @@ def one_sided(
     The speed must be constant. Amplitudes, in the unit of the dataset, are (k,), or (pad, k) for a dataset of
     all pads without `pad`. The value at frequency 0 is the magnitude of the mean.
     """
-    part, interval = sampled_evenly(run, last)
-    values = signals.series(run, name, part, pad).T
-    count = values.shape[-1]
-    amplitude = 2 / count * np.abs(np.fft.rfft(values))
-    amplitude[..., 0] /= 2
+    part, interval, weights = sampled_evenly(run, last)
+    values = np.ascontiguousarray(signals.series(run, name, part, pad).T)
+    count, mean = values.shape[-1], values.mean(axis=-1, keepdims=True)
+    amplitude = 2 / count * np.abs(np.fft.rfft((values - mean) * weights))
+    amplitude[..., 0] = np.abs(mean[..., 0])
     if count % 2 == 0:
         amplitude[..., -1] /= 2
     return np.fft.rfftfreq(count, interval), amplitude
@@ -53,21 +59,56 @@ def full(run: Run, last: float = 10) -> tuple[np.ndarray, np.ndarray]:
     The speed must be constant. Forward whirl is at positive frequencies, backward whirl at negative ones: of
     shafts that turn anticlockwise it is y - i z.
     """
-    part, interval = sampled_evenly(run, last)
+    part, interval, weights = sampled_evenly(run, last)
     turning = 1j * sense(run.input)
     values = run.values("journal_y", part) + turning * run.values("journal_z", part)
-    amplitude = np.abs(np.fft.fft(values)) / len(values)
+    amplitude = np.abs(np.fft.fft((values - values.mean()) * weights)) / len(values)
+    amplitude[0] = np.abs(values.mean())
     return np.fft.fftshift(np.fft.fftfreq(len(values), interval)), np.fft.fftshift(amplitude)
 
 
-def sampled_evenly(run: Run, last: float) -> tuple[slice, float]:
-    """Samples of the last revolutions, without the sample that begins the next one, and their interval, s."""
+def is_windowed(run: Run, last: float | None = None) -> bool:
+    """Whether the spectrum of the last revolutions, or that in the file, is under a window."""
+    if last is None:
+        return "spectrum/window" in run and bool(run["spectrum/window"])
+    return run.task == "march" and signals.turned(run, signals.last_revolutions(run, last)) > FEWEST - 0.5
+
+
+def restored(amplitude: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Places, in lines, and amplitudes of sines under a Hann window, by their highest lines, (k,)."""
+    below, own, above = (amplitude[line + k] for k in (-1, 0, 1))
+    ratio = np.maximum(below, above) / own
+    beside = np.maximum(0, (2 * ratio - 1) / (ratio + 1))
+    return line + np.where(above >= below, beside, -beside), own * (1 - beside**2) / np.sinc(beside)
+
+
+def highest_lines(amplitude: np.ndarray) -> np.ndarray:
+    """The lines that are higher than those beside them, (k,)."""
+    inner = amplitude[1:-1]
+    return 1 + np.flatnonzero((inner > amplitude[:-2]) & (inner >= amplitude[2:]))
+
+
+def with_tops(frequency: np.ndarray, amplitude: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A spectrum under a Hann window with the tops between its lines."""
+    line = highest_lines(amplitude)
+    place, height = restored(amplitude, line)
+    off = np.abs(place - line) > OFF
+    at = np.interp(place[off], np.arange(len(frequency)), frequency)
+    order = np.argsort(np.concatenate([frequency, at]))
+    return np.concatenate([frequency, at])[order], np.concatenate([amplitude, height[off]])[order]
+
+
+def sampled_evenly(run: Run, last: float) -> tuple[slice, float, np.ndarray]:
+    """Samples of the last revolutions but the one that begins the next, their interval, s, and weights."""
     if not signals.steady(run):
         raise not_in_run(run, "spectrum", "the speed changes; see waterfall")
     signals.needs_revolutions(run, "spectrum")
     part = signals.last_revolutions(run, last)
-    time = signals.ends(run, "time", part)
-    return slice(part.start, part.stop - 1), float(np.ptp(time)) / (part.stop - part.start - 1)
+    time, count = signals.ends(run, "time", part), part.stop - part.start - 1
+    weights = np.ones(count)
+    if is_windowed(run, last):
+        weights -= np.cos(2 * np.pi * np.arange(count) / count)
+    return slice(part.start, part.stop - 1), float(np.ptp(time)) / count, weights
 
 
 def waterfall(

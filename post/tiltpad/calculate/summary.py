@@ -68,8 +68,11 @@ def peaks(run: Run, count: int = 8) -> list[Peak]:
     z = spectra.spectrum(run, "journal_z")[1]
     size = np.hypot(y, z)
     size[0] = 0
-    inner = size[1:-1]
-    top = 1 + np.flatnonzero((inner > size[:-2]) & (inner >= size[2:]) & (inner > 1e-3 * size.max()))
+    top = spectra.highest_lines(size)
+    top = top[size[top] > 1e-3 * size.max()]
     highest = top[np.argsort(size[top])[::-1][:count]]
-    order = run["spectrum/order"]
-    return [Peak(*map(float, (order[k], frequency[k], y[k], z[k]))) for k in highest]
+    place, height = spectra.restored(size, highest) if spectra.is_windowed(run) else (highest, size[highest])
+    known = (run["spectrum/order"], frequency)
+    at = (np.interp(place, np.arange(len(size)), each) for each in known)
+    rows = zip(*at, *(each[highest] * height / size[highest] for each in (y, z)), strict=True)
+    return [Peak(*map(float, row)) for row in rows]

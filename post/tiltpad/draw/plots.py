@@ -200,8 +200,10 @@ def spectrum(
 
     It is the spectrum in the file; with `last`, or if the file has none, that of the last revolutions.
     """
-    own = last is None and "spectrum" in run
-    found = spectra.spectrum(run, name) if own else spectra.one_sided(run, name, last or 10)
+    last = last or (None if "spectrum" in run else 10)
+    found = spectra.one_sided(run, name, last) if last else spectra.spectrum(run, name)
+    if spectra.is_windowed(run, last):
+        found = spectra.with_tops(*found)
     return draw_amplitude(ax, *found, (0, orders * shaft_frequency(run)), line)
 
 
@@ -211,8 +213,10 @@ def full_spectrum(run: Run, ax: Axes, orders: float = 5, last: float | None = No
 
     It is the spectrum in the file; with `last`, or if the file has none, that of the last revolutions.
     """
-    own = last is None and "spectrum" in run
-    found = spectra.full_spectrum(run) if own else spectra.full(run, last or 10)
+    last = last or (None if "spectrum" in run else 10)
+    found = spectra.full(run, last) if last else spectra.full_spectrum(run)
+    if spectra.is_windowed(run, last):
+        found = spectra.with_tops(*found)
     span = orders * shaft_frequency(run)
     return draw_amplitude(ax, *found, (-span, span), line)
 
