@@ -24,9 +24,12 @@ module force_balance
    real(wp), parameter :: share_of_rotor = 0.25_wp
    !> A mode is of several pads if a second one moves this part of the largest, or more.
    real(wp), parameter :: share_of_pad = 0.5_wp
-
+   !> Shorter over longer axis of an ellipse below which a mode is planar; what is left of the areas of all stations,
+   !> those that go backward taken off, from which on they go one way.
+   real(wp), parameter :: narrowest = 0.05_wp, one_way = 0.5_wp
 
    !> How a state in equilibrium answers a small disturbance.
+
    type :: stability_type
       !> The eigenvalue of largest real part, 1/s; of a pair the one with positive imaginary part.
       complex(wp) :: eigenvalue = 0
@@ -43,7 +46,7 @@ module force_balance
 contains
 
    !> The name of a mode of this shape: by its largest part, as its positions are displaced times the lengths that stand
-   !> for 1 rad of a tilt. A vibration of the rotor goes forward, in the sense of rotation, or backward.
+   !> for 1 rad of a tilt. What a vibration of the rotor does stands behind it.
    function mode_name(model, shape, lengths, vibrates) result(name)
       type(machine_model), intent(in), target :: model
       complex(wp), intent(in) :: shape(:)
@@ -56,7 +59,7 @@ contains
       sizes = abs(shape)*lengths
       if (maxval(sizes(:model%rotor%positions)) >= share_of_rotor*maxval(sizes)) then
          name = merge('shaft  ', 'journal', model%rotor%stations > 0)
-         if (vibrates) name = trim(name)//merge(', forward ', ', backward', goes_forward(model, shape))
+         if (vibrates) name = trim(name)//', '//whirl_word(model, shape)
          return
       end if
       largest = 0
@@ -123,18 +126,29 @@ contains
       is_of_rotor = index(name, 'journal') == 1 .or. index(name, 'shaft') == 1
    end function is_of_rotor
 
-   !> By the stations of a shaft, or by the journal.
-   pure logical function goes_forward(model, shape)
+   !> How the stations of a shaft, or the journal, go round: forward, in the sense of rotation, or backward; planar
+   !> where their paths are lines or narrow ellipses; mixed where some go forward and others backward.
+   pure function whirl_word(model, shape) result(word)
       type(machine_model), intent(in) :: model
       complex(wp), intent(in) :: shape(:)
-      complex(wp) :: stations(2, model%rotor%stations)
+      character(len=:), allocatable :: word
+      complex(wp) :: places(2, max(1, model%rotor%stations))
+      real(wp) :: turned(size(places, 2))
       if (model%rotor%stations > 0) then
-         stations = at_stations(model, shape)
-         goes_forward = model%point%sense*aimag(sum(conjg(stations(1, :))*stations(2, :))) < 0
+         places = at_stations(model, shape)
       else
-         goes_forward = model%point%sense*aimag(conjg(shape(1))*shape(2)) < 0
+         places(:, 1) = shape(:2)
       end if
-   end function goes_forward
+      ! of an ellipse the product of its semi-axes, whose squares sum to |y|**2 + |z|**2
+      turned = -model%point%sense*aimag(conjg(places(1, :))*places(2, :))
+      if (sum(abs(turned)) < narrowest*sum(abs(places)**2)) then
+         word = 'planar'
+      else if (abs(sum(turned)) < one_way*sum(abs(turned))) then
+         word = 'mixed'
+      else
+         word = trim(merge('forward ', 'backward', sum(turned) > 0))
+      end if
+   end function whirl_word
 
    !> Stations of the rotor's displacements, which turn, m.
    pure function at_stations(model, positions) result(stations)

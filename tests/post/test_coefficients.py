@@ -132,7 +132,7 @@ def test_names_of_modes_are_those_of_the_program(study, run, folder, opened):
             assert sorted(own[own != ""]) == sorted(known[known != ""])
     free = tiltpad.modes(run, "free")
     kinds = {str(name) for name in free.name}
-    assert {"journal, backward", "pad 1, tilt"} <= kinds, kinds
+    assert {"journal, planar", "pad 1, tilt"} <= kinds, kinds
     of_journal = np.abs(free.shape[:, :2]).max(axis=1) > 0.25
     assert np.char.startswith(free.name, "journal").tolist() == of_journal.tolist()
 

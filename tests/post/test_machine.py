@@ -266,7 +266,7 @@ def test_shapes_are_drawn_with_their_sense(machine):
             k = np.nanargmin(abs(found.frequency - hertz))
             y, z = found.shape[k].T
             turns = np.sum((np.conj(y) * z).imag)
-            assert machines.in_words(found.whirl[k]) in title
+            assert str(found.word[k]) in title
             assert ("forward" in title) <= (turns < 0)
             assert ("backward" in title) <= (turns > 0)
         assert {"forward", "backward"} <= {title.split()[2] for title in "\n".join(titles).split("\n")[::2]}

@@ -77,6 +77,26 @@ def test_a_mode_that_is_like_none_before_has_a_place_of_its_own():
     np.testing.assert_array_equal(found, wanted)
 
 
+@pytest.mark.parametrize(
+    ("places", "word"),
+    [
+        ([(1, -0.06j)], "forward"),
+        ([(1, 0.06j)], "backward"),
+        ([(1, 0.04j)], "planar"),
+        ([(1, 2 + 0.0j)], "planar"),
+        ([(1, -0.5j), (1, 0.1j)], "forward"),
+        ([(1, -0.5j), (1, 0.4j)], "mixed"),
+        ([(1, -0.02j), (1e-3, 1e-3j)], "planar"),
+    ],
+)
+def test_a_whirl_in_words(places, word):
+    """A shaft that turns from y to z; one that turns the other way has the others' words."""
+    shape = np.array(places, complex)
+    assert modes.whirl_words(shape, 1) == word
+    other = {"forward": "backward", "backward": "forward"}
+    assert modes.whirl_words(shape, -1) == other.get(word, word)
+
+
 @pytest.mark.parametrize(("z", "ahead"), [(-1j, True), (1j, False)])
 def test_whirl_from_y_to_z_is_forward(z, ahead):
     time = np.linspace(0, 1, 5)

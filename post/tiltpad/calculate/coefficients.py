@@ -14,7 +14,7 @@ from tiltpad.files.study import Study
 #: What only some results have: what was asked for; shapes of a bearing's modes, and of a machine's.
 SOUGHT = "threshold_rpm"
 SOME = (
-    *(SOUGHT, "shape_real", "shape_imag", "whirl"),
+    *(SOUGHT, "shape_real", "shape_imag", "whirl", "part_of_reduction"),
     *("station_y_real", "station_y_imag", "station_z_real", "station_z_imag"),
 )
 #: What is used of the groups of a result.

@@ -12,8 +12,13 @@ from tiltpad.files.study import Study
 
 #: Modes that are farther apart are different ones: by their eigenvalues (0 to 2) and shapes (0 to 1).
 ANOTHER = 1.0
+#: As on the console: the damping of a mode is that of the reduction where this part of it is.
+MOSTLY = 0.5
 #: As in the program: parts of the largest displacement that make a mode the journal's, or several pads'.
 SHARE_OF_JOURNAL, SHARE_OF_PAD = 0.25, 0.5
+#: Likewise: shorter over longer axis of an ellipse below which a mode is planar; what is left of the areas of
+#: all stations, those that go backward taken off, from which on they go one way.
+NARROWEST, ONE_WAY = 0.05, 0.5
 
 
 class Modes(NamedTuple):
@@ -25,12 +30,15 @@ class Modes(NamedTuple):
         frequency        Hz, likewise
         damping_ratio, log_decrement     likewise; a mode without vibration has no decrement (nan)
         shape            complex, (mode, position); of a study (run, mode, position)
-        name             what moves: "journal, forward", "pad 3, tilt", "pads, tilt", ..., of a machine
-                         "shaft, forward", ... or "pads", likewise; empty where there is no mode
+        name             what moves: "journal, forward" (or backward, or planar: in an ellipse whose axes are
+                         as 20 to 1 or more), "pad 3, tilt", "pads, tilt", ..., of a machine "shaft, forward"
+                         (or mixed: some stations backward) or "pads", likewise; empty where there is no mode
         position         names of the positions: y, z, tilt_1, pivot_deflection_1, ...; of a machine those of
                          its stations: y_1, z_1, y_2, ...
         whirl            likewise as frequency, from -1 (circular backward) to 1 (forward, as the shaft
                          turns): of the journal, of a machine of all stations
+        of_reduction     likewise as frequency, true where the damping is that of the reduction of a machine's
+                         shaft (reduction%damp_above)
         threshold_rpm    lowest speed at which a mode turns unstable, nan where there is none, or none was
                          looked for; of a study (run,)
         parameters       of a study: values of its parameters by name, (run,) each
@@ -49,6 +57,7 @@ class Modes(NamedTuple):
     name: np.ndarray
     position: np.ndarray
     whirl: np.ndarray
+    of_reduction: np.ndarray
     threshold_rpm: np.ndarray
     parameters: dict[str, np.ndarray]
 
@@ -68,15 +77,20 @@ def modes(
         plane = [values[f"station_{axis}_real"] + 1j * values[f"station_{axis}_imag"] for axis in "yz"]
         values["shape"] = np.stack(plane, axis=-1).reshape(*plane[0].shape[:2], -1)
         position = np.array([f"{axis}_{station:g}" for station in source["station"] for axis in "yz"])
+        words = whirl_words(np.stack(plane, axis=-1), values["sense"][:, None])
     else:
         values["shape"] = values["shape_real"] + 1j * values["shape_imag"]
         values["whirl"] = values["sense"][:, None] * whirl(values["shape"])
+        words = whirl_words(values["shape"][..., None, :JOURNAL], values["sense"][:, None])
         position = source["position_row"]
     order = tracked(values["eigenvalue"], values["shape"])
     names = ("eigenvalue", "frequency", "damping_ratio", "log_decrement", "shape", "whirl")
     own: dict[str, Any] = {name: placed(values[name], order) for name in names}
     vibrates = own["frequency"] > 0
-    own["name"] = mode_names(own["shape"], [str(each) for each in position], vibrates, own["whirl"])
+    part = values.get("part_of_reduction", np.zeros_like(values["frequency"]))
+    own["of_reduction"] = placed(part, order) > MOSTLY
+    words = np.array([np.append(each, "")[at] for each, at in zip(words, order, strict=True)])
+    own["name"] = mode_names(own["shape"], [str(each) for each in position], np.where(vibrates, words, ""))
     own["threshold_rpm"] = values.get("threshold_rpm", np.full(len(found.speed_rpm), np.nan))
     own["speed_rpm"] = found.speed_rpm
     if isinstance(source, Run):
@@ -144,13 +158,26 @@ def whirl(shape: np.ndarray) -> np.ndarray:
     return -2 * (np.conj(y) * z).imag / np.where(size > 0, size, 1)
 
 
-def mode_names(
-    shape: np.ndarray, positions: Sequence[str], vibrates: np.ndarray, whirl: np.ndarray
-) -> np.ndarray:
+def whirl_words(shape: np.ndarray, sense: np.ndarray | float) -> np.ndarray:
+    """How places go round in modes of a shaft that turns in this sense, by their shapes (..., place, 2).
+
+    The words, (...,), are forward, backward, planar (in lines or narrow ellipses) and mixed (some forward,
+    others backward).
+    """
+    y, z = shape[..., 0], shape[..., 1]
+    turned = -(np.conj(y) * z).imag
+    areas, size = np.abs(turned).sum(axis=-1), (np.abs(y) ** 2 + np.abs(z) ** 2).sum(axis=-1)
+    left = sense * turned.sum(axis=-1)
+    kinds = [areas < NARROWEST * size, np.abs(left) < ONE_WAY * areas, left > 0]
+    return np.select(kinds, ["planar", "mixed", "forward"], "backward")
+
+
+def mode_names(shape: np.ndarray, positions: Sequence[str], words: np.ndarray) -> np.ndarray:
     """What moves in the modes, as in the dataset `modes/name`: (..., mode), empty where none is.
 
-    Shapes are (..., mode, position); their largest element is 1 m, and tilts count times a length that this
-    tells: each pad has modes in which its tilt is the largest.
+    The words are those of whirl_words, empty where nothing vibrates. Shapes are (..., mode, position); their
+    largest element is 1 m, and tilts count times a length that this tells: each pad has modes in which its
+    tilt is the largest.
     """
     sizes = np.abs(np.nan_to_num(shape))
     places = dict.fromkeys(name.rsplit("_", 1)[-1] for name in positions[JOURNAL:])
@@ -158,7 +185,7 @@ def mode_names(
     for k in (k for k, name in enumerate(positions) if name.startswith("tilt")):
         longest = sizes[..., k].max(axis=-1, keepdims=True, initial=0)
         sizes[..., k] /= np.where(longest > 0, longest, 1)
-    sense = np.where(vibrates, np.where(whirl > 0, ", forward", ", backward"), "")
+    sense = np.where(words == "", "", np.char.add(", ", words))
     own = np.char.add("journal", sense)
     if "y_1" in positions:
         moves = sizes.max(axis=-1) >= SHARE_OF_JOURNAL

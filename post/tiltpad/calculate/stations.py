@@ -7,11 +7,10 @@ import numpy as np
 
 from tiltpad.calculate import signals
 from tiltpad.calculate.coefficients import place_of_pivot
+from tiltpad.calculate.modes import MOSTLY, whirl_words
+from tiltpad.calculate.rotation import sense
 from tiltpad.files.archive import not_in_run
 from tiltpad.files.read import Run
-
-#: As on the console: the damping of a mode is that of the reduction where this part of it is.
-MOSTLY = 0.5
 
 
 class StationModes(NamedTuple):
@@ -22,6 +21,7 @@ class StationModes(NamedTuple):
     frequency        Hz, (mode,)
     damping_ratio, log_decrement     (mode,)
     whirl            sense of the whirl of the shaft, (mode,): 1 forward to -1 backward
+    word             the same in a word, (mode,): forward, backward, planar or mixed
     shape            displacement of the stations, complex, (mode, station, 2): y (up) and z; any scale
     own              False for modes whose damping is mostly that of the reduction of the shaft, (mode,)
     """
@@ -32,6 +32,7 @@ class StationModes(NamedTuple):
     damping_ratio: np.ndarray
     log_decrement: np.ndarray
     whirl: np.ndarray
+    word: np.ndarray
     shape: np.ndarray
     own: np.ndarray
 
@@ -51,7 +52,8 @@ def station_modes(run: Run, pivot: str | None = None) -> StationModes:
     )
     part = run["modes/part_of_reduction"][k] if "modes/part_of_reduction" in run else np.zeros(len(y))
     shape = np.stack([y, z], axis=-1)
-    figures = (eigenvalue, frequency, damping_ratio, log_decrement, whirl, shape)
+    word = whirl_words(shape, sense(run.input))
+    figures = (eigenvalue, frequency, damping_ratio, log_decrement, whirl, word, shape)
     return StationModes(str(run["pivot"][k]), *figures, ~(part > MOSTLY))
 
 

@@ -10,7 +10,7 @@ from tiltpad.calculate import summary
 from tiltpad.calculate.modes import Modes
 from tiltpad.calculate.stations import StationModes, attached, positions, station_modes
 from tiltpad.draw import figures
-from tiltpad.draw.machines import in_words, machine
+from tiltpad.draw.machines import machine
 from tiltpad.draw.page import paragraph, picture, row, table
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -101,7 +101,7 @@ def mode_table(run: Run) -> str:
     for number, pivot in enumerate(str(each) for each in run["pivot"]):
         found = station_modes(run, pivot)
         for k in np.flatnonzero(found.own & ((found.frequency > 0) | (found.damping_ratio < 0))):
-            rows.append((f"{pivot}, {in_words(found.whirl[k])}", *vibration(found, k)))
+            rows.append((f"{pivot}, {found.word[k]}", *vibration(found, k)))
         if "modes/threshold_rpm" in run and np.isfinite(speed := run["modes/threshold_rpm"][number]):
             notes.append(f"{pivot} pivots: {speed:.1f} rpm")
         left_out += int((~found.own).sum())

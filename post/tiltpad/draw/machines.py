@@ -25,7 +25,7 @@ ELLIPSE = 73
 LOWEST, HIGHEST = 0.3, 0.75
 #: Stations have their numbers beside each other from this distance on, over the length of the machine.
 NEXT = 0.032
-SENSE = {"forward": "C0", "backward": "C1", "mixed": "C2"}
+SENSE = {"forward": "C0", "backward": "C1", "mixed": "C2", "planar": "C3"}
 NOTE = {"fontsize": "small", "ha": "center"}
 
 
@@ -240,7 +240,7 @@ def shapes(runs: Sequence[Run], pivot: str | None = None) -> Figure:
     columns = min(3, len(slow))
     rows = -(-len(slow) // columns)
     fig = plt.figure(figsize=(layout.PAGE, 2.35 * rows + 0.3))
-    senses = [in_words(found.whirl[k]) for k in slow]
+    senses = [str(found.word[k]) for k in slow]
     for place, (k, sense) in enumerate(zip(slow, senses, strict=True), 1):
         ax = fig.add_subplot(rows, columns, place, projection="3d")
         draw_shape(ax, x, found.shape[k], run["rotor/bearing_station"].astype(int) - 1, SENSE[sense])
@@ -250,11 +250,6 @@ def shapes(runs: Sequence[Run], pivot: str | None = None) -> Figure:
     bearing = ("bearing", {"color": "0.2", "linestyle": "", "marker": "^", "markersize": 5})
     layout.heading(fig, [*marks, bearing], f"{run.title}, pivots {found.pivot}".removeprefix(", "))
     return fig
-
-
-def in_words(whirl: float) -> str:
-    """The sense of a whirl from 1, forward, to -1, backward, in a word."""
-    return "mixed" if abs(whirl) < 0.3 else "forward" if whirl > 0 else "backward"
 
 
 def draw_shape(ax: Any, x: np.ndarray, shape: np.ndarray, bearings: np.ndarray, color: str) -> None:
