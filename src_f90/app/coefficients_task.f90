@@ -112,11 +112,11 @@ contains
          if (allocated(error)) return
          call put_rotor_response(run%file, found, response, run%inputs%sense())
       end if
-      call put_modes(run%file, found)
-      call put_thresholds(run%file, found)
-      if (run%quiet) return
       if (.not. allocated(response%of_reduction)) allocate (response%of_reduction(2*size(found%bearings(1)%moves), &
          & size(found%modes)), source=0.0_wp)
+      call put_modes(run%file, found, response%of_reduction > mostly)
+      call put_thresholds(run%file, found)
+      if (run%quiet) return
       call print_coefficients(found, run%inputs, response%of_reduction > mostly)
       if (allocated(response%unbalance)) call print_response(found, response, run%inputs)
    end subroutine write_coefficients

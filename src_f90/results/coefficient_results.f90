@@ -4,7 +4,7 @@ module coefficient_results
    use kinds, only: wp, pi
    use record, only: record_type
    use summary_group, only: put_figure
-   use force_balance, only: mode_name_length
+   use force_balance, only: mode_name_length, is_of_rotor
    use state_layout, only: element_layout_type
    use linear_bearing, only: bearing_coefficients_type, vibration_modes_type, rotor_response_type
    implicit none (type, external)
@@ -85,10 +85,14 @@ contains
          & 'masses of the pads: forces (N) and moments (N m) over accelerations (m/s^2, rad/s^2)', of_positions)
    end subroutine put_full
 
-   !> The names and eigenvalues of the modes of rotor and pads, and the least damping ratio.
-   subroutine put_modes(file, found)
+   !> The names and eigenvalues of the modes of rotor and pads, and the least damping ratios: of all, of the rotor
+   !> without the damping of its reduction, and of the pads.
+   subroutine put_modes(file, found, of_reduction)
       class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
+      !> Whether the damping of a mode is that of the reduction, (mode, pivot).
+      logical, intent(in) :: of_reduction(:, :)
+      real(wp) :: least(2, size(found%modes))
       character(len=mode_name_length), allocatable :: names(:, :)
       integer :: i
       call put_mode_values(file, 'modes', of_modes, found%modes, 2*size(found%bearings(1)%moves))
@@ -101,7 +105,23 @@ contains
       ! those in vibration stand in the order of their damping
       call put_figure(file, 'least_damping_ratio', [(found%modes(i)%damping_ratio(1), i=1, size(found%modes))], '1', &
          & 'least damping ratio of all modes', 'pivot')
+      do i = 1, size(found%modes)
+         associate (ratio => found%modes(i)%damping_ratio, of_rotor => is_of_rotor(found%modes(i)%name))
+            least(1, i) = least_of(ratio, of_rotor .and. .not. of_reduction(:size(ratio), i))
+            least(2, i) = least_of(ratio, .not. of_rotor)
+         end associate
+      end do
+      call put_figure(file, 'rotor_damping_ratio', least(1, :), '1', 'least damping ratio of journal or shaft', 'pivot')
+      call put_figure(file, 'pads_damping_ratio', least(2, :), '1', 'least damping ratio of the pads', 'pivot')
    end subroutine put_modes
+
+   !> The least of some values; no number where there are none.
+   real(wp) function least_of(values, mask)
+      real(wp), intent(in) :: values(:)
+      logical, intent(in) :: mask(:)
+      least_of = no_number()
+      if (any(mask)) least_of = minval(values, mask=mask)
+   end function least_of
 
    !> Eigenvalues of modes in a group over these scales, filled up to n modes with what is no number.
    subroutine put_mode_values(file, group, scales, all_modes, n)

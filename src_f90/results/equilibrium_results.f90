@@ -70,6 +70,8 @@ contains
       call file%put_text('equilibrium_search', found%search)
       call put_figure(file, 'equilibrium_stable', merge(1.0_wp, 0.0_wp, found%stability%name == 'stable'), '1', &
          & '1 where the equilibrium is stable')
+      call put_figure(file, 'equilibrium_rotor_stable', merge(0.0_wp, 1.0_wp, found%stability%rotor_grows), '1', &
+         & '1 where journal or shaft is stable there, whatever the pads do')
    end subroutine put_stability
 
    !> Writes where the journal lies in the one bearing of a case, what the pads carry, losses, flows and temperature

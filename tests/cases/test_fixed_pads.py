@@ -180,7 +180,7 @@ def test_pictures_of_fixed_pads_name_no_pivots(tiltpad, run):
     varied = ("sweep%operation%speed_rpm=3000,5000", "case%task=coefficients")
     tiltpad("case.nml", "-q", "-o", "whirl", overrides=varied, cwd=run.folder, status=0)
     with package.read_study(run.folder / "whirl.h5") as study:
-        assert package.diagrams.diagram(study).get_ylabel() == "least damping ratio (%)"
+        assert package.diagrams.diagram(study).get_ylabel() == "damping ratio of the rotor (%)"
         names = ("coefficients", "stability", "campbell")
         legends = [package.figures.FIGURES[name]([study]).legends[0] for name in names]
         texts = [each.get_text() for legend in legends for each in (*legend.get_texts(), legend.get_title())]

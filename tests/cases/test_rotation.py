@@ -59,7 +59,7 @@ NEGATIVE = ("journal_z", "journal_vz", "excitation_z", "station_z", "station_slo
             "bearing_load_z", "bearing_offset_z", "z_real", "z_imag")  # fmt: skip
 SWAPPED = {"journal_z_max": "journal_z_min", "station_z_max": "station_z_min", "highest_z": "lowest_z"}
 #: Eigenvalues are those of LAPACK, whose rotations are others in a mirror: equal to rounding.
-OF_LAPACK = ("eigenvalue", "modes/", "synchronous/", "least_damping", "whirl", "multiplier", "bifurcations")
+OF_LAPACK = ("eigenvalue", "modes/", "synchronous/", "damping_ratio", "whirl", "multiplier", "bifurcations")
 
 
 def text(case, pads, folder, mirrored):

@@ -11,6 +11,8 @@ from tiltpad.files.archive import FORMAT_VERSION
 ABOUT = {
     "clearance": ("m", "bearing clearance"),
     "least_damping_ratio": ("1", "lowest damping ratio of the modes"),
+    "rotor_damping_ratio": ("1", "lowest damping ratio of the rotor"),
+    "equilibrium_rotor_stable": ("1", "1 where the rotor is stable"),
     "equilibrium_min_film_thickness": ("m", "minimum film thickness at the equilibrium"),
     "threshold_rpm": ("rpm", "threshold speed"),
     "threshold_sought_rpm": ("rpm", "highest speed at which a threshold speed was looked for"),

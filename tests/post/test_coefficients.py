@@ -1,6 +1,7 @@
 """Coefficients and modes of the program's results, in studies, tables and pictures."""
 
 import csv
+import re
 import tomllib
 
 import matplotlib.pyplot as plt
@@ -50,6 +51,12 @@ def test_a_study_has_what_its_members_have(study, run, folder):
             assert study.about(name, "units") == run.about(f"{group}/{name}", "units"), name
     np.testing.assert_allclose(study.speed * 30 / np.pi, study.speed_rpm)
     np.testing.assert_array_equal(study.least_damping_ratio[0], np.nanmin(run["modes/damping_ratio"], axis=1))
+    for k, pivot in enumerate(PIVOTS):
+        found = tiltpad.modes(run, pivot)
+        journal = np.char.startswith(found.name, "journal")
+        assert study.rotor_damping_ratio[0, k] == found.damping_ratio[journal].min()
+        of_pads = found.damping_ratio[~journal & (found.name != "")]
+        assert np.array_equal(study.pads_damping_ratio[0, k], of_pads.min(initial=np.inf)) or not len(of_pads)
 
 
 def test_members_with_other_frequencies_are_placed_by_their_labels(result, tiltpad, tmp_path, opened):
@@ -355,14 +362,38 @@ def test_nothing_is_cut_off(study, plot):
         assert page.contains(box.x1, box.y1), text
 
 
-def test_unstable_modes_are_in_sight(study):
-    """The axis of the damping ratio reaches to the least of all."""
-    upper = figures.stability(study, pivot="stuck").axes[0]
-    assert upper.get_ylim()[0] <= 100 * np.nanmin(tiltpad.modes(study, "stuck").damping_ratio)
+def test_the_modes_of_the_rotor_have_the_axis(study):
+    """It reaches to the least of them; pads take a quarter of it below 0 at most, and are told beyond."""
+    for pivot in PIVOTS:
+        fig = figures.stability(study, pivot=pivot)
+        found, upper = tiltpad.modes(study, pivot), fig.axes[0]
+        low, high = upper.get_ylim()
+        journal = np.char.startswith(found.name, "journal")
+        least, pads = (100 * np.nanmin(np.where(own, found.damping_ratio, 1)) for own in (journal, ~journal))
+        assert low <= min(least, 0)
+        assert -low <= max(1.05 * 0.26 * high, -1.06 * least)
+        assert any(text.get_text().startswith("pads to") for text in upper.texts) == (pads < low)
+        # each line in sight has its name
+        texts = [text.get_text() for legend in fig.legends for text in legend.get_texts()]
+        assert any(text.startswith("journal, ") and text.endswith(" Hz") for text in texts), texts
+
+
+def test_a_report_begins_with_the_operating_points(study):
+    """A row for each run, with the stability of the journal, whatever the pads do."""
+    page = study_report.study_report(study)
+    rows = page.partition("Operating points")[2].partition("</table>")[0].split("<tr>")[1:]
+    head, *cells = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in rows]
+    assert len(cells) == study.done.sum() < len(study.done)
+    for name in ("eccentricity ratio", "minimum film (µm)", "K yy (MN/m)", "C zz (kN s/m)", "the journal is"):
+        assert name in head, head
+    stable = ((study.equilibrium_rotor_stable == 1) & (study.rotor_damping_ratio[:, 0] > 0))[study.done]
+    assert [row[-1] for row in cells] == ["stable" if each else "unstable" for each in stable]
+    stiffness = [float(row[head.index("K yy (MN/m)")]) for row in cells]
+    np.testing.assert_allclose(stiffness, 1e-6 * study.stiffness[study.done, 0, 0, 0, 0], rtol=1e-3)
 
 
 def test_diagrams_of_pivots(study):
     ax = tiltpad.diagrams.diagram(study, pivot="locked")
     order = np.argsort(study.speed_rpm)
-    np.testing.assert_allclose(ax.get_lines()[0].get_ydata(), 100 * study.least_damping_ratio[order, 2])
-    assert ax.get_ylabel() == "least damping ratio, pivots locked (%)"
+    np.testing.assert_allclose(ax.get_lines()[0].get_ydata(), 100 * study.rotor_damping_ratio[order, 2])
+    assert ax.get_ylabel().replace("\n", " ") == "damping ratio of the rotor, pivots locked (%)"

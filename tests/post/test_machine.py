@@ -10,7 +10,7 @@ import pytest
 import tiltpad
 from tiltpad import command, figures
 from tiltpad.calculate import stations, vibration_limits
-from tiltpad.draw import machine_report, machines
+from tiltpad.draw import machine_report
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
 

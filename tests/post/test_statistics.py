@@ -122,6 +122,10 @@ def test_outcomes_and_their_causes(study):
     assert found.unstable[:2] == (2, 4)
     assert tiltpad.outcomes(made, "locked").unstable[:2] == (2, 4)
     assert tiltpad.outcomes(made, "stuck").unstable[:2] == (1, 4)
+    # of pads alone where the study tells the rotor's
+    apart = {"rotor_damping_ratio": np.abs(damping), "equilibrium_rotor_stable": np.abs(stable) ** 0}
+    told = study({"clearance": np.arange(11.0)}, results | apart, status, texts)
+    assert tiltpad.outcomes(told, "locked").unstable[:2] == (0, 4)
     assert tiltpad.outcomes(study({"a": np.arange(3.0)}, {})).unstable is None
     assert tiltpad.outcomes(made, where={"clearance": 2}).refused[:2] == (1, 1)
 

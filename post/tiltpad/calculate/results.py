@@ -10,13 +10,13 @@ from tiltpad.files.study import PIVOTS, POINTS, Study
 from tiltpad.files.units import Shown, described, literal
 
 #: Results that are drawn where none is asked for.
-DEFAULTS = ("orbit_size", "least_damping_ratio", "equilibrium_min_film_thickness")
+DEFAULTS = ("orbit_size", "rotor_damping_ratio", "least_damping_ratio", "equilibrium_min_film_thickness")
 #: Key results of a study, of which it has some.
 KEYS = (
     *("orbit_size", "min_film_thickness", "max_pressure", "friction_work", "stick_fraction"),
     *("equilibrium_eccentricity_ratio", "equilibrium_min_film_thickness", "equilibrium_max_pressure"),
     *("equilibrium_maximum_temperature", "equilibrium_total_power_loss"),
-    *("least_damping_ratio", "threshold_rpm"),
+    *("rotor_damping_ratio", "pads_damping_ratio", "least_damping_ratio", "threshold_rpm"),
 )
 
 
@@ -72,9 +72,15 @@ def is_result(study: Study, name: str) -> bool:
 
 
 def key_results(study: Study, pivot: str | None = None) -> list[Result]:
-    """The key results that runs of the study have; without `pivot` of the first pivots that have them."""
+    """The key results that runs of the study have; without `pivot` of the first pivots that have them.
+
+    Damping ratios are those of the rotor and of the pads; in studies of older programs that of all modes.
+    """
     found = []
     for name in (name for name in KEYS if name in study):
+        # the least of both, which says nothing of the rotor where pads without load flutter
+        if name == "least_damping_ratio" and "rotor_damping_ratio" in study:
+            continue
         several = study.scales(name) == PIVOTS and pivot is None
         pivots = [str(each) for each in study["pivot"]] if several else [pivot]
         every = (result(study, name, pivot=own) for own in pivots)

@@ -145,8 +145,8 @@ def share(count: int, of: int) -> Share:
 def outcomes(study: Study, pivot: str | None = None, where: Where = None) -> Outcomes:
     """How many runs of a study have no equilibrium or failed otherwise, and why, and how many are unstable.
 
-    Unstable is an equilibrium at which a vibration grows, also one of the pivots `pivot` (by default the
-    first). `where` keeps the runs with these values of parameters.
+    Unstable is an equilibrium at which a vibration of journal or shaft grows, also one of the pivots
+    `pivot` (by default the first). `where` keeps the runs with these values of parameters.
     """
     chosen = matching(study, where or {})
     status = study.status
@@ -182,12 +182,15 @@ def common_remarks(study: Study) -> list[CommonRemark]:
 
 
 def instability(study: Study, pivot: str | None) -> np.ndarray | None:
-    """1 where the equilibrium of a run is unstable, 0 where it is stable, nan where that is not known."""
+    """1 where journal or shaft is unstable at the equilibrium of a run, 0 where it is stable; nan: not known.
+
+    In studies of older programs pads count, too.
+    """
     found = []
-    if "equilibrium_stable" in study:
-        found.append(1 - study["equilibrium_stable"])
-    if "least_damping_ratio" in study:
-        least = result(study, "least_damping_ratio", pivot=pivot).values
+    for name in [name for name in ("equilibrium_rotor_stable", "equilibrium_stable") if name in study][:1]:
+        found.append(1 - study[name])
+    for name in [name for name in ("rotor_damping_ratio", "least_damping_ratio") if name in study][:1]:
+        least = result(study, name, pivot=pivot).values
         found.append(np.where(np.isnan(least), np.nan, least < 0))
     return np.fmax.reduce(found) if found else None
 

@@ -38,7 +38,7 @@ def ends(study: Study) -> str:
     rows = [("refused", *in_words(own.refused))]
     rows += [(f"refused: {text}", *in_words(each)) for text, each in own.causes.items()]
     if own.unstable:
-        rows.append(("unstable equilibrium, of those done", *in_words(own.unstable)))
+        rows.append(("unstable journal or shaft, of those done", *in_words(own.unstable)))
     return table(("", "runs", "of", "share (%)", "95 % interval (%)"), rows)
 
 

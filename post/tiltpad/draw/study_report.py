@@ -6,9 +6,9 @@ from functools import partial
 import numpy as np
 
 from tiltpad.calculate.critical_speeds import CriticalSpeed, critical_speeds
-from tiltpad.calculate.results import key_results
+from tiltpad.calculate.results import key_results, result
 from tiltpad.calculate.selection import distinct, sampled, written
-from tiltpad.calculate.statistics import common_remarks
+from tiltpad.calculate.statistics import common_remarks, instability
 from tiltpad.draw import figures
 from tiltpad.draw.diagrams import label
 from tiltpad.draw.layout import not_run_yet
@@ -20,6 +20,15 @@ from tiltpad.files.units import SHOWN, digits
 
 #: Columns of the table, and its rows.
 COLUMNS, ROWS = 6, 300
+#: Columns of the table of operating points.
+POINT = {
+    "equilibrium_eccentricity_ratio": "eccentricity ratio",
+    "equilibrium_min_film_thickness": "minimum film",
+    "equilibrium_maximum_temperature": "highest temperature",
+    "equilibrium_total_power_loss": "power loss",
+    "rotor_damping_ratio": "damping ratio of the rotor",
+    "threshold_rpm": "threshold",
+}
 #: Pictures of whole studies.
 PICTURES = ("response", "coefficients", "stability", "campbell", "temperatures")
 
@@ -31,6 +40,7 @@ def study_report(study: Study, operating: tuple[float, float] | None = None) -> 
     parts = [
         f"{by['program']} {by['version']}, {by['created']}",
         summary(study),
+        section("Operating points", operating_points(study)),
         section("Critical speeds", critical(study, operating)),
         section("Runs that were not done", failures(study)),
         section("Remarks", remarks(study)),
@@ -54,6 +64,42 @@ def summary(study: Study) -> str:
             text += f" {study.about(name, 'long_name') or name}: {own}."
     lost = paragraph(f"Runs without a file: {missing}.", warning=True) if missing else ""
     return paragraph(text) + lost
+
+
+def operating_points(study: Study) -> str:
+    """A row for each run that was done: place, film, stiffness, damping, temperature, loss, stability.
+
+    Coefficients are those of the first pivots at the first whirl frequency, of the bearing of a case.
+    """
+    shown = [name for name in study.parameters if np.ndim(study[name]) == 1]
+    columns = {label(study, name): list(map(written, study.values(name, slice(ROWS)))) for name in shown}
+    if "speed_rpm" not in shown and "speed" in study:
+        columns["speed (rpm)"] = cells(SHOWN["speed"].factor * study.speed[:ROWS])
+    for name, head in POINT.items():
+        if name in study:
+            own = result(study, name)
+            unit = f" ({own.shown.unit})" if own.shown.unit else ""
+            columns[head + unit] = cells(own.shown.factor * own.values[:ROWS])
+    for letter, name in (("K", "stiffness"), ("C", "damping")):
+        for k, axis in enumerate("yz") if name in study else ():
+            values = SHOWN[name].factor * study[name][:ROWS, 0, 0, k, k]
+            columns[f"{letter} {axis}{axis} ({SHOWN[name].unit})"] = cells(values)
+    grows = instability(study, None)
+    if grows is None:
+        return ""
+    words = {0: "stable", 1: "unstable"}
+    rotor = "shaft" if "station" in study else "journal"
+    columns[f"the {rotor} is"] = [words.get(each, "–") for each in grows[:ROWS]]
+    rows = [row for row, done in zip(zip(*columns.values(), strict=True), study.done, strict=False) if done]
+    pivots = [str(each) for each in study["pivot"]] if "pivot" in study else []
+    of = f"Pivots {pivots[0]}; the others are in the table of runs. " if len(pivots) > 1 else ""
+    note = f"{of}Stability is that of the {rotor}; pads without load may flutter while it is stable."
+    return table(tuple(columns), rows) + paragraph(note) + more(len(study.done)) if rows else ""
+
+
+def cells(values: np.ndarray) -> list[str]:
+    """Numbers of a column; a dash where there is none."""
+    return [digits(each) if np.isfinite(each) else "–" for each in values]
 
 
 def critical(study: Study, operating: tuple[float, float] | None) -> str:

@@ -65,6 +65,8 @@ SHOWN = {
     "damping_ratio": Shown("damping ratio", 100, "%"),
     "log_decrement": Shown("logarithmic decrement", 1, ""),
     "least_damping_ratio": Shown("least damping ratio", 100, "%"),
+    "rotor_damping_ratio": Shown("damping ratio of the rotor", 100, "%"),
+    "pads_damping_ratio": Shown("damping ratio of the pads", 100, "%"),
     "threshold_rpm": Shown("threshold speed of stability", 1, "rpm"),
     "axial": Shown("axial position", 1e3, "mm"),
 }
