@@ -10,6 +10,7 @@ import pytest
 import tiltpad
 import xarray
 from tiltpad import command, figures
+from tiltpad.draw import study_report
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
 
@@ -290,7 +291,12 @@ def test_lines_of_modes_of_pads_have_hollow_markers(study):
         lines = ax.get_lines()[: len(last)]
         assert [line.get_markerfacecolor() == "white" for line in lines] == of_pads
         assert [line.get_linestyle() == "--" for line in lines] == of_pads
-    told = {text.get_text(): line for text, line in legend_of(fig)}
+    # the legend of one study has its modes, that of two the kinds
+    named = [(text.get_text(), line.get_markerfacecolor()) for text, line in legend_of(fig)]
+    assert named
+    assert all((color == "white") == text.startswith("pad") and text.endswith(" Hz") for text, color in named)
+    both = figures.stability([study, study], pivot="free")
+    told = {text.get_text(): line for text, line in legend_of(both)}
     assert told["pads"].get_markerfacecolor() == "white" != told["journal"].get_markerfacecolor()
 
 

@@ -272,6 +272,19 @@ def test_shapes_are_drawn_with_their_sense(machine):
         assert {"forward", "backward"} <= {title.split()[2] for title in "\n".join(titles).split("\n")[::2]}
 
 
+def test_what_the_reduction_damps_is_in_no_picture_of_stability(machine):
+    with tiltpad.read(machine("coefficients")) as run:
+        found = tiltpad.modes(run, "stuck")
+        assert found.of_reduction.any()
+        own = stations.station_modes(run, "stuck").own[: len(found.name)]
+        np.testing.assert_array_equal(found.of_reduction, ~own)
+        fig = figures.FIGURES["stability"](run, pivot="stuck")
+        drawn = [k for k, line in enumerate(fig.axes[0].get_lines()) if np.isfinite(line.get_ydata()).all()]
+        assert set(drawn[: len(found.name)]) >= set(np.flatnonzero(~found.of_reduction))
+        assert not set(drawn) & set(np.flatnonzero(found.of_reduction))
+        assert "shaft" in {text.get_text() for legend in fig.legends for text in legend.get_texts()}
+
+
 def test_names_are_those_of_the_documents(machine):
     """Names, dimensions and units of a machine's file at its root."""
     expected = {

@@ -23,7 +23,7 @@ from tiltpad.files import units
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
-from tiltpad.files.units import SHOWN, literal
+from tiltpad.files.units import SHOWN, digits, literal
 
 #: Elements of the matrices, and the columns of the panels in which they are.
 DIRECT, CROSS = {"yy": (0, 0), "zz": (1, 1)}, {"yz": (0, 1), "zy": (1, 0)}
@@ -35,12 +35,13 @@ DAMPED = 0.6
 ORDERS = 2
 #: Colours of the rings of unstable modes, of the journal and of pads.
 UNSTABLE = ("C1", "C3")
-#: Kinds of modes in legends.
-KINDS = ("journal", "pads")
-
+#: Modes of pads in legends, and the part of the height above 0 that they take below it at most.
+PADS, SHARE_OF_PADS = "pads", 0.25
 
 #: Where a mode of the rotor has the frequency of the shaft.
 CROSSING: dict[str, Any] = {"linestyle": "", "marker": "x", "color": "0.1", "markersize": 6, "zorder": 5}
+#: Marks of the whirl of the rotor.
+WHIRLS = {"forward": "^", "backward": "v", "planar": "D", "mixed": "s"}
 #: Points of modes of the journal, and of pads.
 POINTS: tuple[dict[str, Any], ...] = ({}, {"markerfacecolor": "none"})
 #: Lines of modes of the journal, and of pads, which lie above them where both are equal.
@@ -108,9 +109,12 @@ def stability(
 ) -> Figure:
     """Damping ratio and logarithmic decrement of the modes, of results over their frequency.
 
-    Modes of pads are hollow points; so is a line whose mode is one of pads at the last of its runs.
+    Modes of pads are hollow points; so is a line whose mode is one of pads at the last of its runs. The axes
+    are for the modes of the rotor: pads below them are told in words. What the reduction of a shaft damps is
+    left out.
     """
     found = parts(runs, pivot, over, where)
+    named: list[tuple[str, dict[str, Any]]] = []
     fig, panels = plt.subplots(2, 1, sharex=True, figsize=(COLUMN, 4.2))
     for number, one in enumerate(found):
         own_color = part_color(number, len(found))
@@ -119,13 +123,16 @@ def stability(
         x = own.frequency if single else own.parameters[one.over]
         alone = not single and len(found) == 1
         shades = mode_colors(own) if alone else [own_color] * own.damping_ratio.shape[-1]
-        journal = of_journal(own.name) if single else of_journal(last_names(own))
+        last = own.name if single else last_names(own)
+        journal, looks = of_journal(last), POINTS if single else LOOKS
         for ax, name in zip(panels, ("damping_ratio", "log_decrement"), strict=True):
-            values = SHOWN[name].factor * getattr(own, name)
+            values = np.where(own.of_reduction, np.nan, SHOWN[name].factor * getattr(own, name))
             for k, shade in enumerate(shades):
-                look = POINTS if single else LOOKS
                 place = x[k] if single else x
-                ax.plot(place, values[..., k], color=shade, **dots(np.size(place)) | look[not journal[k]])
+                look = dots(np.size(place)) | looks[not journal[k]] | {"label": "" if journal[k] else PADS}
+                ax.plot(place, values[..., k], color=shade, **look)
+        if alone:
+            named = mode_marks(own, last, shades)
         if not single:
             missing = x[np.isnan(own.frequency).all(axis=1)]
             mark_failed(panels[1], missing, own_color if len(found) > 1 else None)
@@ -138,11 +145,12 @@ def stability(
         show_from_zero(ax, *(SHOWN[name].factor * each for each in end))
         ax.set_ylabel(SHOWN[name].label)
     panels[1].set_xlabel(SHOWN["frequency"].label if isinstance(runs[0], Run) else axis_label(found))
-    looks = [{"marker": "o", "linestyle": ""} | look for look in POINTS]
+    kind_looks = [{"marker": "o", "linestyle": ""} | look for look in POINTS]
     if not isinstance(runs[0], Run):
-        looks = [dots(2) | look for look in LOOKS]
-    kinds = [(name, {"color": "0.3"} | look) for name, look in zip(KINDS, looks, strict=True)]
-    heading(fig, [*names([one.text for one in found]), *kinds], title(runs))
+        kind_looks = [dots(2) | look for look in LOOKS]
+    rotor = "shaft" if any(STATION in one.source for one in found) else "journal"
+    kinds = [(name, {"color": "0.3"} | look) for name, look in zip((rotor, PADS), kind_looks, strict=True)]
+    heading(fig, [*names([one.text for one in found]), *(named or kinds)], title(runs))
     return fig
 
 
@@ -153,10 +161,25 @@ def last_names(own: Modes) -> np.ndarray:
     return own.name[last, np.arange(there.shape[1])]
 
 
+def mode_marks(own: Modes, last: np.ndarray, shades: Sequence[str]) -> list[tuple[str, dict[str, Any]]]:
+    """The legend of the least damped modes in sight, (text, look): what moves, its last frequency."""
+    marks, least = [], np.where(in_sight(own), np.nanmin(own.damping_ratio, axis=0), np.inf)
+    for k in sorted(k for k in np.argsort(least)[:MOST] if np.isfinite(least[k])):
+        frequency = own.frequency[own.name[:, k] != "", k][-1]
+        look = dots(2) | LOOKS[not of_journal(last[k : k + 1])[0]] | {"color": shades[k]}
+        marks.append((f"{last[k]}, {frequency:.0f} Hz", look))
+    return marks
+
+
+def in_sight(own: Modes) -> np.ndarray:
+    """The modes of a study that the axes reach, but for those of the reduction of a shaft, (mode,)."""
+    there = ~np.isnan(own.damping_ratio) & ~own.of_reduction
+    return np.where(there, own.damping_ratio, np.inf).min(axis=0) < DAMPED
+
+
 def mode_colors(own: Modes) -> list[str]:
     """A colour for each mode of a study; those that are in sight have different ones."""
-    least = np.where(np.isnan(own.damping_ratio), np.inf, own.damping_ratio).min(axis=0)
-    order = np.cumsum(least < DAMPED)
+    order = np.cumsum(in_sight(own))
     return [part_color(max(0, k - 1), order.max(initial=1)) for k in order]
 
 
@@ -171,11 +194,22 @@ def mark_thresholds(panels: Sequence[Axes], own: Modes, color: str) -> None:
 
 
 def show_from_zero(ax: Axes, bottom: float, top: float) -> None:
-    """Lets the axis reach from 0 or the lowest value to the highest, within these; marks what is unstable."""
-    values = np.concatenate([np.asarray(each.get_ydata(), float) for each in ax.get_lines()] or [np.zeros(0)])
-    values = values[np.isfinite(values)]
-    low, high = max(np.min(values, initial=0), bottom), np.max(values, initial=0)
+    """Lets the axis reach from 0 or the lowest value to the highest, within these; marks what is unstable.
+
+    Lines of pads take at most a share of it below 0; how far they go there is said.
+    """
+    of_pads, of_rotor = [np.zeros(1)], [np.zeros(1)]
+    for line in ax.get_lines():
+        (of_pads if line.get_label() == PADS else of_rotor).append(np.asarray(line.get_ydata(), float))
+    rotor, pads = np.concatenate(of_rotor), np.concatenate(of_pads)
+    high = np.nanmax(np.concatenate([rotor, pads]))
     end = 1.05 * high if high < top else top
+    least = np.nanmin(pads)
+    low = max(min(np.nanmin(rotor), max(least, -SHARE_OF_PADS * end)), bottom)
+    if least < 1.05 * low:
+        look = {"ha": "right", "va": "bottom", "fontsize": "x-small", "color": "0.3"}
+        words = f"pads to \N{MINUS SIGN}{digits(-least, 2)}"
+        ax.text(0.99, 0.01, words, transform=ax.transAxes, **look)
     ax.axhline(0, color="0.3", linewidth=0.8)
     if low < 0:
         ax.axhspan(1.05 * low, 0, color="C1", alpha=0.12, linewidth=0)
@@ -197,11 +231,13 @@ def campbell(
     needs(over or "speed_rpm", ("speed_rpm",), "over", "the parameter of a Campbell diagram")
     found = parts(runs, pivot, "speed_rpm", where)
     fig, ax = plt.subplots(figsize=(COLUMN, 3.2))
-    top = 0.0
+    top, told = 0.0, {"forward", "backward"}
     for number, one in enumerate(found):
         own_color = part_color(number, len(found))
         own = modes(one.source, one.pivot, one.where or None)
-        own = own._replace(frequency=np.where(own.frequency > 0, own.frequency, np.nan))
+        shown = (own.frequency > 0) & ~own.of_reduction
+        own = own._replace(frequency=np.where(shown, own.frequency, np.nan))
+        told |= {str(each).rpartition(", ")[-1] for each in np.unique(own.name)}
         shade = own_color if len(found) > 1 else "0.8"
         # modes of pads leap from run to run: they are points alone
         of_rotor = np.where(of_journal(own.name), own.frequency, np.nan)
@@ -219,7 +255,8 @@ def campbell(
     mark: dict[str, Any] = {"linestyle": "", "color": "0.3", "markersize": 4}
     ring = mark | {"marker": "o", "markerfacecolor": "none", "markersize": 7}
     rotor = "shaft" if any(STATION in one.source for one in found) else "journal"
-    marks = [(f"{rotor} forward", mark | {"marker": "^"}), (f"{rotor} backward", mark | {"marker": "v"})]
+    whirls = [(word, each) for word, each in WHIRLS.items() if word in told]
+    marks = [(f"{rotor} {word}", mark | {"marker": each}) for word, each in whirls]
     marks += [("pads", mark | {"marker": "o", "markersize": 2})]
     rings = zip((f"{rotor} unstable", "pad unstable"), UNSTABLE, strict=True)
     marks += [(text, ring | {"markeredgecolor": color}) for text, color in rings]
@@ -241,12 +278,12 @@ def crossings(speed_rpm: np.ndarray, frequency: np.ndarray) -> tuple[np.ndarray,
 def campbell_points(ax: Axes, own: Modes, color: str | None) -> Any:
     """Points of all modes, those of the journal by its whirl; without a colour by their damping."""
     speed = np.broadcast_to(own.speed_rpm[:, None], own.frequency.shape)
-    ahead = own.whirl > 0
     look: dict[str, Any] = {"zorder": 3, "linewidths": 0}
     if color is None:
         look |= {"vmin": 0, "vmax": 3, "cmap": "viridis"}
     journal = of_journal(own.name)
-    for part, marker, size in ((~journal, "o", 6), (journal & ~ahead, "v", 14), (journal & ahead, "^", 14)):
+    whirls = [(journal & np.char.endswith(own.name, word), marker, 14) for word, marker in WHIRLS.items()]
+    for part, marker, size in ((~journal, "o", 6), *whirls):
         colours = {"c": own.log_decrement[part]} if color is None else {"color": color}
         points = ax.scatter(speed[part], own.frequency[part], marker=marker, s=size, **look, **colours)
     ring = {"s": 45, "facecolors": "none", "zorder": 4}
