@@ -8,7 +8,7 @@ import numpy as np
 from tiltpad.calculate.coefficients import coefficients
 from tiltpad.calculate.modes import Modes, modes, of_journal
 from tiltpad.calculate.remarks import by_weight
-from tiltpad.calculate.stations import attached, station_modes
+from tiltpad.calculate.stations import attached
 from tiltpad.calculate.vibration_limits import of_api_617, zone
 from tiltpad.draw.machines import LOAD
 from tiltpad.draw.page import facts_table, paragraph, section, table
@@ -85,14 +85,10 @@ def stability(run: Run) -> Iterator[tuple[str, bool]]:
 def of_modes(run: Run, pivot: str) -> Iterator[tuple[str, bool]]:
     """What the modes of these pivots tell of journal or shaft, and of the pads."""
     found = modes(run, pivot)
-    own = np.full(len(found.name), True)
-    if run.bearings:
-        of_stations = station_modes(run, pivot)
-        own = of_stations.own[np.isfinite(of_stations.eigenvalue)]
     fixed = not run.bearings and run.input["pads"]["motion"] == "fixed"
     pivots = "" if fixed else f" with pivots {pivot}"
-    listed = (found.name != "") & ((found.frequency > 0) | (found.eigenvalue.real > 0))
-    journal, pads = listed & own & of_journal(found.name), listed & ~of_journal(found.name)
+    listed = (found.name != "") & ((found.frequency > 0) | (found.eigenvalue.real > 0)) & ~found.of_reduction
+    journal, pads = listed & of_journal(found.name), listed & ~of_journal(found.name)
     if journal.any():
         state, told = least_damped(found, journal)
         text = f"The {'shaft' if run.bearings else 'journal'} is {state}{pivots}: {told}."

@@ -37,7 +37,6 @@ ORDERS = 2
 UNSTABLE = ("C1", "C3")
 #: Modes of pads in legends, and the part of the height above 0 that they take below it at most.
 PADS, SHARE_OF_PADS = "pads", 0.25
-
 #: Where a mode of the rotor has the frequency of the shaft.
 CROSSING: dict[str, Any] = {"linestyle": "", "marker": "x", "color": "0.1", "markersize": 6, "zorder": 5}
 #: Marks of the whirl of the rotor.
