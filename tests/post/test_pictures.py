@@ -11,7 +11,7 @@ import tiltpad
 from PIL import Image
 from tiltpad import command, figures, units
 from tiltpad.calculate import differences, signals
-from tiltpad.draw import bearing, branches, layout, orbits, vibrations
+from tiltpad.draw import bearing, branches, layout, orbits, overview, vibrations
 from tiltpad.running import resolved
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
@@ -97,9 +97,9 @@ def test_an_incomplete_run_says_why(changed):
 
     with pytest.warns(tiltpad.IncompleteRunWarning, match="film of pad 2 closed"):
         case = tiltpad.read(changed("none", stopped))
-    said = figures.waveform([case]).get_supxlabel().replace("\n", " ")
-    assert said == "incomplete, ended at 0.06 s of 0.06 s: film of pad 2 closed"
-    assert "film of pad 2 closed" in tiltpad.report.incomplete(case)
+    why = "ended at 0.06 s of 0.06 s: film of pad 2 closed"
+    assert figures.waveform([case]).get_supxlabel().replace("\n", " ") == f"incomplete, {why}"
+    assert list(overview.ended(case)) == [(f"Incomplete run, {why}.", True)]
 
 
 def test_a_runup_names_its_peak(made):
