@@ -148,8 +148,7 @@ contains
             end do
             if (size(ratios) > most) print '(a)', '  and '//to_text(size(ratios) - most) &
                & //' whirl frequencies more, in the file'
-            call print_modes(found%modes(i), of_reduction(:size(found%modes(i)%eigenvalue), i) &
-               & .and. found%modes(i)%eigenvalue%re < 0)
+            call print_modes(found%modes(i), of_reduction(:size(found%modes(i)%eigenvalue), i))
             if (.not. allocated(found%thresholds)) cycle
             ! where an eigenvalue crosses the axis next
             associate (threshold => found%thresholds(i), speed => inputs%operation%speed_rpm)

@@ -368,13 +368,13 @@ contains
    end subroutine find_rotor_response
 
    !> Part of the damping of a mode that the reduction gives to the high modes of the shaft: the power of this damping
-   !> in a vibration, over the power with which the vibration decays. 0 of what does not vibrate.
+   !> in a vibration, over the power with which the vibration decays. 0 of what does not vibrate, or grows.
    pure real(wp) function part_of_reduction(model, linear, shape, eigenvalue) result(part)
       type(machine_model), intent(in) :: model
       type(linear_bearing_type), intent(in) :: linear
       complex(wp), intent(in) :: shape(:), eigenvalue
       part = 0
-      if (.not. eigenvalue%im > 0) return
+      if (.not. (eigenvalue%im > 0 .and. eigenvalue%re < 0)) return
       select type (rotor => model%rotor)
       type is (elastic_rotor_type)
          part = sum(rotor%matrices%high_damping*abs(shape(:rotor%positions))**2)/max(tiny(part), &

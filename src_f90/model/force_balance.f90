@@ -29,7 +29,6 @@ module force_balance
    real(wp), parameter :: narrowest = 0.05_wp, one_way = 0.5_wp
 
    !> How a state in equilibrium answers a small disturbance.
-
    type :: stability_type
       !> The eigenvalue of largest real part, 1/s; of a pair the one with positive imaginary part.
       complex(wp) :: eigenvalue = 0

@@ -91,6 +91,16 @@ def test_modes_with_the_damping_of_the_reduction_are_not_listed(run, tmp_path):
     assert f"not listed: {left_out} with the damping that high modes of the shaft are given" in said
 
 
+def test_a_mode_that_grows_is_listed_whatever_the_reduction_adds(run, tmp_path):
+    """Lobes with little damping, of which the reduction has a part that is near the growth."""
+    settings = ("pads%motion=fixed", "operation%speed_rpm=8000", "reduction%damp_above=10")
+    said = run(HEAVY, *settings, "reduction%damping_ratio=0.02").stdout
+    assert re.search(r"the shaft is unstable:\n    mode 1 \(shaft, .*\): .* damping ratio -", said)
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert file["modes/part_of_reduction"][0, 0] == 0
+        assert file["summary/rotor_damping_ratio"][0] == file["modes/damping_ratio"][0, 0] < 0
+
+
 def test_all_modes_are_compared_with_those_of_synchronous_coefficients(run, tmp_path):
     """Said of those whose decrement differs by more than a tenth, four at most with their figures."""
     said = run(HEAVY).stdout
