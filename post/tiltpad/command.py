@@ -149,15 +149,11 @@ def tell(result: object) -> None:
 
 
 def tell_remarks(sources: Sequence[Run | Study]) -> None:
-    """Prints the remarks on results, with the names of their files where there are several.
-
-    Of a study only how many runs have any.
-    """
+    """Says of each file that it has remarks: how many, of a study on how many runs."""
     for each in sources:
         if isinstance(each, Run):
-            name = f"{each.path}: " * (len({one.path for one in sources}) > 1)
-            for line in each.remarks:
-                tell(f"{name}remark: {line}")
+            if count := len(each.remarks):
+                tell(f"{each.path}: {count} remark{'s' * (count > 1)}; the report of the run has them")
         elif remarked := int(each.remarked.sum()):
             runs = each.length("run")
             tell(f"{each.path}: remarks on {remarked} of {runs} runs; the report of the study counts them")

@@ -53,7 +53,10 @@ def test_report_and_picture(made, opened, tmp_path, quick_pictures, capsys):
     figures = {each.name: each.value for each in summary.pads(opened(made))}
     assert list(figures["summary/pad_lifted"]) == [0, 0.75, 0, 0]
     assert command.report([str(made), "-o", str(tmp_path / "page.html")]) == 0
-    assert capsys.readouterr().out.splitlines() == [f"remark: {each}" for each in SAID]
+    said = f"{made}: {len(SAID)} remarks; the report of the run has them\n"
+    assert capsys.readouterr().out == said
+    assert command.main(["orbit", str(made), "-o", str(tmp_path / "orbit.png")]) == 0
+    assert capsys.readouterr().out == said
     page = (tmp_path / "page.html").read_text()
     assert "<p class=warning>Pad 2 carries no load (mean 5.0 N)" in page
     assert "<p class=warning>Pad 4 rubs on the journal 20.0 % of the time.</p>" in page
