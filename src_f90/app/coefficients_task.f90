@@ -141,9 +141,9 @@ contains
             do b = 1, size(found%stiffness, 5)
                if (inputs%bearings(b)%name /= '') print '(a)', '  '//inputs%bearings(b)%label(':')
                do k = 1, min(most, size(ratios))
-                  print '(a)', filled('  whirl at {} of the speed: K {M.6}, {M.6}, {M.6}, {M.6} MN/m, C {M.6}, ' &
-                     & //'{M.6}, {M.6}, {M.6} MN s/m (yy, yz, zy, zz)', [real(wp) :: ratios(k), &
-                     & transpose(found%stiffness(:, :, k, i, b)), transpose(found%damping(:, :, k, i, b))])
+                  print '(a)', '  whirl at '//to_text(ratios(k))//' of the speed: K ' &
+                     & //elements(found%stiffness(:, :, k, i, b))//' MN/m, C ' &
+                     & //elements(found%damping(:, :, k, i, b))//' MN s/m (yy, yz, zy, zz)'
                end do
             end do
             if (size(ratios) > most) print '(a)', '  and '//to_text(size(ratios) - most) &
@@ -163,6 +163,21 @@ contains
          end do
       end associate
    end subroutine print_coefficients
+
+   !> The elements of a matrix, row after row, over 1e6, with as many decimals as give the largest five digits.
+   pure function elements(matrix) result(text)
+      real(wp), intent(in) :: matrix(:, :)
+      character(len=:), allocatable :: text
+      integer :: decimals, i, j
+      decimals = max(0, min(9, 4 - floor(log10(max(tiny(matrix), 1e-6_wp*maxval(abs(matrix)))))))
+      text = ''
+      do i = 1, size(matrix, 1)
+         do j = 1, size(matrix, 2)
+            if (text /= '') text = text//', '
+            text = text//fixed_text(1e-6_wp*matrix(i, j), decimals)
+         end do
+      end do
+   end function elements
 
    !> What synchronously reduced coefficients would change of the modes; the largest whirl of the stations.
    subroutine print_response(found, response, inputs)

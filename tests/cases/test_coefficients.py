@@ -1,5 +1,7 @@
 """Whole runs of the task coefficients: what the file says, and studies."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
@@ -22,6 +24,18 @@ def test_file_fits_its_own_matrices(tiltpad, root, tmp_path):
         assert np.isnan(group["full_stiffness"][2][tilts]).all()
         assert np.isfinite(group["full_stiffness"][1]).all()
         assert (modes["shape_real"][2, 0][[2, 4]] == 0).all()
+
+
+def test_the_console_has_five_digits_of_the_largest_element(tiltpad, root, tmp_path):
+    case = root / "input/paper/steady_lugre.nml"
+    said = tiltpad(case, "-o", "found.h5", overrides=(TASK,), cwd=tmp_path, status=0).stdout
+    told = re.search(r"pivots free:\n  whirl at 1 of the speed: K (.*) MN/m, C (.*) MN s/m \(", said)
+    with h5py.File(tmp_path / "found.h5") as file:
+        for text, name in zip(told.groups(), ("stiffness", "damping"), strict=True):
+            values = 1e-6 * np.ravel(file["coefficients"][name][0, 0])
+            last = 10.0 ** (np.floor(np.log10(np.abs(values).max())) - 4)
+            assert [float(each) for each in text.split(", ")] == pytest.approx(values, rel=0, abs=0.51 * last)
+            assert {len(each.partition(".")[2]) for each in text.split(", ")} == {round(-np.log10(last))}
 
 
 def check_modes(group, modes, pivot):
