@@ -11,7 +11,8 @@ module factories
    use table_film, only: new_table_film
    use film_losses, only: film_losses_type, new_film_losses
    use sor_film, only: new_sor_film, sor_options
-   use contact_law, only: contact_law_type, make_contact_law, new_measured_contact
+   use contact_law, only: contact_law_type, make_contact_law, new_measured_contact, &
+      & new_linear_contact
    use contact_table, only: contact_table_type, new_contact_table, new_untabulated_contact
    use friction, only: friction_law, bengisu_akay_friction, lugre_friction, default_bristle_damping, never_sticks
    use asperity_contact, only: asperity_contact_type, new_asperity_contact, no_asperities
@@ -185,12 +186,15 @@ contains
       type(pivot_type), intent(in) :: v
       integer, intent(in) :: pad
       class(contact_law_type), allocatable, intent(out) :: law
-      if (v%law == 'table') then
+      select case (v%law)
+      case ('table')
          allocate (law, source=new_measured_contact(v%points, v%socket_radius(pad), v%radius_difference(pad)))
-         return
-      end if
-      call make_contact_law(v%law, v%socket_radius(pad), v%radius_difference(pad), v%young_modulus, &
-         & v%poisson_ratio, v%deflection_factor, law)
+      case ('linear')
+         allocate (law, source=new_linear_contact(v%stiffness(pad), v%socket_radius(pad), v%radius_difference(pad)))
+      case default
+         call make_contact_law(v%law, v%socket_radius(pad), v%radius_difference(pad), v%young_modulus, &
+            & v%poisson_ratio, v%deflection_factor, law)
+      end select
    end subroutine make_law
 
    !> The friction law of a pad's pivot.
@@ -262,16 +266,15 @@ contains
       integer :: i, k
       do i = 1, size(pivots)
          do k = 1, i - 1
-            if (abs(v%socket_radius(i) - v%socket_radius(k)) <= 0 &
-               & .and. abs(v%radius_difference(i) - v%radius_difference(k)) <= 0) exit
+            if (v%is_like(i, v, k)) exit
          end do
          if (k < i) then
             pivots(i)%contact = pivots(k)%contact
             cycle
          end if
          call make_law(v, i, law)
-         ! points are looked up as quickly, and a table would round where their cubics meet
-         if (moves .and. v%law /= 'table') then
+         ! points and springs are looked up as quickly, and a table would round where cubics meet
+         if (moves .and. .not. any(v%law == ['table ', 'linear'])) then
             pivots(i)%contact = new_contact_table(law)
          else
             pivots(i)%contact = new_untabulated_contact(law)

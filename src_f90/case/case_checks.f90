@@ -131,6 +131,10 @@ contains
             call require(v%law == 'table' .or. v%file == '', 'pivot%file = '''//v%file &
                & //''': needs pivot%law = ''table''', error)
             do i = 1, size(v%socket_radius)
+               call require(v%law /= 'linear' .or. is_set(v%stiffness(i)), 'pivot%stiffness: must be given for ' &
+                  & //'pivot%law = ''linear'' (pad {})', [real(i, wp)], error)
+               call require(v%law == 'linear' .or. .not. is_set(v%stiffness(i)), 'pivot%stiffness = {}: needs ' &
+                  & //'pivot%law = ''linear'', not '''//v%law//'''', [v%stiffness(i)], error)
                call require(v%radius_difference(i) <= 0.5_wp*v%socket_radius(i), 'pivot%radius_difference = {}: must ' &
                   & //'be at most half of pivot%socket_radius = {} (pad {})', [real(wp) :: v%radius_difference(i), &
                   & v%socket_radius(i), i], error)

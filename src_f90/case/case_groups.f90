@@ -87,8 +87,8 @@ module case_groups
 
    type :: pivot_type
       character(len=:), allocatable :: law
-      !> One value a pad.
-      real(wp), allocatable :: socket_radius(:), radius_difference(:)
+      !> One value a pad; the stiffness of the linear law, N/m.
+      real(wp), allocatable :: socket_radius(:), radius_difference(:), stiffness(:)
       !> Of ball and socket.
       real(wp) :: young_modulus(2) = 2.1e11_wp, poisson_ratio(2) = 0.3_wp
       real(wp) :: deflection_factor = 4
@@ -97,6 +97,8 @@ module case_groups
       real(wp), allocatable :: points(:, :)
       !> Archard's, m^3/(N m); 0: the wear is not asked for.
       real(wp) :: wear_coefficient = 0
+   contains
+      procedure :: is_like
    end type pivot_type
 
    type :: friction_type
@@ -359,6 +361,7 @@ contains
       bearing%pivot%file = ''
       bearing%pivot%socket_radius = [13e-3_wp, 13e-3_wp]
       bearing%pivot%radius_difference = [15e-6_wp, 15e-6_wp]
+      bearing%pivot%stiffness = [unset, unset]
       bearing%friction%model = 'none'
       bearing%friction%static_coefficient = [0.1_wp, 0.1_wp]
       bearing%friction%dynamic_coefficient = [0.05_wp, 0.05_wp]
@@ -371,6 +374,23 @@ contains
       class(bearing_type), intent(in) :: self
       pad_count = size(self%pads%pivot_angle_deg)
    end function pad_count
+
+   !> Whether the contact of a pad's pivot has the numbers of another one's, of pivots of the same law.
+   pure logical function is_like(self, pad, other, other_pad)
+      class(pivot_type), intent(in) :: self
+      integer, intent(in) :: pad
+      type(pivot_type), intent(in) :: other
+      integer, intent(in) :: other_pad
+      is_like = all(abs(numbers_of(self, pad) - numbers_of(other, other_pad)) <= 0)
+   contains
+      pure function numbers_of(p, i)
+         type(pivot_type), intent(in) :: p
+         integer, intent(in) :: i
+         real(wp) :: numbers_of(8)
+         numbers_of = [p%socket_radius(i), p%radius_difference(i), p%stiffness(i), p%young_modulus, p%poisson_ratio, &
+            & p%deflection_factor]
+      end function numbers_of
+   end function is_like
 
    !> The bearing clearance c_r, m: of pads that differ the smallest.
    elemental real(wp) function clearance(self)

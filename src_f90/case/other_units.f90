@@ -36,6 +36,7 @@ module other_units
       & usual_type('kg/m^3', '', 1e3_wp, 2.5e4_wp, told=.true.), &
       & usual_type('N', '', 1.0_wp, 1e8_wp), &
       & usual_type('rpm', '', 10.0_wp, 2e5_wp), &
+      & usual_type('N/m', 'pivot%', 1e6_wp, 1e13_wp, told=.true.), &
       & usual_type('N/m', 'support%', 1e4_wp, 1e13_wp, told=.true.)]
 
    !> A unit that data sheets have instead of that of the input, which is offset + factor times the number; `custom`

@@ -56,8 +56,8 @@ module case_parameter
       & 'vg', 'oil%grade', &
       & 'iso_vg', 'oil%grade', &
       & 'viscosity_grade', 'oil%grade', &
-      & 'pivot_stiffness', 'pivot%law and pivot%file', &
-      & 'stiffness', 'pivot%law and pivot%file', &
+      & 'pivot_stiffness', 'pivot%stiffness', &
+      & 'stiffness', 'pivot%stiffness', &
       & 'number', 'pads%pivot_angle_deg, one for each pad', &
       & 'number_of_pads', 'pads%pivot_angle_deg, one for each pad', &
       & 'clearance_ratio', 'bearing%assembled_clearance', &

@@ -145,12 +145,10 @@ contains
       type(operating_point_type) :: point
       class(rotor_type), allocatable :: rotor
       character(len=:), allocatable :: refusal
-      integer :: b
+      integer :: b, i
       do b = 1, size(self%bearings)
          associate (p => self%inputs%bearings(b)%pivot, q => inputs%bearings(b)%pivot, of => self%layout%elements(b))
-            call self%bearings(b)%adopt(inputs, b, any(abs([p%socket_radius - q%socket_radius, &
-               & p%radius_difference - q%radius_difference, p%deflection_factor - q%deflection_factor, &
-               & p%young_modulus - q%young_modulus, p%poisson_ratio - q%poisson_ratio]) > 0), anew)
+            call self%bearings(b)%adopt(inputs, b, .not. all([(p%is_like(i, q, i), i=1, size(p%socket_radius))]), anew)
             self%oil(of%all_pads()) = film_oil(reference_viscosity(inputs%bearings(b)))
          end associate
       end do

@@ -1,4 +1,4 @@
-!> Normal force of a ball in a socket over the pivot deflection: closed forms.
+!> Normal force of a pivot over its deflection: closed forms of a ball in a socket, a spring, measured points.
 !>
 !> Fang's conformal law (Dyk et al. 2023, eqs (11)-(18)) is explicit once the projected contact
 !> radius `a` is chosen: `n(a)`, `B(n)`, `g(a)`; then eq (14) with (16) is linear in the force.
@@ -8,7 +8,7 @@ module contact_law
    use rising_numbers, only: number_up_to
    implicit none (type, external)
    private
-   public :: contact_law_type, contact_point, make_contact_law, new_measured_contact
+   public :: contact_law_type, contact_point, make_contact_law, new_measured_contact, new_linear_contact
 
    !> State of the contact at one pivot deflection.
    type :: contact_point
@@ -70,6 +70,14 @@ module contact_law
       procedure :: at => measured_at
    end type measured_contact_type
 
+   !> A spring: F = stiffness eta.
+   type, extends(contact_law_type) :: linear_contact_type
+      !> N/m.
+      real(wp) :: stiffness
+   contains
+      procedure :: at => linear_at
+   end type linear_contact_type
+
    !> ln of a force that is none, N.
    real(wp), parameter :: none = -600
 
@@ -108,6 +116,20 @@ contains
       point%radius = sqrt(effective_radius*pivot_deflection)
       point%peak_pressure = 1.5_wp*point%force/(pi*point%radius**2)
    end function hertz_at
+
+   !> The law of a spring, N/m; radius and pressure of the contact are not known.
+   pure type(linear_contact_type) function new_linear_contact(stiffness, socket_radius, radius_difference) result(law)
+      real(wp), intent(in) :: stiffness, socket_radius, radius_difference
+      law = linear_contact_type(socket_radius, radius_difference, 0.0_wp, stiffness)
+   end function new_linear_contact
+
+   pure function linear_at(self, pivot_deflection) result(point)
+      class(linear_contact_type), intent(in) :: self
+      real(wp), intent(in) :: pivot_deflection
+      type(contact_point) :: point
+      point%force = self%stiffness*pivot_deflection
+      point%stiffness = self%stiffness
+   end function linear_at
 
    !> Finds the contact radius of a pivot deflection by safeguarded Newton steps on ln(eta), which is monotone and
    !> nearly straight over ln(a), then takes the force from eq (13), which is well conditioned.

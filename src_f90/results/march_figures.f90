@@ -432,7 +432,7 @@ contains
             if (.not. volume(i) > 0) cycle
             call make_law(pivot, i, law)
             contact = law%at(law%pivot_deflection(sum(load(i, :))/size(time)))
-            ! a measured law does not tell the radius
+            ! a spring or a measured law does not tell the radius
             depth(i) = ieee_value(0.0_wp, ieee_quiet_nan)
             if (contact%radius > 0) depth(i) = volume(i)/(pi*contact%radius**2)
          end do

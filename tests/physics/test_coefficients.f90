@@ -7,6 +7,7 @@ program test_coefficients
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model
    use force_balance, only: forces
+   use state_layout, only: pivot_deflection
    use input_cases, only: case_of
    use linear_analysis, only: analyse
    use equilibrium_record, only: equilibrium_type
@@ -20,6 +21,7 @@ program test_coefficients
    if (runs('cross_stiffness')) call cross_stiffness()
    if (runs('differences')) call differences()
    if (runs('refinement')) call refinement()
+   if (runs('tangent')) call tangent_of_pivots()
    if (runs('load')) call change_of_load()
    if (runs('sticking')) call sticking()
    call report()
@@ -197,6 +199,35 @@ contains
       call expect_close(maxval(abs(found%damping - expected%damping)), 0.0_wp, &
          & tolerance*maxval(abs(expected%damping)), 'C, '//what)
    end subroutine against_refined
+
+   !> Springs with the stiffness of Hertz's law under the load give the coefficients of that law. The pads stand closer
+   !> by the difference of the deflections, 3 um, and as two pads move with the journal, that turns their films by 3 um
+   !> over the radius of 50 mm: 1e-4.
+   subroutine tangent_of_pivots()
+      type(case_type) :: inputs
+      type(bearing_coefficients_type) :: hertz, linear
+      type(equilibrium_type) :: static
+      type(machine_model) :: model
+      real(wp) :: load, stiffness(2)
+      integer :: i
+      inputs = whole(6500.0_wp)
+      inputs%bearings(1)%pivot%law = 'hertz'
+      call analyse(inputs, 'Hertz', hertz, static, model)
+      do i = 1, 2
+         call model%bearings(1)%pivots(i)%contact%lookup(static%pads(i)%x(pivot_deflection), load, stiffness(i))
+      end do
+      inputs%bearings(1)%pivot%law = 'linear'
+      inputs%bearings(1)%pivot%stiffness = stiffness
+      call analyse(inputs, 'tangents', linear)
+      call expect_close(maxval(abs(linear%stiffness - hertz%stiffness)), 0.0_wp, 2e-4_wp*maxval(abs( &
+         & hertz%stiffness)), 'K of the tangents')
+      call expect_close(maxval(abs(linear%damping - hertz%damping)), 0.0_wp, 2e-4_wp*maxval(abs(hertz%damping)), &
+         & 'C of the tangents')
+      inputs%bearings(1)%pivot%stiffness = 2*stiffness
+      call analyse(inputs, 'twice as stiff', linear)
+      call expect(maxval(abs(linear%stiffness - hertz%stiffness)) > 1e-2_wp*maxval(abs(hertz%stiffness)), &
+         & 'the stiffness of the pivots counts')
+   end subroutine tangent_of_pivots
 
    !> A little more load moves the journal by that over the stiffness at rest, weight of the pads included: differences
    !> over 2e-4 of the load to 1e-6.

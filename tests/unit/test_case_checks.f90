@@ -106,6 +106,14 @@ contains
       call expect_allowed('&pivot radius_difference = 0 /')
       call expect_refused('&pivot radius_difference = 0, law = ''hertz'' /', &
          & 'pivot%radius_difference = 0: must be > 0 for law = ''hertz''')
+      call expect_allowed('&pivot law = ''linear'', stiffness = 1e9 /')
+      call expect_allowed('&pivot law = ''linear'', stiffness = 1e9, 2e9 /')
+      call expect_refused('&pivot law = ''linear'' /', 'pivot%stiffness: must be given for pivot%law = ''linear''')
+      call expect_refused('&pivot law = ''linear'', stiffness(2) = 1e9 /', &
+         & 'pivot%stiffness: must be given for pivot%law = ''linear'' (pad 1)')
+      call expect_refused('&pivot stiffness = 1e9 /', &
+         & 'pivot%stiffness = 1e9: needs pivot%law = ''linear'', not ''fang''')
+      call expect_refused('&pivot law = ''linear'', stiffness = 3*1e9 /', 'pivot%stiffness')
    end subroutine pivots
 
    subroutine starts()

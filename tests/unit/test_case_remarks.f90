@@ -65,6 +65,8 @@ contains
       call expect_remark('&bearing supply_pressure = 1.5 /', 'seldom so in Pa; 1.5 bar are 150000; 1.5 psi are 10342.1')
       call expect_remark('&bearing supply_pressure = 1.5e5 /', '')
       call expect_remark('&oil conductivity = 130 /', 'seldom so in W/(m K); 130 mW/(m K) are 0.13')
+      call expect_remark('&pivot law = ''linear'', stiffness = 500 /', 'pivot%stiffness = 500: seldom so in N/m; 500 ' &
+         & //'N/um are 5e8')
       call expect_remark('&pivot young_modulus = 2*3e7 /', 'pivot%young_modulus = 3e7: seldom so in Pa; 3e7 psi are ' &
          & //'2.06843e11')
       call expect_remark('&pads inertia = 2000 /', 'pads%inertia = 2000: more than a pad of this size and mass has; ' &

@@ -5,7 +5,7 @@ program test_contact_law
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_invalid
    use kinds, only: wp, pi
    use text, only: to_text
-   use contact_law, only: contact_law_type, contact_point, make_contact_law
+   use contact_law, only: contact_law_type, contact_point, make_contact_law, new_linear_contact
    use paper_bearing, only: paper_law
    use contact_table, only: contact_table_type, new_contact_table, new_untabulated_contact
    use check, only: runs, expect, expect_close, report
@@ -22,6 +22,7 @@ program test_contact_law
    if (runs('check_values')) call check_values()
    if (runs('snug_is_linear')) call snug_is_linear()
    if (runs('hertz_closed_form')) call hertz_closed_form()
+   if (runs('spring')) call spring()
    if (runs('unequal_materials')) call unequal_materials()
    do i = 1, size(differences)
       if (runs('printed_equations')) call printed_equations(differences(i))
@@ -99,6 +100,26 @@ contains
             & 'Hertz pressure, 3e'//to_text(e))
       end do
    end subroutine hertz_closed_form
+
+   !> A spring is one at every deflection, with and without a table.
+   subroutine spring()
+      type(contact_table_type) :: plain, table
+      real(wp), parameter :: stiffness = 5e8_wp
+      real(wp) :: x, force, slope
+      integer :: e, k
+      plain = new_untabulated_contact(new_linear_contact(stiffness, socket, 15e-6_wp))
+      table = new_contact_table(plain%law)
+      do e = -15, 1
+         x = 3*10.0_wp**e
+         do k = 1, 2
+            if (k == 1) call plain%lookup(x, force, slope)
+            if (k == 2) call table%lookup(x, force, slope)
+            call expect_close(force, stiffness*x, 1e-13_wp*stiffness*x, 'force of a spring, 3e'//to_text(e))
+            call expect_close(slope, stiffness, 1e-12_wp*stiffness, 'its stiffness, 3e'//to_text(e))
+         end do
+      end do
+      call expect_close(plain%law%pivot_deflection(1e4_wp), 2e-5_wp, 1e-14_wp*2e-5_wp, 'deflection of a spring')
+   end subroutine spring
 
    !> Only k1 + k2 counts: a rigid ball halves the compliance and doubles the snug stiffness.
    subroutine unequal_materials()

@@ -32,6 +32,9 @@ program test_equations_of_motion
       call jacobian_by_differences('fixed', 'none', 0.0_wp)
       call solutions('fixed', 'none')
    end if
+   if (runs('other_numbers')) then
+      call other_numbers('&pivot law = ''linear'', stiffness = ', '1e9, 2e9', '1e9, 3e9')
+   end if
    if (runs('unbalance_force')) call unbalance_force()
    if (runs('forces_by_definition')) call forces_by_definition()
    if (runs('refusals')) call refusals()
@@ -176,6 +179,25 @@ contains
          end associate
       end do
    end subroutine trivial_rows
+
+   !> A model that takes another number of its pivots moves as one made with it.
+   subroutine other_numbers(group, before, after)
+      character(len=*), intent(in) :: group, before, after
+      type(machine_model) :: model, anew
+      real(wp), allocatable :: y(:), f(:), expected(:)
+      logical :: ok(3)
+      model = new_machine_model(case_of(group//before//' /'))
+      anew = new_machine_model(case_of(group//after//' /'))
+      y = moving_state(model)
+      allocate (f(model%n), expected(model%n))
+      call model%rhs(0.0_wp, y, f, ok(1))
+      call anew%rhs(0.0_wp, y, expected, ok(2))
+      call expect(maxval(abs(f - expected)) > 1, 'the number counts: '//group)
+      call model%adopt(case_of(group//after//' /'), anew=.true.)
+      call model%rhs(0.0_wp, y, f, ok(3))
+      call expect(all(ok), 'states are admitted: '//group)
+      call expect_close(maxval(abs(f - expected)), 0.0_wp, 1e-9_wp*maxval(abs(expected)), 'taken: '//group)
+   end subroutine other_numbers
 
    !> Only the journal moves, by the films of pads as they stand without tilt; masses do not matter.
    subroutine fixed_pads()
