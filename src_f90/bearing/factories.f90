@@ -252,6 +252,7 @@ contains
             pad%weight = p%mass(i)*gravity
             pad%centre_tangential = p%centre_tangential(i)
             pad%centre_radial = p%centre_radial(i)
+            pad%rotational_stiffness = v%rotational_stiffness(i)
          end associate
       end do
    end function new_pads

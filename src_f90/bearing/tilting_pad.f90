@@ -30,8 +30,8 @@ module tilting_pad
       real(wp) :: largest_tilt
       !> Mass; moment of inertia about the pivot; weight; centre of gravity from the pivot.
       real(wp) :: mass = 0, inertia = 0, weight = 0, centre_tangential = 0, centre_radial = 0
-      !> R1 of the pivot.
-      real(wp) :: ball_radius
+      !> R1 of the pivot; its moment against the tilt over the tilt, N m/rad.
+      real(wp) :: ball_radius, rotational_stiffness = 0
    contains
       procedure :: admitted
       procedure :: why_not
@@ -185,7 +185,7 @@ contains
       moment = -force(1)*pad%position%centre_distance - pad%ball_radius*answer%friction%force &
          & - pad%weight*(pad%centre_tangential*frame%s - pad%centre_radial*frame%c)
       if (asperities%touches) moment = moment + asperities%moment
-      answer%own(tilt) = moment
+      answer%own(tilt) = moment - pad%rotational_stiffness*state%x(tilt)
       if (self%deflection > 0) answer%own(self%deflection) = radial - answer%contact
    end subroutine loads
 
@@ -238,6 +238,7 @@ contains
             moment = moment + matmul(asperities%moment_slopes, of_positions(1:2, :))
             moment_rates = moment_rates + matmul(asperities%moment_slopes, of_rates(1:2, :))
          end if
+         moment(of_tilt) = moment(of_tilt) - pad%rotational_stiffness
          answer%over_positions(of_tilt, :) = moment
          answer%over_rates(of_tilt, :) = moment_rates
          if (self%deflection > 0) then

@@ -126,6 +126,9 @@ contains
                & //'''none'' for pads%motion = ''fixed'', whose pads have no pivots', error)
          end associate
          associate (v => bearing%pivot)
+            call require(bearing%tilting() .or. all(v%rotational_stiffness <= 0), 'pivot%rotational_stiffness = {}: ' &
+               & //'must be 0 for pads%motion = ''fixed'', whose pads do not tilt', [maxval(v%rotational_stiffness)], &
+               & error)
             call require(v%law /= 'table' .or. v%file /= '', 'pivot%file = '''': must name a CSV file for ' &
                & //'law = ''table''', error)
             call require(v%law == 'table' .or. v%file == '', 'pivot%file = '''//v%file &

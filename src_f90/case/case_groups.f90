@@ -87,8 +87,8 @@ module case_groups
 
    type :: pivot_type
       character(len=:), allocatable :: law
-      !> One value a pad; the stiffness of the linear law, N/m.
-      real(wp), allocatable :: socket_radius(:), radius_difference(:), stiffness(:)
+      !> One value a pad; the stiffness of the linear law, N/m, and that against the tilt, N m/rad.
+      real(wp), allocatable :: socket_radius(:), radius_difference(:), stiffness(:), rotational_stiffness(:)
       !> Of ball and socket.
       real(wp) :: young_modulus(2) = 2.1e11_wp, poisson_ratio(2) = 0.3_wp
       real(wp) :: deflection_factor = 4
@@ -362,6 +362,7 @@ contains
       bearing%pivot%socket_radius = [13e-3_wp, 13e-3_wp]
       bearing%pivot%radius_difference = [15e-6_wp, 15e-6_wp]
       bearing%pivot%stiffness = [unset, unset]
+      bearing%pivot%rotational_stiffness = [0.0_wp, 0.0_wp]
       bearing%friction%model = 'none'
       bearing%friction%static_coefficient = [0.1_wp, 0.1_wp]
       bearing%friction%dynamic_coefficient = [0.05_wp, 0.05_wp]

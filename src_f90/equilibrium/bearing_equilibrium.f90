@@ -391,19 +391,22 @@ contains
       function cause()
          character(len=:), allocatable :: cause
          integer :: pads
+         logical :: arcs
          pads = model%layout%pads
+         ! pads that do not tilt freely carry with all their arcs
+         arcs = .not. model%layout%elements(1)%has(tilt) .or. any(model%bearings(1)%pads%rotational_stiffness > 0)
          if (.not. norm2(model%point%load) > 0 .and. pads <= 2) then
             cause = 'without load '//to_text(pads)//trim(merge(' pad pushes', ' pads push ', pads == 1)) &
                & //' the journal away; give it a load or pads on all sides'
-         else if (.not. model%layout%elements(1)%has(tilt) .and. load_on_pads(model, arcs=.true.)) then
+         else if (arcs .and. load_on_pads(model, arcs)) then
             cause = 'the films do not hold the journal; try another load ('//of_load//') or clearance'
-         else if (pads == 1 .and. .not. load_on_pads(model, arcs=.false.)) then
+         else if (pads == 1 .and. .not. load_on_pads(model, arcs)) then
             cause = 'the load points past the only pad; turn the load ('//of_load//') or the pad ' &
                & //'(pads%pivot_angle_deg)'
          else if (pads == 1) then
             cause = 'one pad: the journal rolls off it; add a second pad (pads%pivot_angle_deg) or fix ' &
                & //'it (pads%motion = ''fixed'')'
-         else if (.not. load_on_pads(model, arcs=.not. model%layout%elements(1)%has(tilt))) then
+         else if (.not. load_on_pads(model, arcs)) then
             ! the angle counted as that of a pivot
             associate (load => model%point%load)
                cause = 'the load points to '//to_text(anint(10*atan2(load(1), load(2))/degree)/10) &

@@ -395,6 +395,8 @@ contains
             & 'dR = R_2 - R_1, R_1 being the radius of the ball')
          call v%each(pivot%stiffness, 'pads', 'stiffness', 1.0_wp, 1e15_wp, 'N/m', &
             & 'linear: pivot load over pivot deflection')
+         call v%each(pivot%rotational_stiffness, 'pads', 'rotational_stiffness', 0.0_wp, 1e15_wp, 'N m/rad', &
+            & 'of a flexure pivot: moment against the tilt over the tilt; 0: the pivot turns freely')
          call v%numbers(pivot%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'values of ball and socket')
          call v%numbers(pivot%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'values of ball and socket')
          call v%number(pivot%deflection_factor, 'deflection_factor', 0.1_wp, 100.0_wp, '1', &

@@ -22,6 +22,7 @@ program test_coefficients
    if (runs('differences')) call differences()
    if (runs('refinement')) call refinement()
    if (runs('tangent')) call tangent_of_pivots()
+   if (runs('flexure')) call flexure()
    if (runs('load')) call change_of_load()
    if (runs('sticking')) call sticking()
    call report()
@@ -228,6 +229,34 @@ contains
       call expect(maxval(abs(linear%stiffness - hertz%stiffness)) > 1e-2_wp*maxval(abs(hertz%stiffness)), &
          & 'the stiffness of the pivots counts')
    end subroutine tangent_of_pivots
+
+   !> Pads on flexure pivots that become stiffer come to fixed ones: their tilts are moments over the stiffness, so that
+   !> the coefficients differ by a tenth where it is ten times as large, but for the second order. Derivatives agree
+   !> with differences where the stiffness counts.
+   subroutine flexure()
+      type(case_type) :: inputs
+      type(bearing_coefficients_type) :: fixed, found
+      real(wp) :: gap(2, 3)
+      integer :: i
+      inputs = whole(6500.0_wp)
+      inputs%bearings(1)%pads%motion = 'fixed'
+      call analyse(inputs, 'fixed pads', fixed)
+      inputs%bearings(1)%pads%motion = 'tilting_only'
+      do i = 1, 3
+         inputs%bearings(1)%pivot%rotational_stiffness = 10.0_wp**(7 + i)
+         call analyse(inputs, 'flexure', found)
+         associate (k => found%stiffness(:, :, 1, 1, 1), c => found%damping(:, :, 1, 1, 1))
+            gap(1, i) = maxval(abs(k - fixed%stiffness(:, :, 1, 1, 1)))/maxval(abs(fixed%stiffness))
+            gap(2, i) = maxval(abs(c - fixed%damping(:, :, 1, 1, 1)))/maxval(abs(fixed%damping))
+         end associate
+      end do
+      do i = 1, 2
+         call expect(all(gap(:, i) > 1e-5_wp), 'the tilts count')
+         call expect_close(maxval(abs(gap(:, i)/gap(:, i + 1) - 10)), 0.0_wp, 100*maxval(gap(:, i)), 'first order')
+      end do
+      inputs%bearings(1)%pivot%rotational_stiffness = [2e4_wp, 5e4_wp]
+      call against_differences(inputs, 'flexure pivots', 1e-4_wp, 1e-6_wp)
+   end subroutine flexure
 
    !> A little more load moves the journal by that over the stiffness at rest, weight of the pads included: differences
    !> over 2e-4 of the load to 1e-6.

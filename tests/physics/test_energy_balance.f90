@@ -194,7 +194,8 @@ contains
                      & + p%centre_tangential(pad)*state%v(tilt)*state%v(pivot_deflection))
                   energy(4) = energy(4) + stored(b, state%x(pivot_deflection))
                end if
-               energy(4) = energy(4) + pressed(b, y, pad)
+               energy(4) = energy(4) + pressed(b, y, pad) &
+                  & + 0.5_wp*b%inputs%bearings(1)%pivot%rotational_stiffness(pad)*state%x(tilt)**2
             end associate
          end do
       end associate
@@ -239,6 +240,7 @@ program test_energy_balance
       call balance('tilting_radial', 'none', 0.05_wp)
       call balance('tilting_radial', 'lugre', 0.05_wp)
       call balance('tilting_only', 'none', 0.05_wp)
+      call balance('tilting_only', 'none', 0.05_wp, 2e4_wp)
       call balance('fixed', 'none', 0.05_wp)
    end if
    if (runs('bouncing')) then
@@ -264,9 +266,11 @@ contains
    end function shaken_case
 
    !> Over 6 ms (two thirds of a revolution) the energy changes by the work done.
-   subroutine balance(motion, friction, unbalance)
+   subroutine balance(motion, friction, unbalance, stiffness)
       character(len=*), intent(in) :: motion, friction
       real(wp), intent(in) :: unbalance
+      !> Of the pivots against the tilts, N m/rad.
+      real(wp), intent(in), optional :: stiffness
       type(case_type) :: inputs
       type(machine_model) :: bearing
       type(equilibrium_type) :: static
@@ -277,6 +281,7 @@ contains
       character(len=:), allocatable :: what
       what = motion//', '//friction//', unbalance '//to_text(unbalance)
       inputs = shaken_case(motion, friction, unbalance)
+      if (present(stiffness)) inputs%bearings(1)%pivot%rotational_stiffness = stiffness
       bearing = new_machine_model(inputs)
       call find_equilibrium(bearing, static, error)
       call expect_no_error(error, 'the equilibrium is found')

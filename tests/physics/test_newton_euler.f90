@@ -13,6 +13,8 @@ program test_newton_euler
 
    !> Forces of 1e4 N in sums whose parts cancel a thousandfold.
    real(wp), parameter :: rounding = 1e4_wp*epsilon(1.0_wp)
+   !> Against the tilts, N m/rad: moments as large as those of the films.
+   real(wp), parameter :: stiffness(2) = [4e5_wp, 7e5_wp]
    integer :: i
 
    do i = 1, 20
@@ -27,7 +29,8 @@ contains
    type(case_type) function offset_case(motion) result(inputs)
       character(len=*), intent(in) :: motion
       inputs = case_of('&pads mass = 0.8, 8, inertia = 4e-4, 5e-3, centre_tangential = 8e-3, -15e-3, motion = ''' &
-         & //motion//''' / &friction model = ''lugre'' / &rotor gravity = 500 / &film cavitation = ''none'' /')
+         & //motion//''' / &pivot rotational_stiffness = 4e5, 7e5 / &friction model = ''lugre'' / ' &
+         & //'&rotor gravity = 500 / &film cavitation = ''none'' /')
    end function offset_case
 
    !> Random places, velocities and bristles, with films open and pivots loaded.
@@ -43,15 +46,16 @@ contains
    end function random_state
 
    !> The film on the pad, -F, acts at the centre of its arc, R + kappa inward of the pivot; the pivot pushes
-   !> with F_bs inward, holds with some tangential force T, and rubs with M_f against the tilt rate; weight
-   !> acts at C. The pivot accelerates by eta'' along z'. Then m a_C = sum of forces, whose y' part gives T,
-   !> and I_C delta'' = moment about C, with I_C = I_P - m |C|**2; turning is positive from y' to z'.
+   !> with F_bs inward, holds with some tangential force T, rubs with M_f against the tilt rate and turns back by a
+   !> spring against the tilt; weight acts at C. The pivot accelerates by eta'' along z'. Then m a_C = sum of forces,
+   !> whose y' part gives T, and I_C delta'' = moment about C, with I_C = I_P - m |C|**2; turning is positive from y' to
+   !> z'.
    subroutine pad_radial()
       type(machine_model) :: model
       real(wp), allocatable :: y(:), f(:)
       type(pad_sample), allocatable :: films(:)
       real(wp) :: a, tilt_acceleration, radial_acceleration, rate, acceleration(2), weight(2), film(2), tangential
-      real(wp) :: moment, inertia, friction, sizes(2), total
+      real(wp) :: moment, inertia, friction, sizes(2), total, spring
       integer :: pad
       logical :: ok
       model = new_machine_model(offset_case('tilting_radial'))
@@ -79,9 +83,10 @@ contains
                call expect_close(m*acceleration(2), total, rounding*sizes(1), 'Newton, pad '//to_text(pad))
                friction = model%bearings(1)%pads(pad)%ball_radius*loads%friction%force
                ! arms from C: arc centre (-c_t, -arm - c_r); pivot (-c_t, -c_r)
-               moment = -c_t*film(2) + (arm + c_r)*film(1) - c_t*(-loads%contact) + c_r*tangential - friction
+               spring = stiffness(pad)*y(model%layout%elements(1)%before(pad) + 1)
+               moment = -c_t*film(2) + (arm + c_r)*film(1) - c_t*(-loads%contact) + c_r*tangential - friction - spring
                inertia = p%inertia(pad) - m*(c_t**2 + c_r**2)
-               sizes(2) = sizes(1)*abs(c_t) + (abs(film(1)) + abs(tangential))*arm + abs(friction)
+               sizes(2) = sizes(1)*abs(c_t) + (abs(film(1)) + abs(tangential))*arm + abs(friction) + abs(spring)
                call expect_close(inertia*tilt_acceleration, moment, rounding*sizes(2), 'Euler, pad '//to_text(pad))
             end associate
          end associate
@@ -93,7 +98,7 @@ contains
       type(machine_model) :: model
       real(wp), allocatable :: y(:), f(:)
       type(pad_sample), allocatable :: films(:)
-      real(wp) :: a, moment, friction, sizes
+      real(wp) :: a, moment, friction, sizes, spring
       integer :: pad
       logical :: ok
       model = new_machine_model(offset_case('tilting_only'))
@@ -107,9 +112,10 @@ contains
             a = model%bearings(1)%pads(pad)%position%angle - y(model%layout%elements(1)%before(pad) + 1)
             friction = model%bearings(1)%pads(pad)%ball_radius*model%bearings(1)%loads(pad)%friction%force
             ! C x weight, with weight along (-cos a, -sin a)
-            moment = -films(pad)%film_force(1)*arm - friction + p%mass(pad)*500 &
+            spring = stiffness(pad)*y(model%layout%elements(1)%before(pad) + 1)
+            moment = -films(pad)%film_force(1)*arm - friction - spring + p%mass(pad)*500 &
                & *(-p%centre_tangential(pad)*sin(a) + p%centre_radial(pad)*cos(a))
-            sizes = abs(films(pad)%film_force(1))*arm + abs(friction) + p%mass(pad)*500*0.03_wp
+            sizes = abs(films(pad)%film_force(1))*arm + abs(friction) + abs(spring) + p%mass(pad)*500*0.03_wp
             call expect_close(p%inertia(pad)*f(model%layout%elements(1)%before(pad) + 2), moment, &
                & rounding*sizes, 'moments about the pivot')
          end associate

@@ -114,6 +114,10 @@ contains
       call expect_refused('&pivot stiffness = 1e9 /', &
          & 'pivot%stiffness = 1e9: needs pivot%law = ''linear'', not ''fang''')
       call expect_refused('&pivot law = ''linear'', stiffness = 3*1e9 /', 'pivot%stiffness')
+      call expect_allowed('&pivot rotational_stiffness = 1e3, 0 / &pads motion = ''tilting_only'' /')
+      call expect_refused('&pivot rotational_stiffness = 0, 1e3 / &pads motion = ''fixed'' /', &
+         & 'pivot%rotational_stiffness = 1000: must be 0 for pads%motion = ''fixed''')
+      call expect_refused('&pivot rotational_stiffness = -1 /', 'must be 0 to 1e15 N m/rad')
    end subroutine pivots
 
    subroutine starts()

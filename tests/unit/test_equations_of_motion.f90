@@ -34,6 +34,7 @@ program test_equations_of_motion
    end if
    if (runs('other_numbers')) then
       call other_numbers('&pivot law = ''linear'', stiffness = ', '1e9, 2e9', '1e9, 3e9')
+      call other_numbers('&pivot rotational_stiffness = ', '1e3, 2e3', '1e3, 0')
    end if
    if (runs('unbalance_force')) call unbalance_force()
    if (runs('forces_by_definition')) call forces_by_definition()
@@ -56,7 +57,8 @@ contains
       real(wp), intent(in) :: offset
       inputs = case_of('&rotor mass = 20, gravity = 300 / &pads mass = 80, 60, inertia = 0.03, 0.025, ' &
          & //'pivot_ratio = 0.5, 0.6, centre_tangential = '//listed([offset, -2*offset])//', motion = ''' &
-         & //trim(motion)//''' / &friction model = '''//trim(friction)//''' / &film solver = ''sor'', ' &
+         & //trim(motion)//''' / &pivot rotational_stiffness = '//trim(merge('0       ', '3e4, 5e4', &
+         & motion == 'fixed'))//' / &friction model = '''//trim(friction)//''' / &film solver = ''sor'', ' &
          & //'cavitation = ''none'', circumferential_cells = 16, axial_cells = 4, tolerance = 1e-12 /')
    end function heavy_case
 

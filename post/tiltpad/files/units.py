@@ -111,7 +111,8 @@ UNITS = {
     **dict.fromkeys(("offset", "length", "diameter", "bore"), "m"),
     **{"polar_inertia": "kg m²", "diametral_inertia": "kg m²", "moment": "kg m", "force": "N"},
     **{"amplitude": "N", "start": "s", "end": "s"},
-    **{"stiffness": "N/m", "damping": "N s/m", "frequency": "Hz", "damp_above": "Hz"},
+    **{"stiffness": "N/m", "rotational_stiffness": "N m/rad", "damping": "N s/m"},
+    **{"frequency": "Hz", "damp_above": "Hz"},
     **dict.fromkeys(("critical_velocity", "stribeck_velocity"), "m/s"),
     **{"decay": "s/m", "bristle_stiffness": "1/m", "bristle_damping": "s/m", "viscous_coefficient": "s/m"},
 }
