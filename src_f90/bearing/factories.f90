@@ -12,7 +12,7 @@ module factories
    use film_losses, only: film_losses_type, new_film_losses
    use sor_film, only: new_sor_film, sor_options
    use contact_law, only: contact_law_type, make_contact_law, new_measured_contact, &
-      & new_linear_contact
+      & new_linear_contact, new_rocker_contact
    use contact_table, only: contact_table_type, new_contact_table, new_untabulated_contact
    use friction, only: friction_law, bengisu_akay_friction, lugre_friction, default_bristle_damping, never_sticks
    use asperity_contact, only: asperity_contact_type, new_asperity_contact, no_asperities
@@ -189,6 +189,9 @@ contains
       select case (v%law)
       case ('table')
          allocate (law, source=new_measured_contact(v%points, v%socket_radius(pad), v%radius_difference(pad)))
+      case ('rocker')
+         allocate (law, source=new_rocker_contact(v%contact_length(pad), v%socket_radius(pad), &
+            & v%radius_difference(pad), v%young_modulus, v%poisson_ratio))
       case ('linear')
          allocate (law, source=new_linear_contact(v%stiffness(pad), v%socket_radius(pad), v%radius_difference(pad)))
       case default

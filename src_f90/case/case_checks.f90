@@ -20,6 +20,8 @@ module case_checks
    real(wp), parameter :: longest_arc = 350
    !> Axial length over the radius of the journal that is allowed.
    real(wp), parameter :: length_range(2) = [0.02_wp, 50.0_wp]
+   !> Difference of the radii of a rocker and its bore, over that of the bore, that is allowed.
+   real(wp), parameter :: rocker_range(2) = [0.01_wp, 0.9999_wp]
    !> Behind messages on lengths of a pad.
    character(len=*), parameter :: in_metres = ' (both in m; pad {})'
 
@@ -138,14 +140,35 @@ contains
                   & //'pivot%law = ''linear'' (pad {})', [real(i, wp)], error)
                call require(v%law == 'linear' .or. .not. is_set(v%stiffness(i)), 'pivot%stiffness = {}: needs ' &
                   & //'pivot%law = ''linear'', not '''//v%law//'''', [v%stiffness(i)], error)
-               call require(v%radius_difference(i) <= 0.5_wp*v%socket_radius(i), 'pivot%radius_difference = {}: must ' &
-                  & //'be at most half of pivot%socket_radius = {} (pad {})', [real(wp) :: v%radius_difference(i), &
-                  & v%socket_radius(i), i], error)
+               if (v%law == 'rocker') call check_rocker(bearing, i)
+               call require(v%law == 'rocker' .or. .not. is_set(v%contact_length(i)), 'pivot%contact_length = {}: ' &
+                  & //'needs pivot%law = ''rocker'', not '''//v%law//'''', [v%contact_length(i)], error)
+               call require(v%law == 'rocker' .or. v%radius_difference(i) <= 0.5_wp*v%socket_radius(i), &
+                  & 'pivot%radius_difference = {}: must be at most half of pivot%socket_radius = {} (pad {})', &
+                  & [real(wp) :: v%radius_difference(i), v%socket_radius(i), i], error)
                call require(v%law /= 'hertz' .or. v%radius_difference(i) > 0, 'pivot%radius_difference = 0: must be ' &
                   & //'> 0 for law = ''hertz'' (pad {})', [real(i, wp)], error)
             end do
          end associate
       end subroutine check_laws
+
+      !> A rocker is a cylinder in a wider one, whose contact is narrow, and rolls.
+      subroutine check_rocker(bearing, i)
+         type(bearing_type), intent(in) :: bearing
+         integer, intent(in) :: i
+         associate (v => bearing%pivot, dr => bearing%pivot%radius_difference(i), f => bearing%friction%model)
+            call require(in_range(dr/v%socket_radius(i), rocker_range), 'pivot%radius_difference = {}: must be {} to ' &
+               & //'{} of pivot%socket_radius = {} for pivot%law = ''rocker'' (pad {})', [real(wp) :: dr, &
+               & rocker_range, v%socket_radius(i), i], error)
+            call require(v%contact_length(i) <= bearing%axial_length(i), 'pivot%contact_length = {}: must be at most ' &
+               & //'bearing%axial_length = {}'//in_metres, [real(wp) :: v%contact_length(i), bearing%axial_length(i), &
+               & i], error)
+            call require(f == 'none', 'friction%model = '''//f//''': must be ''none'' for pivot%law = ''rocker'', ' &
+               & //'which rolls', error)
+            call require(v%wear_coefficient <= 0, 'pivot%wear_coefficient = {}: must be 0 for pivot%law = ' &
+               & //'''rocker'', which rolls', [v%wear_coefficient], error)
+         end associate
+      end subroutine check_rocker
 
       subroutine check_start(bearing)
          type(bearing_type), intent(in) :: bearing

@@ -100,6 +100,7 @@ contains
             end do
             if (.not. allocated(error)) call complete_oil(bearing, error)
             if (.not. allocated(error)) call set_bristles(bearing%friction)
+            if (bearing%pivot%law == 'rocker') call fill(bearing%pivot%contact_length, bearing%axial_length)
             do i = 1, bearing%pad_count()
                if (.not. allocated(error)) call set_pad(bearing, i, inputs%thermal%model == 'film')
             end do
@@ -244,7 +245,7 @@ contains
       end associate
    end function size_of
 
-   pure subroutine fill(x, value)
+   elemental subroutine fill(x, value)
       real(wp), intent(inout) :: x
       real(wp), intent(in) :: value
       if (.not. is_set(x)) x = value

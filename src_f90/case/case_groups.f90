@@ -87,8 +87,10 @@ module case_groups
 
    type :: pivot_type
       character(len=:), allocatable :: law
-      !> One value a pad; the stiffness of the linear law, N/m, and that against the tilt, N m/rad.
-      real(wp), allocatable :: socket_radius(:), radius_difference(:), stiffness(:), rotational_stiffness(:)
+      !> One value a pad; the length of the contact of a rocker, m (unset: that of the pad); the stiffness of the linear
+      !> law, N/m, and that against the tilt, N m/rad.
+      real(wp), allocatable :: socket_radius(:), radius_difference(:), contact_length(:), stiffness(:), &
+         & rotational_stiffness(:)
       !> Of ball and socket.
       real(wp) :: young_modulus(2) = 2.1e11_wp, poisson_ratio(2) = 0.3_wp
       real(wp) :: deflection_factor = 4
@@ -361,6 +363,7 @@ contains
       bearing%pivot%file = ''
       bearing%pivot%socket_radius = [13e-3_wp, 13e-3_wp]
       bearing%pivot%radius_difference = [15e-6_wp, 15e-6_wp]
+      bearing%pivot%contact_length = [unset, unset]
       bearing%pivot%stiffness = [unset, unset]
       bearing%pivot%rotational_stiffness = [0.0_wp, 0.0_wp]
       bearing%friction%model = 'none'
@@ -387,9 +390,9 @@ contains
       pure function numbers_of(p, i)
          type(pivot_type), intent(in) :: p
          integer, intent(in) :: i
-         real(wp) :: numbers_of(8)
-         numbers_of = [p%socket_radius(i), p%radius_difference(i), p%stiffness(i), p%young_modulus, p%poisson_ratio, &
-            & p%deflection_factor]
+         real(wp) :: numbers_of(9)
+         numbers_of = [p%socket_radius(i), p%radius_difference(i), p%contact_length(i), p%stiffness(i), &
+            & p%young_modulus, p%poisson_ratio, p%deflection_factor]
       end function numbers_of
    end function is_like
 

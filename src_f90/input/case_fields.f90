@@ -387,18 +387,24 @@ contains
       subroutine list_pivot(pivot)
          type(pivot_type), intent(inout) :: pivot
          call group('pivot', 'Pivots of the pads: ball and socket, or another law')
-         call v%word(pivot%law, 'law', 'fang hertz linear table', 'fang: conformal contact (11)-(18); hertz: law of ' &
-            & //'Hertz; linear: a spring of pivot%stiffness; table: as measured, by pivot%file')
+         call v%word(pivot%law, 'law', 'fang hertz rocker linear table', 'fang: conformal contact (11)-(18); ' &
+            & //'hertz: law of Hertz; rocker: line contact of a cylinder in a cylinder, which rolls; linear: a ' &
+            & //'spring of pivot%stiffness; table: as measured, by pivot%file')
          call v%word(pivot%file, 'file', '', 'table: the CSV file whose columns are deflection (m) and force (N)')
-         call v%each(pivot%socket_radius, 'pads', 'socket_radius', 1e-5_wp, 10.0_wp, 'm', 'radius R_2 of the socket')
+         call v%each(pivot%socket_radius, 'pads', 'socket_radius', 1e-5_wp, 10.0_wp, 'm', &
+            & 'radius R_2 of the socket, or of the bore that a rocker rolls in')
          call v%each(pivot%radius_difference, 'pads', 'radius_difference', 0.0_wp, 1.0_wp, 'm', &
-            & 'dR = R_2 - R_1, R_1 being the radius of the ball')
+            & 'dR = R_2 - R_1, R_1 being the radius of the ball or rocker')
+         call v%each(pivot%contact_length, 'pads', 'contact_length', 1e-5_wp, 100.0_wp, 'm', &
+            & 'rocker: length of the line of contact along the shaft; if left out, bearing%axial_length')
          call v%each(pivot%stiffness, 'pads', 'stiffness', 1.0_wp, 1e15_wp, 'N/m', &
             & 'linear: pivot load over pivot deflection')
          call v%each(pivot%rotational_stiffness, 'pads', 'rotational_stiffness', 0.0_wp, 1e15_wp, 'N m/rad', &
             & 'of a flexure pivot: moment against the tilt over the tilt; 0: the pivot turns freely')
-         call v%numbers(pivot%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'values of ball and socket')
-         call v%numbers(pivot%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'values of ball and socket')
+         call v%numbers(pivot%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', &
+            & 'values of ball (or rocker) and socket')
+         call v%numbers(pivot%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', &
+            & 'values of ball (or rocker) and socket')
          call v%number(pivot%deflection_factor, 'deflection_factor', 0.1_wp, 100.0_wp, '1', &
             & 'factor of eq (13): 4 as printed; 2 pi agrees with Hertz''s law')
          call v%number(pivot%wear_coefficient, 'wear_coefficient', 0.0_wp, 1e-6_wp, 'm^3/(N m)', &

@@ -1,4 +1,4 @@
-!> Normal force of a pivot over its deflection: closed forms of a ball in a socket, a spring, measured points.
+!> Normal force of a pivot over its deflection: closed forms of a ball in a socket, a rocker, a spring, measured points.
 !>
 !> Fang's conformal law (Dyk et al. 2023, eqs (11)-(18)) is explicit once the projected contact
 !> radius `a` is chosen: `n(a)`, `B(n)`, `g(a)`; then eq (14) with (16) is linear in the force.
@@ -8,13 +8,15 @@ module contact_law
    use rising_numbers, only: number_up_to
    implicit none (type, external)
    private
-   public :: contact_law_type, contact_point, make_contact_law, new_measured_contact, new_linear_contact
+   public :: contact_law_type, contact_point, make_contact_law, new_measured_contact, new_linear_contact, &
+      & new_rocker_contact
 
    !> State of the contact at one pivot deflection.
    type :: contact_point
       !> Normal force, N, and its derivative over the pivot deflection, N/m.
       real(wp) :: force = 0, stiffness = 0
-      !> Projected contact radius, m; exponent of the pressure distribution (11); its peak (12), Pa.
+      !> Projected contact radius, of a rocker half of the width, m; exponent of the pressure distribution (11);
+      !> its peak (12), Pa.
       real(wp) :: radius = 0, exponent = 0.5_wp, peak_pressure = 0
    contains
       procedure :: pressure
@@ -60,6 +62,8 @@ module contact_law
    real(wp), parameter :: snug_ratio = 1e-9_wp
    !> Constant of eq (16); equals 4 (n + 1/2)(n + 1) at a = R2, so that dR = 0 gives a = R2.
    real(wp), parameter :: fang_constant = 3.8304_wp
+   !> Of the approach of cylinders (Young and Budynas, Roark's Formulas for Stress and Strain, line contact).
+   real(wp), parameter :: handbook = 2/3.0_wp
    !> Step of Newton's, relative, after which the next one would by its order be rounding.
    real(wp), parameter :: small_step = 1e-10_wp
 
@@ -69,6 +73,16 @@ module contact_law
    contains
       procedure :: at => measured_at
    end type measured_contact_type
+
+   !> A cylinder of radius R1 in one of radius R2, along a line.
+   type, extends(contact_law_type) :: rocker_contact_type
+      !> m
+      real(wp) :: length
+      !> Pivot deflection at which the contact is as wide as R1, m: from there on the law is a straight line.
+      real(wp) :: deepest = huge(1.0_wp)
+   contains
+      procedure :: at => rocker_at
+   end type rocker_contact_type
 
    !> A spring: F = stiffness eta.
    type, extends(contact_law_type) :: linear_contact_type
@@ -96,13 +110,19 @@ contains
       real(wp), intent(in) :: deflection_factor
       class(contact_law_type), allocatable, intent(out) :: law
       real(wp) :: compliance
-      compliance = sum((1 - poisson_ratio**2)/(pi*young_modulus))
+      compliance = compliance_of(young_modulus, poisson_ratio)
       if (name == 'hertz') then
          law = hertz_law(socket_radius, radius_difference, compliance)
       else
          law = fang_law(socket_radius, radius_difference, compliance, deflection_factor)
       end if
    end subroutine make_contact_law
+
+   !> k1 + k2 of eq (18).
+   pure real(wp) function compliance_of(young_modulus, poisson_ratio) result(compliance)
+      real(wp), intent(in) :: young_modulus(2), poisson_ratio(2)
+      compliance = sum((1 - poisson_ratio**2)/(pi*young_modulus))
+   end function compliance_of
 
    pure function hertz_at(self, pivot_deflection) result(point)
       class(hertz_law), intent(in) :: self
@@ -116,6 +136,41 @@ contains
       point%radius = sqrt(effective_radius*pivot_deflection)
       point%peak_pressure = 1.5_wp*point%force/(pi*point%radius**2)
    end function hertz_at
+
+   !> The law of a rocker whose contact has this length, m; values of rocker and bore.
+   pure type(rocker_contact_type) function new_rocker_contact(length, socket_radius, radius_difference, &
+      & young_modulus, poisson_ratio) result(law)
+      real(wp), intent(in) :: length, socket_radius, radius_difference, young_modulus(2), poisson_ratio(2)
+      real(wp) :: ratio
+      law = rocker_contact_type(socket_radius, radius_difference, compliance_of(young_modulus, poisson_ratio), length)
+      ratio = 16*socket_radius/(socket_radius - radius_difference)
+      law%deepest = radius_difference/ratio*(handbook + log(ratio))
+   end function new_rocker_contact
+
+   !> eta = x (2/3 + ln(dR/x)) with x = F (k1 + k2)/L, the handbook's approach of two cylinders in line contact: with
+   !> q = eta/x it is q - ln q = 2/3 + ln(dR/eta), convex over q > 1, for which Newton's steps come from above. Width
+   !> and pressure are those of Hertz.
+   pure function rocker_at(self, pivot_deflection) result(point)
+      class(rocker_contact_type), intent(in) :: self
+      real(wp), intent(in) :: pivot_deflection
+      type(contact_point) :: point
+      real(wp) :: eta, at, q, change
+      integer :: i
+      eta = min(pivot_deflection, self%deepest)
+      at = handbook + log(self%radius_difference/eta)
+      q = at + log(at)
+      do i = 1, 100
+         change = (q - log(q) - at)*q/(q - 1)
+         q = q - change
+         if (abs(change) <= small_step*q) exit
+      end do
+      associate (x => eta/q, r1 => self%socket_radius - self%radius_difference)
+         point%stiffness = self%length/(self%compliance*(q - 1))
+         point%force = self%length*x/self%compliance + point%stiffness*(pivot_deflection - eta)
+         point%radius = 2*sqrt(x*r1*self%socket_radius/self%radius_difference)
+         point%peak_pressure = 2*point%force/(pi*point%radius*self%length)
+      end associate
+   end function rocker_at
 
    !> The law of a spring, N/m; radius and pressure of the contact are not known.
    pure type(linear_contact_type) function new_linear_contact(stiffness, socket_radius, radius_difference) result(law)

@@ -192,8 +192,8 @@ contains
       if (.not. file%has('equilibrium/pivot_deflection')) return
       call file%get_list('equilibrium/pivot_deflection', deflection)
       ending = ''
-      if (any(bearing%pivot%law == ['fang ', 'hertz'])) ending = filled('; is pivot%socket_radius = {} m that of ' &
-         & //'this bearing?', [maxval(bearing%pivot%socket_radius)])
+      if (any(bearing%pivot%law == ['fang  ', 'hertz ', 'rocker'])) ending = filled('; is pivot%socket_radius = {} ' &
+         & //'m that of this bearing?', [maxval(bearing%pivot%socket_radius)])
       associate (soft => deflection > soft_pivot*bearing%assembled_clearance)
          said = line_if(any(soft), 'at the equilibrium '//trim(merge('the pivot ', 'the pivots', count(soft) == 1)) &
             & //' of '//listed(soft)//trim(merge(' gives', ' give ', count(soft) == 1))//' way by {u.3} um, more ' &

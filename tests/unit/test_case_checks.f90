@@ -100,6 +100,8 @@ contains
 
    !> In a socket of 13 mm.
    subroutine pivots()
+      character(len=*), parameter :: rocker = '&pivot law = ''rocker'', socket_radius = 0.08, ' &
+         & //'radius_difference = 0.06, '
       call expect_allowed('&pivot radius_difference = 6.5e-3 /')
       call expect_refused('&pivot radius_difference = 6.6e-3 /', &
          & 'pivot%radius_difference = 0.0066: must be at most half of pivot%socket_radius')
@@ -114,6 +116,14 @@ contains
       call expect_refused('&pivot stiffness = 1e9 /', &
          & 'pivot%stiffness = 1e9: needs pivot%law = ''linear'', not ''fang''')
       call expect_refused('&pivot law = ''linear'', stiffness = 3*1e9 /', 'pivot%stiffness')
+      call expect_allowed(rocker//'contact_length = 0.1 /')
+      call expect_refused(rocker//'contact_length = 0.09, 0.11 /', &
+         & 'pivot%contact_length = 0.11: must be at most bearing%axial_length = 0.1 (both in m; pad 2)')
+      call expect_refused('&pivot law = ''rocker'' /', 'pivot%radius_difference = 1.5e-5: must be 0.01 to 0.9999 of ' &
+         & //'pivot%socket_radius = 0.013 for pivot%law = ''rocker'' (pad 1)')
+      call expect_refused('&pivot contact_length = 0.05 /', 'contact_length = 0.05: needs pivot%law = ''rocker''')
+      call expect_refused(rocker//'/ &friction model = ''lugre'' /', 'must be ''none'' for pivot%law = ''rocker''')
+      call expect_refused(rocker//'wear_coefficient = 1e-15 /', 'must be 0 for pivot%law = ''rocker''')
       call expect_allowed('&pivot rotational_stiffness = 1e3, 0 / &pads motion = ''tilting_only'' /')
       call expect_refused('&pivot rotational_stiffness = 0, 1e3 / &pads motion = ''fixed'' /', &
          & 'pivot%rotational_stiffness = 1000: must be 0 for pads%motion = ''fixed''')

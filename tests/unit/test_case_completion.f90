@@ -21,6 +21,7 @@ program test_case_completion
    end do
    if (runs('ring')) call ring()
    if (runs('paper_pads')) call paper_pads()
+   if (runs('rockers')) call rockers()
    if (runs('other_pads')) call other_pads()
    if (runs('given_in_part')) call given_in_part()
    if (runs('each_pad')) call each_pad()
@@ -98,6 +99,19 @@ contains
       call expect_close(s%bearings(1)%pads%mass(2), 0.9_wp, 0.0_wp, 'a mass that is given')
       call expect_close(s%bearings(1)%pads%inertia(2), 4.055e-4_wp, 0.0_wp, 'the paper''s inertia beside it')
    end subroutine paper_pads
+
+   !> The contact of a rocker is as long as the pad, or as given.
+   subroutine rockers()
+      type(case_type) :: s
+      character(len=*), parameter :: rocker = '&bearing axial_length = 0.1, 0.2 / &pivot law = ''rocker'', ' &
+         & //'socket_radius = 0.08, radius_difference = 0.02'
+      s = case_of(rocker//' /')
+      call expect_close(maxval(abs(s%bearings(1)%pivot%contact_length - [0.1_wp, 0.2_wp])), 0.0_wp, 0.0_wp, 'pads')
+      s = case_of(rocker//', contact_length(2) = 0.05 /')
+      call expect_close(maxval(abs(s%bearings(1)%pivot%contact_length - [0.1_wp, 0.05_wp])), 0.0_wp, 0.0_wp, 'given')
+      s = case_of('&case /')
+      call expect(.not. any(is_set(s%bearings(1)%pivot%contact_length)), 'balls have none')
+   end subroutine rockers
 
    !> Pads of another size, and those whose density or thickness is given, are annular sectors.
    subroutine other_pads()

@@ -34,6 +34,8 @@ program test_equations_of_motion
    end if
    if (runs('other_numbers')) then
       call other_numbers('&pivot law = ''linear'', stiffness = ', '1e9, 2e9', '1e9, 3e9')
+      call other_numbers('&pivot law = ''rocker'', socket_radius = 0.08, radius_difference = 0.02, contact_length = ', &
+         & '0.05', '0.03')
       call other_numbers('&pivot rotational_stiffness = ', '1e3, 2e3', '1e3, 0')
    end if
    if (runs('unbalance_force')) call unbalance_force()

@@ -11,6 +11,7 @@ PER_PAD = (
     *("pads%", "start%pad_", "start%pivot_"),
     *("bearing%machined_clearance", "bearing%assembled_clearance", "bearing%axial_length"),
     *("pivot%socket_radius", "pivot%radius_difference", "pivot%stiffness", "pivot%rotational_stiffness"),
+    "pivot%contact_length",
     *("friction%static_coefficient", "friction%dynamic_coefficient"),
 )
 #: Names of friction models as they are written in pictures.

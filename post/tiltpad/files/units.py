@@ -108,7 +108,7 @@ UNITS = {
     **{"centre_tangential": "m", "centre_radial": "m", "density": "kg/m³", "thickness": "m"},
     **{"journal": "m", "journal_velocity": "m/s", "pad_tilt": "rad", "pad_tilt_rate": "rad/s"},
     **{"pivot_deflection": "m", "pivot_deflection_rate": "m/s"},
-    **dict.fromkeys(("offset", "length", "diameter", "bore"), "m"),
+    **dict.fromkeys(("offset", "length", "contact_length", "diameter", "bore"), "m"),
     **{"polar_inertia": "kg m²", "diametral_inertia": "kg m²", "moment": "kg m", "force": "N"},
     **{"amplitude": "N", "start": "s", "end": "s"},
     **{"stiffness": "N/m", "rotational_stiffness": "N m/rad", "damping": "N s/m"},
