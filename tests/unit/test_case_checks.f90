@@ -85,8 +85,9 @@ contains
       call expect_refused('&integration stop_when_periodic = 1e-3 / &operation final_speed_rpm = 7000 /', &
          & 'integration%stop_when_periodic = 0.001: must be 0 where operation%final_speed_rpm differs')
       call expect_allowed('&operation final_speed_rpm = 7000 /')
-      call expect_allowed('&rotor balance_speed_rpm = 1 /')
-      call expect_refused('&rotor balance_speed_rpm = 0.5 /', 'rotor%balance_speed_rpm = 0.5: must be 1 to 1e6')
+      call expect_allowed('&rotor balance_grade = 2.5, balance_speed_rpm = 1 /')
+      call expect_refused('&rotor balance_grade = 2.5, balance_speed_rpm = 0.5 /', &
+         & 'rotor%balance_speed_rpm = 0.5: must be 1 to 1e6')
    end subroutine speeds
 
    subroutine friction()
