@@ -58,9 +58,9 @@ contains
       if (.not. allocated(error)) call note_one_sided(run, fine, y)
    end subroutine run_coefficients
 
-   !> Notes which pads have a film that only just begins to carry in the equilibrium y, so that its stiffness and damping
-   !> are those of a motion to one side: a small part of the clearance moved with a film that does not cavitate would
-   !> change its force by more than there is.
+   !> Notes which pads have a film that only just begins to carry in the equilibrium y, so that its stiffness and
+   !> damping are those of a motion to one side: with a film that does not cavitate a small part of the clearance would
+   !> change the force by more than there is.
    subroutine note_one_sided(run, fine, y)
       type(case_run_type), intent(inout), target :: run
       type(machine_model), intent(in) :: fine

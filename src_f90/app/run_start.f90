@@ -30,8 +30,8 @@ module run_start
    use thermal_equilibrium, only: find_groove_transient
    implicit none (type, external)
    private
-   public :: start_at_equilibrium, seek_equilibrium, find_converged_equilibrium, make_start, take_oil, restore_shape, restore_oil
-   public :: continue_from_checkpoint
+   public :: start_at_equilibrium, seek_equilibrium, find_converged_equilibrium, make_start, take_oil
+   public :: restore_shape, restore_oil, continue_from_checkpoint
 
 contains
 

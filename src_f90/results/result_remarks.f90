@@ -172,9 +172,9 @@ contains
       end associate
       if (file%has('coefficients/one_sided')) then
          call file%get_list('coefficients/one_sided', begins)
-         said = said//line_if(any(begins > 0), 'the film of '//listed(begins > 0)//' only just begins to carry at the ' &
-            & //'equilibrium: what it adds to stiffness and damping hangs on the side to which the journal moves, and ' &
-            & //'is given for one of them; preload (bearing%preload) or the pads'' weight decides')
+         said = said//line_if(any(begins > 0), 'the film of '//listed(begins > 0)//' only just begins to carry at ' &
+            & //'the equilibrium: what it adds to stiffness and damping hangs on the side to which the journal moves' &
+            & //', and is given for one of them; preload (bearing%preload) or the pads'' weight decides')
       end if
       associate (misalignment => figure(file, 'misalignment'))
          said = said//line_if(misalignment > visible_slope, 'the slope of the shaft changes the film by {ci} % of ' &
