@@ -30,7 +30,7 @@ module run_start
    use thermal_equilibrium, only: find_groove_transient
    implicit none (type, external)
    private
-   public :: start_at_equilibrium, seek_equilibrium, find_converged_equilibrium, make_start, take_oil
+   public :: seek_equilibrium, find_converged_equilibrium, make_start, take_oil
    public :: restore_shape, restore_oil, continue_from_checkpoint
 
 contains

@@ -124,8 +124,7 @@ contains
       character(len=*), intent(in) :: thermal_model
       type(bearing_file_type), intent(inout) :: file
       character(len=:), allocatable :: said
-      real(wp), dimension(bearing%pad_count()) :: film, reynolds, hottest, depth, load, inlet, taken, &
-         & begins
+      real(wp), dimension(bearing%pad_count()) :: film, reynolds, hottest, depth, load, inlet, taken
       real(wp) :: rise
       integer :: i
       rise = file%get_real('equilibrium/temperature_rise_fresh')
@@ -170,17 +169,26 @@ contains
             end associate
          end if
       end associate
-      if (file%has('coefficients/one_sided')) then
-         call file%get_list('coefficients/one_sided', begins)
-         said = said//line_if(any(begins > 0), 'the film of '//listed(begins > 0)//' only just begins to carry at ' &
-            & //'the equilibrium: what it adds to stiffness and damping hangs on the side to which the journal moves' &
-            & //', and is given for one of them; preload (bearing%preload) or the pads'' weight decides')
-      end if
+      said = said//on_beginning_films(bearing%pad_count(), file)
       associate (misalignment => figure(file, 'misalignment'))
          said = said//line_if(misalignment > visible_slope, 'the slope of the shaft changes the film by {ci} % of ' &
             & //'its minimum thickness from the middle of the bearing to its end, which is left out', [misalignment])
       end associate
    end function on_equilibrium
+
+   !> On films whose part of stiffness and damping is that of a motion to one side.
+   function on_beginning_films(pad_count, file) result(said)
+      integer, intent(in) :: pad_count
+      type(bearing_file_type), intent(inout) :: file
+      character(len=:), allocatable :: said
+      real(wp) :: begins(pad_count)
+      said = ''
+      if (.not. file%has('coefficients/one_sided')) return
+      call file%get_list('coefficients/one_sided', begins)
+      said = line_if(any(begins > 0), 'the film of '//listed(begins > 0)//' only just begins to carry at the ' &
+         & //'equilibrium: what it adds to stiffness and damping hangs on the side to which the journal moves, and ' &
+         & //'is given for one of them; preload (bearing%preload) or the pads'' weight decides')
+   end function on_beginning_films
 
    !> On pivots that give way by much of the clearance: those of another bearing may be too small.
    function on_pivots(bearing, file) result(said)

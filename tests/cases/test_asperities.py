@@ -90,8 +90,8 @@ def test_a_pad_dropped_on_a_rotating_journal(run):
 
 @pytest.mark.parametrize("mass", [20, 42.8])
 def test_asperities_that_touch_nowhere_find_no_equilibrium_that_is_none_without(tiltpad, tmp_path, mass):
-    """Without preload one pad has no film where the journal starts, and its weight closes it: it waits at the journal
-    until this has moved to where it has one."""
+    """Without preload one pad has no film where the journal starts, and its weight closes it: it waits at the
+    journal until this has moved to where it has one."""
     (tmp_path / "case.nml").write_text(
         f"""&case task='equilibrium' /
 &rotor mass={mass} /
@@ -103,20 +103,23 @@ def test_asperities_that_touch_nowhere_find_no_equilibrium_that_is_none_without(
     )
     found = {}
     for model in ("none", "greenwood_tripp"):
-        tiltpad("case.nml", "-q", "-o", f"{model}.h5", overrides=(f"asperity%model={model}",), cwd=tmp_path, status=0)
+        overrides = (f"asperity%model={model}",)
+        tiltpad("case.nml", "-q", "-o", f"{model}.h5", overrides=overrides, cwd=tmp_path, status=0)
         with h5py.File(tmp_path / f"{model}.h5") as file:
             found[model] = np.array([file[f"equilibrium/{name}"][()] for name in ("journal_y", "journal_z")])
     np.testing.assert_allclose(found["none"], found["greenwood_tripp"], rtol=0, atol=1e-6 * 100e-6)
 
 
 def test_a_light_vibration_of_a_pad_is_none_of_the_integrator(run):
-    """An unloaded pad leans on the journal, on a rigid pivot: its vibration of 1496 Hz loses a factor e in 1600
-    revolutions, and steps that excite it would let it grow from 1.7 N of the asperities to 5.7."""
+    """An unloaded pad leans on the journal, on a rigid pivot: its vibration of 1496 Hz loses a factor e in
+    1600 revolutions, and steps that excite it would let it grow from 1.7 N of the asperities to 5.7."""
     case = (
-        "title='light' / &rotor mass=1451.9886, balance_grade=1 / &operation speed_rpm=8942.476, duration=0.5 / "
-        "&bearing journal_radius=0.04930860, axial_length=0.07543974, assembled_clearance=6.806701e-05, preload=0, "
-        "viscosity=0.05436422 / &pads pivot_angle_deg=-90,-18,54,126,-162, arc_deg=61.04297, pivot_ratio=0.5120576, "
-        "motion='tilting_only', density=7850, thickness=0.01836587, pivot_distance=0.01836587 / "
+        "title='light' / &rotor mass=1451.9886, balance_grade=1 / "
+        "&operation speed_rpm=8942.476, duration=0.5 / "
+        "&bearing journal_radius=0.04930860, axial_length=0.07543974, assembled_clearance=6.806701e-05, "
+        "preload=0, viscosity=0.05436422 / &pads pivot_angle_deg=-90,-18,54,126,-162, arc_deg=61.04297, "
+        "pivot_ratio=0.5120576, motion='tilting_only', density=7850, thickness=0.01836587, "
+        "pivot_distance=0.01836587 / "
         "&pivot socket_radius=0.008869698, radius_difference=0 / &film cavitation='gumbel' / "
         "&friction model='none' / &asperity roughness=2.285961e-07"
     )

@@ -68,22 +68,23 @@ def check_modes(group, modes, pivot):
 #: Five fixed pads with the load between two of them, whose films are three quarters cavitated.
 FIXED = """&rotor mass=2487.674 /
 &operation speed_rpm=11809.48 /
-&bearing journal_radius=0.06088811, axial_length=0.05360372, assembled_clearance=8.969680e-05, preload=0.1503714,
-  viscosity=0.008041341 /
+&bearing journal_radius=0.06088811, axial_length=0.05360372, assembled_clearance=8.969680e-05,
+  preload=0.1503714, viscosity=0.008041341 /
 &pads motion='fixed', pivot_angle_deg=-54, 18, 90, 162, -126, arc_deg=51.54564 /
 """
 CLEARANCE = 8.969680e-05
 
 
 def test_the_equilibrium_is_that_of_converged_films(tiltpad, tmp_path):
-    """As coefficients have it, to the last bit; and it lies where that of volumes lies that are four times as fine
-    as those with which the search ends, which err by 1.2e-4: by 1.6e-5 of the clearance, in which the volumes have
-    a part of 1.2e-4/4^2."""
+    """As coefficients have it, to the last bit; and it lies where that of volumes lies that are four times as
+    fine as those with which the search ends, which err by 1.2e-4: by 1.6e-5 of the clearance, in which the
+    volumes have a part of 1.2e-4/4^2."""
     (tmp_path / "case.nml").write_text(FIXED)
 
     def journal(task, *overrides):
         overrides = (f"case%task={task}", *overrides)
-        tiltpad("case.nml", "-q", "--overwrite", "-o", "found.h5", overrides=overrides, cwd=tmp_path, status=0)
+        words = ("case.nml", "-q", "--overwrite", "-o", "found.h5")
+        tiltpad(*words, overrides=overrides, cwd=tmp_path, status=0)
         with h5py.File(tmp_path / "found.h5") as file:
             return np.array([file["equilibrium/journal_y"][()], file["equilibrium/journal_z"][()]])
 
@@ -102,8 +103,8 @@ EVEN = """&rotor mass=180, unbalance=0 /
 
 
 def test_a_film_that_only_just_begins_to_carry_is_told(tiltpad, tmp_path):
-    """Pads without weight lie beside the journal without pressure, where C_zz is half of that of steel pads, whose
-    weight the films carry: one side counts, the other does not."""
+    """Pads without weight lie beside the journal without pressure, where C_zz is half of that of steel pads,
+    whose weight the films carry: one side counts, the other does not."""
     light = "mass=1e-3, inertia=1e-7, centre_tangential=0, centre_radial=0"
     steel = "density=7850, thickness=0.02, pivot_distance=0.02"
     damping = {}

@@ -38,7 +38,7 @@ def solve(run, tmp_path):
 
 
 def test_each_bearing_has_the_fields_of_its_films(solve):
-    """Heat is conserved in each, and its films are solved again from the oil in the file, to the usual 1e-4."""
+    """Heat is conserved in each; its films are solved again from the oil in the file, to the usual 1e-4."""
     with solve(REST) as machine:
         for name, bearing in machine.bearings.items():
             rest = bearing.equilibrium
