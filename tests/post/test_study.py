@@ -322,8 +322,8 @@ def test_runs_that_are_no_members(result, tmp_path):
         assert np.isnan(study.pad_max_pressure[0, 2:]).all()
         assert np.isfinite(study.pad_max_pressure[1]).all()
         assert np.isnan(study.orbit_y[2])
-        # a march looks its contact up in a table
-        assert study.equilibrium_journal_y[2] == pytest.approx(study.equilibrium_journal_y[0], rel=1e-6)
+        # a march starts with films of the usual error, 1e-4
+        assert study.equilibrium_journal_y[2] == pytest.approx(study.equilibrium_journal_y[0], rel=1e-4)
 
 
 def test_names_of_parameters():
