@@ -95,8 +95,7 @@ contains
          if (.not. allocated(films%heat)) allocate (films%heat(bearing%pad_count()))
          do i = 1, size(films%heat)
             films%heat(i) = film_heat_type(oil%density*oil%specific_heat, oil%conductivity, pads%conductivity(i), &
-               & bearing%journal_radius + bearing%machined_clearance(i), pads%thickness(i), oil%back_coefficient, &
-               & oil%supply_temperature, layer_faces(layers))
+               & pads%thickness(i), oil%back_coefficient, oil%supply_temperature, layer_faces(layers))
          end do
          if (is_set(oil%back_temperature)) films%heat%back_temperature = oil%back_temperature
       end associate
