@@ -26,8 +26,8 @@ def integrals(case, film):
 
 @pytest.mark.parametrize("case_name", [*CASES, "fixed", "equilibrium"])
 def test_the_equilibrium_is_as_archived(run, case_name):
-    """The same solver in the same state: to rounding, or to the tolerance of over-relaxation, 1e-6; the films of
-    the task equilibrium are converged, and those solved again have the usual error, 1e-4."""
+    """The same solver in the same state: to rounding, or to the tolerance of over-relaxation, 1e-6; the films
+    of the task equilibrium are converged, and those solved again have the usual error, 1e-4."""
     case = run(case_name)
     film = tiltpad.pressure(case)
     assert film.time is None
