@@ -10,7 +10,7 @@ module tiltpad_library
    use case_namelist, only: case_from_text
    use read_files, only: read_tables
    use film_oils, only: uneven_oil
-   use factories, only: make_law, make_friction
+   use factories, only: make_law, make_friction, converged_films
    use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state
    use tilting_pad_bearing, only: pad_sample
@@ -182,8 +182,8 @@ contains
       call tell(error, status, message)
    end subroutine friction_force
 
-   !> The bearing of a namelist text, which has to have as many pads as viscosities are given. Few states are not worth
-   !> a table.
+   !> The bearing of a namelist text, which has to have as many pads as viscosities are given. Tasks without motion have
+   !> the films of their equilibrium; few states of a motion are not worth a table.
    subroutine read_bearing(text, name, viscosity, weights, inputs, model, error)
       character(len=*), intent(in) :: text, name
       real(c_double), intent(in) :: viscosity(:), weights(0:, :, :)
@@ -199,8 +199,12 @@ contains
             & //' pads, but states of '//to_text(size(viscosity)))
          return
       end if
-      if (inputs%bearings(1)%film%solver == 'auto') inputs%bearings(1)%film%solver = 'direct'
-      model = new_machine_model(inputs)
+      if (any(inputs%about%task == ['equilibrium ', 'coefficients'])) then
+         model = new_machine_model(inputs, converged_films)
+      else
+         if (inputs%bearings(1)%film%solver == 'auto') inputs%bearings(1)%film%solver = 'direct'
+         model = new_machine_model(inputs)
+      end if
       if (all(viscosity > 0)) model%oil = [(uneven_oil(viscosity(i), weights(:, :, i)), i=1, size(viscosity))]
    end subroutine read_bearing
 
