@@ -6,11 +6,9 @@ module coefficients_task
    use errors, only: error_type, add_context, stopped
    use case_inputs, only: case_type
    use equations_of_motion, only: machine_model
-   use state_layout, only: of_journal
-   use static_model, only: make_static
-   use force_balance, only: is_of_rotor, position_names, part_derivatives
-   use linear_bearing, only: bearing_coefficients_type, find_coefficients, vibration_modes_type, &
-      & rotor_response_type, find_rotor_response
+   use force_balance, only: is_of_rotor, position_names
+   use linear_bearing, only: bearing_coefficients_type, find_coefficients, begin_to_carry, &
+      & vibration_modes_type, rotor_response_type, find_rotor_response
    use stability_threshold, only: find_thresholds
    use coefficient_results, only: put_coefficients, put_one_sided, put_modes, put_shapes, put_thresholds, &
       & put_rotor_response
@@ -27,8 +25,6 @@ module coefficients_task
    integer, parameter :: most = 4
    !> Modes of which more than this part of the damping is that of the reduction are not listed.
    real(wp), parameter :: mostly = 0.5_wp
-   !> A small vibration, over the clearance.
-   real(wp), parameter :: small = 1e-3_wp
 
 contains
 
@@ -58,36 +54,20 @@ contains
       if (.not. allocated(error)) call note_one_sided(run, fine, y)
    end subroutine run_coefficients
 
-   !> Notes which pads have a film that only just begins to carry in the equilibrium y, so that its stiffness and
-   !> damping are those of a motion to one side: with a film that does not cavitate a small part of the clearance would
-   !> change the force by more than there is.
+   !> Writes which pads have a film that only just begins to carry in the equilibrium y, and remarks on them.
    subroutine note_one_sided(run, fine, y)
       type(case_run_type), intent(inout), target :: run
       type(machine_model), intent(in) :: fine
       real(wp), intent(in) :: y(:)
-      type(machine_model) :: whole
-      real(wp), allocatable, dimension(:, :) :: over_positions, over_rates
       type(bearing_file_type) :: part
-      logical, allocatable :: begins(:)
-      logical :: ok
-      integer :: b, i
-      call make_static(fine, .false., whole)
-      call whole%evaluate(0.0_wp, y, .true., ok)
-      if (.not. ok) return
-      do b = 1, size(whole%bearings)
-         associate (bearing => whole%bearings(b))
-            begins = [(fine%bearings(b)%film%cavitates(), i=1, size(bearing%pads))]
-            begins = begins .and. bearing%pads%gap%ambient_pressure <= bearing%pads%gap%cavitation_pressure
-            do i = 1, size(bearing%pads)
-               call part_derivatives(bearing, i, whole%layout%elements(b)%coordinates, over_positions, over_rates)
-               begins(i) = begins(i) .and. norm2(bearing%loads(i)%journal) &
-                  & < small*bearing%clearance*norm2(over_positions(:of_journal, :of_journal))
-            end do
-            part = run%bearing(b)
-            call put_one_sided(part, begins)
-         end associate
+      logical :: begin(fine%layout%pads)
+      integer :: b
+      begin = begin_to_carry(fine, y)
+      do b = 1, size(fine%bearings)
+         part = run%bearing(b)
+         call put_one_sided(part, begin(fine%layout%elements(b)%all_pads()))
       end do
-      call run%note_remarks(shown=.true.)
+      if (any(begin)) call run%note_remarks(shown=.true.)
    end subroutine note_one_sided
 
    !> Writes and prints coefficients and modes, and of a machine the response of its rotor.

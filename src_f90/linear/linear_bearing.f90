@@ -9,16 +9,19 @@ module linear_bearing
    use state_layout, only: tilt, of_journal
    use equations_of_motion, only: machine_model
    use force_balance, only: mode_name, mode_name_length, position_lengths, at_stations, force_derivatives, &
-      & bearing_derivatives, add_sticking, masses, find_vibrations
+      & bearing_derivatives, part_derivatives, add_sticking, masses, find_vibrations
+   use static_model, only: make_static
    use operating_point, only: operating_point_type
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
    private
    public :: linear_bearing_of, pivot_name, vibration_modes_type, rotor_eigenvalues, bearing_coefficients_type, &
-      & find_coefficients, rotor_response_type, find_rotor_response
+      & find_coefficients, begin_to_carry, rotor_response_type, find_rotor_response
 
    !> Length of the names of pivots.
    integer, parameter :: pivot_name = 6
+   !> A small vibration, over the clearance.
+   real(wp), parameter :: small = 1e-3_wp
 
    !> In the order of layout%positions(), the first of which are the rotor's.
    type :: linear_bearing_type
@@ -119,6 +122,35 @@ contains
          end associate
       end associate
    end subroutine find_coefficients
+
+   !> Pads whose film only just begins to carry in the equilibrium y of a model, so that its stiffness and damping are
+   !> those of a motion to one side: with a film that does not cavitate a small vibration would change the force by more
+   !> than there is.
+   function begin_to_carry(model, y) result(begin)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      logical :: begin(model%layout%pads)
+      type(machine_model) :: whole
+      real(wp), allocatable, dimension(:, :) :: over_positions, over_rates
+      logical :: ok
+      integer :: b, i
+      begin = .false.
+      if (.not. any([(model%bearings(b)%film%cavitates(), b=1, size(model%bearings))])) return
+      call make_static(model, .false., whole)
+      call whole%evaluate(0.0_wp, y, .true., ok)
+      if (.not. ok) return
+      do b = 1, size(whole%bearings)
+         if (.not. model%bearings(b)%film%cavitates()) cycle
+         associate (bearing => whole%bearings(b), of => whole%layout%elements(b))
+            do i = 1, of%pads
+               if (bearing%pads(i)%gap%ambient_pressure > bearing%pads(i)%gap%cavitation_pressure) cycle
+               call part_derivatives(bearing, i, of%coordinates, over_positions, over_rates)
+               begin(of%first_pad + i - 1) = norm2(bearing%loads(i)%journal) &
+                  & < small*bearing%clearance*norm2(over_positions(:of_journal, :of_journal))
+            end do
+         end associate
+      end do
+   end function begin_to_carry
 
    !> The bearings of a model without friction in equilibrium in the state y, alone and with the rotor, for each way
    !> that the pivots of its case may behave. `ok` is false where the films have no derivatives.
