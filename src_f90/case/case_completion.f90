@@ -114,23 +114,29 @@ contains
       subroutine set_unbalance(r)
          type(rotor_type), intent(inout) :: r
          type(rotor_type) :: paper
-         call require(.not. all(is_set([r%balance_grade, r%unbalance])), 'rotor%balance_grade = {}: ' &
-            & //'rotor%unbalance = {} is given too; give one of them (-1 takes one back)', [r%balance_grade, &
-            & r%unbalance], error)
+         call fill_or_replace(r%unbalance, 'rotor%unbalance', r%balance_grade, 'rotor%balance_grade', &
+            & paper%unbalance, ' (-1 takes one back)')
          call require(is_set(r%balance_grade) .or. .not. is_set(r%balance_speed_rpm), 'rotor%balance_speed_rpm = {}: ' &
             & //'has no effect without rotor%balance_grade', [r%balance_speed_rpm], error)
-         if (.not. is_set(r%balance_grade)) call fill(r%unbalance, paper%unbalance)
       end subroutine set_unbalance
 
       !> The damping of the bristles as given, or the load from which it follows.
       subroutine set_bristles(f)
          type(friction_type), intent(inout) :: f
          type(friction_type) :: paper
-         call require(.not. all(is_set([f%bristle_damping, f%characteristic_load])), 'friction%bristle_damping = {}: ' &
-            & //'friction%characteristic_load = {} is given too; give one of them', [f%bristle_damping, &
-            & f%characteristic_load], error)
-         if (.not. is_set(f%bristle_damping)) call fill(f%characteristic_load, paper%characteristic_load)
+         call fill_or_replace(f%characteristic_load, 'friction%characteristic_load', f%bristle_damping, &
+            & 'friction%bristle_damping', paper%characteristic_load, '')
       end subroutine set_bristles
+
+      !> A variable of this name as given, the paper's value, or none where another one replaces it; both are refused.
+      subroutine fill_or_replace(x, name, other, other_name, paper, hint)
+         real(wp), intent(inout) :: x
+         real(wp), intent(in) :: other, paper
+         character(len=*), intent(in) :: name, other_name, hint
+         call require(.not. (is_set(other) .and. is_set(x)), other_name//' = {}: '//name//' = {} is given too; give ' &
+            & //'one of them'//hint, [other, x], error)
+         if (.not. is_set(other)) call fill(x, paper)
+      end subroutine fill_or_replace
 
       !> A pad's clearance: as given, by the preload, or the paper's.
       subroutine set_clearance(b, i)

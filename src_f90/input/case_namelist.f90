@@ -61,7 +61,9 @@ contains
       type(namelist_type) :: given
       call fill_case(parsed, inputs, error, given)
       if (allocated(error)) return
-      if (present(of_result)) call leave_out_replaced(inputs)
+      if (present(of_result)) then
+         if (of_result) call leave_out_replaced(inputs)
+      end if
       call complete_case(inputs, error)
       if (.not. allocated(error)) call complete_branch(inputs)
       if (.not. allocated(error)) call note_values_of_paper(given%assignments, inputs)
