@@ -44,7 +44,7 @@ contains
       if (allocated(error)) return
       call begin_recording(observer, run, t)
       light = .false.
-      if (run%model%rotor%is_identity) light = has_light_vibrations(run%model, y)
+      if (run%model%rotor%is_identity) light = has_light_vibrations(run%model, t, y)
       call march(run%model, march_settings_of(run%model, run%earlier_steps(), light), t, &
          & run%inputs%operation%duration, plan, y, observer, counts, error)
       run%counts = counts

@@ -77,15 +77,15 @@ contains
       end associate
    end function march_settings_of
 
-   !> Whether there are light vibrations about the state y: faster than the shaft, and they lose or gain less than a
-   !> factor e in a revolution, so that what the integrator raises of them stays.
-   logical function has_light_vibrations(model, y)
+   !> Whether there are light vibrations about the state y at time t, s: faster than the shaft, and they lose or gain
+   !> less than a factor e in a revolution, so that what the integrator raises of them stays.
+   logical function has_light_vibrations(model, t, y)
       type(machine_model), intent(inout) :: model
-      real(wp), intent(in) :: y(:)
+      real(wp), intent(in) :: t, y(:)
       real(wp) :: rates(size(y)), jacobian(size(y), size(y)), speed
       complex(wp) :: values(size(y))
       logical :: ok
-      call model%rhs_and_jacobian(0.0_wp, y, rates, jacobian, ok)
+      call model%rhs_and_jacobian(t, y, rates, jacobian, ok)
       if (ok) call find_eigenvalues(jacobian, values, ok)
       speed = model%inputs%highest_speed()
       has_light_vibrations = ok .and. any(abs(values%im) > fast*speed .and. abs(values%re) < speed/(2*pi))
