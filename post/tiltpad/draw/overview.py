@@ -65,12 +65,8 @@ def stability(run: Run) -> Iterator[tuple[str, bool]]:
     """Whether journal or shaft, pads and orbit are stable, and by which margin; True with what is not."""
     if "periodic" in run:
         stable = bool(run["periodic/stable"])
-        yield (
-            "The periodic orbit is stable: small disturbances die out."
-            if stable
-            else ("The periodic orbit is unstable: no motion stays on it."),
-            not stable,
-        )
+        fate = "stable: small disturbances die out" if stable else "unstable: no motion stays on it"
+        yield f"The periodic orbit is {fate}.", not stable
     if run.is_branch and "stable" in run:
         count, points = int((run["stable"] > 0).sum()), run.length("point")
         told = f"Of {points} points of the branches {count} are stable."
@@ -207,13 +203,13 @@ def loads(run: Run) -> Iterator[Fact]:
 
 
 def films(run: Run) -> Iterator[Fact]:
-    """Thinnest film and highest pressure of the last revolution, else of the equilibrium, with their pads."""
+    """Thinnest film and highest pressure of the end of a motion, or of the equilibrium, with their pads."""
     for name, pick in (("min_film_thickness", np.nanargmin), ("max_pressure", np.nanargmax)):
         moving, still = f"summary/pad_{name}", f"equilibrium/{name}"
         if (there := moving if moving in run else still) in run and np.isfinite(run[there]).any():
             k = int(pick(run[there]))
             pad = f"pad {k + 1}" if run.pads > 1 else ""
-            when = ", last revolution" if there == moving else ""
+            when = f", {span(run)}" if there == moving else ""
             yield Fact(SHOWN[name], float(run[there][k]), f"{pad}{when}".removeprefix(", "))
 
 
@@ -248,12 +244,17 @@ def stiffness(run: Run) -> Iterator[Fact]:
             yield Fact(own, float(both[k, k]), note)
 
 
+def span(run: Run) -> str:
+    """What the figures of a motion are of."""
+    return "period" if run.task == "periodic" else "last revolution"
+
+
 def vibration(run: Run) -> Iterator[Fact]:
     """Peak to peak of the journal against standards, and its part with the shaft, or that of a whirl."""
     if "summary/orbit_size" not in run:
         return
     whirls = "summary/whirls" in run and bool(run["summary/whirls"])
-    size, when = float(run["summary/orbit_size"]), "last revolution"
+    size, when = float(run["summary/orbit_size"]), span(run)
     if whirls:
         count = round(float(run["summary/last_revolutions"]))
         highest, lowest = ([run[f"by_revolution/{end}_{axis}"][-count:] for axis in "yz"] for end in ENDS)
