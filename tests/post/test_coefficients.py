@@ -50,8 +50,8 @@ def test_a_study_has_what_its_members_have(study, run, folder):
             # what is of each pad says so in a study
             own = f"pad_{name}" if name == "one_sided" else name
             np.testing.assert_array_equal(study[own][0], values, name)
-            assert np.isnan(study[name][FAILED - 1]).all(), name
-            assert study.about(name, "units") == run.about(f"{group}/{name}", "units"), name
+            assert np.isnan(study[own][FAILED - 1]).all(), name
+            assert study.about(own, "units") == run.about(f"{group}/{name}", "units"), name
     np.testing.assert_allclose(study.speed * 30 / np.pi, study.speed_rpm)
     np.testing.assert_array_equal(study.least_damping_ratio[0], np.nanmin(run["modes/damping_ratio"], axis=1))
     for k, pivot in enumerate(PIVOTS):

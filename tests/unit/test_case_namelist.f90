@@ -76,7 +76,7 @@ contains
       call expect_refused('&rotor weight = 1500 /', '(did you mean rotor%mass in kg?)')
       call expect_refused('&pads pivot_offset = 0.5 /', '(did you mean pads%pivot_ratio?)')
       call expect_refused('&pads offset = 0.5 /', '(did you mean pads%pivot_ratio?)')
-      call expect_refused('&pads stiffness = 1e9 /', '(did you mean pivot%law and pivot%file?)')
+      call expect_refused('&pads stiffness = 1e9 /', '(did you mean pivot%stiffness?)')
       call expect_refused('&oil vg = 46 /', '(did you mean oil%grade?)')
       call expect_refused('&bearing radial_clearance = 1e-4 /', '(did you mean bearing%assembled_clearance?)')
       call expect_refused('&bearing diameter = 0.1 /', '(did you mean bearing%journal_radius, half of it?)')
