@@ -281,18 +281,26 @@ contains
       type(error_type), allocatable :: error
       logical :: in_equilibrium(model%layout%pads)
       real(wp) :: residual, y_of_pads(size(y))
+      logical :: by_films
       if (method == 'newton') then
          call follow_motion(model, y, residual, error)
          ok = residual <= quick_residual
          return
       end if
-      call eliminate_pads(model, y, in_equilibrium, ok)
+      y_of_pads = y
+      by_films = .true.
+      call eliminate_pads(model, y, in_equilibrium, ok, by_films)
+      if (.not. ok) then
+         y = y_of_pads
+         by_films = .false.
+         call eliminate_pads(model, y, in_equilibrium, ok, by_films)
+      end if
       if (.not. ok .or. all(in_equilibrium)) return
-      call search_pads(model, y, in_equilibrium)
+      call search_pads(model, y, in_equilibrium, by_films)
       if (.not. all(in_equilibrium)) traces%without_equilibrium = .not. in_equilibrium
       ! where a pad finds no equilibrium Newton's method on the whole may still find one, with the journal elsewhere
       y_of_pads = y
-      call eliminate_pads(model, y_of_pads, in_equilibrium, ok)
+      call eliminate_pads(model, y_of_pads, in_equilibrium, ok, by_films)
       if (ok .and. all(in_equilibrium)) y = y_of_pads
       ok = .true.
    end subroutine approach
@@ -328,7 +336,7 @@ contains
       call make_quick(static, quick)
       do k = 1, starts
          y = start(quick, k)
-         call eliminate_pads(quick, y, in_equilibrium, ok)
+         call eliminate_pads(quick, y, in_equilibrium, ok, by_films=.false.)
          if (asked(model%give_up)) then
             call raise(error, stopped, 'stopped while the equilibrium was sought')
             return

@@ -39,11 +39,13 @@ contains
 
    !> Moves journal and pads from y to equilibrium, nearly. Pads that find no equilibrium stand at zero tilt on their
    !> pivots.
-   subroutine eliminate_pads(model, y, in_equilibrium, ok)
+   subroutine eliminate_pads(model, y, in_equilibrium, ok, by_films)
       type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       !> Which pads are in equilibrium; whether the journal is.
       logical, intent(out) :: in_equilibrium(:), ok
+      !> Counts a pad that stands on its asperities as without equilibrium: elsewhere a film may carry it.
+      logical, intent(in) :: by_films
       type(journal_motion) :: journal
       type(pad_state) :: pads(model%layout%pads)
       real(wp) :: time_step, unbalanced, last
@@ -56,7 +58,7 @@ contains
       do iteration = 1, journal_iterations
          ok = .not. asked(model%give_up)
          in_equilibrium = .false.
-         if (ok) call settle_pads(model, journal, pads, in_equilibrium, ok)
+         if (ok) call settle_pads(model, journal, pads, in_equilibrium, ok, by_films)
          if (ok .and. .not. all(in_equilibrium)) call put_down()
          if (.not. ok) exit
          force = forces(model, 0.0_wp, model%state(journal, pads))
@@ -128,16 +130,17 @@ contains
       end subroutine move_journal
    end subroutine eliminate_pads
 
-   !> Every pad to its own equilibrium with the journal where it is; which of them found it. A pad that stands on its
-   !> asperities has none: with the journal elsewhere a film may carry it.
-   subroutine settle_pads(model, journal, pads, in_equilibrium, ok)
+   !> Every pad to its own equilibrium with the journal where it is; which of them found it.
+   subroutine settle_pads(model, journal, pads, in_equilibrium, ok, by_films)
       type(machine_model), intent(inout) :: model
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: pads(:)
       logical, intent(inout) :: in_equilibrium(:)
       logical, intent(out) :: ok
+      !> Counts a pad that stands on its asperities as without equilibrium.
+      logical, intent(in) :: by_films
       real(wp), dimension(size(pads)) :: time_step, unbalanced, last
-      logical :: on_asperities(size(pads))
+      logical :: refused(size(pads))
       real(wp) :: limit
       integer :: iteration, i, k
       time_step = 1/model%point%speed(0.0_wp)
@@ -146,10 +149,11 @@ contains
          if (.not. ok) return
          associate (bearing => model%bearings(1), n => model%layout%elements(1)%coordinates)
             unbalanced = [(maxval([(abs(bearing%own_force(i, k))/bearing%length(i, k), k=1, n)]), i=1, size(pads))]
-            on_asperities = [(bearing%asperity(i)%carried() > 0.5_wp*norm2(bearing%loads(i)%journal), i=1, size(pads))]
+            refused = [(by_films .and. bearing%asperity(i)%carried() > 0.5_wp*norm2(bearing%loads(i)%journal), &
+               & i=1, size(pads))]
          end associate
          limit = pad_limit*reference_force(model)
-         in_equilibrium = in_equilibrium .or. unbalanced <= limit .and. .not. on_asperities
+         in_equilibrium = in_equilibrium .or. unbalanced <= limit .and. .not. refused
          if (all(in_equilibrium) .or. iteration == pad_iterations) exit
          if (iteration > 0) time_step = next_time_step(time_step, last, unbalanced)
          last = unbalanced
@@ -161,10 +165,12 @@ contains
 
    !> Moves the pads that are not in equilibrium to one that they find from other tilts and gaps, and says which are in
    !> equilibrium then. The smallest gap comes first, and of one gap the thinnest film is kept: it holds the pad best.
-   subroutine search_pads(model, y, in_equilibrium)
+   subroutine search_pads(model, y, in_equilibrium, by_films)
       type(machine_model), intent(inout) :: model
       real(wp), intent(inout) :: y(:)
       logical, intent(inout) :: in_equilibrium(:)
+      !> Counts a pad that stands on its asperities as without equilibrium.
+      logical, intent(in) :: by_films
       type(journal_motion) :: journal
       type(pad_state), dimension(size(in_equilibrium)) :: pads, trial
       real(wp) :: thinnest(size(pads)), film
@@ -184,7 +190,7 @@ contains
                   & .and. abs(trial(i)%x(tilt)) < model%bearings(1)%pads(i)%largest_tilt
             end do
             found = .not. tried
-            call settle_pads(model, journal, trial, found, ok)
+            call settle_pads(model, journal, trial, found, ok, by_films)
             do i = 1, size(pads)
                if (.not. (tried(i) .and. found(i))) cycle
                film = film_of(model, i, journal, trial(i))

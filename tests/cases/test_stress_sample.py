@@ -22,7 +22,7 @@ HARD = {
     (1, 163): "oscillatory instability",
     (1, 172): "oscillatory instability",
     (1, 205): "stable",
-    (1, 225): "oscillatory instability",
+    (1, 225): "stable",
     (1, 297): "stable",
     (2, 492): "stable",
     (2, 603): "stable",

@@ -42,6 +42,8 @@ EITHER = (
     *("rotor%unbalance", "friction%characteristic_load", "rotor%balance_grade", "friction%bristle_damping"),
     "rotor%balance_speed_rpm",
 )
+#: What belongs to other laws of pivots than those that are drawn with their radii, and to pads that tilt.
+OF_LAW = ("pivot%stiffness", "pivot%contact_length", "pivot%rotational_stiffness")
 #: Where a march starts; the values of the pads are not drawn.
 START = (
     *("start%from", "start%file", "start%journal", "start%journal_velocity", "start%pad_tilt"),
@@ -66,7 +68,7 @@ OF_MARCH = ("operation%final_speed_rpm", "output%start_time", "integration%stop_
 SPECIAL = {
     "case%task",
     "pivot%file",
-    *(key for group in (*TOGETHER, ALONE, EITHER, INSTEAD, SHAPE, START, OIL) for key in group),
+    *(key for group in (*TOGETHER, ALONE, EITHER, INSTEAD, SHAPE, OF_LAW, START, OIL) for key in group),
 }
 #: Circumferential times squared axial cells of all pads.
 MOST_IN_BLOCKS = 2e8
@@ -88,6 +90,10 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
         if dice.random() < few:
             key = dice.choice(pair)
             found[key] = anything(dice, variables[key])
+    if dice.random() < few:
+        found["pivot%law"] = (b"linear",)
+        for key in ("pivot%stiffness", "pivot%rotational_stiffness"):
+            found[key] = (number(dice, variables[key]),)
     if "rotor%balance_grade" in found and dice.random() < 0.5:
         found["rotor%balance_speed_rpm"] = (dice.choice((-1.0, 1.0, 1e6, dice.uniform(1, 1e6))),)
     if dice.random() < few:
@@ -97,6 +103,7 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
     found.update(around)
     if found.get("pads%motion") == (b"fixed",):
         found["friction%model"] = (b"none",)
+        found.pop("pivot%rotational_stiffness", None)
     fit_memory(found)
     if dice.random() < few:
         found.update(start(dice, variables))
