@@ -336,7 +336,7 @@ contains
       call make_quick(static, quick)
       do k = 1, starts
          y = start(quick, k)
-         call eliminate_pads(quick, y, in_equilibrium, ok, by_films=.false.)
+         call eliminate_pads(quick, y, in_equilibrium, ok, by_films=.true.)
          if (asked(model%give_up)) then
             call raise(error, stopped, 'stopped while the equilibrium was sought')
             return
