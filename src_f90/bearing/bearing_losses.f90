@@ -3,7 +3,8 @@ module bearing_losses
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp
    use case_groups, only: bearing_type
-   use film_solver, only: film_motion, film_oil, film_ok
+   use film_solver, only: film_motion, film_oil, film_law_type, film_ok
+   use turbulent_film, only: take_oil
    use film_losses, only: film_losses_type, film_loss
    use asperity_contact, only: asperity_load
    use rigid_rotor, only: journal_motion
@@ -79,13 +80,16 @@ contains
       type(film_motion) :: motion
       type(asperity_load) :: asperity
       type(film_loss) :: film
+      class(film_law_type), allocatable :: laws(:)
       integer :: i
+      allocate (laws, source=bearing%laws)
+      call take_oil(laws, oil, bearing%pads%gap, bearing%density, speed*bearing%pads(1)%gap%journal_radius)
       do i = 1, size(pads)
          associate (pad => bearing%pads(i))
             motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
             call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
             if (asperity%touches) motion%position = asperity%film_position
-            call self%films(i)%find(motion, oil(i), speed, film)
+            call self%films(i)%find(motion, laws(i), speed, film)
             losses(i) = of_pad(pad, speed, film, asperity)
             losses(i)%mean_film_thickness = pad%gap%mean_film_thickness(motion, pad%directions)
          end associate

@@ -10,6 +10,10 @@ module factories
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: new_table_film
    use film_losses, only: film_losses_type, new_film_losses
+   use film_law, only: film_law_type
+   use film_oils, only: film_oil
+   use turbulence_closure, only: new_closure
+   use turbulent_film, only: turbulent_film_type
    use sor_film, only: new_sor_film, sor_options
    use contact_law, only: contact_law_type, make_contact_law, new_measured_contact, &
       & new_linear_contact, new_rocker_contact
@@ -19,7 +23,7 @@ module factories
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, usual_arc, march_films, static_films, converged_films, quick_films, filled_films, of_march, &
+   public :: make_film, make_laws, usual_arc, march_films, static_films, converged_films, quick_films, filled_films, of_march, &
       & new_losses, make_law, make_friction, new_asperities, new_pads, pad_pivot, make_contacts
 
    !> What films are for: a march; the search for an equilibrium, which goes far and stays nowhere; what is linearised
@@ -110,6 +114,32 @@ contains
          end select
       end associate
    end subroutine make_film
+
+   !> The laws of the films of so many pads, unless they are these already.
+   subroutine make_laws(film, pads, laws)
+      type(film_type), intent(in) :: film
+      integer, intent(in) :: pads
+      class(film_law_type), allocatable, intent(inout) :: laws(:)
+      type(turbulent_film_type), allocatable :: turbulent(:)
+      if (film%turbulence == 'none') then
+         if (allocated(laws)) then
+            if (same_type_as(laws, film_oil())) return
+            deallocate (laws)
+         end if
+         allocate (film_oil :: laws(pads))
+         return
+      end if
+      if (allocated(laws)) then
+         select type (laws)
+         type is (turbulent_film_type)
+            if (laws(1)%closure%is_that_of(film%turbulence, film%laminar_below, film%turbulent_above)) return
+         end select
+         deallocate (laws)
+      end if
+      allocate (turbulent(pads))
+      turbulent%closure = new_closure(film%turbulence, film%laminar_below, film%turbulent_above)
+      call move_alloc(turbulent, laws)
+   end subroutine make_laws
 
    !> True for the films of a march.
    elemental logical function of_march(accuracy)

@@ -6,7 +6,8 @@ module tilting_pad_bearing
    use linear_algebra, only: identity, solve_few
    use text, only: to_text
    use case_inputs, only: case_type
-   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_not_converged
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_law_type, film_response, film_not_converged
+   use turbulent_film, only: take_oil
    use asperity_contact, only: asperity_contact_type, asperity_load
    use friction, only: friction_law
    use rigid_rotor, only: journal_motion
@@ -15,7 +16,7 @@ module tilting_pad_bearing
    use abstract_element, only: element_type
    use kinematics, only: pad_frame, frame_of, motion_of
    use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads, pad_derivatives
-   use factories, only: make_film, new_asperities, new_pads, march_films, static_films, of_march, pad_pivot, &
+   use factories, only: make_film, make_laws, new_asperities, new_pads, march_films, static_films, of_march, pad_pivot, &
       & make_contacts, make_friction
    implicit none (type, external)
    private
@@ -56,9 +57,11 @@ module tilting_pad_bearing
       real(wp) :: clearance = 0
       !> What its films are for (factories).
       integer :: accuracy = march_films
-      !> Of the state evaluated last: speed, rad/s, and oil of the pads; frames and motions.
+      !> Of the oil, kg/m^3.
+      real(wp) :: density = 0
+      !> Of the state evaluated last: speed, rad/s, and laws of the films; frames and motions.
       real(wp), private :: speed = 0
-      type(film_oil), allocatable, private :: oil(:)
+      class(film_law_type), allocatable :: laws(:)
       type(pad_frame), allocatable, private :: frame(:)
       type(film_motion), allocatable, private :: motion(:)
       !> Motions at which the films are taken: those of the journal, but where it touches a pad.
@@ -120,7 +123,7 @@ contains
          call make_film(given, inputs%integration%relative_tolerance, bearing%accuracy, bearing%film)
          call make_contacts(given%pivot, inputs%moves(), bearing%pivots)
          allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
-            & bearing%asperity(n), bearing%film_motion(n), bearing%oil(n), bearing%response(n))
+            & bearing%asperity(n), bearing%film_motion(n), bearing%response(n))
       end associate
    end function new_tilting_pad_bearing
 
@@ -133,6 +136,8 @@ contains
       associate (given => inputs%bearings(b))
          self%pads = new_pads(given, inputs%sense(), inputs%rotor%gravity)
          self%clearance = given%clearance()
+         self%density = given%oil%density
+         call make_laws(given%film, size(self%pads), self%laws)
          if (.not. allocated(self%natural)) allocate (self%natural(size(self%pads)))
          do i = 1, size(self%pivots)
             call make_friction(given%friction, i, self%pivots(i)%friction)
@@ -277,11 +282,11 @@ contains
       logical :: timed
       integer :: i
       self%speed = speed
-      self%oil(:) = oil
+      call take_oil(self%laws, oil, self%pads%gap, self%density, speed*self%pads(1)%gap%journal_radius)
       timed = mod(self%evaluations, timing_stride) == 0
       ! tables are built now and then: their time must not count for evaluations without
       if (timed) started = wall_clock() - self%film%counters%building
-      call self%film%evaluate(self%film_motion, oil, speed, want_derivatives, self%response, chosen)
+      call self%film%evaluate(self%film_motion, self%laws, speed, want_derivatives, self%response, chosen)
       if (timed) self%film%counters%seconds = self%film%counters%seconds &
          & + timing_stride*(wall_clock() - self%film%counters%building - started)
       self%evaluations = self%evaluations + 1
@@ -487,7 +492,7 @@ contains
       real(wp) :: output(pad_outputs*size(self%pads))
       real(wp) :: added(2)
       integer :: i, k, o
-      call self%film%take_pressures(self%film_motion, self%oil, self%speed, self%response)
+      call self%film%take_pressures(self%film_motion, self%laws, self%speed, self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), over_positions => self%derivatives(i)%film_over_positions, &
             & over_rates => self%derivatives(i)%film_over_rates)
@@ -537,7 +542,7 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(pad_sample) :: sampled(size(self%pads))
       integer :: i
-      call self%film%take_pressures(self%film_motion, self%oil, self%speed, self%response)
+      call self%film%take_pressures(self%film_motion, self%laws, self%speed, self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), loads => self%loads(i))
             sampled(i) = pad_sample(loads%contact, self%pads(i)%ball_radius*loads%friction%force, film%force, &
@@ -552,7 +557,7 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       real(wp), intent(in) :: phi(:, :), z(:, :)
       real(wp), intent(out) :: pressure(:, :, :)
-      call self%film%field(self%film_motion, self%oil, self%speed, phi, z, pressure)
+      call self%film%field(self%film_motion, self%laws, self%speed, phi, z, pressure)
    end subroutine pressure_field
 
    !> Names the pad whose film was nearly closed in the state evaluated last, if there is one; else empty.

@@ -78,6 +78,10 @@ contains
             call require(f%solver == 'sor' .or. f%cavitation /= 'reynolds' .or. f%axial_cells <= most, &
                & 'film%axial_cells = {}: must be at most {} with film%circumferential_cells = {} and {} pads, or ' &
                & //'film%solver = ''sor''', [real(wp) :: f%axial_cells, most, cells, bearing%pad_count()], error)
+            call require(f%turbulent_above > f%laminar_below, 'film%turbulent_above = {}: must be above ' &
+               & //'film%laminar_below = {}', [f%turbulent_above, f%laminar_below], error)
+            call require(f%turbulence /= 'hirs' .or. any(inputs%about%task == [character(len=12) :: 'equilibrium', &
+               & 'coefficients']), 'film%turbulence = ''hirs'': its kinks serve no motion; ''ng_pan'' has none', error)
          end associate
          associate (machined => bearing%machined_clearance, assembled => bearing%assembled_clearance, &
                & radius => bearing%journal_radius)

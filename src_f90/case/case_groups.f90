@@ -139,6 +139,9 @@ module case_groups
       integer :: max_sweeps = 5000
       !> Of forces from tables over that of a film that is just whole; 0: by the march's tolerance.
       real(wp) :: table_tolerance = 0
+      !> Closure of turbulent films; Reynolds numbers below which they are laminar, and above which turbulent.
+      character(len=:), allocatable :: turbulence
+      real(wp) :: laminar_below = 500, turbulent_above = 1000
    end type film_type
 
    !> What a bearing stands on: the mass that moves with its housing, kg, the pads' included; N/m and N s/m along y
@@ -372,6 +375,7 @@ contains
       bearing%asperity%model = 'greenwood_tripp'
       bearing%film%solver = 'auto'
       bearing%film%cavitation = 'reynolds'
+      bearing%film%turbulence = 'none'
    end function new_bearing
 
    pure integer function pad_count(self)

@@ -458,6 +458,13 @@ contains
             & //'4 times as much; cavitated films keep to 4e-7 at best')
          call v%word(film%cavitation, 'cavitation', 'reynolds gumbel none', &
             & 'reynolds: p >= p_cav in the solution; gumbel: clipped after the solution; none: no cavitation')
+         call v%word(film%turbulence, 'turbulence', 'none ng_pan ng_pan_fit constantinescu hirs', &
+            & 'none: laminar films; else the closure that turbulent films have: ng_pan: eddies integrated across the ' &
+            & //'film; its fit, Constantinescu''s and Hirs'' (the last has kinks and serves no motion)')
+         call v%number(film%laminar_below, 'laminar_below', 1.0_wp, 1e6_wp, '1', &
+            & 'turbulence: Reynolds number rho U h/mu below which a film is laminar')
+         call v%number(film%turbulent_above, 'turbulent_above', 1.0_wp, 1e6_wp, '1', &
+            & 'turbulence: Reynolds number above which it is turbulent')
       end subroutine list_film
 
       ! The variables of a machine, and of excitations.

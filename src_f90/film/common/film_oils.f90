@@ -29,6 +29,7 @@ module film_oils
    contains
       procedure :: at_nodes
       procedure :: shear_weight
+      procedure :: shear_slopes
       procedure :: numbers
       procedure :: mirrored
       procedure :: coefficients
@@ -164,6 +165,21 @@ contains
          weight = exp(c(0) + x*(c(1) + x*(c(2) + x*(c(3) + x*c(4)))))
       end associate
    end function shear_weight
+
+   !> ln S at nodes, and its first three slopes along the film: (node, order from 0).
+   pure function shear_slopes(self, gap, sine, cosine) result(slopes)
+      class(film_oil), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      real(wp), intent(in) :: sine(:), cosine(:)
+      real(wp) :: slopes(size(sine), 0:3), x(size(sine))
+      call find_places(size(sine), gap, sine, cosine, x)
+      associate (c => self%shear, unit => -2/gap%arc())
+         slopes(:, 0) = c(0) + x*(c(1) + x*(c(2) + x*(c(3) + x*c(4))))
+         slopes(:, 1) = unit*(c(1) + x*(2*c(2) + x*(3*c(3) + x*4*c(4))))
+         slopes(:, 2) = unit**2*(2*c(2) + x*(6*c(3) + x*12*c(4)))
+         slopes(:, 3) = unit**3*(6*c(3) + x*24*c(4))
+      end associate
+   end function shear_slopes
 
    !> The place on the arc, from -1 to 1, at an angle from the pivot, rad.
    elemental real(wp) function place(gap, phi)

@@ -1,0 +1,264 @@
+!> How much more than a laminar film a turbulent one resists pressure and sliding, over its Reynolds number (docs/theory/
+!> turbulence.md):
+!>    (h^3/(mu kx) p_x)_x + (h^3/(mu kz) p_z)_z = U/2 h_x + h_t,   shear kf mu U/h,   Re = rho U h/mu,
+!> 12, 12 and 1 in a laminar film. Tabulated are ln(12/kx), ln(kx/kz) and ln kf over ln Re.
+!>
+!> `ng_pan`: the eddies of Reichardt's law in the shear that sliding makes (Ng and Pan, J. Basic Eng. 87 (1965) 675;
+!> Elrod and Ng, J. Lubr. Technol. 89 (1967) 346), integrated across the film; the others are fits over Re.
+module turbulence_closure
+   use kinds, only: wp, pi
+   use linear_algebra, only: solve
+   implicit none (type, external)
+   private
+   public :: closure_type, new_closure, closure_factors, along, across, shear, eddy_factors, eddy_conduction, closures, &
+      & largest_reynolds
+
+   !> The factors: ln(12/kx), ln(kx/kz), ln kf.
+   integer, parameter :: along = 1, across = 2, shear = 3, factors = 3
+   !> Names of the closures, numbered so.
+   character(len=*), parameter :: closures(*) = [character(len=14) :: 'ng_pan', 'ng_pan_fit', 'constantinescu', 'hirs']
+   !> Reynolds number up to which the factors are tabulated: a hundred times that of the fastest large bearings.
+   real(wp), parameter :: largest_reynolds = 1e7_wp
+   !> Degree of the polynomials, over cells at most this wide in ln Re: they leave 1e-11 (test_turbulence_closure).
+   integer, parameter :: degree = 9
+   real(wp), parameter :: widest_cell = 0.35_wp
+   integer, parameter :: least_cells = 12
+   !> Of the wall's law: von Karman's constant, and the thickness of the sublayer in wall units (Ng and Pan).
+   real(wp), parameter :: karman = 0.4_wp, sublayer = 10.7_wp
+   !> Of the fits, by closure from the second on: factor and power of Re in kx, kz and kf.
+   real(wp), parameter :: fit(2, factors, 2:4) = reshape([ &
+      & 0.0136_wp, 0.9_wp, 0.0043_wp, 0.96_wp, 0.0012_wp, 0.94_wp, &
+      & 0.026_wp, 0.8265_wp, 0.0198_wp, 0.741_wp, 0.0023_wp, 0.855_wp, &
+      & 0.0687_wp, 0.75_wp, 0.0392_wp, 0.75_wp, 0.00981_wp, 0.75_wp], [2, factors, 3])
+   integer, parameter :: hirs = 4
+   !> Points across half of a film, in a variable in which the eddies are smooth: 1e-13 (test_turbulence_closure).
+   integer, parameter :: points = 96
+
+   type :: closure_type
+      !> Number of the closure; Reynolds numbers below which a film is laminar and above which it is turbulent.
+      integer :: kind = 0
+      real(wp) :: laminar_below = 0, turbulent_above = 0
+      !> Bounds of the cells, ln Re, (0:cells); polynomials over the place in the cell from -1 to 1, (0:degree, factor,
+      !> cell).
+      real(wp), allocatable, private :: bounds(:), polynomials(:, :, :)
+   contains
+      procedure :: is_that_of
+      procedure :: at
+   end type closure_type
+
+   !> Factors and their first three derivatives over ln Re, (order from 0, factor).
+   type :: closure_factors
+      real(wp) :: value(0:3, factors) = 0
+   end type closure_factors
+
+contains
+
+   !> The closure of this name (closures), with a transition between these Reynolds numbers.
+   function new_closure(name, laminar_below, turbulent_above) result(closure)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: laminar_below, turbulent_above
+      type(closure_type) :: closure
+      real(wp) :: nodes(0:degree), matrix(0:degree, 0:degree), values(0:degree, factors)
+      integer :: i, j, n
+      logical :: ok
+      closure%kind = findloc(closures, name, dim=1)
+      closure%laminar_below = laminar_below
+      closure%turbulent_above = turbulent_above
+      closure%bounds = cell_bounds(closure%kind, log([laminar_below, turbulent_above, largest_reynolds]))
+      n = ubound(closure%bounds, 1)
+      allocate (closure%polynomials(0:degree, factors, n))
+      ! Chebyshev's points, both ends among them
+      nodes = [(-cos(i*pi/degree), i=0, degree)]
+      do j = 0, degree
+         matrix(:, j) = nodes**j
+      end do
+      do i = 1, n
+         associate (from => closure%bounds(i - 1), to => closure%bounds(i))
+            do j = 0, degree
+               values(j, :) = logarithms(closure, exp(from + (to - from)*(1 + nodes(j))/2))
+            end do
+         end associate
+         ! of Chebyshev's points the matrix is never singular
+         call solve(degree + 1, factors, matrix, values, ok)
+         closure%polynomials(:, :, i) = values
+      end do
+   end function new_closure
+
+   !> Whether it is the closure of this name and this transition.
+   pure logical function is_that_of(self, name, laminar_below, turbulent_above)
+      class(closure_type), intent(in) :: self
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: laminar_below, turbulent_above
+      is_that_of = closures(self%kind) == name .and. .not. any(abs([self%laminar_below - laminar_below, &
+         & self%turbulent_above - turbulent_above]) > 0)
+   end function is_that_of
+
+   !> Bounds of cells, ln Re, between those of the transition and of the table, and at the kinks of Hirs' law: (0:cells).
+   pure function cell_bounds(kind, ends) result(bounds)
+      integer, intent(in) :: kind
+      real(wp), intent(in) :: ends(3)
+      real(wp), allocatable :: bounds(:), kinks(:), all_bounds(:)
+      integer :: i, k, n
+      kinks = ends
+      if (kind == hirs) then
+         do k = 1, factors
+            associate (kink => log(merge(1.0_wp, 12.0_wp, k == shear)/fit(1, k, hirs))/fit(2, k, hirs))
+               if (all(abs(kinks - kink) > 1e-9_wp) .and. kink > ends(1)) kinks = [pack(kinks, kinks < kink), kink, &
+                  & pack(kinks, kinks > kink)]
+            end associate
+         end do
+      end if
+      all_bounds = kinks(:1)
+      do k = 2, size(kinks)
+         n = max(merge(least_cells, 1, kinks(k) <= ends(2)), ceiling((kinks(k) - kinks(k - 1))/widest_cell))
+         all_bounds = [all_bounds, [(kinks(k - 1) + (kinks(k) - kinks(k - 1))*i/n, i=1, n)]]
+      end do
+      allocate (bounds(0:size(all_bounds) - 1), source=all_bounds)
+   end function cell_bounds
+
+   !> The factors at a Reynolds number, with their derivatives over its logarithm; 0 where the film is laminar. Above
+   !> the table they go on as powers of Re.
+   elemental function at(self, log_reynolds) result(found)
+      class(closure_type), intent(in) :: self
+      real(wp), intent(in) :: log_reynolds
+      type(closure_factors) :: found
+      real(wp) :: x, unit, beyond
+      integer :: cell, k, n, from, to
+      n = ubound(self%bounds, 1)
+      if (log_reynolds <= self%bounds(0)) return
+      from = 0
+      to = n
+      do while (to - from > 1)
+         cell = (from + to)/2
+         if (log_reynolds < self%bounds(cell)) then
+            to = cell
+         else
+            from = cell
+         end if
+      end do
+      cell = to
+      beyond = max(log_reynolds - self%bounds(n), 0.0_wp)
+      unit = 2/(self%bounds(cell) - self%bounds(cell - 1))
+      x = unit*(log_reynolds - beyond - self%bounds(cell - 1)) - 1
+      do k = 1, factors
+         found%value(:, k) = horner(self%polynomials(:, k, cell), x)*[1.0_wp, unit, unit**2, unit**3]
+      end do
+      if (beyond > 0) then
+         found%value(0, :) = found%value(0, :) + beyond*found%value(1, :)
+         found%value(2:, :) = 0
+      end if
+   end function at
+
+   !> A polynomial and its first three derivatives.
+   pure function horner(coefficients, x) result(value)
+      real(wp), intent(in) :: coefficients(0:), x
+      real(wp) :: value(0:3)
+      integer :: j
+      value = 0
+      do j = ubound(coefficients, 1), 0, -1
+         value(3) = value(3)*x + value(2)
+         value(2) = value(2)*x + value(1)
+         value(1) = value(1)*x + value(0)
+         value(0) = value(0)*x + coefficients(j)
+      end do
+      value(2) = 2*value(2)
+      value(3) = 6*value(3)
+   end function horner
+
+   !> ln(12/kx), ln(kx/kz) and ln kf.
+   function logarithms(closure, reynolds)
+      type(closure_type), intent(in) :: closure
+      real(wp), intent(in) :: reynolds
+      real(wp) :: logarithms(factors), k(factors), share
+      share = turbulent_share(closure, reynolds)
+      if (closure%kind == 1) then
+         k = eddy_factors(reynolds, share)
+      else
+         k = [12.0_wp, 12.0_wp, 1.0_wp]
+         associate (more => fit(1, :, closure%kind)*reynolds**fit(2, :, closure%kind))
+            if (closure%kind == hirs) then
+               k = k + share*(max(k, more) - k)
+            else
+               k = k + share*more
+            end if
+         end associate
+      end if
+      logarithms = [log(12/k(along)), log(k(along)/k(across)), log(k(shear))]
+   end function logarithms
+
+   !> w, from 0 in a laminar film to 1 in a turbulent one, with four continuous derivatives.
+   pure real(wp) function turbulent_share(closure, reynolds) result(w)
+      type(closure_type), intent(in) :: closure
+      real(wp), intent(in) :: reynolds
+      real(wp) :: s
+      s = min(max((reynolds - closure%laminar_below)/(closure%turbulent_above - closure%laminar_below), 0.0_wp), 1.0_wp)
+      w = s**5*(126 - s*(420 - s*(540 - s*(315 - s*70))))
+   end function turbulent_share
+
+   !> kx, kz and kf of Ng and Pan's eddies, of which this share is there.
+   function eddy_factors(reynolds, share) result(k)
+      real(wp), intent(in) :: reynolds, share
+      real(wp) :: k(factors), eta(points), weight(points), eddies(points), slopes(points)
+      call find_eddies(reynolds, eta, weight, eddies, slopes)
+      associate (f => 1 + share*eddies, g => share*slopes/2)
+         k = 1/[2*sum(weight*(0.5_wp - eta)**2*(1 - g/f)/f), 2*sum(weight*(0.5_wp - eta)**2/f), 2*sum(weight/f)]
+      end associate
+   end function eddy_factors
+
+   !> How much more heat than by conduction alone goes from wall to wall, where this share of the eddies is there and
+   !> the Prandtl number of the oil is so many times that of the eddies.
+   function eddy_conduction(reynolds, share, prandtl_ratio) result(factor)
+      real(wp), intent(in) :: reynolds, share, prandtl_ratio
+      real(wp) :: factor, eta(points), weight(points), eddies(points), slopes(points)
+      call find_eddies(reynolds, eta, weight, eddies, slopes)
+      factor = 1/(2*sum(weight/(1 + share*prandtl_ratio*eddies)))
+   end function eddy_conduction
+
+   !> Eddy viscosity over that of the oil, eps, and its slope y d eps/dy over the distance y from the wall, at points
+   !> across half of the film, in parts of its thickness, with weights whose sum is 1/2. The film's thickness in wall
+   !> units h+ is where h+^2 int 1/(1 + eps) = Re, the shear of sliding.
+   subroutine find_eddies(reynolds, eta, weight, eddies, slopes)
+      real(wp), intent(in) :: reynolds
+      real(wp), dimension(points), intent(out) :: eta, weight, eddies, slopes
+      real(wp) :: u(points), of_u(points), log_h, change, resistance
+      integer :: i
+      call gauss_points(u, of_u)
+      log_h = 0.5_wp*log(reynolds)
+      ! Newton's method; the shear grows with the thickness, so that it ends
+      do i = 1, 50
+         ! the distance from the wall is that of the sublayer times sinh u
+         associate (last => asinh(exp(log_h)/(2*sublayer)))
+            eta = sublayer*sinh(last*u)*exp(-log_h)
+            weight = sublayer*cosh(last*u)*last*of_u*exp(-log_h)
+         end associate
+         associate (y => eta*exp(log_h))
+            eddies = karman*(y - sublayer*tanh(y/sublayer))
+            slopes = karman*y*tanh(y/sublayer)**2
+         end associate
+         resistance = 2*sum(weight/(1 + eddies))
+         change = (log(reynolds/resistance) - 2*log_h)/(2 - 2*sum(weight*slopes/(1 + eddies)**2)/resistance)
+         log_h = log_h + change
+         if (abs(change) < 1e-14_wp*max(1.0_wp, abs(log_h))) return
+      end do
+   end subroutine find_eddies
+
+   !> Gauss-Legendre's points and weights from 0 to 1.
+   pure subroutine gauss_points(x, weight)
+      real(wp), intent(out) :: x(points), weight(points)
+      real(wp) :: root, p(0:points), slope
+      integer :: i, k, iteration
+      do i = 1, points
+         root = cos(pi*(i - 0.25_wp)/(points + 0.5_wp))
+         do iteration = 1, 10
+            p(0:1) = [1.0_wp, root]
+            do k = 2, points
+               p(k) = ((2*k - 1)*root*p(k - 1) - (k - 1)*p(k - 2))/k
+            end do
+            slope = points*(root*p(points) - p(points - 1))/(root**2 - 1)
+            root = root - p(points)/slope
+         end do
+         x(i) = 0.5_wp*(1 - root)
+         weight(i) = 1/((1 - root**2)*slope**2)
+      end do
+   end subroutine gauss_points
+end module turbulence_closure
