@@ -10,6 +10,7 @@ module equilibrium_notes
    use force_balance, only: stability_type
    use bearing_shape, only: bearing_shape_type
    use heat_balance, only: oil_temperatures_type
+   use bearing_losses, only: pad_loss
    use equilibrium_record, only: equilibrium_type, static_figures_type, find_static_figures
    use equations_of_motion, only: machine_model
    use equilibrium, only: bearing_alone, part_of, bearing_loads
@@ -195,13 +196,22 @@ contains
          do i = 1, size(pads)
             print '(a)', filled('  pad {}: load {.1} N, loss {.1} W, oil in {u.3}, out {u.3} and at the sides {u.3} ' &
                & //'ml/s, Reynolds number {.1}', [real(wp) :: i, pads(i)%load, pads(i)%power(), pads(i)%inlet, &
-               & pads(i)%outlet, pads(i)%side, figures%reynolds_number(i)])
+               & pads(i)%outlet, pads(i)%side, figures%reynolds_number(i)])//turbulence(pads(i))
          end do
          print '(a)', filled('  all pads: loss {.1} W, oil in {u.3}, at the sides {u.3} ml/s', [sum(pads%power()), &
             & sum(pads%inlet), sum(pads%side)])//warmer(figures%rise_fresh, ', oil warmer by ', 'fresh at every pad') &
             & //warmer(figures%rise_side, ' to ', 'fresh for the sides alone')
       end associate
    contains
+      !> How turbulent a film is, where it may be.
+      function turbulence(pad) result(said)
+         type(pad_loss), intent(in) :: pad
+         character(len=:), allocatable :: said
+         said = ''
+         if (inputs%bearings(1)%film%turbulence /= 'none') said = filled(' (at most {.1}; {.1} % turbulent)', &
+            & [pad%largest_reynolds, 100*pad%turbulent_share])
+      end function turbulence
+
       !> By how many K, and where; nothing where next to no oil flows.
       function warmer(rise, before, where_fresh)
          real(wp), intent(in) :: rise

@@ -4,7 +4,8 @@ module bearing_losses
    use kinds, only: wp
    use case_groups, only: bearing_type
    use film_solver, only: film_motion, film_oil, film_law_type, film_ok
-   use turbulent_film, only: take_oil
+   use turbulent_film, only: turbulent_film_type, take_oil
+   use pad_gap, only: pad_gap_type
    use film_losses, only: film_losses_type, film_loss
    use asperity_contact, only: asperity_load
    use rigid_rotor, only: journal_motion
@@ -33,6 +34,8 @@ module bearing_losses
       real(wp) :: reformation = 0
       !> Over the arc, m.
       real(wp) :: mean_film_thickness = 0
+      !> Of a turbulent film: largest local Reynolds number; mean over the arc of the transition's share.
+      real(wp) :: largest_reynolds = 0, turbulent_share = 0
    contains
       procedure :: power
       procedure :: reynolds_number
@@ -92,9 +95,29 @@ contains
             call self%films(i)%find(motion, laws(i), speed, film)
             losses(i) = of_pad(pad, speed, film, asperity)
             losses(i)%mean_film_thickness = pad%gap%mean_film_thickness(motion, pad%directions)
+            select type (laws)
+            type is (turbulent_film_type)
+               call find_turbulence(laws(i), pad%gap, motion, losses(i))
+            end select
          end associate
       end do
    end subroutine find
+
+   !> How turbulent a film is, at points of its arc.
+   pure subroutine find_turbulence(law, gap, motion, loss)
+      type(turbulent_film_type), intent(in) :: law
+      type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
+      type(pad_loss), intent(inout) :: loss
+      integer, parameter :: points = 200
+      real(wp) :: reynolds(0:points)
+      integer :: i
+      reynolds = law%reynolds_number(gap, motion, [(i*gap%arc()/points - gap%trailing_angle, i=0, points)])
+      loss%largest_reynolds = maxval(reynolds)
+      associate (w => law%closure%turbulent_share(reynolds))
+         loss%turbulent_share = (sum(w) - 0.5_wp*(w(0) + w(points)))/points
+      end associate
+   end subroutine find_turbulence
 
    pure type(pad_loss) function of_pad(pad, speed, film, asperity) result(loss)
       type(tilting_pad_type), intent(in) :: pad

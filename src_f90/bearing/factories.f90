@@ -61,12 +61,14 @@ contains
 
    !> The film solver of all pads. No function: gfortran never frees the result of one whose type is chosen within,
    !> and Python makes a solver for every instant.
-   subroutine make_film(bearing, tolerance, accuracy, film)
+   subroutine make_film(bearing, tolerance, accuracy, law_changes, film)
       type(bearing_type), intent(in) :: bearing
       !> The relative one of a march.
       real(wp), intent(in) :: tolerance
       !> One of the five above.
       integer, intent(in) :: accuracy
+      !> Whether the law of the films changes in a march, so that no table holds.
+      logical, intent(in) :: law_changes
       class(film_solver_type), allocatable, intent(out) :: film
       type(pad_gap_type) :: gaps(bearing%pad_count())
       character(len=:), allocatable :: solver
@@ -88,7 +90,8 @@ contains
             of_volumes = converged_volumes_error
          end if
          solver = f%solver
-         if (accuracy == quick_films .or. solver == 'auto' .and. accuracy == static_films) solver = 'direct'
+         if (accuracy == quick_films .or. solver == 'auto' .and. (accuracy == static_films .or. law_changes)) &
+            & solver = 'direct'
          select case (solver)
          case ('sor')
             film = new_sor_film(gaps, sor_settings(f, gaps, tolerance, accuracy))

@@ -6,6 +6,7 @@ module tilting_pad_bearing
    use linear_algebra, only: identity, solve_few
    use text, only: to_text
    use case_inputs, only: case_type
+   use case_groups, only: bearing_type
    use film_solver, only: film_solver_type, film_motion, film_oil, film_law_type, film_response, film_not_converged
    use turbulent_film, only: take_oil
    use asperity_contact, only: asperity_contact_type, asperity_load
@@ -120,7 +121,8 @@ contains
          allocate (bearing%pivots(n))
          call set_parts(bearing, inputs, b)
          if (present(accuracy)) bearing%accuracy = accuracy
-         call make_film(given, inputs%integration%relative_tolerance, bearing%accuracy, bearing%film)
+         call make_film(given, inputs%integration%relative_tolerance, bearing%accuracy, law_changes(inputs, given), &
+            & bearing%film)
          call make_contacts(given%pivot, inputs%moves(), bearing%pivots)
          allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
             & bearing%asperity(n), bearing%film_motion(n), bearing%response(n))
@@ -157,6 +159,14 @@ contains
          end if
       end associate
    end subroutine set_parts
+
+   !> Whether films are turbulent at speeds or with viscosities that change in a march.
+   pure logical function law_changes(inputs, bearing)
+      type(case_type), intent(in) :: inputs
+      type(bearing_type), intent(in) :: bearing
+      law_changes = bearing%film%turbulence /= 'none' .and. .not. (inputs%is_steady() &
+         & .and. inputs%thermal%march == 'frozen')
+   end function law_changes
 
    !> Gives its pads these coordinates.
    subroutine set_coordinates(self, coordinates)
@@ -221,7 +231,8 @@ contains
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: b
       class(film_solver_type), allocatable :: film
-      call make_film(inputs%bearings(b), inputs%integration%relative_tolerance, self%accuracy, film)
+      call make_film(inputs%bearings(b), inputs%integration%relative_tolerance, self%accuracy, &
+         & law_changes(inputs, inputs%bearings(b)), film)
       film%counters = self%film%counters
       call film%set_cavitation(self%film%cavitates())
       call move_alloc(film, self%film)

@@ -107,6 +107,11 @@ contains
             & 'flow that the film takes up at the reformation boundary beyond what reaches it')
          call put('temperature_rise', figures%temperature_rise, 'K', 'warming of the oil from leading to trailing edge')
          call put('reynolds_number', figures%reynolds_number, '1', 'rho U h/mu with the mean film thickness')
+         if (inputs%bearings(1)%film%turbulence /= 'none') then
+            call put('largest_reynolds_number', pads%largest_reynolds, '1', 'largest local rho U h/mu of the film')
+            call put('turbulent_share', pads%turbulent_share, '1', &
+               & 'mean over the arc of the share of turbulence: 0 laminar, 1 turbulent')
+         end if
          call put('total_power_loss', sum(pads%power()), 'W', 'power loss of all pads')
          call put('total_inlet_flow', sum(pads%inlet), 'm^3/s', 'flow in at all leading edges')
          call put('total_outlet_flow', sum(pads%outlet), 'm^3/s', 'flow out at all trailing edges')

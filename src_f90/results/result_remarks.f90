@@ -158,9 +158,10 @@ contains
                & [real(wp) :: i, inlet(i), inlet(i) + taken(i), taken(i)])
          end do
          call file%get_list('equilibrium/reynolds_number', reynolds)
-         said = said//line_if(any(reynolds > laminar_up_to), 'Reynolds number of the film of ' &
-            & //listed(reynolds > laminar_up_to)//': {i}; above {} films may be turbulent, and turbulent ones lose ' &
-            & //'more power', [maxval(reynolds), laminar_up_to])
+         said = said//line_if(bearing%film%turbulence == 'none' .and. any(reynolds > laminar_up_to), 'Reynolds number ' &
+            & //'of the film of '//listed(reynolds > laminar_up_to)//': {i}; above {} films may be turbulent, which ' &
+            & //'changes film, power loss, stiffness and damping; film%turbulence = ''ng_pan'' takes them so', &
+            & [maxval(reynolds), laminar_up_to])
          if (bearing%tilting()) then
             call file%get_list('equilibrium/pivot_load', load)
             associate (idle => load < smallest_share*sum(load))

@@ -29,7 +29,7 @@ module turbulence_closure
    real(wp), parameter :: fit(2, factors, 2:4) = reshape([ &
       & 0.0136_wp, 0.9_wp, 0.0043_wp, 0.96_wp, 0.0012_wp, 0.94_wp, &
       & 0.026_wp, 0.8265_wp, 0.0198_wp, 0.741_wp, 0.0023_wp, 0.855_wp, &
-      & 0.0687_wp, 0.75_wp, 0.0392_wp, 0.75_wp, 0.00981_wp, 0.75_wp], [2, factors, 3])
+      & 0.0687_wp, 0.75_wp, 0.0392_wp, 0.75_wp, 0.066_wp*2**(-2.75_wp), 0.75_wp], [2, factors, 3])
    integer, parameter :: hirs = 4
    !> Points across half of a film, in a variable in which the eddies are smooth: 1e-13 (test_turbulence_closure).
    integer, parameter :: points = 96
@@ -38,12 +38,13 @@ module turbulence_closure
       !> Number of the closure; Reynolds numbers below which a film is laminar and above which it is turbulent.
       integer :: kind = 0
       real(wp) :: laminar_below = 0, turbulent_above = 0
-      !> Bounds of the cells, ln Re, (0:cells); polynomials over the place in the cell from -1 to 1, (0:degree, factor,
+      !> Bounds of the cells, ln Re, one more than cells; polynomials over the place in the cell from -1 to 1, (0:degree, factor,
       !> cell).
       real(wp), allocatable, private :: bounds(:), polynomials(:, :, :)
    contains
       procedure :: is_that_of
       procedure :: at
+      procedure :: turbulent_share
    end type closure_type
 
    !> Factors and their first three derivatives over ln Re, (order from 0, factor).
@@ -65,7 +66,7 @@ contains
       closure%laminar_below = laminar_below
       closure%turbulent_above = turbulent_above
       closure%bounds = cell_bounds(closure%kind, log([laminar_below, turbulent_above, largest_reynolds]))
-      n = ubound(closure%bounds, 1)
+      n = size(closure%bounds) - 1
       allocate (closure%polynomials(0:degree, factors, n))
       ! Chebyshev's points, both ends among them
       nodes = [(-cos(i*pi/degree), i=0, degree)]
@@ -73,7 +74,7 @@ contains
          matrix(:, j) = nodes**j
       end do
       do i = 1, n
-         associate (from => closure%bounds(i - 1), to => closure%bounds(i))
+         associate (from => closure%bounds(i), to => closure%bounds(i + 1))
             do j = 0, degree
                values(j, :) = logarithms(closure, exp(from + (to - from)*(1 + nodes(j))/2))
             end do
@@ -93,11 +94,11 @@ contains
          & self%turbulent_above - turbulent_above]) > 0)
    end function is_that_of
 
-   !> Bounds of cells, ln Re, between those of the transition and of the table, and at the kinks of Hirs' law: (0:cells).
+   !> Bounds of cells, ln Re, between those of the transition and of the table, and at the kinks of Hirs' law.
    pure function cell_bounds(kind, ends) result(bounds)
       integer, intent(in) :: kind
       real(wp), intent(in) :: ends(3)
-      real(wp), allocatable :: bounds(:), kinks(:), all_bounds(:)
+      real(wp), allocatable :: bounds(:), kinks(:)
       integer :: i, k, n
       kinks = ends
       if (kind == hirs) then
@@ -108,12 +109,11 @@ contains
             end associate
          end do
       end if
-      all_bounds = kinks(:1)
+      bounds = kinks(:1)
       do k = 2, size(kinks)
          n = max(merge(least_cells, 1, kinks(k) <= ends(2)), ceiling((kinks(k) - kinks(k - 1))/widest_cell))
-         all_bounds = [all_bounds, [(kinks(k - 1) + (kinks(k) - kinks(k - 1))*i/n, i=1, n)]]
+         bounds = [bounds, [(kinks(k - 1) + (kinks(k) - kinks(k - 1))*i/n, i=1, n)]]
       end do
-      allocate (bounds(0:size(all_bounds) - 1), source=all_bounds)
    end function cell_bounds
 
    !> The factors at a Reynolds number, with their derivatives over its logarithm; 0 where the film is laminar. Above
@@ -124,9 +124,9 @@ contains
       type(closure_factors) :: found
       real(wp) :: x, unit, beyond
       integer :: cell, k, n, from, to
-      n = ubound(self%bounds, 1)
-      if (log_reynolds <= self%bounds(0)) return
-      from = 0
+      n = size(self%bounds)
+      if (log_reynolds <= self%bounds(1)) return
+      from = 1
       to = n
       do while (to - from > 1)
          cell = (from + to)/2
@@ -136,10 +136,10 @@ contains
             from = cell
          end if
       end do
-      cell = to
+      cell = from
       beyond = max(log_reynolds - self%bounds(n), 0.0_wp)
-      unit = 2/(self%bounds(cell) - self%bounds(cell - 1))
-      x = unit*(log_reynolds - beyond - self%bounds(cell - 1)) - 1
+      unit = 2/(self%bounds(to) - self%bounds(from))
+      x = unit*(log_reynolds - beyond - self%bounds(from)) - 1
       do k = 1, factors
          found%value(:, k) = horner(self%polynomials(:, k, cell), x)*[1.0_wp, unit, unit**2, unit**3]
       end do
@@ -187,8 +187,8 @@ contains
    end function logarithms
 
    !> w, from 0 in a laminar film to 1 in a turbulent one, with four continuous derivatives.
-   pure real(wp) function turbulent_share(closure, reynolds) result(w)
-      type(closure_type), intent(in) :: closure
+   elemental real(wp) function turbulent_share(closure, reynolds) result(w)
+      class(closure_type), intent(in) :: closure
       real(wp), intent(in) :: reynolds
       real(wp) :: s
       s = min(max((reynolds - closure%laminar_below)/(closure%turbulent_above - closure%laminar_below), 0.0_wp), 1.0_wp)

@@ -21,9 +21,9 @@ module turbulent_film
       !> The oil without eddies, and what eddies do.
       type(film_oil) :: oil
       type(closure_type) :: closure
-      !> ln of the Reynolds number of a film as thick as the pad clearance, of oil of the law's viscosity; of a film
-      !> without eddies wherever it goes it is none.
-      real(wp) :: log_reynolds = 0
+      !> Reynolds number of a film as thick as the pad clearance, of oil of the law's viscosity, and its logarithm, where
+      !> a film has eddies anywhere.
+      real(wp) :: reynolds = 0, log_reynolds = 0
       logical :: has_eddies = .false.
    contains
       procedure :: set
@@ -63,21 +63,19 @@ contains
       real(wp), intent(in) :: density, surface_speed
       self%oil = oil
       self%viscosity = oil%viscosity
-      associate (reynolds => density*abs(surface_speed)*gap%machined_clearance/oil%viscosity)
-         self%has_eddies = thickest*reynolds > self%closure%laminar_below
-         if (self%has_eddies) self%log_reynolds = log(reynolds)
-      end associate
+      self%reynolds = density*abs(surface_speed)*gap%machined_clearance/oil%viscosity
+      self%has_eddies = thickest*self%reynolds > self%closure%laminar_below
+      if (self%has_eddies) self%log_reynolds = log(self%reynolds)
       self%varies = oil%varies .or. self%has_eddies
    end subroutine set
 
-   !> The local Reynolds number at an angle from the pivot, rad; 0 where no film has eddies.
+   !> The local Reynolds number at an angle from the pivot, rad.
    elemental real(wp) function reynolds_number(self, gap, motion, phi)
       class(turbulent_film_type), intent(in) :: self
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: phi
-      reynolds_number = 0
-      if (self%has_eddies) reynolds_number = exp(self%log_reynolds)*gap%thickness(motion, sin(phi), cos(phi)) &
+      reynolds_number = self%reynolds*gap%thickness(motion, sin(phi), cos(phi)) &
          & /(gap%machined_clearance*self%oil%shear_weight(gap, motion, phi))
    end function reynolds_number
 
