@@ -9,7 +9,7 @@ program test_turbulent_film
    use film_law, only: film_law_type
    use film_oils, only: film_oil, uneven_oil, weights_degree
    use turbulence_closure, only: closure_type, closure_factors, new_closure, along, across, shear, eddy_factors, &
-      & eddy_conduction, closures
+      & eddy_conduction, closures, wall_law_type, new_wall_law
    use turbulent_film, only: turbulent_film_type
    use fourier_film, only: fourier_film_type, new_fourier_film, converged_film
    use direct_film, only: new_direct_film
@@ -81,8 +81,10 @@ contains
    subroutine closure_tables()
       type(closure_type) :: closure
       type(closure_factors) :: here, there
+      type(wall_law_type) :: wall
       real(wp) :: r, width, k(3), w
       integer :: i, c
+      wall = new_wall_law()
       do c = 1, 3
          closure = new_closure(trim(closures(c)), 500.0_wp, 1000.0_wp)
          do i = 0, 400
@@ -90,7 +92,7 @@ contains
             here = closure%at(r)
             if (c == 1) then
                w = closure%turbulent_share(exp(r))
-               k = eddy_factors(exp(r), w)
+               k = eddy_factors(wall, exp(r), w)
                call expect_close(maxval(abs(factors_of(closure, exp(r))/k - 1)), 0.0_wp, 1e-10_wp, 'the table')
             end if
             width = 1e-4_wp
@@ -108,14 +110,16 @@ contains
    !> Heat from wall to wall, given to four decimals.
    subroutine conduction()
       type(closure_type) :: closure
+      type(wall_law_type) :: wall
       real(wp), parameter :: re(3) = [700.0_wp, 1000.0_wp, 5000.0_wp], given(3) = [1.8427_wp, 6.8_wp, 31.3306_wp]
       integer :: i
+      wall = new_wall_law()
       closure = new_closure('ng_pan', 500.0_wp, 1500.0_wp)
       do i = 1, size(re)
-         call expect_close(eddy_conduction(re(i), closure%turbulent_share(re(i)), 100/0.9_wp), given(i), 6e-5_wp, &
+         call expect_close(eddy_conduction(wall, re(i), closure%turbulent_share(re(i)), 100/0.9_wp), given(i), 6e-5_wp, &
             & 'conduction')
       end do
-      call expect_close(eddy_conduction(500.0_wp, 0.0_wp, 100.0_wp), 1.0_wp, 1e-12_wp, 'without eddies')
+      call expect_close(eddy_conduction(wall, 500.0_wp, 0.0_wp, 100.0_wp), 1.0_wp, 1e-12_wp, 'without eddies')
    end subroutine conduction
 
    !> A pad of the single films, whose pivot leaves this angle towards the leading edge, degrees.

@@ -11,7 +11,7 @@ module turbulence_closure
    implicit none (type, external)
    private
    public :: closure_type, new_closure, closure_factors, along, across, shear, eddy_factors, eddy_conduction, closures, &
-      & largest_reynolds
+      & largest_reynolds, wall_law_type, new_wall_law
 
    !> The factors: ln(12/kx), ln(kx/kz), ln kf.
    integer, parameter :: along = 1, across = 2, shear = 3, factors = 3
@@ -32,7 +32,14 @@ module turbulence_closure
       & 0.0687_wp, 0.75_wp, 0.0392_wp, 0.75_wp, 0.066_wp*2**(-2.75_wp), 0.75_wp], [2, factors, 3])
    integer, parameter :: hirs = 4
    !> Points across half of a film, in a variable in which the eddies are smooth: 1e-13 (test_turbulence_closure).
-   integer, parameter :: points = 96
+   integer, parameter :: points = 48
+
+   !> Points across half of a film, and what Newton's method for its thickness in wall units begins with, ln h+.
+   type :: wall_law_type
+      real(wp) :: u(points), weight(points), log_h = 1
+   contains
+      procedure :: find_eddies
+   end type wall_law_type
 
    type :: closure_type
       !> Number of the closure; Reynolds numbers below which a film is laminar and above which it is turbulent.
@@ -60,6 +67,7 @@ contains
       real(wp), intent(in) :: laminar_below, turbulent_above
       type(closure_type) :: closure
       real(wp) :: nodes(0:degree), matrix(0:degree, 0:degree), values(0:degree, factors)
+      type(wall_law_type) :: wall
       integer :: i, j, n
       logical :: ok
       closure%kind = findloc(closures, name, dim=1)
@@ -67,6 +75,7 @@ contains
       closure%turbulent_above = turbulent_above
       closure%bounds = cell_bounds(closure%kind, log([laminar_below, turbulent_above, largest_reynolds]))
       n = size(closure%bounds) - 1
+      wall = new_wall_law()
       allocate (closure%polynomials(0:degree, factors, n))
       ! Chebyshev's points, both ends among them
       nodes = [(-cos(i*pi/degree), i=0, degree)]
@@ -76,7 +85,7 @@ contains
       do i = 1, n
          associate (from => closure%bounds(i), to => closure%bounds(i + 1))
             do j = 0, degree
-               values(j, :) = logarithms(closure, exp(from + (to - from)*(1 + nodes(j))/2))
+               values(j, :) = logarithms(closure, wall, exp(from + (to - from)*(1 + nodes(j))/2))
             end do
          end associate
          ! of Chebyshev's points the matrix is never singular
@@ -166,13 +175,14 @@ contains
    end function horner
 
    !> ln(12/kx), ln(kx/kz) and ln kf.
-   function logarithms(closure, reynolds)
+   function logarithms(closure, wall, reynolds)
       type(closure_type), intent(in) :: closure
+      type(wall_law_type), intent(inout) :: wall
       real(wp), intent(in) :: reynolds
       real(wp) :: logarithms(factors), k(factors), share
       share = turbulent_share(closure, reynolds)
       if (closure%kind == 1) then
-         k = eddy_factors(reynolds, share)
+         k = eddy_factors(wall, reynolds, share)
       else
          k = [12.0_wp, 12.0_wp, 1.0_wp]
          associate (more => fit(1, :, closure%kind)*reynolds**fit(2, :, closure%kind))
@@ -196,10 +206,11 @@ contains
    end function turbulent_share
 
    !> kx, kz and kf of Ng and Pan's eddies, of which this share is there.
-   function eddy_factors(reynolds, share) result(k)
+   function eddy_factors(wall, reynolds, share) result(k)
+      type(wall_law_type), intent(inout) :: wall
       real(wp), intent(in) :: reynolds, share
       real(wp) :: k(factors), eta(points), weight(points), eddies(points), slopes(points)
-      call find_eddies(reynolds, eta, weight, eddies, slopes)
+      call wall%find_eddies(reynolds, eta, weight, eddies, slopes)
       associate (f => 1 + share*eddies, g => share*slopes/2)
          k = 1/[2*sum(weight*(0.5_wp - eta)**2*(1 - g/f)/f), 2*sum(weight*(0.5_wp - eta)**2/f), 2*sum(weight/f)]
       end associate
@@ -207,46 +218,19 @@ contains
 
    !> How much more heat than by conduction alone goes from wall to wall, where this share of the eddies is there and
    !> the Prandtl number of the oil is so many times that of the eddies.
-   function eddy_conduction(reynolds, share, prandtl_ratio) result(factor)
+   function eddy_conduction(wall, reynolds, share, prandtl_ratio) result(factor)
+      type(wall_law_type), intent(inout) :: wall
       real(wp), intent(in) :: reynolds, share, prandtl_ratio
       real(wp) :: factor, eta(points), weight(points), eddies(points), slopes(points)
-      call find_eddies(reynolds, eta, weight, eddies, slopes)
+      call wall%find_eddies(reynolds, eta, weight, eddies, slopes)
       factor = 1/(2*sum(weight/(1 + share*prandtl_ratio*eddies)))
    end function eddy_conduction
 
-   !> Eddy viscosity over that of the oil, eps, and its slope y d eps/dy over the distance y from the wall, at points
-   !> across half of the film, in parts of its thickness, with weights whose sum is 1/2. The film's thickness in wall
-   !> units h+ is where h+^2 int 1/(1 + eps) = Re, the shear of sliding.
-   subroutine find_eddies(reynolds, eta, weight, eddies, slopes)
-      real(wp), intent(in) :: reynolds
-      real(wp), dimension(points), intent(out) :: eta, weight, eddies, slopes
-      real(wp) :: u(points), of_u(points), log_h, change, resistance
-      integer :: i
-      call gauss_points(u, of_u)
-      log_h = 0.5_wp*log(reynolds)
-      ! Newton's method; the shear grows with the thickness, so that it ends
-      do i = 1, 50
-         ! the distance from the wall is that of the sublayer times sinh u
-         associate (last => asinh(exp(log_h)/(2*sublayer)))
-            eta = sublayer*sinh(last*u)*exp(-log_h)
-            weight = sublayer*cosh(last*u)*last*of_u*exp(-log_h)
-         end associate
-         associate (y => eta*exp(log_h))
-            eddies = karman*(y - sublayer*tanh(y/sublayer))
-            slopes = karman*y*tanh(y/sublayer)**2
-         end associate
-         resistance = 2*sum(weight/(1 + eddies))
-         change = (log(reynolds/resistance) - 2*log_h)/(2 - 2*sum(weight*slopes/(1 + eddies)**2)/resistance)
-         log_h = log_h + change
-         if (abs(change) < 1e-14_wp*max(1.0_wp, abs(log_h))) return
-      end do
-   end subroutine find_eddies
-
-   !> Gauss-Legendre's points and weights from 0 to 1.
-   pure subroutine gauss_points(x, weight)
-      real(wp), intent(out) :: x(points), weight(points)
+   !> Points across half of a film for eddies at any Reynolds number.
+   pure type(wall_law_type) function new_wall_law() result(wall)
       real(wp) :: root, p(0:points), slope
       integer :: i, k, iteration
+      ! Gauss-Legendre's, from 0 to 1
       do i = 1, points
          root = cos(pi*(i - 0.25_wp)/(points + 0.5_wp))
          do iteration = 1, 10
@@ -257,8 +241,36 @@ contains
             slope = points*(root*p(points) - p(points - 1))/(root**2 - 1)
             root = root - p(points)/slope
          end do
-         x(i) = 0.5_wp*(1 - root)
-         weight(i) = 1/((1 - root**2)*slope**2)
+         wall%u(i) = 0.5_wp*(1 - root)
+         wall%weight(i) = 1/((1 - root**2)*slope**2)
       end do
-   end subroutine gauss_points
+   end function new_wall_law
+
+   !> Eddy viscosity over that of the oil, eps, and its slope y d eps/dy over the distance y from the wall, at points
+   !> across half of the film, in parts of its thickness, with weights whose sum is 1/2. The film's thickness in wall
+   !> units h+ is where h+^2 int 1/(1 + eps) = Re, the shear of sliding.
+   subroutine find_eddies(self, reynolds, eta, weight, eddies, slopes)
+      class(wall_law_type), intent(inout) :: self
+      real(wp), intent(in) :: reynolds
+      real(wp), dimension(points), intent(out) :: eta, weight, eddies, slopes
+      real(wp), dimension(points) :: y, curved
+      real(wp) :: last, change, resistance
+      integer :: i
+      ! Newton's method; the shear grows with the thickness, so that it ends
+      do i = 1, 50
+         ! the distance from the wall is that of the sublayer times sinh of u
+         last = asinh(exp(self%log_h)/(2*sublayer))
+         curved = exp(last*self%u)
+         y = sublayer*(curved - 1/curved)/2
+         weight = sublayer*(curved + 1/curved)/2*last*self%weight*exp(-self%log_h)
+         eddies = tanh(y/sublayer)
+         slopes = karman*y*eddies**2
+         eddies = karman*(y - sublayer*eddies)
+         resistance = 2*sum(weight/(1 + eddies))
+         change = (log(reynolds/resistance) - 2*self%log_h)/(2 - 2*sum(weight*slopes/(1 + eddies)**2)/resistance)
+         if (abs(change) < 1e-13_wp*max(1.0_wp, abs(self%log_h))) exit
+         self%log_h = self%log_h + change
+      end do
+      eta = y*exp(-self%log_h)
+   end subroutine find_eddies
 end module turbulence_closure
