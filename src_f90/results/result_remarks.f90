@@ -7,6 +7,7 @@ module result_remarks
    use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use case_remarks, only: remarks_on_load, remark_on_unbalance
+   use turbulence_closure, only: closure_type, new_closure
    use bearing_equilibrium, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
    use record, only: record_type, lines
@@ -23,6 +24,9 @@ module result_remarks
    character(len=*), parameter :: name = 'summary/remarks'
    !> Reynolds number of a film above which it may be turbulent: published limits lie from here to 1500.
    real(wp), parameter :: laminar_up_to = 500
+   !> Power n of the Reynolds number with which the resistance kx of a film may grow in its transition: its load goes with
+   !> kx/h^2, that is h^(n - 2).
+   real(wp), parameter :: steep_transition = 2
    !> Warming of oil, K, across which one viscosity does not hold, and temperature of white metal, C, near its limit.
    real(wp), parameter :: largest_rise = 50, warm_metal = 120
    !> Films thinner than this number of roughnesses touch; part of the minimum thickness that a slope may change.
@@ -162,6 +166,7 @@ contains
             & //'of the film of '//listed(reynolds > laminar_up_to)//': {i}; above {} films may be turbulent, which ' &
             & //'changes film, power loss, stiffness and damping; film%turbulence = ''ng_pan'' takes them so', &
             & [maxval(reynolds), laminar_up_to])
+         if (bearing%film%turbulence /= 'none') said = said//on_transition(bearing)
          if (bearing%tilting()) then
             call file%get_list('equilibrium/pivot_load', load)
             associate (idle => load < smallest_share*sum(load))
@@ -176,6 +181,20 @@ contains
             & //'its minimum thickness from the middle of the bearing to its end, which is left out', [misalignment])
       end associate
    end function on_equilibrium
+
+   !> On a transition so sudden that films lose stiffness in it.
+   function on_transition(bearing) result(said)
+      type(bearing_type), intent(in) :: bearing
+      character(len=:), allocatable :: said
+      type(closure_type) :: closure
+      associate (f => bearing%film)
+         closure = new_closure(f%turbulence, f%laminar_below, f%turbulent_above)
+         said = line_if(closure%steepest() > steep_transition, 'between film%laminar_below = {} and ' &
+            & //'film%turbulent_above = {} the resistance of a film grows with up to the power {.1} of its Reynolds ' &
+            & //'number: above {} a film carries more where it is thicker, and has little stiffness', &
+            & [f%laminar_below, f%turbulent_above, closure%steepest(), steep_transition])
+      end associate
+   end function on_transition
 
    !> On films whose part of stiffness and damping is that of a motion to one side.
    function on_beginning_films(pad_count, file) result(said)

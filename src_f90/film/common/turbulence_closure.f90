@@ -52,6 +52,7 @@ module turbulence_closure
       procedure :: is_that_of
       procedure :: at
       procedure :: turbulent_share
+      procedure :: steepest
    end type closure_type
 
    !> Factors and their first three derivatives over ln Re, (order from 0, factor).
@@ -157,6 +158,21 @@ contains
          found%value(2:, :) = 0
       end if
    end function at
+
+   !> The largest power of the Reynolds number with which the resistance to a pressure grows: d ln kx/d ln Re.
+   pure real(wp) function steepest(self)
+      class(closure_type), intent(in) :: self
+      type(closure_factors) :: found
+      integer, parameter :: places = 200
+      integer :: i
+      steepest = 0
+      associate (from => log(self%laminar_below), range => log(self%turbulent_above/self%laminar_below))
+         do i = 1, places
+            found = self%at(from + range*i/places)
+            steepest = max(steepest, -found%value(1, along))
+         end do
+      end associate
+   end function steepest
 
    !> A polynomial and its first three derivatives.
    pure function horner(coefficients, x) result(value)
