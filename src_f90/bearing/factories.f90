@@ -23,8 +23,8 @@ module factories
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, make_laws, usual_arc, march_films, static_films, converged_films, quick_films, filled_films, of_march, &
-      & new_losses, make_law, make_friction, new_asperities, new_pads, pad_pivot, make_contacts
+   public :: make_film, make_laws, usual_arc, march_films, static_films, converged_films, quick_films, filled_films, &
+      & of_march, new_losses, make_law, make_friction, new_asperities, new_pads, pad_pivot, make_contacts
 
    !> What films are for: a march; the search for an equilibrium, which goes far and stays nowhere; what is linearised
    !> at a single state, with converged films; long ways of which only the end counts; a few states of a march, with
@@ -90,8 +90,9 @@ contains
             of_volumes = converged_volumes_error
          end if
          solver = f%solver
-         if (accuracy == quick_films .or. solver == 'auto' .and. (accuracy == static_films .or. law_changes)) &
-            & solver = 'direct'
+         if (accuracy == quick_films .or. solver == 'auto' .and. (accuracy == static_films .or. law_changes)) then
+            solver = 'direct'
+         end if
          select case (solver)
          case ('sor')
             film = new_sor_film(gaps, sor_settings(f, gaps, tolerance, accuracy))

@@ -17,8 +17,8 @@ module tilting_pad_bearing
    use abstract_element, only: element_type
    use kinematics, only: pad_frame, frame_of, motion_of
    use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads, pad_derivatives
-   use factories, only: make_film, make_laws, new_asperities, new_pads, march_films, static_films, of_march, pad_pivot, &
-      & make_contacts, make_friction
+   use factories, only: make_film, make_laws, new_asperities, new_pads, march_films, static_films, of_march, &
+      & pad_pivot, make_contacts, make_friction
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs

@@ -24,8 +24,8 @@ module result_remarks
    character(len=*), parameter :: name = 'summary/remarks'
    !> Reynolds number of a film above which it may be turbulent: published limits lie from here to 1500.
    real(wp), parameter :: laminar_up_to = 500
-   !> Power n of the Reynolds number with which the resistance kx of a film may grow in its transition: its load goes with
-   !> kx/h^2, that is h^(n - 2).
+   !> Power n of the Reynolds number with which the resistance kx of a film may grow in its transition: its load goes
+   !> with kx/h^2, that is h^(n - 2).
    real(wp), parameter :: steep_transition = 2
    !> Warming of oil, K, across which one viscosity does not hold, and temperature of white metal, C, near its limit.
    real(wp), parameter :: largest_rise = 50, warm_metal = 120
@@ -162,9 +162,9 @@ contains
                & [real(wp) :: i, inlet(i), inlet(i) + taken(i), taken(i)])
          end do
          call file%get_list('equilibrium/reynolds_number', reynolds)
-         said = said//line_if(bearing%film%turbulence == 'none' .and. any(reynolds > laminar_up_to), 'Reynolds number ' &
-            & //'of the film of '//listed(reynolds > laminar_up_to)//': {i}; above {} films may be turbulent, which ' &
-            & //'changes film, power loss, stiffness and damping; film%turbulence = ''ng_pan'' takes them so', &
+         said = said//line_if(bearing%film%turbulence == 'none' .and. any(reynolds > laminar_up_to), 'Reynolds ' &
+            & //'number of the film of '//listed(reynolds > laminar_up_to)//': {i}; above {} films may be turbulent, ' &
+            & //'which changes film, power loss, stiffness and damping; film%turbulence = ''ng_pan'' takes them so', &
             & [maxval(reynolds), laminar_up_to])
          if (bearing%film%turbulence /= 'none') said = said//on_transition(bearing)
          if (bearing%tilting()) then

@@ -116,8 +116,9 @@ contains
       wall = new_wall_law()
       closure = new_closure('ng_pan', 500.0_wp, 1500.0_wp)
       do i = 1, size(re)
-         call expect_close(eddy_conduction(wall, re(i), closure%turbulent_share(re(i)), 100/0.9_wp), given(i), 6e-5_wp, &
-            & 'conduction')
+         associate (share => closure%turbulent_share(re(i)))
+            call expect_close(eddy_conduction(wall, re(i), share, 100/0.9_wp), given(i), 6e-5_wp, 'conduction')
+         end associate
       end do
       call expect_close(eddy_conduction(wall, 500.0_wp, 0.0_wp, 100.0_wp), 1.0_wp, 1e-12_wp, 'without eddies')
    end subroutine conduction
@@ -146,17 +147,19 @@ contains
    subroutine single_films()
       call one_film(30.0_wp, 1.03e-2_wp, clearance*[-0.15_wp, 0.45_wp], [0.0_wp, 0.0_wp], cavitation_none, &
          & [-311.74060837_wp, -4096.98154335_wp], [-6388855.324958_wp, -9076680.297276_wp, 141202563.245595_wp, &
-         & -76496584.086549_wp], [-10378.150493_wp, 7996.278216_wp, 7996.278216_wp, -328077.125553_wp], 1e-4_wp, 3e-4_wp)
-      call one_film(36.0_wp, 3e-3_wp, clearance*[-0.25_wp, 0.5_wp], clearance*speed*[0.1_wp, 0.15_wp], cavitation_none, &
-         & [-933.45010440_wp, -11097.74748722_wp], [-7202930.882647_wp, -17073522.682585_wp, 79180429.727087_wp, &
-         & -246777303.578486_wp], [-7463.079537_wp, -9381.210611_wp, -9381.210611_wp, -212467.405271_wp], 1e-4_wp, 3e-4_wp)
+         & -76496584.086549_wp], [-10378.150493_wp, 7996.278216_wp, 7996.278216_wp, -328077.125553_wp], &
+         & 1e-4_wp, 3e-4_wp)
+      call one_film(36.0_wp, 3e-3_wp, clearance*[-0.25_wp, 0.5_wp], clearance*speed*[0.1_wp, 0.15_wp], &
+         & cavitation_none, [-933.45010440_wp, -11097.74748722_wp], [-7202930.882647_wp, -17073522.682585_wp, &
+         & 79180429.727087_wp, -246777303.578486_wp], [-7463.079537_wp, -9381.210611_wp, &
+         & -9381.210611_wp, -212467.405271_wp], 1e-4_wp, 3e-4_wp)
       call one_film(30.0_wp, 5e-3_wp, clearance*[-0.1_wp, 0.55_wp], [0.0_wp, 0.0_wp], cavitation_reynolds, &
          & [-476.27946151_wp, -3308.87150343_wp], [1867214.038735_wp, -14315532.655348_wp, 120117826.521600_wp, &
          & -87118112.03_wp], [-7394.978332_wp, -12386.947858_wp, -12353.611720_wp, -300260.351951_wp], 2e-3_wp, 1e-2_wp)
    end subroutine single_films
 
-   subroutine one_film(leading, viscosity, position, velocity, condition, force, over_position, over_velocity, tolerance, &
-      & of_derivatives)
+   subroutine one_film(leading, viscosity, position, velocity, condition, force, over_position, over_velocity, &
+      & tolerance, of_derivatives)
       real(wp), intent(in) :: leading, viscosity, position(2), velocity(2), force(2), over_position(4), &
          & over_velocity(4), tolerance, of_derivatives
       integer, intent(in) :: condition
@@ -218,11 +221,12 @@ contains
       class(film_law_type), allocatable :: other
       type(fourier_film_type) :: modes
       type(film_response) :: film, seen
+      type(film_motion), parameter :: motion = film_motion(clearance*[-0.2_wp, 0.4_wp], [2e-3_wp, -3e-3_wp]), &
+         & mirror = film_motion(clearance*[0.2_wp, 0.4_wp], [-2e-3_wp, -3e-3_wp])
       modes = converged_film(pad(30.0_wp), .false., 1e-6_wp)
-      call modes%evaluate_pad(1, film_motion(clearance*[-0.2_wp, 0.4_wp], [2e-3_wp, -3e-3_wp]), law, speed, .false., film)
+      call modes%evaluate_pad(1, motion, law, speed, .false., film)
       other = law%mirrored()
-      call modes%evaluate_pad(1, film_motion(clearance*[0.2_wp, 0.4_wp], [-2e-3_wp, -3e-3_wp]), other, -speed, .false., &
-         & seen)
+      call modes%evaluate_pad(1, mirror, other, -speed, .false., seen)
       call expect_close(norm2(seen%force*[-1, 1] - film%force)/norm2(film%force), 0.0_wp, 1e-12_wp, 'in a mirror')
    end subroutine in_mirror
 

@@ -1,5 +1,5 @@
-!> How much more than a laminar film a turbulent one resists pressure and sliding, over its Reynolds number (docs/theory/
-!> turbulence.md):
+!> How much more than a laminar film a turbulent one resists pressure and sliding, over its Reynolds number
+!> (docs/theory/turbulence.md):
 !>    (h^3/(mu kx) p_x)_x + (h^3/(mu kz) p_z)_z = U/2 h_x + h_t,   shear kf mu U/h,   Re = rho U h/mu,
 !> 12, 12 and 1 in a laminar film. Tabulated are ln(12/kx), ln(kx/kz) and ln kf over ln Re.
 !>
@@ -10,8 +10,8 @@ module turbulence_closure
    use linear_algebra, only: solve
    implicit none (type, external)
    private
-   public :: closure_type, new_closure, closure_factors, along, across, shear, eddy_factors, eddy_conduction, closures, &
-      & largest_reynolds, wall_law_type, new_wall_law
+   public :: closure_type, new_closure, closure_factors, along, across, shear, eddy_factors, eddy_conduction, &
+      & closures, wall_law_type, new_wall_law
 
    !> The factors: ln(12/kx), ln(kx/kz), ln kf.
    integer, parameter :: along = 1, across = 2, shear = 3, factors = 3
@@ -45,8 +45,8 @@ module turbulence_closure
       !> Number of the closure; Reynolds numbers below which a film is laminar and above which it is turbulent.
       integer :: kind = 0
       real(wp) :: laminar_below = 0, turbulent_above = 0
-      !> Bounds of the cells, ln Re, one more than cells; polynomials over the place in the cell from -1 to 1, (0:degree, factor,
-      !> cell).
+      !> Bounds of the cells, ln Re, one more than cells; polynomials over the place in the cell from -1 to 1,
+      !> (0:degree, factor, cell).
       real(wp), allocatable, private :: bounds(:), polynomials(:, :, :)
    contains
       procedure :: is_that_of

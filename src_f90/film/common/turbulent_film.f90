@@ -21,8 +21,8 @@ module turbulent_film
       !> The oil without eddies, and what eddies do.
       type(film_oil) :: oil
       type(closure_type) :: closure
-      !> Reynolds number of a film as thick as the pad clearance, of oil of the law's viscosity, and its logarithm, where
-      !> a film has eddies anywhere.
+      !> Reynolds number of a film as thick as the pad clearance, of oil of the law's viscosity, and its logarithm,
+      !> where a film has eddies anywhere.
       real(wp) :: reynolds = 0, log_reynolds = 0
       logical :: has_eddies = .false.
    contains
