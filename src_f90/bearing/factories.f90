@@ -119,7 +119,7 @@ contains
       end associate
    end subroutine make_film
 
-   !> The laws of the films of so many pads, unless they are these already.
+   !> The laws of the films of this number of pads, unless they are these already.
    subroutine make_laws(film, pads, laws)
       type(film_type), intent(in) :: film
       integer, intent(in) :: pads

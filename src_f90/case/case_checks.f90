@@ -81,7 +81,8 @@ contains
             call require(f%turbulent_above > f%laminar_below, 'film%turbulent_above = {}: must be above ' &
                & //'film%laminar_below = {}', [f%turbulent_above, f%laminar_below], error)
             call require(f%turbulence /= 'hirs' .or. any(inputs%about%task == [character(len=12) :: 'equilibrium', &
-               & 'coefficients']), 'film%turbulence = ''hirs'': its kinks serve no motion; ''ng_pan'' has none', error)
+               & 'coefficients']), 'film%turbulence = ''hirs'': bends where its laminar values end, and ' &
+               & //'serves no motion; ''ng_pan'' does', error)
          end associate
          associate (machined => bearing%machined_clearance, assembled => bearing%assembled_clearance, &
                & radius => bearing%journal_radius)

@@ -460,7 +460,7 @@ contains
             & 'reynolds: p >= p_cav in the solution; gumbel: clipped after the solution; none: no cavitation')
          call v%word(film%turbulence, 'turbulence', 'none ng_pan ng_pan_fit constantinescu hirs', &
             & 'none: laminar films; else the closure that turbulent films have: ng_pan: eddies integrated across the ' &
-            & //'film; its fit, Constantinescu''s and Hirs'' (the last has kinks and serves no motion)')
+            & //'film; its fit, Constantinescu''s and Hirs'' (the last bends suddenly and serves no motion)')
          call v%number(film%laminar_below, 'laminar_below', 1.0_wp, 1e6_wp, '1', &
             & 'turbulence: Reynolds number rho U h/mu below which a film is laminar')
          call v%number(film%turbulent_above, 'turbulent_above', 1.0_wp, 1e6_wp, '1', &

@@ -104,25 +104,25 @@ contains
          & self%turbulent_above - turbulent_above]) > 0)
    end function is_that_of
 
-   !> Bounds of cells, ln Re, between those of the transition and of the table, and at the kinks of Hirs' law.
+   !> Bounds of cells, ln Re, between those of the transition and of the table, and at the bends of Hirs' law.
    pure function cell_bounds(kind, ends) result(bounds)
       integer, intent(in) :: kind
       real(wp), intent(in) :: ends(3)
-      real(wp), allocatable :: bounds(:), kinks(:)
+      real(wp), allocatable :: bounds(:), bends(:)
       integer :: i, k, n
-      kinks = ends
+      bends = ends
       if (kind == hirs) then
          do k = 1, factors
-            associate (kink => log(merge(1.0_wp, 12.0_wp, k == shear)/fit(1, k, hirs))/fit(2, k, hirs))
-               if (all(abs(kinks - kink) > 1e-9_wp) .and. kink > ends(1)) kinks = [pack(kinks, kinks < kink), kink, &
-                  & pack(kinks, kinks > kink)]
+            associate (bend => log(merge(1.0_wp, 12.0_wp, k == shear)/fit(1, k, hirs))/fit(2, k, hirs))
+               if (all(abs(bends - bend) > 1e-9_wp) .and. bend > ends(1)) bends = [pack(bends, bends < bend), bend, &
+                  & pack(bends, bends > bend)]
             end associate
          end do
       end if
-      bounds = kinks(:1)
-      do k = 2, size(kinks)
-         n = max(merge(least_cells, 1, kinks(k) <= ends(2)), ceiling((kinks(k) - kinks(k - 1))/widest_cell))
-         bounds = [bounds, [(kinks(k - 1) + (kinks(k) - kinks(k - 1))*i/n, i=1, n)]]
+      bounds = bends(:1)
+      do k = 2, size(bends)
+         n = max(merge(least_cells, 1, bends(k) <= ends(2)), ceiling((bends(k) - bends(k - 1))/widest_cell))
+         bounds = [bounds, [(bends(k - 1) + (bends(k) - bends(k - 1))*i/n, i=1, n)]]
       end do
    end function cell_bounds
 
@@ -233,7 +233,7 @@ contains
    end function eddy_factors
 
    !> How much more heat than by conduction alone goes from wall to wall, where this share of the eddies is there and
-   !> the Prandtl number of the oil is so many times that of the eddies.
+   !> the Prandtl number of the oil over that of the eddies is given.
    function eddy_conduction(wall, reynolds, share, prandtl_ratio) result(factor)
       type(wall_law_type), intent(inout) :: wall
       real(wp), intent(in) :: reynolds, share, prandtl_ratio
