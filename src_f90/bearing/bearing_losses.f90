@@ -36,6 +36,8 @@ module bearing_losses
       real(wp) :: mean_film_thickness = 0
       !> Of a turbulent film: largest local Reynolds number; mean over the arc of the transition's share.
       real(wp) :: largest_reynolds = 0, turbulent_share = 0
+      !> How many times that of a film without eddies its shear of sliding is.
+      real(wp) :: shear_factor = 1
    contains
       procedure :: power
       procedure :: reynolds_number
@@ -110,13 +112,17 @@ contains
       type(film_motion), intent(in) :: motion
       type(pad_loss), intent(inout) :: loss
       integer, parameter :: points = 200
-      real(wp) :: reynolds(0:points)
+      real(wp), dimension(0:points) :: phi, reynolds, inverse
       integer :: i
-      reynolds = law%reynolds_number(gap, motion, [(i*gap%arc()/points - gap%trailing_angle, i=0, points)])
+      phi = [(i*gap%arc()/points - gap%trailing_angle, i=0, points)]
+      reynolds = law%reynolds_number(gap, motion, phi)
       loss%largest_reynolds = maxval(reynolds)
       associate (w => law%closure%turbulent_share(reynolds))
-         loss%turbulent_share = (sum(w) - 0.5_wp*(w(0) + w(points)))/points
+         loss%turbulent_share = (sum(w) - 0.5_wp*(w(1) + w(points + 1)))/points
       end associate
+      inverse = 1/gap%thickness(motion, sin(phi), cos(phi))
+      loss%shear_factor = dot_product(inverse, law%shear_weight(gap, motion, phi)) &
+         & /dot_product(inverse, law%oil%shear_weight(gap, motion, phi))
    end subroutine find_turbulence
 
    pure type(pad_loss) function of_pad(pad, speed, film, asperity) result(loss)

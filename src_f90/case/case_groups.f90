@@ -56,6 +56,8 @@ module case_groups
       real(wp) :: carry_over = 0.8_wp, widest_gap_deg = 60
       !> Nusselt number of the exchange with the shaft; its temperature (unset: it takes no net heat).
       real(wp) :: shaft_nusselt = 3, shaft_temperature = unset
+      !> Prandtl number of the eddies of turbulent films.
+      real(wp) :: turbulent_prandtl = 0.9_wp
       !> Oil between two pads, m^3.
       real(wp) :: groove_volume = 0
       !> Film coefficient at back and ends of the pads, W/(m^2 K); temperature there (unset: that of the supply).

@@ -40,6 +40,9 @@ module film_energy
       !> Of each layer the integrals of (u_sliding')^2 mu over U^2, Pa s, of (u_pressure')^2 mu over (h^2 p_x)^2,
       !> 1/(Pa s), and of twice their product over U h^2 p_x: they add up to f0, f2 and 0.
       real(wp), allocatable :: shear(:), pressure(:), mixed(:)
+      !> Where there are eddies: how well heat crosses from the pad to the middle of the first layer, between the
+      !> middles of layers and on to the journal, over a unit of zeta, W/(m K).
+      real(wp), allocatable :: conduction(:)
    end type film_profile
 
 
@@ -201,10 +204,11 @@ contains
       type(band_system_type) :: system
       !> Flow downstream through the layers of each face, m^3/s, and heat made in the layers of each station, W.
       real(wp) :: flow(size(heat%zeta) - 1, 0:size(profiles)), own(size(heat%zeta) - 1, size(profiles))
-      !> Conductances of a station, W/K: across the film, and from the middle of the layer at a wall to the wall (the
-      !> layers are symmetric); from the middle of a layer of the pad to its surface; out of the back; out of an end, of
-      !> one layer.
-      real(wp) :: across(size(profiles)), to_wall(size(profiles)), to_surface, out_of_back, out_of_end
+      !> Conductances of a station, W/K: across the film, between the middles of layers, and from the middle of the
+      !> layer at a wall to the wall (layers and eddies are symmetric); from the middle of a layer of the pad to its
+      !> surface; out of the back; out of an end, of one layer.
+      real(wp) :: across(size(heat%zeta) - 2, size(profiles)), to_wall(size(profiles))
+      real(wp) :: to_surface, out_of_back, out_of_end
       integer :: layers, stations, rows, i
       layers = size(heat%zeta) - 1
       stations = size(profiles)
@@ -235,8 +239,20 @@ contains
       end function unknown
 
       subroutine find_conductances()
-         across = heat%conductivity*max(stream%filled, least_filled)*stream%step*stream%width/stream%h
-         to_wall = across/(0.5_wp*(heat%zeta(2) - heat%zeta(1)))
+         real(wp) :: middle(layers), still(size(profiles))
+         integer :: i
+         middle = (heat%zeta(1:layers) + heat%zeta(2:))/2
+         still = heat%conductivity*max(stream%filled, least_filled)*stream%step*stream%width/stream%h
+         to_wall = still/(0.5_wp*(heat%zeta(2) - heat%zeta(1)))
+         do i = 1, stations
+            across(:, i) = still(i)/(middle(2:) - middle(:layers - 1))
+            if (.not. allocated(profiles(i)%conduction)) cycle
+            associate (all => max(stream%filled(i), least_filled)*stream%step*stream%width/stream%h(i) &
+               & *profiles(i)%conduction)
+               to_wall(i) = all(1)
+               across(:, i) = all(2:layers)
+            end associate
+         end do
          to_surface = heat%pad_conductivity*stream%step*stream%width/(heat%thickness/solid_layers/2)
          out_of_back = 0
          out_of_end = 0
@@ -248,13 +264,10 @@ contains
 
       !> Conduction across the film, to the shaft, and in the pad, to the film and out of its back and both ends.
       subroutine add_conduction()
-         real(wp) :: middle(layers)
          integer :: i, j, k
-         middle = (heat%zeta(1:layers) + heat%zeta(2:))/2
          do i = 1, stations
             do j = 1, layers - 1
-               call system%join(unknown(i, solid_layers + j), unknown(i, solid_layers + j + 1), &
-                  & across(i)/(middle(j + 1) - middle(j)))
+               call system%join(unknown(i, solid_layers + j), unknown(i, solid_layers + j + 1), across(j, i))
             end do
             call system%leave(unknown(i, rows), to_wall(i), 1.0_wp, by_shaft)
          end do

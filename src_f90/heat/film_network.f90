@@ -8,10 +8,13 @@ module film_network
    use case_groups, only: bearing_type, oil_type, thermal_type, is_set
    use oil_properties, only: viscosity, viscosities
    use heat_balance, only: oil_temperatures_type, groove_type, new_grooves
+   use film_law, only: film_law_type
    use film_oils, only: film_oil
+   use turbulent_film, only: take_oil
    use film_streams, only: film_stream, new_stream_volumes, find_stream
    use film_energy, only: film_profile, layer_faces, new_profile, fitted_oil, film_heat_type, solid_layers, &
-      & by_nothing, by_inlet, by_shaft, pad_heat, solve_energy
+      & by_nothing, by_inlet, by_shaft, pad_heat
+   use film_eddies, only: solve_film
    use text, only: to_text
    use errors, only: error_type, raise, add_context, numerics_error
    use film_solver, only: film_motion
@@ -124,15 +127,16 @@ contains
       mean_temperature = sum(matmul(zeta(2:) - zeta(:size(zeta) - 1), field(solid_layers + 1:, :)))/size(field, 2)
    end function mean_temperature
 
-   !> The fields of all pads that the films lead to, C, (layer, station, pad), from their streams and profiles at a
-   !> speed of the journal's surface, m/s; `films` has the temperatures of their oil and surfaces then. `ok` is false
+   !> The fields of all pads that the films lead to, C, (layer, station, pad), from their laws, streams and profiles at
+   !> a speed of the journal's surface, m/s; `films` has the temperatures of their oil and surfaces then. `ok` is false
    !> where no heat balance is found.
-   subroutine solve_network(oil, grooves, films, streams, profiles, surface_speed, fields, ok)
+   subroutine solve_network(oil, grooves, films, laws, streams, profiles, surface_speed, fields, ok)
       type(oil_type), intent(in) :: oil
       type(groove_type), intent(in) :: grooves(:)
       type(warm_films_type), intent(inout) :: films
+      class(film_law_type), intent(in) :: laws(:)
       type(film_stream), intent(in) :: streams(:)
-      !> (station, pad).
+      !> Without eddies, (station, pad).
       type(film_profile), intent(in) :: profiles(:, :)
       real(wp), intent(in) :: surface_speed
       real(wp), intent(out) :: fields(:, :, :)
@@ -147,7 +151,7 @@ contains
       integer :: i, last
       last = size(ends)
       do i = 1, size(streams)
-         call solve_energy(films%heat(i), streams(i), profiles(:, i), surface_speed, pads(i))
+         call solve_film(films%heat(i), streams(i), laws(i), oil, profiles(:, i), surface_speed, pads(i))
          inflow(i) = streams(i)%flow(0)
          outflow(i) = streams(i)%flow(size(profiles, 1))
          films%reversed(i) = real(count(streams(i)%flow < 0), wp)/size(streams(i)%flow)
@@ -274,6 +278,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: fields(size(self%films(1)%fields, 1), size(self%profiles, 1), size(self%profiles, 2))
       type(film_stream) :: streams(size(self%profiles, 2))
+      class(film_law_type), allocatable :: laws(:)
       integer :: b, i
       logical :: ok, anew
       anew = self%gaps_change .or. .not. allocated(self%volumes)
@@ -285,16 +290,22 @@ contains
             do i = 1, merge(size(model%bearings(b)%pads), 0, anew)
                self%volumes(first + i - 1) = new_stream_volumes(model%bearings(b)%pads(i)%gap, size(self%profiles, 1))
             end do
-            call self%find_streams(model, b, y, streams(first:last), ok, i)
+            associate (bearing => model%bearings(b))
+               allocate (laws, source=bearing%laws)
+               call take_oil(laws, model%oil(first:last), bearing%pads%gap, own%oil%density, &
+                  & model%point%speed(0.0_wp)*own%journal_radius)
+            end associate
+            call self%find_streams(model, b, y, laws, streams(first:last), ok, i)
             if (.not. ok) call raise(error, numerics_error, 'the flow in the film of pad '//to_text(i) &
                & //' is not found')
             if (.not. allocated(error)) then
-               call solve_network(own%oil, new_grooves(own, model%inputs%sense()), self%films(b), streams(first:last), &
-                  & self%profiles(:, first:last), model%point%speed(0.0_wp)*own%journal_radius, &
+               call solve_network(own%oil, new_grooves(own, model%inputs%sense()), self%films(b), laws, &
+                  & streams(first:last), self%profiles(:, first:last), model%point%speed(0.0_wp)*own%journal_radius, &
                   & fields(:, :, first:last), ok)
                if (.not. ok) call raise(error, numerics_error, 'nothing carries off the heat of the films')
             end if
             fields(:, :, first:last) = fields(:, :, first:last) - own%oil%supply_temperature
+            deallocate (laws)
          end associate
          call add_context(error, model%inputs%bearings(b)%label())
          if (allocated(error)) return
@@ -303,12 +314,14 @@ contains
       self%changes = maxval(reshape(abs(wanted - self%values), [size(wanted)/size(fields, 3), size(fields, 3)]), 1)
    end subroutine find_wanted
 
-   !> The streams of the films of bearing b in the state y; `ok` is false where that of a pad, the i-th, is not found.
-   subroutine find_streams(self, model, b, y, streams, ok, i)
+   !> The streams of the films of bearing b in the state y, with their laws; `ok` is false where that of a pad, the
+   !> i-th, is not found.
+   subroutine find_streams(self, model, b, y, laws, streams, ok, i)
       class(film_field_type), intent(inout) :: self
       type(machine_model), intent(in) :: model
       integer, intent(in) :: b
       real(wp), intent(in) :: y(:)
+      class(film_law_type), intent(in) :: laws(:)
       type(film_stream), intent(out) :: streams(:)
       logical, intent(out) :: ok
       integer, intent(out) :: i
@@ -325,7 +338,7 @@ contains
                call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
                position = motion%position
                if (asperity%touches) motion%position = asperity%film_position
-               call find_stream(self%volumes(before + i), bearing%film%condition, motion, model%oil(before + i), &
+               call find_stream(self%volumes(before + i), bearing%film%condition, motion, laws(i), &
                   & speed, size(self%profiles, 1), streams(i), ok)
                if (.not. ok) return
                if (asperity%touches) streams(i)%boundary_heat = bearing%asperities%heat(pad%gap, position, &

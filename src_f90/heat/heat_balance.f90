@@ -14,6 +14,7 @@ module heat_balance
    use case_groups, only: bearing_type, oil_type, is_set
    use oil_properties, only: viscosity, viscosity_slope
    use bearing_losses, only: pad_loss
+   use turbulence_closure, only: wall_law_type, new_wall_law, eddy_conduction
    implicit none (type, external)
    private
    public :: heat_balance_type, oil_temperatures_type, groove_type, new_heat_balance, new_grooves, check_boiling
@@ -253,8 +254,9 @@ contains
       last = size(losses) + 1
       allocate (net%left, net%f, net%g, mold=part)
       associate (oil => self%oil, up => self%upstream)
-         ! the integral of dA/h over what oil fills
-         part = losses%couette/(films*(speed*self%journal_radius)**2)
+         ! the integral of dA/h over what oil fills, with eddies of as many times that as they carry more heat
+         part = losses%couette/(losses%shear_factor*films*(speed*self%journal_radius)**2)
+         if (any(losses%turbulent_share > 0)) part = part*eddy_exchange(oil, losses, films, speed*self%journal_radius)
          net%capacity = oil%density*oil%specific_heat*max(self%least_flow(speed), (losses%inlet + losses%outlet)/2)
          call film_shares(oil%shaft_nusselt*oil%conductivity*part/net%capacity, net%left, net%f, net%g)
          net%hot = hot_shares(self, losses)
@@ -292,6 +294,24 @@ contains
       net%cold = right(:, 0)
       net%per_watt = right(:, 1:)
    end subroutine network
+
+   !> How many times more heat than by conduction crosses each film with its eddies.
+   function eddy_exchange(oil, losses, films, surface_speed) result(factor)
+      type(oil_type), intent(in) :: oil
+      type(pad_loss), intent(in) :: losses(:)
+      real(wp), intent(in) :: films(:), surface_speed
+      real(wp) :: factor(size(losses))
+      type(wall_law_type) :: wall
+      integer :: i
+      wall = new_wall_law()
+      factor = 1
+      if (.not. oil%conductivity > 0) return
+      do i = 1, size(losses)
+         if (losses(i)%turbulent_share > 0) factor(i) = eddy_conduction(wall, losses(i)%reynolds_number(surface_speed, &
+            & oil%density, films(i)), losses(i)%turbulent_share, oil%specific_heat*films(i) &
+            & /(oil%conductivity*oil%turbulent_prandtl))
+      end do
+   end function eddy_exchange
 
    !> exp(-N), f and g.
    elemental subroutine film_shares(n, left, f, g)

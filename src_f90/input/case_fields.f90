@@ -317,6 +317,8 @@ contains
             & 'Nusselt number of the exchange of heat between film and shaft; 0: none')
          call v%number(oil%shaft_temperature, 'shaft_temperature', low, high, 'C', &
             & 'temperature of the shaft; if left out, that at which it takes no heat on the whole')
+         call v%number(oil%turbulent_prandtl, 'turbulent_prandtl', 0.5_wp, 2.0_wp, '1', &
+            & 'film%turbulence: eddy viscosity over eddy conductivity, as a Prandtl number; 0.9: usual beside walls')
          call v%number(oil%groove_volume, 'groove_volume', 0.0_wp, 1.0_wp, 'm^3', &
             & 'oil between two pads, for thermal%march = groove')
          call v%number(oil%back_coefficient, 'back_coefficient', 0.0_wp, 1e6_wp, 'W/(m^2 K)', &

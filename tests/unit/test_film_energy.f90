@@ -8,6 +8,9 @@ program test_film_energy
    use film_streams, only: film_stream, new_stream_volumes, find_stream
    use film_energy, only: film_profile, layer_faces, new_profile, fitted_oil, film_heat_type, solid_layers, &
       & by_nothing, by_inlet, by_shaft, pad_heat, solve_energy
+   use film_eddies, only: with_eddies
+   use turbulence_closure, only: new_closure, closure_factors, along, shear, wall_law_type, new_wall_law, eddy_conduction
+   use case_groups, only: oil_type
    use paper_bearing, only: offset_pad, paper_oil, speed, clearance
    use check, only: runs, expect, expect_close, report
    implicit none (type, external)
@@ -22,6 +25,7 @@ program test_film_energy
    if (runs('even_profile')) call even_profile()
    if (runs('two_layers')) call two_layers()
    if (runs('fit')) call fit()
+   if (runs('eddies')) call eddies()
    if (runs('streams')) call streams()
    if (runs('conducted')) call conducted()
    if (runs('carried')) call carried()
@@ -50,6 +54,37 @@ contains
       call expect(maxval(abs(profile%driven - 50*(zeta**2/4 - zeta**3/6))) < 1e-13_wp, 'and by pressure')
       call sums(profile)
    end subroutine even_profile
+
+   !> Oil of one viscosity with eddies: the shear, mobility and conduction of the closure; without them the profile is
+   !> the laminar one.
+   subroutine eddies()
+      type(film_profile) :: laminar(2), profiles(2)
+      type(oil_type) :: oil
+      type(wall_law_type) :: wall
+      type(closure_factors) :: of
+      integer, parameter :: n = 48
+      real(wp), parameter :: viscosity = 0.01_wp, surface_speed = 90, reynolds(2) = [3000.0_wp, 400.0_wp]
+      real(wp) :: zeta(0:n)
+      zeta = layer_faces(n)
+      laminar = new_profile(zeta, spread(1/viscosity, 1, n))
+      associate (closure => new_closure('ng_pan', 500.0_wp, 1000.0_wp))
+         profiles = with_eddies(closure, oil, zeta, reynolds*viscosity/(oil%density*surface_speed), surface_speed, &
+            & laminar)
+         of = closure%at(log(reynolds(1)))
+      end associate
+      call sums(profiles(1))
+      call expect_close(profiles(1)%f0, viscosity*exp(of%value(0, shear)), 1e-12_wp, 'f0')
+      call expect_close(profiles(1)%driven(n), exp(of%value(0, along))/(12*viscosity), 1e-11_wp, 'f2')
+      wall = new_wall_law()
+      associate (factor => eddy_conduction(wall, reynolds(1), 1.0_wp, oil%specific_heat*viscosity/(oil%conductivity &
+            & *oil%turbulent_prandtl)))
+         ! two points of Gauss in each half of a layer
+         call expect_close(1/sum(1/profiles(1)%conduction), oil%conductivity*factor, 1e-4_wp*oil%conductivity*factor, &
+            & 'conduction')
+      end associate
+      call expect(.not. allocated(profiles(2)%conduction), 'laminar')
+      call expect(.not. any(abs(profiles(2)%driven - laminar(2)%driven) > 0), 'laminar')
+   end subroutine eddies
 
    !> What is in the layers adds up.
    subroutine sums(profile)

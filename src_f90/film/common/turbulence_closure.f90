@@ -39,6 +39,7 @@ module turbulence_closure
       real(wp) :: u(points), weight(points), log_h = 1
    contains
       procedure :: find_eddies
+      procedure :: eddies_at
    end type wall_law_type
 
    type :: closure_type
@@ -289,4 +290,15 @@ contains
       end do
       eta = y*exp(-self%log_h)
    end subroutine find_eddies
+
+   !> The same eddy viscosity at places across the film, from 0 to 1.
+   function eddies_at(self, reynolds, places) result(eddies)
+      class(wall_law_type), intent(inout) :: self
+      real(wp), intent(in) :: reynolds, places(:)
+      real(wp) :: eddies(size(places)), y(size(places))
+      real(wp), dimension(points) :: eta, weight, inner, slopes
+      call self%find_eddies(reynolds, eta, weight, inner, slopes)
+      y = min(places, 1 - places)*exp(self%log_h)
+      eddies = karman*(y - sublayer*tanh(y/sublayer))
+   end function eddies_at
 end module turbulence_closure
