@@ -9,7 +9,8 @@ program test_film_energy
    use film_energy, only: film_profile, layer_faces, new_profile, fitted_oil, film_heat_type, solid_layers, &
       & by_nothing, by_inlet, by_shaft, pad_heat, solve_energy
    use film_eddies, only: with_eddies
-   use turbulence_closure, only: new_closure, closure_factors, along, shear, wall_law_type, new_wall_law, eddy_conduction
+   use turbulence_closure, only: new_closure, closure_factors, along, shear, wall_law_type, new_wall_law, &
+      & eddy_conduction
    use case_groups, only: oil_type
    use paper_bearing, only: offset_pad, paper_oil, speed, clearance
    use check, only: runs, expect, expect_close, report
