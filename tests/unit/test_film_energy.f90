@@ -9,8 +9,8 @@ program test_film_energy
    use film_energy, only: film_profile, layer_faces, new_profile, fitted_oil, film_heat_type, solid_layers, &
       & by_nothing, by_inlet, by_shaft, pad_heat, solve_energy
    use film_eddies, only: with_eddies
-   use turbulence_closure, only: new_closure, closure_factors, along, shear, wall_law_type, new_wall_law, &
-      & eddy_conduction
+   use turbulence_closure, only: closure_type, new_closure, closure_factors, along, shear, wall_law_type, &
+      & new_wall_law, eddy_conduction
    use case_groups, only: oil_type
    use paper_bearing, only: offset_pad, paper_oil, speed, clearance
    use check, only: runs, expect, expect_close, report
@@ -62,18 +62,19 @@ contains
       type(film_profile) :: laminar(2), profiles(2)
       type(oil_type) :: oil
       type(wall_law_type) :: wall
+      type(closure_type) :: closure
       type(closure_factors) :: of
       integer, parameter :: n = 48
       real(wp), parameter :: viscosity = 0.01_wp, surface_speed = 90, reynolds(2) = [3000.0_wp, 400.0_wp]
       real(wp) :: zeta(0:n)
       zeta = layer_faces(n)
-      laminar = new_profile(zeta, spread(1/viscosity, 1, n))
-      associate (closure => new_closure('ng_pan', 500.0_wp, 1000.0_wp))
-         profiles = with_eddies(closure, oil, zeta, reynolds*viscosity/(oil%density*surface_speed), surface_speed, &
-            & laminar)
-         of = closure%at(log(reynolds(1)))
-      end associate
-      call sums(profiles(1))
+      laminar(1) = new_profile(zeta, spread(1/viscosity, 1, n))
+      laminar(2) = laminar(1)
+      closure = new_closure('ng_pan', 500.0_wp, 1000.0_wp)
+      profiles = with_eddies(closure, oil, zeta, reynolds*viscosity/(oil%density*surface_speed), surface_speed, laminar)
+      of = closure%at(log(reynolds(1)))
+      call expect_close(sum(profiles(1)%shear), profiles(1)%f0, 1e-12_wp, 'shear')
+      call expect_close(sum(profiles(1)%pressure), profiles(1)%f2, 1e-11_wp, 'pressure')
       call expect_close(profiles(1)%f0, viscosity*exp(of%value(0, shear)), 1e-12_wp, 'f0')
       call expect_close(profiles(1)%driven(n), exp(of%value(0, along))/(12*viscosity), 1e-11_wp, 'f2')
       wall = new_wall_law()
