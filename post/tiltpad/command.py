@@ -62,7 +62,7 @@ OWN_OPTIONS = {
 }
 #: Plots without the options --last and --pad.
 WITHOUT_LAST = (
-    *("equilibrium", "runup", "orders", "waterfall", "pressure", "film", BEARING, STUDY),
+    *("equilibrium", "runup", "orders", "waterfall", "pressure", "film", "turbulence", BEARING, STUDY),
     *(BRANCH, *OF_EITHER, *SAMPLES, MACHINE, SHAFT, SHAPES),
 )
 WITHOUT_PAD = (BEARING, MOVIE, *VIBRATIONS, RESPONSE, *OF_MACHINES)
@@ -92,6 +92,7 @@ PLOTS = {
     "response": "first harmonic, critical speeds, amplification: studies, run-ups, branches (also .csv)",
     "temperatures": "temperatures and viscosity of the pads: studies, a branch; heat balances of results",
     "film": "thickness and pressure of the films around the bearing at one instant (likewise)",
+    "turbulence": "local Reynolds number over the arc of each pad at the equilibrium, and the transition",
     "bearing": "the bearing of a case (.nml) or result: pads, pivots, angles, load, sense of rotation",
     "machine": "a machine of a case (.nml) or result to scale: shaft, discs, bearings, unbalances, loads",
     "stations": "orbits of the shaft of machines at stations (--station; last revolution)",

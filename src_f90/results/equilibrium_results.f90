@@ -110,7 +110,7 @@ contains
          if (inputs%bearings(1)%film%turbulence /= 'none') then
             call put('largest_reynolds_number', pads%largest_reynolds, '1', 'largest local rho U h/mu of the film')
             call put('turbulent_share', pads%turbulent_share, '1', &
-               & 'mean over the arc of the share of turbulence: 0 laminar, 1 turbulent')
+               & 'share of turbulence, mean over the arc')
          end if
          call put('total_power_loss', sum(pads%power()), 'W', 'power loss of all pads')
          call put('total_inlet_flow', sum(pads%inlet), 'm^3/s', 'flow in at all leading edges')

@@ -21,6 +21,7 @@ from tiltpad.draw.machines import shaft, shapes, stations
 from tiltpad.draw.orbits import equilibrium, orbit
 from tiltpad.draw.runups import orders, runup, size, waterfall
 from tiltpad.draw.samples import distribution, scatter, tornado
+from tiltpad.draw.turbulence import turbulence
 from tiltpad.draw.vibrations import campbell, coefficients, stability
 from tiltpad.draw.warm import temperatures
 from tiltpad.files.read import Run
@@ -201,7 +202,7 @@ FIGURES = {
     each.__name__: each
     for each in (
         *(orbit, equilibrium, size, poincare, waveform, multipliers, spectrum),
-        *(hysteresis, friction, sticking, runup, orders, waterfall, pressure, film),
+        *(hysteresis, friction, sticking, runup, orders, waterfall, pressure, film, turbulence),
         *(coefficients, stability, campbell, response, branch, temperatures),
         *(tornado, distribution, scatter),
         *(stations, shaft, shapes),

@@ -34,6 +34,7 @@ PICTURES = {
     "pressure": "Film pressure over the unrolled pads at the equilibrium.",
     "temperatures": "Temperatures of the pads, and the viscosities or the heat that belongs to them.",
     "film": "Thickness and pressure of the films around the bearing at the equilibrium.",
+    "turbulence": "Local Reynolds numbers over the arc: pale the transition, darker what is turbulent.",
     "coefficients": "Stiffness and damping at the journal.",
     "stability": "Damping ratio and logarithmic decrement of the modes.",
     "campbell": "Frequencies of the modes over the speed.",

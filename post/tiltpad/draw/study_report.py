@@ -29,6 +29,8 @@ POINT = {
     "rotor_damping_ratio": "damping ratio of the rotor",
     "threshold_rpm": "threshold",
 }
+#: What is told of each pad with turbulence.
+TURBULENCE = ("reynolds_number", "largest_reynolds_number", "turbulent_share")
 #: Pictures of whole studies.
 PICTURES = ("response", "coefficients", "stability", "campbell", "temperatures")
 
@@ -41,6 +43,7 @@ def study_report(study: Study, operating: tuple[float, float] | None = None) -> 
         f"{by['program']} {by['version']}, {by['created']}",
         summary(study),
         section("Operating points", operating_points(study)),
+        section("Turbulent films", turbulent_films(study)),
         section("Critical speeds", critical(study, operating)),
         section("Runs that were not done", failures(study)),
         section("Remarks", remarks(study)),
@@ -95,6 +98,22 @@ def operating_points(study: Study) -> str:
     of = f"Pivots {pivots[0]}; the others are in the table of runs. " if len(pivots) > 1 else ""
     note = f"{of}Stability is that of the {rotor}; pads without load may flutter while it is stable."
     return table(tuple(columns), rows) + paragraph(note) + more(len(study.done)) if rows else ""
+
+
+def turbulent_films(study: Study) -> str:
+    """A row for each run with turbulence: Reynolds numbers of the pads, and how much of them is turbulent."""
+    if any(f"pad_equilibrium_{name}" not in study for name in TURBULENCE):
+        return ""
+    found = np.stack([study[f"pad_equilibrium_{name}"][:ROWS] for name in TURBULENCE], axis=-1)
+    columns = [study.values(name, slice(ROWS)) for name in ("run", *study.parameters)]
+    rows = []
+    for own, (number, *values) in zip(found, zip(*columns, strict=True), strict=True):
+        if np.isfinite(own[:, -1]).any():
+            pads = (f"{mean:.0f}, {most:.0f}, {100 * share:.0f} %" for mean, most, share in own)
+            rows.append((f"{number}", *map(written, values), *pads))
+    heads = ("run", *named(study), *(f"pad {k + 1}" for k in range(found.shape[1])))
+    note = "Reynolds number with the mean film thickness, largest local one, and turbulent share of the arc."
+    return table(heads, rows) + paragraph(note) + more(len(study.done)) if rows else ""
 
 
 def cells(values: np.ndarray) -> list[str]:

@@ -22,6 +22,8 @@ from tiltpad.files.writing import replacing
 AXES = ("time", "shaft_angle", "speed", "pivot_angle")
 #: Datasets of texts that are no scale of others.
 TEXTS = ("modes/name", "summary/remarks")
+#: What turbulent films have.
+TURBULENT = ("largest_reynolds_number", "turbulent_share")
 #: Groups of a file, and the tasks that write them.
 TASKS = {"coefficients": "coefficients", "modes": "coefficients", "periodic": "periodic"}
 #: How names begin that are of a machine as a whole, and what a result of one bearing has not.
@@ -276,8 +278,9 @@ class Run(Archive):
         missing, likely = f"{self.path}: no {shown(name)} in this run", self.likely(name)
         words = f" (did you mean {' or '.join(likely)}?)" if likely else ""
         # what other runs have has its own reason
-        of_others = name.rpartition("/")[2] in {*SHOWN, *OF_BRANCHES, *self.GROUPS} or self.is_cold(name)
-        if likely and not of_others:
+        of_others = {*SHOWN, *OF_BRANCHES, *TURBULENT, *self.GROUPS}
+        known = name.rpartition("/")[2] in of_others or self.is_cold(name)
+        if likely and not known:
             return missing + words
         return f"{missing}: {self.why_not(name)}" + words * any(each.endswith(f"/{name}") for each in likely)
 
@@ -296,6 +299,11 @@ class Run(Archive):
     def has_film_temperatures(self) -> bool:
         """True where films have temperatures along and across (thermal%model = 'film')."""
         return self.input.get("thermal", {}).get("model") == "film"
+
+    @property
+    def is_turbulent(self) -> bool:
+        """True where films may be turbulent (film%turbulence)."""
+        return self.input["film"].get("turbulence", "none") != "none"
 
     def is_cold(self, name: str) -> bool:
         """True for what a heat balance tells, of a run without one."""
@@ -319,6 +327,7 @@ class Run(Archive):
             (name == "bristle_deflection" and friction != "lugre", f"friction model is '{friction}'"),
             ("pivot_deflection" in name and motion != "tilting_radial", f"pad motion is '{motion}'"),
             (motion == "fixed" and any(each in name for each in OF_TILTING), "pad motion is 'fixed'"),
+            (name.endswith(TURBULENT) and not self.is_turbulent, "film%turbulence is 'none'"),
             (self.is_cold(name), "it has no heat balance (thermal%model = 'none')"),
             (name.startswith("equilibrium") and start, f"it did not start at one (start%from = '{start}')"),
             (needed and needed != self.task, f"{task}, not '{needed}'"),
