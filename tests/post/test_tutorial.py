@@ -73,6 +73,7 @@ def test_every_command_of_the_tutorial_does_what_it_says(
         ("offset_preload", "bearing.nml"),
         ("overhung", "rotor.nml"),
         ("bent_pads", "large.nml"),
+        ("turbine_bearing", "turbine.nml"),
     ):
         assert (root / f"input/examples/{example}.nml").read_text().endswith((tmp_path / own).read_text())
     for words in (*figures(tmp_path), *machine(tmp_path)):
@@ -127,11 +128,32 @@ def figures(folder):
         yield f"the damping is {100 * (damping[0] / damping[1] - 1):.0f} % higher"
         housing = 11e-6 * (0.15 + 240e-6 + 0.05)
         yield f"here by {1e6 * housing:.1f} um a kelvin"
+    yield from turbulence(*(result(f"{name}.h5") for name in ("laminar", "turbine", "later")))
     for size in ("small", "large"):
         k = 1e-6 * tiltpad.impedance([result(f"{size}_{axis}.h5") for axis in "yz"]).stiffness[0]
         yield f"{k[0, 0]:.0f} MN/m in the vertical and {k[0, 1]:.0f} MN/m across"
     with result("linear.h5") as run:
         yield f"freely have {1e-6 * tiltpad.coefficients(run, 'free').stiffness[0, 0, 0]:.0f} MN/m"
+
+
+def turbulence(*runs):
+    """The same of laminar films, and of those of two transitions."""
+    film, loss, stiffness, damping = [], [], [], []
+    for run in runs:
+        own = tiltpad.coefficients(run, "free")
+        film.append(1e6 * run["equilibrium/min_film_thickness"].min())
+        loss.append(1e-3 * run["equilibrium/total_power_loss"])
+        stiffness.append(1e-6 * own.stiffness[0, 0, 0])
+        damping.append(1e-6 * own.damping[0].diagonal())
+    yield f"thinnest film has {film[0]:.0f} um, and the bearing loses {loss[0]:.0f} kW"
+    yield f"turbulent ones have {film[1]:.0f} um and {loss[1]:.0f} kW"
+    yield f"falls from {stiffness[0]:.0f} to {stiffness[1]:.0f} MN/m"
+    (y, z), (own_y, own_z) = damping[:2]
+    yield f"damping, {y:.2f} and {own_y:.2f} MN s/m, changes little in the vertical"
+    yield f"from {z:.2f} to {own_z:.2f} MN s/m in the horizontal"
+    share = 100 * runs[1]["equilibrium/turbulent_share"]
+    yield f"in {share[0]:.0f} and {share[4]:.0f} % of their arcs"
+    yield f"loss is {loss[2]:.0f} kW, the film {film[2]:.0f} um and the stiffness {stiffness[2]:.0f} MN/m"
 
 
 def machine(folder):
