@@ -28,6 +28,7 @@ PLOTS = [
         "multipliers",
         "pressure",
         "film",
+        "turbulence",
         "bearing",
         "movie",
         "study",
