@@ -61,15 +61,15 @@ contains
 
    !> The film solver of all pads. No function: gfortran never frees the result of one whose type is chosen within,
    !> and Python makes a solver for every instant.
-   subroutine make_film(bearing, tolerance, accuracy, law_changes, film)
+   subroutine make_film(bearing, tolerance, accuracy, film, law_changes)
       type(bearing_type), intent(in) :: bearing
       !> The relative one of a march.
       real(wp), intent(in) :: tolerance
       !> One of the five above.
       integer, intent(in) :: accuracy
-      !> Whether the law of the films changes in a march, so that no table holds.
-      logical, intent(in) :: law_changes
       class(film_solver_type), allocatable, intent(out) :: film
+      !> Whether the law of the films changes in a march, so that no table holds.
+      logical, intent(in), optional :: law_changes
       type(pad_gap_type) :: gaps(bearing%pad_count())
       character(len=:), allocatable :: solver
       integer :: cells, modes, volumes(2), condition
@@ -90,8 +90,9 @@ contains
             of_volumes = converged_volumes_error
          end if
          solver = f%solver
-         if (accuracy == quick_films .or. solver == 'auto' .and. (accuracy == static_films .or. law_changes)) then
-            solver = 'direct'
+         if (accuracy == quick_films .or. solver == 'auto' .and. accuracy == static_films) solver = 'direct'
+         if (present(law_changes)) then
+            if (law_changes .and. solver == 'auto') solver = 'direct'
          end if
          select case (solver)
          case ('sor')

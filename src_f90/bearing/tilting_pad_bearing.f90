@@ -121,8 +121,8 @@ contains
          allocate (bearing%pivots(n))
          call set_parts(bearing, inputs, b)
          if (present(accuracy)) bearing%accuracy = accuracy
-         call make_film(given, inputs%integration%relative_tolerance, bearing%accuracy, law_changes(inputs, given), &
-            & bearing%film)
+         call make_film(given, inputs%integration%relative_tolerance, bearing%accuracy, bearing%film, &
+            & law_changes(inputs, given))
          call make_contacts(given%pivot, inputs%moves(), bearing%pivots)
          allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
             & bearing%asperity(n), bearing%film_motion(n), bearing%response(n))
@@ -231,8 +231,8 @@ contains
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: b
       class(film_solver_type), allocatable :: film
-      call make_film(inputs%bearings(b), inputs%integration%relative_tolerance, self%accuracy, &
-         & law_changes(inputs, inputs%bearings(b)), film)
+      call make_film(inputs%bearings(b), inputs%integration%relative_tolerance, self%accuracy, film, &
+         & law_changes(inputs, inputs%bearings(b)))
       film%counters = self%film%counters
       call film%set_cavitation(self%film%cavitates())
       call move_alloc(film, self%film)
