@@ -44,6 +44,8 @@ EITHER = (
 )
 #: What belongs to other laws of pivots than those that are drawn with their radii, and to pads that tilt.
 OF_LAW = ("pivot%stiffness", "pivot%contact_length", "pivot%rotational_stiffness")
+#: Turbulent films: one limit of the transition is above the other, and one closure serves no motion.
+TURBULENCE = ("film%turbulence", "film%laminar_below", "film%turbulent_above")
 #: Where a march starts; the values of the pads are not drawn.
 START = (
     *("start%from", "start%file", "start%journal", "start%journal_velocity", "start%pad_tilt"),
@@ -68,7 +70,11 @@ OF_MARCH = ("operation%final_speed_rpm", "output%start_time", "integration%stop_
 SPECIAL = {
     "case%task",
     "pivot%file",
-    *(key for group in (*TOGETHER, ALONE, EITHER, INSTEAD, SHAPE, OF_LAW, START, OIL) for key in group),
+    *(
+        key
+        for group in (*TOGETHER, ALONE, EITHER, INSTEAD, SHAPE, OF_LAW, TURBULENCE, START, OIL)
+        for key in group
+    ),
 }
 #: Circumferential times squared axial cells of all pads.
 MOST_IN_BLOCKS = 2e8
@@ -94,6 +100,10 @@ def draw(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
         found["pivot%law"] = (b"linear",)
         for key in ("pivot%stiffness", "pivot%rotational_stiffness"):
             found[key] = (number(dice, variables[key]),)
+    if dice.random() < few:
+        closure = dice.choice((b"none", b"ng_pan", b"ng_pan_fit", b"constantinescu"))
+        limits = sorted(log_between(dice, 1, 1e6) for _ in range(2))
+        found.update(zip(TURBULENCE, ((closure,), *((limit,) for limit in limits)), strict=True))
     if "rotor%balance_grade" in found and dice.random() < 0.5:
         found["rotor%balance_speed_rpm"] = (dice.choice((-1.0, 1.0, 1e6, dice.uniform(1, 1e6))),)
     if dice.random() < few:
