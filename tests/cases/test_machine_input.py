@@ -66,7 +66,7 @@ SETS = {
     "bearing%station=3": "bearing%station: must be in a group &bearing with a name",
     "disc(2)%mass=1": "disc(2)%mass: must be disc(1)%mass",
     # as the case names it, and not the bearing that is looked at first
-    "film%turbulence=1": "unknown variable film%turbulence; known",
+    "film%eddies=1": "unknown variable film%eddies; known",
     "film%tolerance=-1": "film%tolerance = -1: must be",
     "film:right%tolerance=-1": "film:right%tolerance = -1: must be",
 }
