@@ -27,20 +27,18 @@ contains
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: sine(:), cosine(:)
       type(law_at_nodes), intent(inout) :: nodes
-      !> H; derivatives of ln H along the film; how much of 1/E and of K is theirs that grows.
-      real(wp), dimension(size(sine)) :: h, first, second, third, f, g
-      associate (e => motion%position/gap%machined_clearance)
-         h = 1 - e(1)*sine - e(2)*cosine
-         first = (e(2)*sine - e(1)*cosine)/h
-      end associate
-      second = (1 - h)/h - first**2
-      third = -first - first*(1 - h)/h - 2*first*second
+      !> H; how much of 1/E and of K is theirs that grows; ln H and its slopes along the film, (node, order from 0).
+      real(wp), dimension(size(sine)) :: h, f, g
+      real(wp) :: slopes(size(sine), 0:3)
+      h = gap%thickness(motion, sine, cosine)/gap%machined_clearance
+      slopes = gap%thickness_slopes(motion, sine, cosine)
       f = self%a*h**2/(1 + self%a*h**2)
       g = self%c*h/(1 + self%c*h)
       nodes%inverse_root = sqrt(1 + self%a*h**2)
       nodes%sliding = spread(1.0_wp, 1, size(h))
       nodes%sliding_slopes = spread(spread(0.0_wp, 1, size(h)), 2, 2)
-      associate (l_1 => -2*f, l_2 => -4*f*(1 - f), l_3 => -8*f*(1 - f)*(1 - 2*f))
+      associate (first => slopes(:, 1), second => slopes(:, 2), third => slopes(:, 3), l_1 => -2*f, &
+         & l_2 => -4*f*(1 - f), l_3 => -8*f*(1 - f)*(1 - 2*f))
          nodes%flow_slopes = reshape([l_1*first, l_2*first**2 + l_1*second, &
             & l_3*first**3 + 3*l_2*first*second + l_1*third], [size(h), 3])
          if (.not. allocated(nodes%flow_power)) allocate (nodes%flow_power(size(h), 0:2), &
@@ -50,9 +48,9 @@ contains
          nodes%flow_power(:, 2) = l_3*first**2 + l_2*second
       end associate
       nodes%across = 1 + self%c*h
-      nodes%across_slope = g*first
+      nodes%across_slope = g*slopes(:, 1)
       nodes%across_power(:, 0) = g
-      nodes%across_power(:, 1) = g*(1 - g)*first
+      nodes%across_power(:, 1) = g*(1 - g)*slopes(:, 1)
    end subroutine at_nodes
 
    elemental real(wp) function shear_weight(self, gap, motion, phi)

@@ -4,7 +4,7 @@ module bearing_losses
    use kinds, only: wp
    use case_groups, only: bearing_type
    use film_solver, only: film_motion, film_oil, film_law_type, film_ok
-   use turbulent_film, only: turbulent_film_type, take_oil
+   use turbulent_film, only: turbulent_film_type
    use pad_gap, only: pad_gap_type
    use film_losses, only: film_losses_type, film_loss
    use asperity_contact, only: asperity_load
@@ -87,8 +87,7 @@ contains
       type(film_loss) :: film
       class(film_law_type), allocatable :: laws(:)
       integer :: i
-      allocate (laws, source=bearing%laws)
-      call take_oil(laws, oil, bearing%pads%gap, bearing%density, speed*bearing%pads(1)%gap%journal_radius)
+      call bearing%laws_with(oil, speed, laws)
       do i = 1, size(pads)
          associate (pad => bearing%pads(i))
             motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))

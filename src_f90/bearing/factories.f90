@@ -2,6 +2,7 @@
 !> input into types.
 module factories
    use kinds, only: wp, degree
+   use case_inputs, only: case_type
    use case_groups, only: bearing_type, film_type, pivot_type, friction_type, asperity_type, is_set
    use pad_gap, only: pad_gap_type
    use film_solver, only: film_solver_type, cavitation_none, cavitation_gumbel, cavitation_reynolds
@@ -23,8 +24,8 @@ module factories
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, make_laws, usual_arc, march_films, static_films, converged_films, quick_films, filled_films, &
-      & of_march, new_losses, make_law, make_friction, new_asperities, new_pads, pad_pivot, make_contacts
+   public :: make_film, make_laws, law_changes, usual_arc, march_films, static_films, converged_films, quick_films, &
+      & filled_films, of_march, new_losses, make_law, make_friction, new_asperities, new_pads, pad_pivot, make_contacts
 
    !> What films are for: a march; the search for an equilibrium, which goes far and stays nowhere; what is linearised
    !> at a single state, with converged films; long ways of which only the end counts; a few states of a march, with
@@ -145,6 +146,14 @@ contains
       turbulent%closure = new_closure(film%turbulence, film%laminar_below, film%turbulent_above)
       call move_alloc(turbulent, laws)
    end subroutine make_laws
+
+   !> Whether films of a bearing are turbulent at speeds or with viscosities that change in a march.
+   pure logical function law_changes(inputs, bearing)
+      type(case_type), intent(in) :: inputs
+      type(bearing_type), intent(in) :: bearing
+      law_changes = bearing%film%turbulence /= 'none' .and. .not. (inputs%is_steady() &
+         & .and. inputs%thermal%march == 'frozen')
+   end function law_changes
 
    !> True for the films of a march.
    elemental logical function of_march(accuracy)

@@ -6,7 +6,6 @@ module tilting_pad_bearing
    use linear_algebra, only: identity, solve_few
    use text, only: to_text
    use case_inputs, only: case_type
-   use case_groups, only: bearing_type
    use film_solver, only: film_solver_type, film_motion, film_oil, film_law_type, film_response, film_not_converged
    use turbulent_film, only: take_oil
    use asperity_contact, only: asperity_contact_type, asperity_load
@@ -17,8 +16,8 @@ module tilting_pad_bearing
    use abstract_element, only: element_type
    use kinematics, only: pad_frame, frame_of, motion_of
    use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads, pad_derivatives
-   use factories, only: make_film, make_laws, new_asperities, new_pads, march_films, static_films, of_march, &
-      & pad_pivot, make_contacts, make_friction
+   use factories, only: make_film, make_laws, law_changes, new_asperities, new_pads, march_films, static_films, &
+      & of_march, pad_pivot, make_contacts, make_friction
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
@@ -62,7 +61,7 @@ module tilting_pad_bearing
       real(wp) :: density = 0
       !> Of the state evaluated last: speed, rad/s, and laws of the films; frames and motions.
       real(wp), private :: speed = 0
-      class(film_law_type), allocatable :: laws(:)
+      class(film_law_type), allocatable, private :: laws(:)
       type(pad_frame), allocatable, private :: frame(:)
       type(film_motion), allocatable, private :: motion(:)
       !> Motions at which the films are taken: those of the journal, but where it touches a pad.
@@ -71,6 +70,7 @@ module tilting_pad_bearing
       integer(i8), private :: evaluations = 0
    contains
       procedure :: adopt
+      procedure :: laws_with
       procedure :: set_coordinates
       procedure :: layout
       procedure :: evaluate
@@ -160,14 +160,6 @@ contains
       end associate
    end subroutine set_parts
 
-   !> Whether films are turbulent at speeds or with viscosities that change in a march.
-   pure logical function law_changes(inputs, bearing)
-      type(case_type), intent(in) :: inputs
-      type(bearing_type), intent(in) :: bearing
-      law_changes = bearing%film%turbulence /= 'none' .and. .not. (inputs%is_steady() &
-         & .and. inputs%thermal%march == 'frozen')
-   end function law_changes
-
    !> Gives its pads these coordinates.
    subroutine set_coordinates(self, coordinates)
       class(tilting_pad_bearing_type), intent(inout) :: self
@@ -224,6 +216,16 @@ contains
       self%accuracy = static_films
       call make_films_anew(self, inputs, b)
    end subroutine use_in_statics
+
+   !> The laws of its films with an oil of each pad, at a speed in rad/s.
+   subroutine laws_with(self, oil, speed, laws)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      type(film_oil), intent(in) :: oil(:)
+      real(wp), intent(in) :: speed
+      class(film_law_type), allocatable, intent(out) :: laws(:)
+      allocate (laws, source=self%laws)
+      call take_oil(laws, oil, self%pads%gap, self%density, speed*self%pads(1)%gap%journal_radius)
+   end subroutine laws_with
 
    !> Another film solver that goes on in the place of the present one.
    subroutine make_films_anew(self, inputs, b)

@@ -10,7 +10,6 @@ module film_network
    use heat_balance, only: oil_temperatures_type, groove_type, new_grooves
    use film_law, only: film_law_type
    use film_oils, only: film_oil
-   use turbulent_film, only: take_oil
    use film_streams, only: film_stream, new_stream_volumes, find_stream
    use film_energy, only: film_profile, layer_faces, new_profile, fitted_oil, film_heat_type, solid_layers, &
       & by_nothing, by_inlet, by_shaft, pad_heat
@@ -290,11 +289,7 @@ contains
             do i = 1, merge(size(model%bearings(b)%pads), 0, anew)
                self%volumes(first + i - 1) = new_stream_volumes(model%bearings(b)%pads(i)%gap, size(self%profiles, 1))
             end do
-            associate (bearing => model%bearings(b))
-               allocate (laws, source=bearing%laws)
-               call take_oil(laws, model%oil(first:last), bearing%pads%gap, own%oil%density, &
-                  & model%point%speed(0.0_wp)*own%journal_radius)
-            end associate
+            call model%bearings(b)%laws_with(model%oil(first:last), model%point%speed(0.0_wp), laws)
             call self%find_streams(model, b, y, laws, streams(first:last), ok, i)
             if (.not. ok) call raise(error, numerics_error, 'the flow in the film of pad '//to_text(i) &
                & //' is not found')
@@ -305,7 +300,6 @@ contains
                if (.not. ok) call raise(error, numerics_error, 'nothing carries off the heat of the films')
             end if
             fields(:, :, first:last) = fields(:, :, first:last) - own%oil%supply_temperature
-            deallocate (laws)
          end associate
          call add_context(error, model%inputs%bearings(b)%label())
          if (allocated(error)) return

@@ -7,7 +7,7 @@ module result_remarks
    use case_groups, only: bearing_type
    use case_inputs, only: case_type
    use case_remarks, only: remarks_on_load, remark_on_unbalance
-   use turbulence_closure, only: closure_type, new_closure
+   use turbulence_closure, only: steepest
    use bearing_equilibrium, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
    use record, only: record_type, lines
@@ -186,13 +186,13 @@ contains
    function on_transition(bearing) result(said)
       type(bearing_type), intent(in) :: bearing
       character(len=:), allocatable :: said
-      type(closure_type) :: closure
+      real(wp) :: power
       associate (f => bearing%film)
-         closure = new_closure(f%turbulence, f%laminar_below, f%turbulent_above)
-         said = line_if(closure%steepest() > steep_transition, 'between film%laminar_below = {} and ' &
+         power = steepest(f%turbulence, f%laminar_below, f%turbulent_above)
+         said = line_if(power > steep_transition, 'between film%laminar_below = {} and ' &
             & //'film%turbulent_above = {} the resistance of a film grows with up to the power {.1} of its Reynolds ' &
             & //'number: above {} a film carries more where it is thicker, and has little stiffness', &
-            & [f%laminar_below, f%turbulent_above, closure%steepest(), steep_transition])
+            & [f%laminar_below, f%turbulent_above, power, steep_transition])
       end associate
    end function on_transition
 

@@ -115,7 +115,7 @@ def test_how_turbulent_the_pads_are(tiltpad, tmp_path):
             file[f"equilibrium/{name}"][()]
             for name in ("reynolds_number", "largest_reynolds_number", "turbulent_share")
         )
-    # of the independent program, whose mean is that of 60 places
+    # of the independent program, which does not say how it takes the mean
     assert mean == pytest.approx([692.486, 1159.837, 1448.856, 1160.258, 692.747], rel=5e-4)
     assert largest == pytest.approx([1023.091, 1439.969, 1628.964, 1440.270, 1023.349], rel=1e-4)
     assert 0 < share[0] < share[1] < share[2] < 1

@@ -74,9 +74,8 @@ def test_one_temperature_a_pad(run):
 def test_temperatures_along_and_across_films(run):
     """An independent program of finite volumes with full profiles across its films.
 
-    The law here keeps the products of laminar weights and factors of uniform films. Beside warm walls these
-    have up to 2 % too much shear and 2 % too little mobility in single films (docs/theory/heat.md, *Turbulent
-    films*), some 1 % in all pads together.
+    The law here keeps the products of laminar weights and factors of uniform films, which have too much shear
+    and too little mobility beside warm walls (docs/theory/heat.md, *Turbulent films*).
     """
     with run(FILM) as file:
         rest = file["equilibrium"]

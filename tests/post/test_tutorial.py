@@ -129,6 +129,15 @@ def figures(folder):
         housing = 11e-6 * (0.15 + 240e-6 + 0.05)
         yield f"here by {1e6 * housing:.1f} um a kelvin"
     yield from turbulence(*(result(f"{name}.h5") for name in ("laminar", "turbine", "later")))
+    with tiltpad.read_study(folder / "closures.h5") as study:
+        fit, constantinescu, hirs = 1e-3 * study["equilibrium_total_power_loss"]
+        yield f"change the loss less, to {fit:.0f} and {constantinescu:.0f} kW"
+        yield f"says {hirs:.0f} kW and {1e6 * study['equilibrium_min_film_thickness'][2]:.0f} um"
+    with tiltpad.read_study(folder / "transition.h5") as study:
+        own = tiltpad.coefficients(study, "free")
+        early, k = own.parameters["turbulent_above"] == 1000, own.stiffness[:, 0, 0, 0]
+        apart = np.abs(k[early] - k[~early]).argmax()
+        yield f"near {own.speed_rpm[early][apart]:.0f} rpm both answers are as far apart as they come"
     for size in ("small", "large"):
         k = 1e-6 * tiltpad.impedance([result(f"{size}_{axis}.h5") for axis in "yz"]).stiffness[0]
         yield f"{k[0, 0]:.0f} MN/m in the vertical and {k[0, 1]:.0f} MN/m across"

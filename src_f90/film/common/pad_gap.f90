@@ -21,6 +21,7 @@ module pad_gap
       procedure :: pad_radius
       procedure :: arc
       procedure :: thickness
+      procedure :: thickness_slopes
       procedure :: directions
       procedure :: min_film_thickness
       procedure :: mean_film_thickness
@@ -75,6 +76,22 @@ contains
       real(wp) :: h
       h = self%machined_clearance - motion%position(1)*sin_phi - motion%position(2)*cos_phi
    end function thickness
+
+   !> ln(h/c_m) at nodes, and its first three slopes along the film: (node, order from 0).
+   pure function thickness_slopes(self, motion, sine, cosine) result(slopes)
+      class(pad_gap_type), intent(in) :: self
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: sine(:), cosine(:)
+      real(wp) :: slopes(size(sine), 0:3), h(size(sine))
+      associate (e => motion%position/self%machined_clearance)
+         h = 1 - e(1)*sine - e(2)*cosine
+         slopes(:, 1) = (e(2)*sine - e(1)*cosine)/h
+      end associate
+      slopes(:, 0) = log(h)
+      ! h'' = c_m - h
+      slopes(:, 2) = (1 - h)/h - slopes(:, 1)**2
+      slopes(:, 3) = -slopes(:, 1) - slopes(:, 1)*(1 - h)/h - 2*slopes(:, 1)*slopes(:, 2)
+   end function thickness_slopes
 
    elemental function directions(self)
       class(pad_gap_type), intent(in) :: self

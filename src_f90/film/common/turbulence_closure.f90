@@ -8,10 +8,11 @@
 module turbulence_closure
    use kinds, only: wp, pi
    use linear_algebra, only: solve
+   use rising_numbers, only: number_up_to
    implicit none (type, external)
    private
-   public :: closure_type, new_closure, closure_factors, along, across, shear, eddy_factors, eddy_conduction, &
-      & closures, wall_law_type, new_wall_law
+   public :: closure_type, new_closure, steepest, closure_factors, along, across, shear, eddy_factors, &
+      & eddy_conduction, closures, wall_law_type, new_wall_law
 
    !> The factors: ln(12/kx), ln(kx/kz), ln kf.
    integer, parameter :: along = 1, across = 2, shear = 3, factors = 3
@@ -19,7 +20,7 @@ module turbulence_closure
    character(len=*), parameter :: closures(*) = [character(len=14) :: 'ng_pan', 'ng_pan_fit', 'constantinescu', 'hirs']
    !> Reynolds number up to which the factors are tabulated: a hundred times that of the fastest large bearings.
    real(wp), parameter :: largest_reynolds = 1e7_wp
-   !> Degree of the polynomials, over cells at most this wide in ln Re: they leave 1e-11 (test_turbulence_closure).
+   !> Degree of the polynomials, over cells at most this wide in ln Re: they leave 1e-10 (test_turbulent_film).
    integer, parameter :: degree = 9
    real(wp), parameter :: widest_cell = 0.35_wp
    integer, parameter :: least_cells = 12
@@ -30,8 +31,9 @@ module turbulence_closure
       & 0.0136_wp, 0.9_wp, 0.0043_wp, 0.96_wp, 0.0012_wp, 0.94_wp, &
       & 0.026_wp, 0.8265_wp, 0.0198_wp, 0.741_wp, 0.0023_wp, 0.855_wp, &
       & 0.0687_wp, 0.75_wp, 0.0392_wp, 0.75_wp, 0.066_wp*2**(-2.75_wp), 0.75_wp], [2, factors, 3])
-   integer, parameter :: hirs = 4
-   !> Points across half of a film, in a variable in which the eddies are smooth: 1e-13 (test_turbulence_closure).
+   integer, parameter :: ng_pan = 1, hirs = 4
+   !> Points across half of a film, in a variable in which the eddies are smooth: the factors are those of another
+   !> program to all of its six decimals (test_turbulent_film).
    integer, parameter :: points = 48
 
    !> Points across half of a film, and what Newton's method for its thickness in wall units begins with, ln h+.
@@ -53,7 +55,6 @@ module turbulence_closure
       procedure :: is_that_of
       procedure :: at
       procedure :: turbulent_share
-      procedure :: steepest
    end type closure_type
 
    !> Factors and their first three derivatives over ln Re, (order from 0, factor).
@@ -134,23 +135,13 @@ contains
       real(wp), intent(in) :: log_reynolds
       type(closure_factors) :: found
       real(wp) :: x, unit, beyond
-      integer :: cell, k, n, from, to
+      integer :: cell, k, n
       n = size(self%bounds)
       if (log_reynolds <= self%bounds(1)) return
-      from = 1
-      to = n
-      do while (to - from > 1)
-         cell = (from + to)/2
-         if (log_reynolds < self%bounds(cell)) then
-            to = cell
-         else
-            from = cell
-         end if
-      end do
-      cell = from
+      cell = min(number_up_to(self%bounds, log_reynolds), n - 1)
       beyond = max(log_reynolds - self%bounds(n), 0.0_wp)
-      unit = 2/(self%bounds(to) - self%bounds(from))
-      x = unit*(log_reynolds - beyond - self%bounds(from)) - 1
+      unit = 2/(self%bounds(cell + 1) - self%bounds(cell))
+      x = unit*(log_reynolds - beyond - self%bounds(cell)) - 1
       do k = 1, factors
          found%value(:, k) = horner(self%polynomials(:, k, cell), x)*[1.0_wp, unit, unit**2, unit**3]
       end do
@@ -160,18 +151,25 @@ contains
       end if
    end function at
 
-   !> The largest power of the Reynolds number with which the resistance to a pressure grows: d ln kx/d ln Re.
-   pure real(wp) function steepest(self)
-      class(closure_type), intent(in) :: self
-      type(closure_factors) :: found
-      integer, parameter :: places = 200
+   !> The largest power of the Reynolds number with which the resistance to a pressure grows in the transition of a
+   !> closure: d ln kx/d ln Re, by differences of it.
+   real(wp) function steepest(name, laminar_below, turbulent_above)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: laminar_below, turbulent_above
+      integer, parameter :: places = 60
+      type(closure_type) :: closure
+      type(wall_law_type) :: wall
+      real(wp) :: mobility(factors, 0:places)
       integer :: i
-      steepest = 0
-      associate (from => log(self%laminar_below), range => log(self%turbulent_above/self%laminar_below))
-         do i = 1, places
-            found = self%at(from + range*i/places)
-            steepest = max(steepest, -found%value(1, along))
+      closure%kind = findloc(closures, name, dim=1)
+      closure%laminar_below = laminar_below
+      closure%turbulent_above = turbulent_above
+      wall = new_wall_law()
+      associate (step => log(turbulent_above/laminar_below)/places)
+         do i = 0, places
+            mobility(:, i) = logarithms(closure, wall, laminar_below*exp(i*step))
          end do
+         steepest = maxval(mobility(along, :places - 1) - mobility(along, 1:))/step
       end associate
    end function steepest
 
@@ -198,7 +196,7 @@ contains
       real(wp), intent(in) :: reynolds
       real(wp) :: logarithms(factors), k(factors), share
       share = turbulent_share(closure, reynolds)
-      if (closure%kind == 1) then
+      if (closure%kind == ng_pan) then
          k = eddy_factors(wall, reynolds, share)
       else
          k = [12.0_wp, 12.0_wp, 1.0_wp]

@@ -92,16 +92,8 @@ contains
       type(closure_factors) :: of
       integer :: i, n
       n = size(sine)
-      if (self%oil%varies) then
-         call self%oil%at_nodes(gap, motion, sine, cosine, nodes)
-      else
-         if (.not. allocated(nodes%sliding)) allocate (nodes%inverse_root(n), nodes%sliding(n), &
-            & nodes%flow_slopes(n, 3), nodes%sliding_slopes(n, 2))
-         nodes%inverse_root(:) = 1
-         nodes%sliding(:) = 1
-         nodes%flow_slopes(:, :) = 0
-         nodes%sliding_slopes(:, :) = 0
-      end if
+      ! exactly 1 where it does not vary
+      call self%oil%at_nodes(gap, motion, sine, cosine, nodes)
       if (.not. self%has_eddies) return
       if (.not. allocated(nodes%across)) allocate (nodes%across(n), nodes%across_slope(n), nodes%flow_power(n, 0:2), &
          & nodes%across_power(n, 0:1))
@@ -129,15 +121,8 @@ contains
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: sine(:), cosine(:)
       real(wp) :: r(size(sine), 0:3)
-      real(wp), dimension(size(sine)) :: h
-      associate (e => motion%position/gap%machined_clearance)
-         h = 1 - e(1)*sine - e(2)*cosine
-         r(:, 0) = self%log_reynolds + log(h)
-         r(:, 1) = (e(2)*sine - e(1)*cosine)/h
-      end associate
-      ! h'' = 1 - h
-      r(:, 2) = (1 - h)/h - r(:, 1)**2
-      r(:, 3) = -r(:, 1) - r(:, 1)*(1 - h)/h - 2*r(:, 1)*r(:, 2)
+      r = gap%thickness_slopes(motion, sine, cosine)
+      r(:, 0) = self%log_reynolds + r(:, 0)
       if (self%oil%varies) r = r - self%oil%shear_slopes(gap, sine, cosine)
    end function reynolds_slopes
 
