@@ -15,7 +15,8 @@ module bearing_equilibrium
    use static_model, only: make_static, make_quick, solve_equilibrium, start, starts, follow_motion, unbalanced, &
       & newtons, residual_limit
    use heat_balance_equations, only: has_warm_oil
-   use thermal_equilibrium, only: guess_oil, guesses, solve_thermal_equilibrium
+   use thermal_equilibrium, only: guess_oil, guesses, solve_thermal_equilibrium, solve_warm_films
+   use film_network, only: warm_films_type
    use kinematics, only: in_mirror
    use force_balance, only: masses, force_derivatives, find_vibrations
    implicit none (type, external)
@@ -67,6 +68,7 @@ contains
       type(machine_model) :: warm, static
       type(search_traces) :: traces
       real(wp), allocatable :: y(:)
+      type(warm_films_type), allocatable :: films(:)
       integer :: guess
       !> Whether there is an equilibrium with these viscosities; with some, and a temperature for each pad.
       logical :: at_rest, with_pads
@@ -83,21 +85,20 @@ contains
       with_pads = .false.
       do guess = 1, guesses
          call guess_oil(warm, guess)
-         call find_isothermal(warm, found, error)
-         at_rest = .not. allocated(error)
-         if (at_rest) then
-            call make_static(warm, warm%point%cavitation, static)
-            y = static%static_state(found%rotor, found%pads)
-            call solve_thermal_equilibrium(static, y, found%residual, error, films=found%films)
-            if (allocated(error) .and. .not. allocated(found%films)) call name_start()
-            with_pads = with_pads .or. allocated(found%films)
+         call find_warm()
+         if (.not. allocated(error)) then
+            if (is_usable(static, y, found, traces)) return
+            ! what is statically unstable with its temperatures often has a stable neighbour that has nearly the same
+            warm%oil = static%oil
+            if (allocated(found%films)) call move_alloc(found%films, films)
+            call find_warm()
+            if (.not. allocated(error)) then
+               if (is_usable(static, y, found, traces)) return
+            end if
          end if
-         if (allocated(error)) then
-            if (error%status == stopped) return
-            if (guess < guesses) deallocate (error)
-         else if (is_usable(static, y, found, traces)) then
-            return
-         end if
+         if (.not. allocated(error)) cycle
+         if (error%status == stopped) return
+         if (guess < guesses) deallocate (error)
       end do
       if (present(by_heat)) by_heat = at_rest .and. allocated(error)
       if (.not. allocated(error)) then
@@ -107,6 +108,23 @@ contains
       if (with_pads) call offer_pads(model, error)
 
    contains
+
+      !> The equilibrium with the viscosities that there are, and from there the one with its own temperatures.
+      subroutine find_warm()
+         call find_isothermal(warm, found, error)
+         at_rest = .not. allocated(error)
+         if (.not. at_rest) return
+         call make_static(warm, warm%point%cavitation, static)
+         y = static%static_state(found%rotor, found%pads)
+         if (allocated(films)) then
+            call solve_warm_films(static, y, films, found%residual, error)
+            if (.not. allocated(error)) call move_alloc(films, found%films)
+         else
+            call solve_thermal_equilibrium(static, y, found%residual, error, films=found%films)
+         end if
+         if (allocated(error) .and. .not. allocated(found%films)) call name_start()
+         with_pads = with_pads .or. allocated(found%films)
+      end subroutine find_warm
 
       !> Says of an error that it is that of the temperatures with which the search for those of films begins.
       subroutine name_start()

@@ -100,6 +100,47 @@ def test_temperatures_along_and_across_films(run):
         assert np.ptp(file["equilibrium/film_temperature"][()], axis=2).max() > spread
 
 
+#: A larger bearing whose pad 3 carries little: with one more um it loses its load.
+LARGE = """&case  task = 'coefficients' /
+&bearing  journal_radius = 0.15, axial_length = 0.225, assembled_clearance = 225e-6
+          machined_clearance = 4.09090909090909e-4 /
+&rotor  mass = 13761.467889908257, unbalance = 0 /
+&operation  speed_rpm = 3600 /
+&pads  motion = 'tilting_only', pivot_angle_deg = -54, 18, 90, 162, 234, arc_deg = 58, pivot_distance = 0.05
+       thickness = 0.05, mass = 1e-3, inertia = 1e-6, centre_radial = -0.01 /
+&film  turbulence = 'ng_pan', turbulent_above = 1500 /
+&asperity  model = 'none' /
+&oil  kinematic_viscosity = 32e-6, 5.362e-6, density_at_15 = 870, density_slope = -0.64
+      supply_temperature = 45 /
+&thermal  model = 'film' /
+"""
+
+
+@pytest.mark.parametrize("clearance", [224.5e-6, 225e-6])
+def test_a_pad_that_nearly_loses_its_load(run, clearance):
+    """With what the first search leads to it is statically unstable; it has a stable neighbour.
+
+    The independent program has it at a clearance of 225 um. Its force on pad 3 is more by 0.2 % of the
+    bearing's load, which moves that pad's tilt alone.
+    """
+    with run(LARGE, f"bearing%assembled_clearance={clearance}") as file:
+        rest = file["equilibrium"]
+        assert rest["load"][2] > 1000
+        if clearance < 225e-6:
+            return
+        assert rest["journal_y"][()] == pytest.approx(-181.10410153363097e-6, rel=5e-4)
+        assert rest["total_power_loss"][()] == pytest.approx(53719.396512816806, rel=2e-3)
+        highest = [
+            92.51732035276326,
+            57.9849742743458,
+            52.7504808448039,
+            58.05056454143361,
+            95.80516016679208,
+        ]
+        np.testing.assert_allclose(rest["maximum_temperature"], highest, atol=0.1)
+        assert largest(coefficients(file, "stiffness")[0], [2784.9355013450704, 1515.6533265738976]) < 0.01
+
+
 def test_the_shaft_evens_out_pads(run):
     """More heat crosses turbulent films, the more the less their Prandtl number."""
     spread = {}
