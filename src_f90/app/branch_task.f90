@@ -12,6 +12,8 @@ module branch_task
    use newton_method, only: branch_point_type, return_to
    use continuation, only: bifurcation_type
    use branch_progress, only: branch_progress_type
+   use equations_of_motion, only: machine_model
+   use static_model, only: make_fine
    use orbit_figures, only: orbit_figures_type, find_orbit_figures
    use heat_balance, only: oil_temperatures_type
    use heat_balance_equations, only: has_warm_oil
@@ -42,6 +44,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(branch_progress_type), target :: b
       type(notes_type) :: notes
+      type(bifurcation_type) :: hopf
       logical :: more
       allocate (notes%special(0))
       notes%ends = ''
@@ -50,7 +53,8 @@ contains
          if (run%resumed) then
             call go_on(run, b, notes, error)
          else
-            call begin(run, b, error)
+            call begin(run, b, hopf, error)
+            if (b%of_cycles .and. .not. allocated(error)) call note(run, b, hopf, notes)
          end if
       end if
       if (allocated(error)) return
@@ -76,11 +80,15 @@ contains
    end subroutine run_branch
 
    !> Creates the file and finds the first point of the first branch.
-   subroutine begin(run, b, error)
+   subroutine begin(run, b, hopf, error)
       type(case_run_type), intent(inout), target :: run
       type(branch_progress_type), intent(inout), target :: b
+      !> Where limit cycles begin.
+      type(bifurcation_type), intent(out) :: hopf
       type(error_type), allocatable, intent(out) :: error
-      if (b%of_orbits) then
+      if (b%of_cycles) then
+         call first_cycle(run, b, hopf, error)
+      else if (b%of_orbits) then
          call first_orbit(run, b, error)
       else
          call first_equilibrium(run, b, error)
@@ -92,7 +100,7 @@ contains
          error%message = stop_reason()//' before the first point of the branch; nothing was written'
          return
       end if
-      call b%first_point(error)
+      if (.not. b%of_cycles) call b%first_point(error)
       if (allocated(error)) return
       call run%file%put_text('branch_of', b%given%of)
       call run%file%put_text('branch_parameter', b%given%parameter)
@@ -120,6 +128,20 @@ contains
       if (.not. allocated(error)) call b%begin_with_orbit(found%orbit, run%inputs%periodic%revolutions)
    end subroutine first_orbit
 
+   !> The limit cycles that begin at the first Hopf point of the equilibria.
+   subroutine first_cycle(run, b, hopf, error)
+      type(case_run_type), intent(inout), target :: run
+      type(branch_progress_type), intent(inout), target :: b
+      type(bifurcation_type), intent(out) :: hopf
+      type(error_type), allocatable, intent(out) :: error
+      type(machine_model), target :: fine
+      type(equilibrium_type) :: static
+      real(wp), allocatable :: y(:)
+      call make_fine(run%model, fine)
+      call settle_case(run, fine, static, y, error)
+      if (.not. allocated(error)) call b%begin_at_hopf(run%model, fine, y, static%films, hopf, error)
+   end subroutine first_cycle
+
    !> The equilibrium of the case, with converged films.
    subroutine first_equilibrium(run, b, error)
       type(case_run_type), intent(inout) :: run
@@ -127,14 +149,23 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_type) :: static
       real(wp), allocatable :: y(:)
+      call settle_case(run, b%static, static, y, error)
+      if (.not. allocated(error)) call b%begin_with_equilibrium(y, static%films)
+   end subroutine first_equilibrium
+
+   !> The equilibrium y of the case, with the converged films of a static model.
+   subroutine settle_case(run, fine, static, y, error)
+      type(case_run_type), intent(inout) :: run
+      type(machine_model), intent(inout) :: fine
+      type(equilibrium_type), intent(out) :: static
+      real(wp), allocatable, intent(out) :: y(:)
+      type(error_type), allocatable, intent(out) :: error
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
-      call settle_equilibrium(b%static, static, y, error)
+      call settle_equilibrium(fine, static, y, error)
       call add_context(error, 'with converged films')
-      if (allocated(error)) return
-      call note_equilibrium(run, static)
-      call b%begin_with_equilibrium(y, static%films)
-   end subroutine first_equilibrium
+      if (.not. allocated(error)) call note_equilibrium(run, static)
+   end subroutine settle_case
 
    !> Takes the branches up where a checkpoint has left them.
    subroutine go_on(run, b, notes, error)
@@ -169,7 +200,11 @@ contains
    subroutine open_series(run, b)
       type(case_run_type), intent(inout) :: run
       type(branch_progress_type), intent(in) :: b
-      call begin_branches(run%file, b%of_orbits, merge(run%model%n, 2*run%model%layout%n_positions(), b%of_orbits))
+      integer :: modes
+      modes = 2*run%model%layout%n_positions()
+      ! of limit cycles without the multiplier that is 1
+      if (b%of_orbits) modes = run%model%n - merge(1, 0, b%of_cycles)
+      call begin_branches(run%file, b%of_orbits, modes)
       run%computed = .true.
    end subroutine open_series
 
@@ -227,12 +262,21 @@ contains
          call return_to(b%problem, special(k)%point)
          call record(run, b, special(k)%point, error)
          if (allocated(error)) return
-         notes%special = [notes%special, noted(run%file, b%branch, special(k))]
-         if (.not. run%quiet) call print_bifurcation(special(k), b%given%parameter, has_warm_oil(run%model))
+         call note(run, b, special(k), notes)
       end do
       if (size(special) > 0) call return_to(b%problem, b%here)
       call record(run, b, b%here, error)
    end subroutine record_step
+
+   !> Notes and prints a bifurcation point that is the last point of the file.
+   subroutine note(run, b, special, notes)
+      type(case_run_type), intent(in) :: run
+      type(branch_progress_type), intent(in) :: b
+      type(bifurcation_type), intent(in) :: special
+      type(notes_type), intent(inout) :: notes
+      notes%special = [notes%special, noted(run%file, b%branch, special)]
+      if (.not. run%quiet) call print_bifurcation(special, b%given%parameter, has_warm_oil(run%model))
+   end subroutine note
 
    !> Adds a point to the file, at which the problem stands.
    subroutine record(run, b, point, error)
@@ -305,6 +349,8 @@ contains
             print '(a)', 'branch '//to_text(k)//': '//to_text(count(own))//' points, '//parameter//' from ' &
                & //precise(minval(value(1, :), mask=own))//' to '//precise(maxval(value(1, :), mask=own))//', ' &
                & //to_text(count(own .and. stable(1, :) > 0))//' of them stable'//frozen(warm)
+            if (inputs%branch%of == 'limit_cycle') call print_birth(file, inputs, value(1, :), stable(1, :) > 0, &
+               & parameter)
             do b = 1, merge(size(inputs%bearings), 0, warm)
                call print_oil(new_bearing_file(file, inputs%bearings(b)), inputs%bearings(b)%label(', ')//'pad ', own)
             end do
@@ -313,6 +359,36 @@ contains
       call file%get_text('branch_ends', ends)
       print '(a)', ends
    end subroutine print_branch
+
+   !> To which side limit cycles are born, and how far unstable ones reach: a kick beyond them leads away from an
+   !> equilibrium that is stable.
+   subroutine print_birth(file, inputs, value, stable, parameter)
+      type(run_file_type), intent(inout), target :: file
+      type(case_type), intent(in) :: inputs
+      real(wp), intent(in) :: value(:)
+      logical, intent(in) :: stable(:)
+      character(len=*), intent(in) :: parameter
+      type(bearing_file_type) :: part
+      real(wp), allocatable, dimension(:, :) :: highest, lowest
+      real(wp) :: amplitude(2)
+      integer :: b, k, axis
+      if (size(value) < 2) return
+      print '(a)', '  born towards '//trim(merge('higher', 'lower ', value(2) > value(1)))//' '//parameter
+      associate (unstable => .not. stable(2:))
+         if (.not. any(unstable)) return
+         k = 1 + maxloc(abs(value(2:) - value(1)), dim=1, mask=unstable)
+         print '(a)', '  unstable cycles reach to '//parameter//' = '//precise(value(k))//', where their amplitudes are'
+      end associate
+      do b = 1, size(inputs%bearings)
+         part = new_bearing_file(file, inputs%bearings(b))
+         do axis = 1, 2
+            call part%last_samples('journal_'//'yz'(axis:axis)//'_max', size(value), highest)
+            call part%last_samples('journal_'//'yz'(axis:axis)//'_min', size(value), lowest)
+            amplitude(axis) = (highest(1, k) - lowest(1, k))/2
+         end do
+         print '(a)', filled('    '//inputs%bearings(b)%label(', ')//'journal: y {u.2}, z {u.2} um', amplitude)
+      end do
+   end subroutine print_birth
 
    !> What stability stands for where the oil has temperatures.
    pure function frozen(warm) result(text)

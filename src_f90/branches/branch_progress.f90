@@ -11,6 +11,8 @@ module branch_progress
    use march_settings, only: march_settings_of
    use orbit_polynomials, only: orbit_type, points
    use orbit_problem, only: orbit_problem_type, begin_orbits, period_multiple_at
+   use limit_cycle, only: limit_cycle_type, begin_cycles
+   use hopf_start, only: find_hopf_point, begin_at_hopf_point
    use newton_method, only: branch_problem_type, branch_point_type, can_be_of, return_to
    use continuation, only: branch_options, start_branch, advance, bifurcation_type, find_bifurcations
    use varied_bearing, only: varied_bearing_type, bearing_orbits_type
@@ -28,10 +30,10 @@ module branch_progress
       type(branch_options) :: options
       !> Value of the case, and the size of the way from there.
       real(wp) :: first = 0, way = 0
-      !> Either is followed; it is the problem.
-      logical :: of_orbits = .true.
+      !> Either is followed; it is the problem. Orbits may be limit cycles.
+      logical :: of_orbits = .true., of_cycles = .false.
       class(branch_problem_type), pointer :: problem => null()
-      type(orbit_problem_type) :: orbits
+      class(orbit_problem_type), allocatable :: orbits
       type(equilibrium_problem_type) :: equilibria
       type(bearing_orbits_type) :: ode
       !> In equilibrium: of equilibria, with converged films; of orbits with warm oil, for its viscosities.
@@ -49,6 +51,7 @@ module branch_progress
       procedure :: begin_oil
       procedure :: begin_with_orbit
       procedure :: begin_with_equilibrium
+      procedure :: begin_at_hopf
       procedure :: begin_anywhere
       procedure :: first_point
       procedure :: go_on
@@ -60,6 +63,8 @@ module branch_progress
    real(wp), parameter :: usual_growth = 10
    !> First step of a branch of double period over that of the first: it starts across the parameter.
    real(wp), parameter :: across = 0.3_wp
+   !> First step of a branch of limit cycles, over the clearance, at most: it starts across the parameter, too.
+   real(wp), parameter :: first_cycle = 0.01_wp
    !> How far behind the last point of a branch, over the first step, is looked for a reason of its end.
    real(wp), parameter :: step_beyond = 1e-2_wp
    !> Periods are doubled up to this many of the first branch's.
@@ -78,7 +83,13 @@ contains
          if (allocated(error)) return
          self%first = self%parameter%value(model%inputs)
          self%way = abs(given%last - self%first)
-         self%of_orbits = given%of == 'periodic'
+         self%of_orbits = given%of /= 'equilibrium'
+         self%of_cycles = given%of == 'limit_cycle'
+         if (self%of_cycles) then
+            allocate (limit_cycle_type :: self%orbits)
+         else
+            allocate (orbit_problem_type :: self%orbits)
+         end if
          self%options%low = min(given%last, self%first)
          self%options%high = max(given%last, self%first)
          self%options%first_step = abs(given%step)/self%way
@@ -121,7 +132,12 @@ contains
       type(orbit_type), intent(in) :: orbit
       !> Revolutions of the shaft in it.
       integer, intent(in) :: period_multiple
-      call begin_orbits(self%orbits, self%ode, orbit, period_multiple, self%first, self%way)
+      select type (orbits => self%orbits)
+      type is (limit_cycle_type)
+         call begin_cycles(orbits, self%ode, orbit, self%first, self%way)
+      class default
+         call begin_orbits(orbits, self%ode, orbit, period_multiple, self%first, self%way)
+      end select
    end subroutine begin_with_orbit
 
    !> With the state of an equilibrium of `static`, and the temperatures along and across its films, if it has any.
@@ -132,6 +148,41 @@ contains
       call begin_equilibria(self%equilibria, varied_bearing_type(self%static, self%parameter), y, self%first, &
          & self%way, films)
    end subroutine begin_with_equilibrium
+
+   !> With the limit cycles that begin at the first Hopf point of the equilibria. `fine`, a static model, is in
+   !> equilibrium in y, with these temperatures along and across its films, if it has any.
+   subroutine begin_at_hopf(self, model, fine, y, films, hopf, error)
+      class(branch_progress_type), intent(inout), target :: self
+      type(machine_model), intent(in) :: model
+      type(machine_model), intent(in), target :: fine
+      real(wp), intent(in) :: y(:)
+      type(warm_films_type), allocatable, intent(in) :: films(:)
+      type(bifurcation_type), intent(out) :: hopf
+      type(error_type), allocatable, intent(out) :: error
+      type(equilibrium_problem_type) :: equilibria
+      real(wp) :: at_rest(model%n)
+      integer :: b
+      call begin_equilibria(equilibria, varied_bearing_type(fine, self%parameter), y, self%first, self%way, films)
+      if (any([(model%inputs%bearings(b)%friction%model /= 'none', b=1, size(model%bearings))])) then
+         equilibria%pivot = 'stuck'
+      end if
+      call find_hopf_point(equilibria, self%options, self%given%parameter, hopf, error)
+      if (allocated(error)) return
+      at_rest = 0
+      at_rest(model%layout%positions()) = equilibria%positions
+      if (has_warm_oil(model)) then
+         call self%begin_oil(model, at_rest)
+         self%ode%start = [at_rest, fine%oil%viscosity]
+         self%ode%found = self%ode%start
+      end if
+      select type (cycles => self%orbits)
+      type is (limit_cycle_type)
+         call begin_at_hopf_point(cycles, self%ode, at_rest, model%scale, hopf%value, hopf%point%parameter, self%way, &
+            & self%here, error)
+      end select
+      self%length = min(first_cycle, self%options%first_step)
+      self%points = 0
+   end subroutine begin_at_hopf
 
    !> Where `go_on` will lead to the place of a checkpoint.
    subroutine begin_anywhere(self, model)
@@ -193,7 +244,8 @@ contains
       allocate (special(0))
       found = .false.
       at_end = ''
-      split = half_apart(self%orbits)
+      split = [real(wp) ::]
+      if (self%branch > 1 .or. self%of_cycles) split = half_apart(self%orbits)
       length = self%length
       call advance(self%problem, self%options, self%here, length, next, ends, error)
       if (allocated(error)) then
@@ -206,9 +258,10 @@ contains
          deallocate (error)
          return
       end if
-      if (self%branch > 1 .and. self%points > 0) then
+      if (size(split) > 0 .and. self%points > 0) then
          if (dot_product(split, half_apart(self%orbits)) < 0) then
             at_end = 'it comes back to the branch that it left'
+            if (self%of_cycles) at_end = 'it shrinks to an equilibrium, at a Hopf point'
             call forget_doublings()
             return
          end if
@@ -232,7 +285,7 @@ contains
       !> Keeps the period doublings among bifurcation points from which a branch is to be followed.
       subroutine note_doublings()
          integer :: k
-         if (.not. self%given%switch .or. self%orbits%period_multiple >= self%longest_turns) return
+         if (.not. self%given%switch .or. self%of_cycles .or. self%orbits%period_multiple >= self%longest_turns) return
          do k = 1, size(special)
             if (special(k)%kind == 'period_doubling') self%period_doublings = [self%period_doublings, &
                & special(k)%point]
@@ -289,7 +342,7 @@ contains
    !> From a period doubling of a problem: the point of the branch of double period there, on which the problem stands
    !> then. Its tangent is the disturbance that comes back with the opposite sign after a period.
    subroutine double_period(problem, period_doubling, point, ok)
-      type(orbit_problem_type), intent(inout) :: problem
+      class(orbit_problem_type), intent(inout) :: problem
       type(branch_point_type), intent(in) :: period_doubling
       type(branch_point_type), intent(out) :: point
       logical, intent(out) :: ok
@@ -324,13 +377,11 @@ contains
    end subroutine double_period
 
    !> By how much an orbit is elsewhere half a period later, in the measure of the branch: by nothing where it is that
-   !> of half the period. Empty where the problem stands at no orbit.
+   !> of half the period.
    pure function half_apart(problem)
-      type(orbit_problem_type), intent(in) :: problem
+      class(orbit_problem_type), intent(in) :: problem
       real(wp), allocatable :: half_apart(:)
       real(wp) :: y(problem%n)
-      half_apart = [real(wp) ::]
-      if (problem%n == 0) return
       associate (orbit => problem%orbit)
          call orbit%state_at(0.5_wp*orbit%time(orbit%intervals()), y)
          half_apart = problem%weight*(y - orbit%start)/orbit%scale

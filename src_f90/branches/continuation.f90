@@ -69,6 +69,14 @@ contains
       normal(problem%n + 1) = merge(1.0_wp, -1.0_wp, upwards)
    end function across_parameter
 
+   !> Whether a branch begins at a point, across the parameter, whose change is known behind it alone: with friction it
+   !> may grow with the branch at once.
+   pure logical function begins_across(problem, point)
+      class(branch_problem_type), intent(in) :: problem
+      type(branch_point_type), intent(in) :: point
+      begins_across = .not. abs(point%tangent(problem%n + 1)) > 0
+   end function begins_across
+
    !> From a point, at which the problem stands, to the next, where it stands then; `length` is that of the step, and
    !> becomes that for the next one. `ends` where the parameter has come to one of its bounds, or to within a shortest
    !> step of it. An error where no next point was found: at the shortest step, or, of status `stopped`, as the options
@@ -100,8 +108,8 @@ contains
             end if
          end if
          again = allocated(error)
-         if (.not. again) again = (problem%dot(here%tangent, next%tangent) < largest_turn &
-            & .or. next%distance > farthest*next%along) .and. length > shortest*options%first_step
+         if (.not. (again .or. begins_across(problem, here))) again = (problem%dot(here%tangent, next%tangent) &
+            & < largest_turn .or. next%distance > farthest*next%along) .and. length > shortest*options%first_step
          if (.not. again) exit
          if (allocated(error)) then
             if (error%status == stopped .or. length <= shortest*options%first_step) return

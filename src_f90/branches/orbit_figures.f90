@@ -6,6 +6,7 @@ module orbit_figures
    use equations_of_motion, only: machine_model
    use bearing_samples, only: bearing_sample, take_sample
    use orbit_problem, only: orbit_problem_type
+   use limit_cycle, only: limit_cycle_type
    implicit none (type, external)
    private
    public :: orbit_figures_type, whirl_figures_type, bearing_figures_type, find_orbit_figures
@@ -28,27 +29,36 @@ module orbit_figures
    type :: orbit_figures_type
       type(bearing_figures_type), allocatable :: bearings(:)
       type(whirl_figures_type), allocatable :: stations(:)
-      !> Of an orbit: revolutions of the shaft in it, intervals of its collocation, and its period, s.
-      integer :: revolutions = 0, intervals = 0
-      real(wp) :: period = 0
+      !> Of an orbit: revolutions of the shaft in it, 0 else; intervals of its collocation; its period, s.
+      real(wp) :: revolutions = 0, period = 0
+      integer :: intervals = 0
+      !> Whether it is a limit cycle; the error of its multiplier that is 1.
+      logical :: is_cycle = .false.
+      real(wp) :: trivial_error = 0
    contains
       procedure :: add_state
    end type orbit_figures_type
 
 contains
 
-   !> The figures of an orbit, from a number of samples in each revolution.
+   !> The figures of an orbit, from a number of samples in each revolution, or in a limit cycle, whose own frequency
+   !> then takes the place of the shaft's.
    subroutine find_orbit_figures(model, problem, samples, figures)
       type(machine_model), intent(in) :: model
-      type(orbit_problem_type), intent(in) :: problem
+      class(orbit_problem_type), intent(inout) :: problem
       integer, intent(in) :: samples
       type(orbit_figures_type), intent(out) :: figures
       real(wp) :: y(model%n), t
       integer(i8) :: k, n
-      figures%revolutions = problem%period_multiple
+      figures%revolutions = problem%turns()
       figures%intervals = problem%orbit%intervals()
       figures%period = problem%period()
-      n = int(figures%revolutions, i8)*samples
+      select type (problem)
+      type is (limit_cycle_type)
+         figures%is_cycle = .true.
+         figures%trivial_error = problem%trivial_error()
+      end select
+      n = int(problem%period_multiple, i8)*samples
       do k = 0, n - 1
          t = problem%orbit%time(figures%intervals)*k/n
          call problem%orbit%state_at(t, y)

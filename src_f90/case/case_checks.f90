@@ -261,10 +261,25 @@ contains
                & //'''operation%speed_rpm''', error)
             if (is_set(b%step) .and. b%max_step > 0) call require(b%max_step >= abs(b%step), 'branch%max_step = {}: ' &
                & //'must be 0 or at least the size of branch%step = {}', [b%max_step, b%step], error)
+            if (b%of == 'limit_cycle') call check_free()
             call require(b%switch .or. b%of == 'periodic', 'branch%switch = .false.: has no effect on a branch of ' &
-               & //'equilibria', error)
+               & //'equilibria or limit cycles', error)
          end associate
       end subroutine check_branch
+
+      !> Limit cycles are of a motion that nothing drives, and begin where pivots at rest have stiffness or none.
+      subroutine check_free()
+         integer :: b
+         call require(.not. inputs%unbalance() > 0, 'branch%of = ''limit_cycle'': must be without unbalance ' &
+            & //'({} kg m; rotor%unbalance = 0), which would drive the motion', [inputs%unbalance()], error)
+         do b = 1, size(inputs%bearings)
+            associate (model => inputs%bearings(b)%friction%model)
+               call require(model /= 'bengisu_akay', inputs%bearings(b)%label(': ')//'friction%model = '''//model &
+                  & //''': must be ''none'' or ''lugre'' with branch%of = ''limit_cycle'', as pivots at rest hold ' &
+                  & //'with no stiffness there', error)
+            end associate
+         end do
+      end subroutine check_free
 
       ! Checks of a machine: what no single value of its shaft and of what stands on it or under it can tell. A message
       ! names the group, its variables, their values and what is allowed.

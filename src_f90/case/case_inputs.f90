@@ -98,10 +98,11 @@ contains
       moves = self%about%task == 'march' .or. self%seeks_orbits()
    end function moves
 
-   !> Whether the task seeks periodic orbits.
+   !> Whether the task seeks periodic orbits, limit cycles among them.
    pure logical function seeks_orbits(self)
       class(case_type), intent(in) :: self
-      seeks_orbits = self%about%task == 'periodic' .or. self%about%task == 'branch' .and. self%branch%of == 'periodic'
+      seeks_orbits = self%about%task == 'periodic' .or. self%about%task == 'branch' .and. self%branch%of &
+         & /= 'equilibrium'
    end function seeks_orbits
 
    !> The case of bearing b alone, with a rigid journal in the place of an elastic rotor, under a load along y and z, N.

@@ -25,8 +25,9 @@ module orbit_collocation
       !> States, and how many constants the equations of an interval have there.
       integer :: n = 0, constants = 0
       !> How the ends of intervals go where they lie at a switching point, s, (column, 0:intervals): columns 1 to n from
-      !> a change of the state at the start of the period, n + 1 from what the equations lack, n + 2 (where it is asked
-      !> for) from a change of the parameter by 1; the last from how far the next such end goes.
+      !> a change of the state at the start of the period, n + 1 from what the equations lack, then, where they are
+      !> asked for, from a change of the period's logarithm and from one of the parameter by 1; the last from how far
+      !> the next such end goes.
       real(wp), allocatable :: shift(:, :)
    contains
       procedure :: transitions
@@ -46,10 +47,10 @@ module orbit_collocation
 contains
 
    !> Linearises the equations on an orbit and eliminates the points inside of the intervals: sets the orbit's monodromy
-   !> matrix M, and matrix x = b for the change x of the start, and (a matrix of n + 1 columns) of the parameter, that
-   !> closes the orbit: (1 - M) x = gap. A numerics error where the model refuses a state or equations have no solution.
-   !> Ends of intervals at a switching point go where the orbit passes it; between them the mesh is stretched.
-   subroutine condense(model, orbit, equations, matrix, b, refused, error, shift)
+   !> matrix M, and matrix x = b for the change x of the start, and (a matrix of more columns) of what else is unknown,
+   !> that closes the orbit: (1 - M) x = gap. A numerics error where the model refuses a state or equations have no
+   !> solution. Ends of intervals at a switching point go where the orbit passes it; between them the mesh is stretched.
+   subroutine condense(model, orbit, equations, matrix, b, refused, error, period_is_free, shift)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(inout) :: orbit
       type(orbit_equations_type), intent(out) :: equations
@@ -57,6 +58,8 @@ contains
       !> Whether the model refused a state.
       logical, intent(out) :: refused
       type(error_type), allocatable, intent(out) :: error
+      !> Whether the logarithm of the period is unknown: its column comes before that of the parameter.
+      logical, intent(in) :: period_is_free
       !> Where the derivatives over the parameter are wanted.
       type(parameter_shift_type), intent(in), optional :: shift
       real(wp) :: jacobian(model%n, model%n, points)
@@ -65,7 +68,7 @@ contains
       integer :: k, i, n, columns, constants
       logical :: ok
       n = model%n
-      columns = n + merge(2, 1, present(shift))
+      columns = n + 1 + merge(1, 0, period_is_free) + merge(1, 0, present(shift))
       constants = columns - n + merge(2, 0, any(orbit%switching_point > 0))
       equations%n = n
       equations%constants = constants
@@ -80,7 +83,7 @@ contains
       start = 0
       start(:columns, :columns) = identity(columns)
       do k = 1, orbit%intervals()
-         call linearize(model, orbit, k, jacobian, gap, error, shift)
+         call linearize(model, orbit, k, jacobian, gap, error, period_is_free, shift)
          refused = allocated(error)
          if (refused) return
          call equations%maps%eliminate(k, orbit%time(k) - orbit%time(k - 1), jacobian, gap, ok)
@@ -104,7 +107,7 @@ contains
       do i = 1, n
          matrix(i, i) = matrix(i, i) + 1
       end do
-      if (present(shift)) matrix(:, n + 1) = -start(n + 2, :n)
+      matrix(:, n + 1:columns - 1) = -transpose(start(n + 2:columns, :n))
       b = start(n + 1, :n) + orbit%gap()
    end subroutine condense
 
@@ -177,8 +180,9 @@ contains
       states(columns + 1, :) = 0
    end subroutine put_at_switching_point
 
-   !> Moves an orbit by a change of its start and (an element more) of the parameter, over the scales; where it
-   !> `closes`, also by what the equations lack. Of a correction longer than `longest` only a part is made.
+   !> Moves an orbit by a change of its start and (further elements) of what else is unknown, over the scales, in the
+   !> time that it has; where it `closes`, also by what the equations lack. Of a correction longer than `longest` only a
+   !> part is made.
    subroutine move_orbit(orbit, equations, change, closes, longest)
       type(orbit_type), intent(inout) :: orbit
       type(orbit_equations_type), intent(in) :: equations
@@ -243,14 +247,15 @@ contains
    end subroutine keep_order
 
    !> At the points of interval k: the derivatives of the rates, over the scales and times the interval, and how far the
-   !> equations are from being satisfied, (state, 1, point); (state, 2, point) is what the parameter adds to that, and
-   !> the last two, if there are more, a shift of the interval's start and end by 1 s.
-   subroutine linearize(model, orbit, k, jacobian, gap, error, shift)
+   !> equations are from being satisfied, (state, 1, point); then, where they are asked for, what the logarithm of the
+   !> period and the parameter add to that, and, if there are two more, a shift of the interval's start and end by 1 s.
+   subroutine linearize(model, orbit, k, jacobian, gap, error, period_is_free, shift)
       class(ode_model_type), intent(inout) :: model
       type(orbit_type), intent(in) :: orbit
       integer, intent(in) :: k
       real(wp), intent(out) :: jacobian(:, :, :), gap(:, :, :)
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(in) :: period_is_free
       type(parameter_shift_type), intent(in), optional :: shift
       real(wp), dimension(model%n, points) :: rate, over_parameter, df_dt
       real(wp) :: before(model%n), inside(model%n), h
@@ -259,7 +264,7 @@ contains
       h = orbit%time(k) - orbit%time(k - 1)
       before = orbit%start
       if (k > 1) before = orbit%at(:, points, k - 1)
-      constants = merge(2, 1, present(shift))
+      constants = 1 + merge(1, 0, period_is_free) + merge(1, 0, present(shift))
       do i = 1, points
          inside = collocated_state(orbit, k, i)
          call model%rhs_and_jacobian(orbit%time(k - 1) + place(i)*h, inside, rate(:, i), jacobian(:, :, i), ok)
@@ -277,7 +282,8 @@ contains
       end do
       do i = 1, points
          gap(:, 1, i) = (before - orbit%at(:, i, k) + h*matmul(rate, weight(i, :)))/orbit%scale
-         if (present(shift)) gap(:, 2, i) = h*matmul(over_parameter, weight(i, :))/orbit%scale
+         if (period_is_free) gap(:, 2, i) = h*matmul(rate, weight(i, :))/orbit%scale
+         if (present(shift)) gap(:, constants, i) = h*matmul(over_parameter, weight(i, :))/orbit%scale
          if (size(gap, 2) == constants) cycle
          gap(:, constants + 1, i) = matmul(h*df_dt*spread(1 - place, 1, model%n) - rate, weight(i, :))/orbit%scale
          gap(:, constants + 2, i) = matmul(h*df_dt*spread(place, 1, model%n) + rate, weight(i, :))/orbit%scale

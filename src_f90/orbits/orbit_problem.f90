@@ -36,20 +36,24 @@ module orbit_problem
       integer(i8) :: tangents = 0, evaluations = 0
       !> As they were linearised last.
       type(orbit_equations_type) :: equations
-      class(parametric_ode_type), pointer, private :: ode => null()
+      class(parametric_ode_type), pointer :: ode => null()
       !> How far the first orbit on its mesh was from satisfying the rates in the middle of the intervals, < 0: not
       !> known yet.
       real(wp), private :: first_defect = -1
    contains
-      procedure :: linearize
+      procedure :: linearize => linearize_orbit
+      procedure, non_overridable :: linearize_orbit
       procedure :: move
-      procedure :: predict
+      procedure :: predict => predict_orbit
+      procedure, non_overridable :: predict_orbit
       procedure :: spectrum
       procedure :: kind => kind_of
       procedure :: get_place
       procedure :: go_to
       procedure :: fits
+      procedure :: states
       procedure :: period
+      procedure :: turns
       procedure :: residual
    end type orbit_problem_type
 
@@ -93,7 +97,7 @@ contains
 
    !> A problem that stands at an orbit over a number of periods of its forcing, of an ODE at a value of the parameter.
    subroutine begin_orbits(problem, ode, orbit, period_multiple, parameter, unit)
-      type(orbit_problem_type), intent(out) :: problem
+      class(orbit_problem_type), intent(out) :: problem
       class(parametric_ode_type), intent(inout), target :: ode
       type(orbit_type), intent(in) :: orbit
       integer, intent(in) :: period_multiple
@@ -116,13 +120,26 @@ contains
       if (present(unit)) problem%unit = unit
    end subroutine begin_orbits
 
+   !> Number of the states, which the unknowns begin with.
+   pure integer function states(self)
+      class(orbit_problem_type), intent(in) :: self
+      states = size(self%orbit%start)
+   end function states
+
+   !> Periods of what drives the model in that of the orbit.
+   pure real(wp) function turns(self)
+      class(orbit_problem_type), intent(in) :: self
+      turns = self%period_multiple
+   end function turns
+
    !> Period of the orbit, s.
    pure real(wp) function period(self)
       class(orbit_problem_type), intent(in) :: self
       period = self%period_multiple*self%ode%period
    end function period
 
-   subroutine linearize(self, matrix, b, error)
+   !> The equations of the orbit; an extension may have more.
+   subroutine linearize_orbit(self, matrix, b, error)
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(out) :: matrix(:, :), b(:)
       type(error_type), allocatable, intent(out) :: error
@@ -143,9 +160,10 @@ contains
          self%refused = allocated(error)
          if (self%refused) return
       end if
-      call condense(self%ode%model, self%orbit, self%equations, matrix, b, self%refused, error, shift)
+      call condense(self%ode%model, self%orbit, self%equations, matrix, b, self%refused, error, &
+         & self%n > self%states(), shift)
       self%tangents = self%tangents + points*self%orbit%intervals()
-   end subroutine linearize
+   end subroutine linearize_orbit
 
    !> The rates for another value of the parameter, at the same phases; the model is then as before.
    subroutine set_shift(self, shift, error)
@@ -162,7 +180,7 @@ contains
       call self%ode%set(self%parameter + change, error)
       if (allocated(error)) deallocate (error)
       stretch = self%period()/before
-      allocate (shift%rates(self%n, points, self%orbit%intervals()))
+      allocate (shift%rates(self%states(), points, self%orbit%intervals()))
       associate (time => self%orbit%time)
          do k = 1, self%orbit%intervals()
             do i = 1, points
@@ -190,7 +208,7 @@ contains
 
    !> The mesh goes along, and with it the switching points; where the orbit has changed so much that it fits its mesh
    !> less, from a new one.
-   subroutine predict(self, change)
+   subroutine predict_orbit(self, change)
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       real(wp), allocatable :: mesh(:), before(:)
@@ -204,8 +222,8 @@ contains
       end if
       before = [self%orbit%time]
       call self%move(change, .false.)
-      if (allocated(mesh)) call self%orbit%change_mesh(moved(mesh*self%period(), before, [self%orbit%time]))
-   end subroutine predict
+      if (allocated(mesh)) call self%orbit%change_mesh(moved(mesh*before(size(before)), before, [self%orbit%time]))
+   end subroutine predict_orbit
 
    !> Times of a mesh, s, that goes along where the ends of another go.
    pure function moved(mesh, before, after)
@@ -231,7 +249,7 @@ contains
    real(wp) function defect(self, places)
       class(orbit_problem_type), intent(inout) :: self
       real(wp), intent(in) :: places(:)
-      real(wp), dimension(self%n) :: y, rates, slope
+      real(wp), dimension(self%states()) :: y, rates, slope
       real(wp) :: t
       integer :: k, i
       logical :: ok
@@ -257,7 +275,7 @@ contains
       complex(wp), allocatable, intent(out) :: values(:)
       real(wp), allocatable, intent(out) :: growth(:)
       logical, intent(out) :: ok
-      allocate (values(self%n))
+      allocate (values(self%states()))
       call find_eigenvalues(self%orbit%monodromy, values, ok)
       if (.not. ok) return
       values = values(largest_first(abs(values)))
@@ -307,7 +325,8 @@ contains
       integer, allocatable :: state(:)
       integer :: k
       associate (lengths => [(size(place(k)%values), k=1, size(place))], n => size(place(4)%values) - 1)
-         fits = n > 0 .and. all(lengths == [1, 1, 1, n + 1, n + 1, self%n, self%n*points*n, size(self%ode%start)])
+         fits = n > 0 .and. all(lengths == [1, 1, 1, n + 1, n + 1, self%states(), self%states()*points*n, &
+            & size(self%ode%start)])
          if (.not. fits) return
          call self%ode%model%switching_points(state, value)
          associate (periods => place(1)%values(1), time => place(4)%values, switching_point => place(5)%values)
@@ -325,7 +344,7 @@ contains
       self%first_defect = place(3)%values(1)
       self%orbit%start = place(6)%values
       associate (time => place(4)%values)
-         call self%orbit%set_mesh(time, reshape(place(7)%values, [self%n, points, size(time) - 1]), &
+         call self%orbit%set_mesh(time, reshape(place(7)%values, [self%states(), points, size(time) - 1]), &
             & nint(place(5)%values))
       end associate
       self%ode%start = place(8)%values

@@ -73,7 +73,12 @@ contains
       call one('iterations', real(point%iterations, wp), '1', 'iterations of Newton''s method')
       if (figures%revolutions > 0) then
          call one('period', figures%period, 's', 'period of the orbit')
-         call one('revolutions', real(figures%revolutions, wp), '1', 'revolutions of the shaft in a period')
+         call one('revolutions', figures%revolutions, '1', 'revolutions of the shaft in a period')
+         if (figures%is_cycle) then
+            call one('whirl_ratio', 1/figures%revolutions, '1', 'frequency of the limit cycle over that of the shaft')
+            call one('trivial_multiplier_error', figures%trivial_error, '1', 'error of the multiplier along the ' &
+               & //'motion, which is 1 and is left out')
+         end if
          call one('intervals', real(figures%intervals, wp), '1', 'intervals of the collocation')
          call each('multiplier_real', real(point%values, wp), '1', 'multiplier, real part'//frozen, 'mode')
          call each('multiplier_imag', aimag(point%values), '1', 'multiplier, imaginary part'//frozen, 'mode')
@@ -107,8 +112,10 @@ contains
          character(len=*), intent(in) :: name, displacement, vibration, across
          type(whirl_figures_type), intent(in) :: whirls(:)
          character(len=*), parameter :: directions(2) = [character(len=10) :: 'vertical', 'horizontal']
-         character(len=:), allocatable :: series, direction
+         character(len=:), allocatable :: series, direction, with
          integer :: axis, i
+         with = ' with the shaft'
+         if (figures%is_cycle) with = ' at the frequency of the limit cycle'
          do axis = 1, 2
             series = name//'yz'(axis:axis)
             direction = trim(directions(axis))
@@ -116,11 +123,12 @@ contains
                & 'highest '//displacement//', '//direction, across)
             call each(series//'_min', [(whirls(i)%lowest(axis), i=1, size(whirls))], 'm', &
                & 'lowest '//displacement//', '//direction, across)
-            if (figures%revolutions == 0) cycle
+            if (.not. figures%revolutions > 0) cycle
             call each(series//'_amplitude', [(whirls(i)%amplitude(axis), i=1, size(whirls))], 'm', &
-               & direction//' '//vibration//' with the shaft, amplitude', across)
+               & direction//' '//vibration//with//', amplitude', across)
+            if (figures%is_cycle) cycle
             call each(series//'_phase', [(whirls(i)%phase(axis), i=1, size(whirls))], 'rad', &
-               & direction//' '//vibration//' with the shaft, phase behind the unbalance', across)
+               & direction//' '//vibration//with//', phase behind the unbalance', across)
          end do
       end subroutine put_whirls
 

@@ -50,6 +50,10 @@ WARM_ORBITS = f"""{BRANCH}&operation speed_rpm=4000 / {WARM}
 """
 #: As these, with temperatures along and across the films.
 UNEVEN_ORBITS = WARM_ORBITS.replace("'pad'", "'film'").replace("step=0.1", "step=0.2")
+#: Limit cycles from a Hopf point, of pads that stick.
+CYCLES = LUGRE.replace("last=11700, step=20, max_step=40", "of='limit_cycle', last=9300, step=50").replace(
+    "&operation speed_rpm=11500", "&rotor unbalance=0 / &operation speed_rpm=9000"
+)
 #: Films that are solved by SOR sweeps from the last ones.
 RELAXED = EQUILIBRIA.replace("&rotor", "&film solver='sor', circumferential_cells=20, axial_cells=4 / &rotor")
 #: What each stretch of a run has of its own, and the input, where the time between checkpoints may change.
@@ -76,6 +80,7 @@ SLICED = {
     "doubled": DOUBLED,
     "lugre": LUGRE,
     "switching": SWITCHING,
+    "cycles": CYCLES,
     "warm equilibria": THERMAL_EQUILIBRIA,
     "uneven equilibria": UNEVEN_EQUILIBRIA,
     "warm": WARM_ORBITS,

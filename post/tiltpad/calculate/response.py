@@ -156,8 +156,9 @@ def curve(
         place = np.flatnonzero(chosen)
         place = place[np.argsort(source[over][place], kind="stable")]
         return over, source[over][place], place
-    if f"{of}_y_amplitude" not in source:
-        raise not_in_run(source, "response", "its branch is one of equilibria")
+    if f"{of}_y_phase" not in source:
+        whose = "limit cycles" if f"{of}_y_amplitude" in source else "equilibria"
+        raise not_in_run(source, "response", f"its branch is one of {whose}")
     first = source["branch"] == 1
     return f"{source.attributes['branch_parameter']}".rpartition("%")[2], source["parameter"][first], first
 

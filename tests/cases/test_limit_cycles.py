@@ -1,0 +1,241 @@
+"""Limit cycles against independent programs, marches, their own mirror image, and refusals."""
+
+import h5py
+import numpy as np
+import pytest
+
+#: The paper's two pads without unbalance.
+PADS = """&case  task = 'branch' /
+&rotor  mass = {mass}, unbalance = 0 /
+&operation  speed_rpm = {first} /
+&film  cavitation = 'none' /
+&friction  model = '{friction}', static_coefficient = 0.1, dynamic_coefficient = 0.05 /
+&asperity  model = 'none' /
+&branch  of = 'limit_cycle', parameter = 'operation%speed_rpm', last = {last} /
+"""
+LUGRE = PADS.format(mass=2000, first=8000, friction="lugre", last=9500)
+FREE = PADS.format(mass=200, first=14000, friction="none", last=15500)
+#: Two of the paper's bearings with LuGre under an elastic rotor.
+ELASTIC = """&case  task = 'branch' /
+&shaft  length = 0.05, 0.05, 8*0.2, 0.05, 0.05, diameter = 2*0.0998, 8*0.34, 2*0.0998 /
+&disc  station = 7, mass = 2847.3706547456786, polar_inertia = 512.526717854222
+       diametral_inertia = 280.5609218476075 /
+&bearing  name = 'a', station = 2 /
+&bearing  name = 'b', station = 12 /
+&film  cavitation = 'none' /
+&friction  model = 'lugre', static_coefficient = 0.1, dynamic_coefficient = 0.05 /
+&asperity  model = 'none' /
+&operation  speed_rpm = 5000 /
+&branch  of = 'limit_cycle', parameter = 'operation%speed_rpm', last = 7200 /
+"""
+#: A short plain bearing; lengths over the clearance, speeds over sqrt(g/c) and the capacity number
+#: Gamma = mu R L^3/(m sqrt(g) c^2.5) make it comparable to that of Ocvirk.
+CLEARANCE, GRAVITY = 1e-4, 9.81
+SHORT = """&case  task = 'branch' /
+&rotor  mass = 10, unbalance = 0 /
+&operation  speed_rpm = {first} /
+&bearing  journal_radius = {radius}, axial_length = {length}, assembled_clearance = 1e-4
+          machined_clearance = 1e-4, viscosity = {viscosity} /
+&pads  motion = 'fixed', pivot_angle_deg = -90, arc_deg = 360, pivot_ratio = 0.5 /
+&film  cavitation = 'gumbel' /
+&asperity  model = 'none' /
+&branch  of = 'limit_cycle', parameter = 'operation%speed_rpm', last = {last} /
+"""
+RPM = (GRAVITY / CLEARANCE) ** 0.5 * 30 / np.pi
+
+
+def short(gamma, first, last, radius=0.25, length=0.05):
+    """The case of a capacity number and of dimensionless speeds."""
+    viscosity = gamma * 10 * GRAVITY**0.5 * CLEARANCE**2.5 / (radius * length**3)
+    return SHORT.format(viscosity=viscosity, first=first * RPM, last=last * RPM, radius=radius, length=length)
+
+
+@pytest.fixture
+def follow(tiltpad, tmp_path):
+    """follow(text, *overrides): the file of a branch, and what the program printed."""
+
+    def perform(text, *overrides, name="case"):
+        (tmp_path / f"{name}.nml").write_text(text)
+        command = (f"{name}.nml", "-o", f"{name}.h5", "--overwrite")
+        done = tiltpad(*command, cwd=tmp_path, overrides=overrides, status=0)
+        return h5py.File(tmp_path / f"{name}.h5"), done.stdout
+
+    return perform
+
+
+def multipliers(file, point):
+    return file["multiplier_real"][point] + 1j * file["multiplier_imag"][point]
+
+
+def extremes(file, point, names=("journal_y", "journal_z")):
+    return [file[f"{name}_{end}"][point] for name in names for end in ("max", "min")]
+
+
+def test_cycles_of_stuck_pads(follow):
+    """Another program: finite volumes, shooting with an unknown period (limits 1e-5, 2e-6, 1e-5 c, 1e-3)."""
+    file, printed = follow(LUGRE)
+    with file:
+        assert file["bifurcations/parameter"][0] == pytest.approx(9084.209641, rel=1e-5)
+        assert "born towards higher operation%speed_rpm" in printed
+        assert "unstable cycles" not in printed
+        assert file["period"][-1] == pytest.approx(0.01198999651, rel=2e-6)
+        assert file["whirl_ratio"][-1] == pytest.approx(0.526754905, rel=2e-6)
+        expected = [-3.722715645e-05, -5.191108285e-05, 7.623848588e-06, -7.110132472e-06]
+        np.testing.assert_allclose(extremes(file, -1), expected, atol=1e-9)
+        found = multipliers(file, -1)
+        assert len(found) == file["mode"].size == 13
+        assert abs(found[0] - 0.7103481111) < 1e-3
+        assert np.abs(found[1:3] - 0.2848993855).max() == pytest.approx(0.2499428243, abs=1e-3)
+        assert file["trivial_multiplier_error"][-1] < 1e-4
+        assert (file["stable"][1:] == 1).all()
+
+
+def test_cycles_of_free_pads_turn_back(follow):
+    """The same program: unstable cycles from the Hopf point down to a fold, and stable ones beyond it."""
+    file, printed = follow(FREE, "operation%speed_rpm=12500")
+    with file:
+        assert list(file["bifurcations/kind"][:2]) == [b"hopf", b"fold"]
+        hopf, fold = file["bifurcations/parameter"][:2]
+        assert hopf == pytest.approx(14945.84335, rel=1e-5)
+        assert fold == pytest.approx(12795.1, abs=0.5)
+        assert "born towards lower operation%speed_rpm" in printed
+        assert "unstable cycles reach to operation%speed_rpm = 128" in printed or "= 1279" in printed
+    file, _ = follow(FREE, "operation%speed_rpm=13500", name="last")
+    with file:
+        # back at the first value
+        assert file["parameter"][-1] == 13500
+        assert file["period"][-1] == pytest.approx(0.009792763063, rel=2e-6)
+        expected = [3.60973943e-05, 8.070820668e-06, 1.445895263e-05, -1.580028683e-05]
+        np.testing.assert_allclose(extremes(file, -1), expected, atol=1e-9)
+        found = multipliers(file, -1)
+        assert abs(found[0] - 1.608616175) < 1e-3
+        assert abs(found[1] - (0.8024736504 + 0.007812716817j)) < 1e-3
+        assert file["stable"][-1] == 0
+
+
+def test_a_cycle_has_no_start(follow):
+    """Cycles that were reached by other steps begin elsewhere on themselves, and are the same."""
+    found = []
+    for step in (100, 35):
+        file, _ = follow(LUGRE, f"branch%step={step}", f"branch%max_step={step}", name=f"of_{step}")
+        with file:
+            found.append([*extremes(file, -1), file["period"][-1]])
+    np.testing.assert_allclose(*found, rtol=2e-6, atol=2e-10)
+
+
+def test_an_unstable_cycle_parts_the_starts(follow, tiltpad, tmp_path):
+    """Just below the threshold: a kick well within the cycle dies away, one well beyond it does not."""
+    file, _ = follow(FREE, "operation%speed_rpm=14600")
+    with file:
+        assert file["parameter"][-1] == 14600
+        assert file["stable"][-1] == 0
+        amplitude = np.ptp(extremes(file, -1)[:2]) / 2
+    (tmp_path / "march.nml").write_text(FREE.replace("&branch", "!&branch"))
+    size = {}
+    for part in (0.5, 2):
+        settings = (
+            "case%task='march'", "operation%speed_rpm=14600", "operation%duration=0.4",
+            f"start%journal={part * amplitude},0",
+        )  # fmt: skip
+        command = ("march.nml", "-o", "march.h5", "--overwrite", "-q")
+        tiltpad(*command, cwd=tmp_path, overrides=settings, status=0)
+        with h5py.File(tmp_path / "march.h5") as march:
+            size[part] = np.ptp(march["journal_y"][-800:]) / 2
+    assert size[0.5] < 0.3 * amplitude
+    assert size[2] > 1.5 * amplitude
+
+
+def test_short_bearing(follow):
+    """What an Ocvirk bearing (Fourier collocation of another program) has beyond it falls with (L/D)^2.
+
+    The journals are large beside the clearance: the drag of the oil, which that bearing has not, is small.
+    """
+    missed = []
+    for radius, length in ((0.25, 0.05), (1, 0.1)):
+        file, _ = follow(short(0.85, 2.5, 2.6, radius, length))
+        with file:
+            hopf = file["bifurcations/parameter"][0] / RPM
+            largest, least = (-file[f"journal_y_{end}"][-1] / CLEARANCE for end in ("min", "max"))
+            missed.append(
+                [
+                    hopf / 2.545480236 - 1,
+                    file["whirl_ratio"][-1] / 0.5174372072 - 1,
+                    largest - 0.4280625681,
+                    least + 0.1229587675,
+                ]
+            )
+    wide, narrow = np.array(missed)
+    assert (np.abs(narrow) < 0.3 * np.abs(wide)).all()
+    assert np.abs((4 * narrow - wide) / 3).max() < 5e-4
+
+
+def test_the_unstable_cycle_of_a_short_bearing(follow):
+    """The same program: at a larger capacity number cycles are born towards lower speeds."""
+    file, printed = follow(short(4.5, 2.75, 2.7, 1, 0.1))
+    with file:
+        assert "born towards lower" in printed
+        assert file["bifurcations/parameter"][0] / RPM == pytest.approx(2.740915741, rel=1e-3)
+        assert file["whirl_ratio"][-1] == pytest.approx(0.4994989299, rel=1e-3)
+        assert multipliers(file, -1)[0].real == pytest.approx(1.059403045, abs=2e-3)
+        assert (file["stable"][1:] == 0).all()
+        found = [-file[f"journal_y_{end}"][-1] / CLEARANCE for end in ("min", "max")]
+        # the amplitude goes with the root of the way from the Hopf point, 0.04, which lies 1e-3 lower here
+        np.testing.assert_allclose(found, [0.3710959187, -0.351305419], atol=6e-3)
+
+
+def test_elastic_rotor(follow):
+    """Another program; its high modes have another damping, which shows in the last digits."""
+    file, _ = follow(ELASTIC)
+    with file:
+        assert file["parameter"][-1] == 7200
+        assert file["period"][-1] == pytest.approx(0.01580723607, rel=2e-5)
+        assert abs(multipliers(file, -1)[0] - 0.8500055278) < 1e-3
+        bearing = [-4.556760624e-05, -5.916820926e-05, 6.88920622e-06, -6.731182477e-06]
+        np.testing.assert_allclose(extremes(file["bearings/a"], -1), bearing, atol=1e-8)
+        disc = [-7.016488859e-05, -9.651925801e-05, 1.305809343e-05, -1.332510668e-05]
+        found = [file[f"station_{axis}_{end}"][-1, 6] for axis in "yz" for end in ("max", "min")]
+        np.testing.assert_allclose(found, disc, atol=3e-8)
+
+
+def test_mirror(follow):
+    """A shaft that turns the other way: z and all tilts with the other sign."""
+    file, _ = follow(LUGRE)
+    mirrored, _ = follow(LUGRE, "operation%rotation='anticlockwise'", name="mirror")
+    with file, mirrored:
+        assert mirrored["period"][-1] == pytest.approx(file["period"][-1], rel=1e-6)
+        expected = extremes(file, -1)
+        found = extremes(mirrored, -1)
+        np.testing.assert_allclose(found[:2], expected[:2], atol=1e-9)
+        np.testing.assert_allclose([-found[3], -found[2]], expected[2:], atol=1e-9)
+
+
+def test_warm_oil_keeps_its_viscosities(follow):
+    """A temperature for each pad: viscosities are those of the equilibrium at the speed of the cycle."""
+    warm = "&oil  grade = 46, supply_temperature = 40 /\n&thermal  model = 'pad' /\n"
+    file, printed = follow(FREE + warm, "operation%speed_rpm=13000")
+    with file:
+        at = int(np.argmin(file["parameter"]))
+        speed, viscosity = float(file["parameter"][at]), file["viscosity"][at]
+        assert "at frozen viscosity" in printed
+    rest, _ = follow(FREE + warm, "case%task='equilibrium'", f"operation%speed_rpm={speed!r}", name="rest")
+    with rest:
+        np.testing.assert_allclose(viscosity, rest["equilibrium/viscosity"], rtol=1e-6)
+
+
+REFUSALS = {
+    "unbalance": (("rotor%unbalance=0.01",), 1, "must be without unbalance (0.01 kg m; rotor%unbalance = 0)"),
+    "friction": (("friction%model='bengisu_akay'",), 1, "must be 'none' or 'lugre'"),
+    "no Hopf point": (("branch%last=8500",), 2, "the equilibria have no Hopf point"),
+    "switch": (("branch%switch=.false.",), 1, "has no effect on a branch of equilibria or limit cycles"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSALS)
+def test_refusals(tiltpad, tmp_path, name):
+    """One line that names what to change."""
+    overrides, status, words = REFUSALS[name]
+    (tmp_path / "case.nml").write_text(LUGRE)
+    done = tiltpad("case.nml", "-q", cwd=tmp_path, overrides=overrides)
+    assert done.returncode == status
+    assert done.stderr.count("\n") == 1
+    assert words in done.stderr
