@@ -57,8 +57,8 @@ contains
       associate (leading => here%values(1))
          call raise(error, numerics_error, 'the equilibria have no Hopf point, where limit cycles begin, from ' &
             & //parameter//' = '//to_text(first)//' to '//to_text(here%parameter)//': there the leading eigenvalue ' &
-            & //'is '//to_text(leading%re)//' 1/s at '//to_text(abs(leading%im)/(2*pi))//' Hz; try another branch%last, or ' &
-            & //'another first value')
+            & //'is '//to_text(leading%re)//' 1/s at '//to_text(abs(leading%im)/(2*pi))//' Hz; try another ' &
+            & //'branch%last, or another first value')
       end associate
    end subroutine find_hopf_point
 

@@ -221,10 +221,11 @@ contains
             & 'how far from the orbit Newton''s method may end, over the characteristic scale of each state')
          call v%whole(inputs%periodic%max_iterations, 'max_iterations', 1.0_wp, 1e6_wp, &
             & 'maximum number of iterations of Newton''s method; more is a failure')
-         call group('branch', 'Equilibria, periodic orbits or limit cycles over a number of the input, for the task branch')
+         call group('branch', 'Equilibria, periodic orbits or limit cycles over a number of the input, for the task ' &
+            & //'branch')
          call v%word(inputs%branch%of, 'of', 'periodic equilibrium limit_cycle', 'periodic: orbits, as the task ' &
-            & //'periodic finds them; equilibrium: equilibria without friction in the pivots; limit_cycle: the self-excited ' &
-            & //'vibrations, without unbalance, that begin at the first Hopf point of the equilibria')
+            & //'periodic finds them; equilibrium: equilibria without friction in the pivots; limit_cycle: the self-' &
+            & //'excited vibrations, without unbalance, that begin at the first Hopf point of the equilibria')
          call v%word(inputs%branch%parameter, 'parameter', '', &
             & 'the number that changes, from the value that the case gives it: ''operation%speed_rpm''; with an ' &
             & //'element where there are several, ''rotor%static_load(1)''; of values of the pads all without one. ' &
