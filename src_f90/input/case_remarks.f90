@@ -194,47 +194,52 @@ contains
       end function on_frequencies
    end function remarks_on_case
 
-   !> Groups that the task of a case does not use, and what they say.
+   !> Variables that a case sets and does not use, a line for each group and reason.
    function on_idle_groups(inputs, table) result(lines)
       type(case_type), intent(in) :: inputs
       type(variable_table_type), intent(in) :: table
       character(len=:), allocatable :: lines
       type(variable_table_type) :: defaults
-      character(len=:), allocatable :: group, names
+      character(len=:), allocatable :: group, names, reason, that
       integer :: i
       lines = line_if(size(inputs%excitations) > 0 .and. .not. inputs%moves(), 'excitation: has no effect with ' &
          & //'case%task = '''//inputs%about%task//''', where no force changes with time')
       call list_variables(case_type(), defaults)
       group = ''
       names = ''
+      reason = ''
       do i = 1, table%count
          associate (v => table%variables(i))
-            if (v%group /= group) call say()
-            if (.not. is_idle(inputs, v%group, v%name)) cycle
+            that = why_idle(inputs, v%group, v%name)
+            if (that == '') cycle
+            if (v%group /= group .or. that /= reason) call say()
             ! where each pad has a value of its own, the default has as many as the paper's bearing has pads
             if (v%each /= '') then
                if (all(abs(v%values) <= 0)) cycle
             else
-               if (v%is_same(defaults%variables(defaults%find(v%group, v%name)))) cycle
+               if (v%is_same(defaults%variables(defaults%find(kind_of(v%group), v%name)))) cycle
             end if
             group = v%group
+            reason = that
             names = names//', '//v%name
          end associate
       end do
       call say()
    contains
-      !> The line of the group before.
+      !> The line of the variables before.
       subroutine say()
          if (names == '') return
-         lines = lines//group//' ('//names(3:)//'): has no effect with case%task = '''//inputs%about%task//''''//newline
+         lines = lines//group//' ('//names(3:)//'): has no effect with '//reason//newline
          names = ''
       end subroutine say
    end function on_idle_groups
 
-   !> Whether a variable has no effect with the task of a case.
-   pure logical function is_idle(inputs, group, name)
+   !> The input with which a variable has no effect, "case%task = 'march'"; empty where it has one.
+   pure function why_idle(inputs, group, name) result(reason)
       type(case_type), intent(in) :: inputs
       character(len=*), intent(in) :: group, name
+      character(len=:), allocatable :: reason
+      logical :: is_idle
       select case (group)
       case ('coefficients', 'branch')
          is_idle = inputs%about%task /= group
@@ -246,9 +251,29 @@ contains
          is_idle = inputs%about%task /= 'march' .and. any(name == [character(len=18) :: 'stop_when_periodic', &
             & 'start_time'])
       case default
-         is_idle = .false.
+         reason = of_laminar_films(inputs, group, name)
+         return
       end select
-   end function is_idle
+      reason = ''
+      if (is_idle) reason = 'case%task = '''//inputs%about%task//''''
+   end function why_idle
+
+   !> The input with which a variable of turbulent films has no effect; empty where it has one, and for others.
+   pure function of_laminar_films(inputs, group, name) result(reason)
+      type(case_type), intent(in) :: inputs
+      character(len=*), intent(in) :: group, name
+      character(len=:), allocatable :: reason
+      integer :: b
+      reason = ''
+      if (.not. any(name == [character(len=17) :: 'laminar_below', 'turbulent_above', 'turbulent_prandtl'])) return
+      if (name == 'turbulent_prandtl' .and. inputs%thermal%model == 'none') reason = 'thermal%model = ''none'''
+      do b = 1, size(inputs%bearings)
+         associate (bearing => inputs%bearings(b))
+            if (group == kind_of(group)//bearing%suffix() .and. bearing%film%turbulence == 'none') &
+               & reason = 'film'//bearing%suffix()//'%turbulence = ''none'''
+         end associate
+      end do
+   end function of_laminar_films
 
    ! Remarks on forces: loads that few bearings have, forces too small beside the others to be meant in N, and where the
    ! load of fixed pads points to.

@@ -1,4 +1,4 @@
-!> Remarks on cases: what is seldom meant, what the paper's bearing lends a case, and groups of other tasks.
+!> Remarks on cases: what is seldom meant, what the paper's bearing lends a case, and what has no effect.
 program test_case_remarks
    use kinds, only: wp
    use text, only: filled, line_if, behind
@@ -17,6 +17,7 @@ program test_case_remarks
    if (runs('cold_oil')) call cold_oil()
    if (runs('lent_values')) call lent_values()
    if (runs('idle_groups')) call idle_groups()
+   if (runs('laminar_films')) call laminar_films()
    if (runs('templates')) then
       call expect(filled('pad {}: {u.3} um, {i} of {M} MPa, {c.1} %', [1.0_wp, 2.5e-6_wp, 1234567.0_wp, 5e6_wp, &
          & 0.125_wp]) == 'pad 1: 2.500 um, 1234567 of 5 MPa, 12.5 %', 'numbers in their places')
@@ -212,6 +213,23 @@ contains
       ! what has its default says nothing
       call expect_remark('&periodic revolutions = 1 / &start pad_tilt = 0 /', '')
    end subroutine idle_groups
+
+   !> What turbulent films alone have, of a bearing and of one of a machine.
+   subroutine laminar_films()
+      character(len=*), parameter :: laminar = ': has no effect with film%turbulence = ''none''', &
+         & limits = '&film laminar_below = 400, turbulent_above = 1500', eddies = '&oil turbulent_prandtl = 0.8', &
+         & warm = ', grade = 46 / &thermal model = ''pad'' /'
+      call expect_remark(limits//' /', 'film (laminar_below, turbulent_above)'//laminar)
+      call expect_remark(limits//', turbulence = ''ng_pan'' /', '')
+      call expect_remark(eddies//' /', 'oil (turbulent_prandtl)'//laminar)
+      call expect_remark(eddies//warm, 'oil (turbulent_prandtl)'//laminar)
+      call expect_remark(eddies//' / &film turbulence = ''ng_pan'' /', &
+         & 'oil (turbulent_prandtl): has no effect with thermal%model = ''none''')
+      call expect_remark(eddies//warm//' &film turbulence = ''ng_pan'' /', '')
+      call expect_remark(machine//'&shaft length = 2*0.5, diameter = 2*0.1 / &film bearing = ''left'', ' &
+         & //'laminar_below = 400 / &film bearing = ''right'', laminar_below = 400, turbulence = ''ng_pan'' /', &
+         & 'film:left (laminar_below): has no effect with film:left%turbulence = ''none'''//achar(10))
+   end subroutine laminar_films
 
    subroutine expect_idle(text, task, idle)
       character(len=*), intent(in) :: text, task, idle(:)

@@ -1,6 +1,7 @@
 !> Turbulent films: closures against values of an independent program, their tables against the closures themselves,
 !> smoothness; single films against that program (finite volumes whose mobilities follow the film), derivatives against
-!> differences, tables of films against films that are solved; the laminar limit.
+!> differences, over-relaxation against elimination and modes, tables of films against films that are solved; the laminar
+!> limit.
 program test_turbulent_film
    use kinds, only: wp, degree
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, cavitation_none, &
@@ -15,6 +16,7 @@ program test_turbulent_film
    use direct_film, only: new_direct_film
    use table_film, only: table_film_type, new_table_film
    use elimination_film, only: elimination_film_type, new_elimination_film
+   use sor_film, only: sor_film_type, new_sor_film, sor_options
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use film_differences, only: difference
    use check, only: runs, expect, expect_close, report
@@ -27,6 +29,7 @@ program test_turbulent_film
    if (runs('conduction')) call conduction()
    if (runs('single_films')) call single_films()
    if (runs('derivatives')) call derivatives()
+   if (runs('over_relaxation')) call over_relaxation()
    if (runs('tables')) call tables()
    if (runs('laminar_limit')) call laminar_limit()
    call report()
@@ -183,17 +186,20 @@ contains
 
    !> Adjoints against differences, of even and of uneven oil, by modes and by volumes that cavitate.
    subroutine derivatives()
-      type(film_oil) :: uneven
+      call by_differences(film_of(pad(30.0_wp), 8e-3_wp), 1e-6_wp)
+      call by_differences(film_of(pad(30.0_wp), 8e-3_wp, uneven()), 1e-6_wp)
+      call in_mirror(film_of(pad(30.0_wp), 8e-3_wp, uneven()))
+   end subroutine derivatives
+
+   !> Oil whose viscosity changes along the arc and across the film.
+   type(film_oil) function uneven()
       real(wp) :: weights(0:weights_degree, 3)
       weights = 0
       weights(:2, 1) = [0.2_wp, 0.3_wp, -0.1_wp]
       weights(:1, 2) = [0.48_wp, 0.02_wp]
       weights(:2, 3) = [-0.15_wp, -0.35_wp, 0.12_wp]
       uneven = uneven_oil(8e-3_wp, weights)
-      call by_differences(film_of(pad(30.0_wp), 8e-3_wp), 1e-6_wp)
-      call by_differences(film_of(pad(30.0_wp), 8e-3_wp, uneven), 1e-6_wp)
-      call in_mirror(film_of(pad(30.0_wp), 8e-3_wp, uneven))
-   end subroutine derivatives
+   end function uneven
 
    subroutine by_differences(law, tolerance)
       type(turbulent_film_type), intent(in) :: law
@@ -229,6 +235,47 @@ contains
       call modes%evaluate_pad(1, mirror, other, -speed, .false., seen)
       call expect_close(norm2(seen%force*[-1, 1] - film%force)/norm2(film%force), 0.0_wp, 1e-12_wp, 'in a mirror')
    end subroutine in_mirror
+
+   !> Over-relaxation: films of even and of uneven oil as elimination has them on the same volumes, full and cavitated; a
+   !> full film, from two grids extrapolated, as the modes have it.
+   subroutine over_relaxation()
+      type(film_motion), parameter :: loaded = film_motion(clearance*[-0.2_wp, 0.4_wp], [2e-3_wp, -3e-3_wp]), &
+         & diverging = film_motion(clearance*[0.1_wp, 0.4_wp], [1e-3_wp, 2e-3_wp])
+      type(turbulent_film_type) :: laws(2)
+      type(film_response) :: films(2), film
+      type(fourier_film_type) :: modes
+      integer :: k
+      laws = [film_of(pad(30.0_wp), 8e-3_wp), film_of(pad(30.0_wp), 8e-3_wp, uneven())]
+      modes = converged_film(pad(30.0_wp), .false., 1e-6_wp)
+      do k = 1, 2
+         call relaxed_and_eliminated(laws(k), diverging, cavitation_reynolds, 1, film)
+         call relaxed_and_eliminated(laws(k), loaded, cavitation_none, 1, films(1))
+         call relaxed_and_eliminated(laws(k), loaded, cavitation_none, 2, films(2))
+         call modes%evaluate_pad(1, loaded, laws(k), speed, .true., film)
+         films(2)%force = (4*films(2)%force - films(1)%force)/3
+         films(2)%derivatives = (4*films(2)%derivatives - films(1)%derivatives)/3
+         call same(films(2), film, 1e-4_wp, 'over-relaxation and modes')
+      end do
+   end subroutine over_relaxation
+
+   !> A film by over-relaxation, which elimination has, too, with a condition of cavitation, on a grid this much finer.
+   subroutine relaxed_and_eliminated(law, motion, condition, finer, film)
+      type(turbulent_film_type), intent(in) :: law
+      type(film_motion), intent(in) :: motion
+      integer, intent(in) :: condition, finer
+      type(film_response), intent(out) :: film
+      type(sor_film_type) :: sor
+      type(elimination_film_type) :: grid
+      type(film_response) :: other
+      type(film_counters) :: counters
+      sor = new_sor_film([pad(30.0_wp)], sor_options(80*finer, 8*finer, 0.0_wp, 1e-11_wp, 10000, condition))
+      call sor%evaluate_pad(1, motion, law, speed, .true., film)
+      grid = new_elimination_film(pad(30.0_wp), 80*finer, 8*finer)
+      call grid%evaluate(motion, law, speed, condition == cavitation_reynolds, .true., counters, other)
+      call expect(film%status == film_ok .and. other%status == film_ok, 'a film by over-relaxation')
+      call expect((grid%first <= 80*finer) .eqv. condition == cavitation_reynolds, 'the film that is to cavitate does')
+      call same(film, other, 1e-9_wp, 'over-relaxation and elimination')
+   end subroutine relaxed_and_eliminated
 
    !> Full and cavitated films from tables.
    subroutine tables()
