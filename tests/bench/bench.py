@@ -1,4 +1,4 @@
-"""Benchmark: run time against error, all cases with the defaults, films, pads, orbits, studies, peers, oil.
+"""Benchmark: run time against error, cases with the defaults, films, pads, orbits, studies, peers, oil.
 
 usage: bench.py TILTPAD [--only PART...] [--folder FOLDER] [--docs FOLDER]
 
@@ -32,6 +32,7 @@ from runner import Row, Runner
 from settings import ROOT
 from skips import kernels, skips, visits
 from studies import studies
+from turbulent import turbulent
 from warm import warm
 
 PARTS = {
@@ -51,6 +52,7 @@ PARTS = {
     "peers": peers,
     "maps": maps,
     "warm": warm,
+    "turbulent": turbulent,
     "machines": machines,
 }
 

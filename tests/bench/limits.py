@@ -67,7 +67,7 @@ def over(found: list[Row], kernels: list[Row]) -> str:
     for name, (what, limit) in MEASURED.items():
         case = MAIN[1].name if name == "march" else name
         now, least = seconds.get((case, NOW)), seconds.get((case, LIMIT))
-        if name == "march" and film:
+        if name == "march" and film and now:
             mine = next(row for row in found if row.case == case and row.group == NOW)
             least = mine.film_evaluations * min(row.film_seconds for row in film)
         if now and least:

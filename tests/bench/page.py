@@ -9,6 +9,7 @@ import orbits
 import settings
 import studies
 import tables
+import turbulent
 import warm
 from errors import JUMP
 from runner import Row
@@ -267,6 +268,13 @@ same march with {warm_close}.
 
 {warm}
 
+## Turbulent films
+
+A march from tables and equilibria with temperatures against the same ones with laminar films: processor time
+of whole runs, the least of {turbulent_rounds} of each in turn. The error of the march is that of *Warm oil*.
+
+{turbulent}
+
 ## Machines
 
 Elastic rotors on several bearings of the paper, with the defaults: {machine_speed} rpm and LuGre friction
@@ -339,6 +347,8 @@ def page(rows: dict[str, list[Row]], machine: str, speed: str) -> str:
         warm_speeds=warm.MAP_SPEEDS,
         warm_close=" and ".join(f"`{each}`" for each in warm.CLOSE),
         warm=warm.compared(rows["warm"]),
+        turbulent_rounds=turbulent.ROUNDS,
+        turbulent=turbulent.compared(rows["turbulent"]),
         machine_speed=machines.SPEED,
         machine_span=machines.SPAN,
         machines=machines.compared(rows["machines"]),

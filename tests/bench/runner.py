@@ -120,7 +120,7 @@ class Runner:
             spent, left = spent + again.seconds, left - 1
         row.memory_mb = done.memory
         if timed:
-            row.wall_seconds = done.seconds
+            row.wall_seconds, row.work_seconds = done.seconds, done.work
         if done.status != 0:
             row.note = done.said.removeprefix("tiltpad: error: ").partition(";")[0] or f"status {done.status}"
             path.unlink(missing_ok=True)
