@@ -3,6 +3,8 @@
 import sys
 from pathlib import Path
 
+import h5py
+
 TESTS = Path(__file__).parents[1]
 sys.path[:0] = [str(TESTS / "stress"), str(TESTS / "realistic")]
 import bearings  # noqa: E402
@@ -10,15 +12,34 @@ from bearing_runs import CLOSEST, REVOLUTIONS, changed, march, time_of  # noqa: 
 from march_errors import errors, period  # noqa: E402
 
 SEED = 1
+#: Fast bearings, of which the study has as many.
+FAST = range(bearings.FAST_ABOVE + 1, bearings.FAST_ABOVE + 21)
 
 
 def test_a_designer_accepts_every_bearing():
-    for number in range(1, 201):
+    for number in (*range(1, 201), *FAST):
         case = bearings.draw(SEED, number)
         assert case == bearings.draw(SEED, number)
         if "thermal" not in case:
             assert bearings.accepted(case)
         assert 0.1e6 <= specific_load(case) <= 4e6
+
+
+def test_fast_bearings_are_turbulent(program, tmp_path):
+    """A film has a share of turbulence where its largest Reynolds number is beyond the transition."""
+    case = bearings.draw(SEED, FAST[1])
+    for number in FAST:
+        drawn = bearings.draw(SEED, number)
+        assert drawn["film"]["turbulence"] == "ng_pan"
+        assert 50 <= bearings.surface_speed(drawn) <= 150
+    case["case"]["task"] = "equilibrium"
+    assert march(Path(program), case, tmp_path / "fast").complete
+    with h5py.File(tmp_path / "fast.h5") as file:
+        reynolds, share = (
+            file[f"equilibrium/{name}"][()] for name in ("largest_reynolds_number", "turbulent_share")
+        )
+    assert ((share > 0) == (reynolds > 500)).all()
+    assert share.max() > 0
 
 
 def specific_load(case):

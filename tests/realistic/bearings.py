@@ -4,7 +4,8 @@ Ranges:
 - journals of 30 to 500 mm, L/D 0.4 to 1, equal pads of steel, 70 to 88 % of the pitch and at most 100
   degrees: catalogues of tilting pad bearings;
 - radial clearance over radius 1.0 to 2.5 per mille, preload 0 (a third) or up to 0.6: the same;
-- surface speeds of 5 to 90 m/s: slow hydraulic machines to turbochargers and compressors;
+- surface speeds of 5 to 90 m/s: slow hydraulic machines to turbochargers and compressors; of fast bearings,
+  100 mm and larger, 50 to 150 m/s: large turbines and compressors, with turbulent films;
 - oils of ISO VG 32 to 100 at 45 to 75 C in the film, or with a heat balance;
 - unbalance after ISO 21940-11: G 2.5 (turbines, compressors), 6.3 (general machines) or 1 (spindles), and a
   closer grade where the unbalance would be more than half the load (the rotor would be balanced better);
@@ -15,7 +16,8 @@ Ranges:
 A designer accepts a bearing that
 - has the least film of ISO 7902-3, by its size and speed, under the pads that carry the load, where this film
   is that of the plane slider of the same load, length and width with the ratio of 2.2 of its film's ends;
-- is laminar: below Taylor's number of ISO 7902-1, by the clearance of the pads;
+- is laminar: below Taylor's number of ISO 7902-1, by the clearance of the pads; a fast one has a Reynolds
+  number of 500 to 10,000 there;
 - loads its pivots with at most 1 GPa by Hertz (hardened steel is allowed more).
 A drawing that is not accepted is drawn again.
 """
@@ -34,6 +36,9 @@ LEAST_FILM = ((3, 4, 5, 7, 10), (4, 5, 7, 9, 12), (6, 7, 9, 11, 14), (8, 9, 11, 
 SLIDER, SIDES = 0.16, 1.3
 #: Taylor's number of ISO 7902-1: Re < 41.3 sqrt(R/c).
 TAYLOR = 41.3
+#: Fast bearings: the numbers above this, their surface speeds, m/s, least radius, m, and Reynolds numbers at
+#: the clearance of the pads.
+FAST_ABOVE, FAST, FAST_RADIUS, TURBULENT = 10_000, (50, 150), 0.05, (500, 10_000)
 OIL_DENSITY = 860.0
 #: Viscosity, Pa s, at 40 and 100 C of ISO VG grades of viscosity index 100, rounded.
 GRADES = {32: (0.0275, 0.0046), 46: (0.0396, 0.0058), 68: (0.0585, 0.0075), 100: (0.086, 0.0098)}
@@ -46,7 +51,7 @@ GRAVITY = 9.81
 def draw(seed: int, number: int) -> Case:
     """Bearing `number` of a seed."""
     dice = Dice(f"realistic {seed}/{number}")
-    while not accepted(case := drawing(dice)):
+    while not accepted(case := drawing(dice, number > FAST_ABOVE)):
         pass
     if "thermal" in case:
         del case["bearing"]["viscosity"]
@@ -54,11 +59,11 @@ def draw(seed: int, number: int) -> Case:
     return case
 
 
-def drawing(dice: Dice) -> Case:
+def drawing(dice: Dice, fast: bool) -> Case:
     """One drawing, accepted or not."""
-    radius = dice.log(0.015, 0.25)
+    radius = dice.log(FAST_RADIUS if fast else 0.015, 0.25)
     length = 2 * radius * dice.uniform(0.4, 1.0)
-    velocity = dice.log(5, 90)
+    velocity = dice.log(*(FAST if fast else (5, 90)))
     case: Case = {"case": {}}
     case["operation"] = {"speed_rpm": velocity / radius * 30 / math.pi, "duration": 2.0}
     case["rotor"] = rotor(dice, dice.log(0.1e6, 4e6) * 2 * radius * length, velocity / radius)
@@ -80,6 +85,8 @@ def drawing(dice: Dice) -> Case:
     case["asperity"] = {"roughness": dice.log(0.2e-6, 0.8e-6)}
     # what users choose: nearly all the condition of the default
     case["film"] = {"cavitation": dice.choice(("reynolds",) * 16 + ("gumbel",) * 3 + ("none",))}
+    if fast:
+        case["film"] |= {"turbulence": "ng_pan", "turbulent_above": dice.choice((1000.0, 1500.0))}
     return case
 
 
@@ -142,15 +149,17 @@ def friction(dice: Dice) -> dict:
 def accepted(case: Case) -> bool:
     """Whether a designer would accept a drawing."""
     return (
-        is_laminar(case) and slider_film(case) >= least_film(case) and pivot_pressure(case) <= PIVOT_PRESSURE
+        flows_well(case) and slider_film(case) >= least_film(case) and pivot_pressure(case) <= PIVOT_PRESSURE
     )
 
 
-def is_laminar(case: Case) -> bool:
-    """Whether even the thickest film is laminar, at the clearance of the pads."""
+def flows_well(case: Case) -> bool:
+    """Whether a film of the clearance of the pads is laminar, or turbulent in a fast bearing."""
     bearing, radius = case["bearing"], case["bearing"]["journal_radius"]
     clearance = bearing["assembled_clearance"] / (1 - bearing["preload"])
     reynolds = OIL_DENSITY * surface_speed(case) * clearance / bearing["viscosity"]
+    if "turbulence" in case["film"]:
+        return TURBULENT[0] <= reynolds <= TURBULENT[1]
     return reynolds < TAYLOR * math.sqrt(radius / clearance)
 
 

@@ -1,6 +1,6 @@
 """Realistic bearings: error, steps, time and refusals of the program's default settings.
 
-usage: realistic.py TILTPAD [--bearings N | --only N,N,..] [--seed S] [--jobs J] [--record FILE]
+usage: realistic.py TILTPAD [--bearings N [--fast N] | --only N,N,..] [--seed S] [--jobs J] [--record FILE]
                     [--report FILE] [--namelists FOLDER]
 
 With a record, a long study may be stopped at any time: the same command goes on where it ended.
@@ -18,7 +18,7 @@ from pathlib import Path
 
 import realistic_picture
 from bearing_runs import Bearing, Run, study
-from bearings import draw
+from bearings import FAST_ABOVE, draw
 from realistic_page import line, page
 from stress_cases import text
 
@@ -31,6 +31,7 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("program", type=lambda word: Path(word).resolve())
     parser.add_argument("--bearings", type=int, default=200, help="how many")
+    parser.add_argument("--fast", type=int, default=20, help="how many fast ones more")
     parser.add_argument("--only", type=lambda words: list(map(int, words.split(","))), help="these bearings")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
@@ -75,7 +76,8 @@ def recorded(options: argparse.Namespace) -> dict[int, Bearing]:
 
 def main() -> None:
     options = arguments()
-    numbers = options.only or range(1, options.bearings + 1)
+    fast = range(FAST_ABOVE + 1, FAST_ABOVE + 1 + options.fast)
+    numbers = options.only or [*range(1, options.bearings + 1), *fast]
     if options.namelists:
         options.namelists.mkdir(parents=True, exist_ok=True)
         for number in numbers:

@@ -3,6 +3,7 @@
 from collections import Counter
 
 from bearing_runs import DISTURBANCE, LIMIT, REVOLUTIONS, ROTOR_TIME, SETTLED, Bearing
+from bearings import FAST_ABOVE, TURBULENT
 from cost_tables import SHORT, longest, most_steps, steps, times
 from error_tables import (
     SENSITIVE,
@@ -107,18 +108,40 @@ differs by less than {repeats:g} of the characteristic scales from that of one t
 {orbits}
 
 Refused though the march repeats after one revolution: {missed}.
+{fast}"""
+
+FAST = """
+## Turbulent films
+
+{count} more are fast bearings, 50 to 150 m/s, of 100 mm and more, with Reynolds numbers of {low} to
+{high} at the clearance of their pads and turbulent films (`film%turbulence = 'ng_pan'`): {numbers}. They
+are in no table above.
+
+{outcomes}
+
+{compared} bearings that are not sensitive; sensitive are: {sensitive}.
+
+{errors}
+
+{times}
+
+Equilibria and marches that are refused or do not end within {limit} s of CPU time:
+
+{refusals}
 """
 
 
 def page(bearings: list[Bearing], seed: int) -> str:
     """The whole page."""
+    fast = [bearing for bearing in bearings if bearing.number > FAST_ABOVE]
+    bearings = [bearing for bearing in bearings if bearing.number <= FAST_ABOVE]
     compared = [bearing for bearing in bearings if bearing.compared]
     left_out = [bearing for bearing in compared if sensitive(bearing)]
     kept = unsensitive(bearings)
     curve_bearings = [bearing for bearing in kept if on_curve(bearing)]
     longs = [bearing for bearing in bearings if bearing.runs["long"].revolutions >= SETTLED]
     return PAGE.format(
-        count=len(bearings), repeats=REPEATS, seed=seed, revolutions=REVOLUTIONS, last=LAST, steady=STEADY,
+count=len(bearings), repeats=REPEATS, seed=seed, revolutions=REVOLUTIONS, last=LAST, steady=STEADY,
         unloaded=UNLOADED, disturbance=DISTURBANCE, journal=SENSITIVE["journal"],
         tilt=SENSITIVE["tilt_loaded"],
         sensitive=numbers(left_out), outcomes=outcomes(bearings, compared),
@@ -127,7 +150,27 @@ def page(bearings: list[Bearing], seed: int) -> str:
         short=SHORT, times=times(longs), longest=longest(longs), limit=LIMIT, power=POWER,
         refusals=refusals(bearings),
         orbits=orbits(bearings), missed=numbers([bearing for bearing in bearings if missed_orbit(bearing)]),
+        fast=of_fast(fast) if fast else "",
     )  # fmt: skip
+
+
+def of_fast(bearings: list[Bearing]) -> str:
+    """The section on fast bearings."""
+    compared = [bearing for bearing in bearings if bearing.compared]
+    kept = unsensitive(bearings)
+    return FAST.format(
+        count=len(bearings),
+        low=TURBULENT[0],
+        high=TURBULENT[1],
+        numbers=f"{bearings[0].number} to {bearings[-1].number}",
+        outcomes=outcomes(bearings, compared),
+        compared=len(kept),
+        sensitive=numbers([bearing for bearing in compared if sensitive(bearing)]),
+        errors=errors(kept),
+        times=times([bearing for bearing in bearings if bearing.runs["long"].revolutions >= SETTLED]),
+        limit=LIMIT,
+        refusals=refusals(bearings),
+    )
 
 
 def missed_orbit(bearing: Bearing) -> bool:
