@@ -25,7 +25,7 @@ FILLON = """&case  task = 'equilibrium' /
 &thermal  model = 'pad' /
 &pads  pivot_angle_deg = -45, 45, 135, 225, arc_deg = 75, motion = 'tilting_only' /
 """
-#: Five pads of a compressor, and an oil that peer_ross_warm.py has, too.
+#: Five pads of a compressor, and an oil that peer_ross_pads.py has, too.
 FIVE = """&rotor  mass = 1000, gravity = 10, unbalance = 0 /
 &operation  speed_rpm = 9000 /
 &bearing  journal_radius = 50.8e-3, axial_length = 50.8e-3, machined_clearance = 108.5714e-6
@@ -154,22 +154,53 @@ def by_ross(program, folder):
     case.write_text(FIVE.replace("OIL", EXPONENTIAL))
     for model, kind in (("none", "none"), ("pad", "adiabatic"), ("film", "full")):
         with run(program, case, folder, "case%task=coefficients", f"thermal%model={model}") as found:
-            e, at = found.equilibrium, tiltpad.coefficients(found, "free")
-            warm = model != "none"
-            here = (
-                1e6 * e["min_film_thickness"].min(),
-                e["maximum_temperature"].max() if warm else None,
-                float(e["shaft_temperature"]) if warm else None,
-                float(e["total_power_loss"]),
-                *(1e-6 * each[0, i, i] for each in (at.stiffness, at.damping) for i in (0, 1)),
-            )
-        words = [ROSS, HERE / "peer_ross_warm.py", kind]
-        said = subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True).stdout
-        theirs = json.loads(said.splitlines()[-1])
-        for name, values in ((f"here, `{model}`", here), (f"ROSS, {kind}", theirs)):
-            yield row(
-                name, *("-" if each is None else f"{each:.{max(4, len(str(int(each))))}g}" for each in values)
-            )
+            e, warm = found.equilibrium, model != "none"
+            hottest = e["maximum_temperature"].max() if warm else None
+            here = film_and_heat(found, hottest, float(e["shaft_temperature"]) if warm else None)
+        theirs = asked_of_ross("five", kind, 1e6, 2e6)
+        yield from side_by_side(f"here, `{model}`", here, f"ROSS, {kind}", theirs)
+
+
+LIMITS = ("laminar_below", "turbulent_above")
+#: Limits of the transition of the turbine bearing; beyond all of its films, usual, below all of them.
+TRANSITIONS = {"laminar": (1e5, 2e5), "500 to 1000": (500, 1000), "turbulent everywhere": (1, 2)}
+
+
+def turbulent_by_ross(program, folder):
+    """Rows of the turbine bearing with limits of the transition, here and by ROSS."""
+    if not ROSS.exists():
+        return
+    for name, limits in TRANSITIONS.items():
+        settings = (f"film%{each}={limit}" for each, limit in zip(LIMITS, limits, strict=True))
+        with run(program, EXAMPLES / "turbine_bearing.nml", folder, *settings) as found:
+            here = film_and_heat(found)
+        theirs = asked_of_ross("turbine", "none", *limits)
+        yield from side_by_side(f"{name}, here", here, f"{name}, ROSS", [*theirs[:1], *theirs[3:]])
+
+
+def film_and_heat(found, *temperatures):
+    """Thinnest film, um, temperatures, loss, W, coefficients along and across the load, MN and m."""
+    e, at = found.equilibrium, tiltpad.coefficients(found, "free")
+    return (
+        1e6 * e["min_film_thickness"].min(),
+        *temperatures,
+        float(e["total_power_loss"]),
+        *(1e-6 * each[0, i, i] for each in (at.stiffness, at.damping) for i in (0, 1)),
+    )
+
+
+def asked_of_ross(*question):
+    """What peer_ross_pads.py answers."""
+    words = [ROSS, HERE / "peer_ross_pads.py", *map(str, question)]
+    said = subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True).stdout
+    return json.loads(said.splitlines()[-1])
+
+
+def side_by_side(*rows):
+    """Rows of names and values in turn, with four digits and whole numbers in full."""
+    for name, values in zip(rows[::2], rows[1::2], strict=True):
+        words = ("-" if each is None else f"{each:.{max(4, len(str(int(each))))}g}" for each in values)
+        yield row(name, *words)
 
 
 #: Bearings whose pads bend, and their thickness, m.
@@ -296,4 +327,4 @@ def vibration(program, folder):
         yield row(unbalance, f"{1e6 * size:.1f}", f"{size / clearance:.2f}", *(cells if unbalance else "---"))
 
 
-TABLES = (walther, warm_bearings, measured, heat, fields, by_ross, bending, vibration)
+TABLES = (walther, warm_bearings, measured, heat, fields, by_ross, turbulent_by_ross, bending, vibration)
