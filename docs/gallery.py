@@ -48,6 +48,7 @@ RUNS = {
     "machine_modes": (MACHINE, ("case%task=coefficients",)),
     "warm": ("input/examples/warm_five_pads.nml", ()),
     "bent": ("input/examples/bent_pads.nml", ()),
+    "turbine": ("input/examples/turbine_bearing.nml", ()),
 }
 #: Studies: name, which is that of the folder, case, and what is varied.
 STUDIES = {
@@ -86,6 +87,16 @@ STUDIES = {
             "case%task=equilibrium",
             "sweep%oil%carry_over=0.7,0.8,0.9",
             "sweep%operation%speed_rpm=2000:4000:500",
+        ),
+    ),
+    "transition": (
+        "input/examples/warm_five_pads.nml",
+        (
+            "film%turbulence=ng_pan",
+            "oil%grade=32",
+            "sweep%film%turbulent_above=1000,1500",
+            "sweep%operation%speed_rpm=6000:18000:500",
+            'case%title=""',
         ),
     ),
     "tolerances": ("input/examples/tolerances.nml", ()),
@@ -146,6 +157,13 @@ PICTURES = (
         "--over speed_rpm",
         "bands: what the carry-over of oil, which is hardly known, changes",
     ),
+    (
+        "temperatures",
+        "transition",
+        "--over speed_rpm",
+        "turbulent films of 127 mm at 40 to 120 m/s; bands: what the end of the transition changes",
+    ),
+    ("turbulence", "turbine", "", "where the films of a turbine bearing are turbulent"),
     ("tornado", "tolerances", "--show threshold_rpm --pivot stuck", "which input matters"),
     ("distribution", "tolerances", "", "results of bearings as they are made, with percentiles"),
     ("scatter", "tolerances", "", "results over the inputs, a point for each bearing"),

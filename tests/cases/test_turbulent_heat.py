@@ -1,5 +1,7 @@
 """Temperatures of turbulent films against an independent program of finite volumes, and what eddies carry."""
 
+from pathlib import Path
+
 import h5py
 import numpy as np
 import pytest
@@ -148,3 +150,20 @@ def test_the_shaft_evens_out_pads(run):
         with run(PAD, "oil%shaft_nusselt=1", f"oil%turbulent_prandtl={prandtl}") as file:
             spread[prandtl] = np.ptp(file["equilibrium/mean_temperature"][()])
     assert spread[0.5] < spread[0.9] < spread[2]
+
+
+def test_pads_cool_in_the_transition(tiltpad, tmp_path):
+    """The warmest pad of docs/theory/heat.md at speeds at which it is warm, cooler and warm again."""
+    example = Path(__file__).parents[2] / "input/examples/warm_five_pads.nml"
+
+    def hottest(speed, *settings):
+        overrides = ("film%turbulence=ng_pan", "oil%grade=32", f"operation%speed_rpm={speed}", *settings)
+        tiltpad(example, "-q", "-o", "five.h5", "--overwrite", cwd=tmp_path, overrides=overrides, status=0)
+        with h5py.File(tmp_path / "five.h5") as file:
+            return file["equilibrium/maximum_temperature"][()].max()
+
+    before, within, beyond = (hottest(speed) for speed in (11000, 14000, 18000))
+    assert within + 2 < before < beyond
+    assert hottest(13000, "film%turbulent_above=1500") > before + 1
+    alone = [hottest(speed, "oil%shaft_nusselt=0") for speed in (11000, 14000)]
+    assert 1 < alone[0] - alone[1] < before - within
