@@ -5,7 +5,7 @@ module equilibrium_notes
    use text, only: filled
    use case_groups, only: bearing_type
    use case_inputs, only: case_type
-   use bearing_numbers, only: load, specific_load, sommerfeld_number, of_supply
+   use bearing_numbers, only: load, load_on_journal, specific_load, sommerfeld_number, of_supply
    use state_layout, only: tilt, pivot_deflection
    use force_balance, only: stability_type
    use bearing_shape, only: bearing_shape_type
@@ -128,11 +128,19 @@ contains
          end if
          if (allocated(static%films)) call put_film_temperatures(file, static%films(1))
          if (.not. shown) return
-         call print_equilibrium(title, static, bearing%tilting(), ending)
+         call print_equilibrium(title, static, bearing%tilting(), held_by()//ending)
          call print_figures(inputs, figures)
          if (allocated(figures%oil)) call print_temperatures(figures%oil, static%oil%viscosity)
          if (bearing%changes_shape()) call print_shape(bearing, run%shapes(b))
       end associate
+   contains
+      !> What holds a journal that is held.
+      function held_by() result(said)
+         character(len=:), allocatable :: said
+         said = ''
+         if (run%inputs%held%is_wanted()) said = filled(', held by a load of y {.1}, z {.1} N', &
+            & load_on_journal(model%inputs))
+      end function held_by
    end subroutine note_bearing
 
    !> The rotor of a machine: its mass, its kept modes and what those that are left out change.

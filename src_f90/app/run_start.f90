@@ -12,6 +12,7 @@ module run_start
    use equilibrium_record, only: equilibrium_type
    use bearing_equilibrium, only: find_partial_equilibrium
    use equilibrium, only: find_equilibrium, settle_equilibrium
+   use held_journal, only: find_held_equilibrium, take_load
    use equations_of_motion, only: machine_model
    use static_model, only: make_fine
    use film_network, only: warm_films_type
@@ -75,7 +76,13 @@ contains
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
       call make_fine(run%model, fine)
-      call settle_equilibrium(fine, static, y, error)
+      if (run%inputs%held%is_wanted()) then
+         call find_held_equilibrium(fine, run%inputs, static, error, known=.true.)
+         call take_load(run%model, fine%point%load)
+         if (.not. allocated(error)) y = fine%static_state(static%rotor, static%pads)
+      else
+         call settle_equilibrium(fine, static, y, error)
+      end if
       if (allocated(error)) then
          call add_context(error, 'with converged films')
          call say_nothing_computed(error)
@@ -92,7 +99,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
       call create_file(run, error)
       if (allocated(error)) return
-      call find_equilibrium(run%model, static, error)
+      if (run%inputs%held%is_wanted()) then
+         call find_held_equilibrium(run%model, run%inputs, static, error)
+      else
+         call find_equilibrium(run%model, static, error)
+      end if
       call say_nothing_computed(error)
       if (.not. allocated(error)) call take_shapes(run, static%shapes)
    end subroutine seek_equilibrium

@@ -8,8 +8,8 @@ module bearing_numbers
    use operating_point, only: operating_point_type
    implicit none (type, external)
    private
-   public :: preload, clearance_ratio, length_over_diameter, load, specific_load, sommerfeld_number, of_supply
-   public :: eccentricity_ratio, attitude_angle
+   public :: preload, clearance_ratio, length_over_diameter, load, load_on_journal, specific_load
+   public :: sommerfeld_number, of_supply, eccentricity_ratio, attitude_angle
 
 contains
 
@@ -32,12 +32,19 @@ contains
       length_over_diameter = maxval(bearing%axial_length)/(2*bearing%journal_radius)
    end function length_over_diameter
 
-   !> Steady force W on a rigid journal, weight and static load, N.
-   pure real(wp) function load(inputs)
+   !> Steady force on a rigid journal, weight and static load, along y and z, N.
+   pure function load_on_journal(inputs) result(force)
       type(case_type), intent(in) :: inputs
+      real(wp) :: force(2)
       type(operating_point_type) :: point
       point = operating_point_type(inputs)
-      load = norm2(point%load)
+      force = point%load
+   end function load_on_journal
+
+   !> Its size W, N.
+   pure real(wp) function load(inputs)
+      type(case_type), intent(in) :: inputs
+      load = norm2(load_on_journal(inputs))
    end function load
 
    !> W/(L D), Pa, with the length of the longest pad.
@@ -82,11 +89,11 @@ contains
    pure real(wp) function attitude_angle(inputs, journal)
       type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: journal(2)
-      type(operating_point_type) :: point
       real(wp) :: along, across
-      point = operating_point_type(inputs)
-      along = dot_product(point%load, journal)
-      across = inputs%sense()*(point%load(1)*journal(2) - point%load(2)*journal(1))
+      associate (force => load_on_journal(inputs))
+         along = dot_product(force, journal)
+         across = inputs%sense()*(force(1)*journal(2) - force(2)*journal(1))
+      end associate
       attitude_angle = 0
       if (abs(along) + abs(across) > 0) attitude_angle = atan2(across, along)
    end function attitude_angle

@@ -1,7 +1,7 @@
 !> Checks of a case: what no single value can tell. A message names the variables, their values and what is allowed.
 module case_checks
    use kinds, only: wp, degree
-   use text, only: to_text, filled
+   use text, only: to_text, filled, list_text
    use errors, only: error_type, require, refuse, add_context
    use case_groups, only: bearing_type, clearance_range, in_range, is_set, elastic_type, most_stations
    use other_units, only: in_other_units
@@ -60,6 +60,7 @@ contains
          call add_context(error, inputs%bearings(b)%label())
       end do
       call check_branch()
+      call check_held()
       call check_excitations()
    contains
       !> Solver of the films, and sizes of a bearing.
@@ -252,6 +253,32 @@ contains
                & //'search starts', [limit, o%speed_rpm], error)
          end associate
       end subroutine check_run
+
+      !> A journal is held at one place, where nothing moves, in a bearing that keeps its clearances.
+      subroutine check_held()
+         character(len=:), allocatable :: what
+         if (.not. inputs%held%is_wanted()) return
+         associate (held => inputs%held, task => inputs%about%task, r => inputs%rotor)
+            what = 'held%eccentricity_ratio = '//to_text(held%eccentricity_ratio)
+            if (any(is_set(held%position))) what = 'held%position = '//list_text(held%position)
+            call require(.not. any(is_set(held%position)) .or. .not. any(is_set([held%eccentricity_ratio, &
+               & held%attitude_deg])), what//': held%eccentricity_ratio or attitude_deg is given too; give one of ' &
+               & //'them', error)
+            call require(.not. any(is_set(held%position)) .or. all(is_set(held%position)), 'held%position: both y ' &
+               & //'and z must be given', error)
+            call require(any(is_set(held%position)) .or. is_set(held%eccentricity_ratio), 'held%attitude_deg = {}: ' &
+               & //'needs held%eccentricity_ratio', [held%attitude_deg], error)
+            call require(any(task == [character(len=12) :: 'equilibrium', 'coefficients']), what//': is for ' &
+               & //'case%task = ''equilibrium'' and ''coefficients''; '''//task//''' lets the journal move, and ' &
+               & //'start%from = ''given'' starts a march there', error)
+            call require(.not. any(inputs%bearings%changes_shape()), what//': is not for pads%bending and ' &
+               & //'bearing%clearance_temperature, which change the clearance; give the clearances in operation', error)
+            call require(.not. any(is_set(held%position)) .or. .not. norm2(r%static_load) > 0, what//': ' &
+               & //'rotor%static_load is given too, which follows from the position; take it out of the case', error)
+            call require(any(is_set(held%position)) .or. norm2(r%static_load - [r%mass*r%gravity, 0.0_wp]) > 0, what &
+               & //': needs a load, from whose direction the attitude counts (rotor%static_load)', error)
+         end associate
+      end subroutine check_held
 
       !> A branch needs a parameter; `case_parameter` checks what it, its last value and its step mean.
       subroutine check_branch()

@@ -8,6 +8,7 @@ module case_groups
    private
    public :: max_pads, most_ratios, unset, is_set, in_range, mass_range, inertia_range, centre_range, &
       & temperature_range, viscosity_range, clearance_range, about_type, operation_type, thermal_type, start_type, &
+      & held_type, &
       & integration_type, output_type, coefficients_type, periodic_type, branch_type, bearing_type, oil_type, &
       & pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, rotor_type, elastic_type, &
       & shaft_type, disc_type, unbalance_type, load_type, reduction_type, most_bearings, most_sections, &
@@ -194,6 +195,14 @@ module case_groups
       module procedure new_bearing
    end interface bearing_type
 
+   !> Where the journal is held: at an eccentricity over the bearing clearance, and an attitude from the load (unset:
+   !> where the load keeps its direction), or at a position, m. Unset: it is not held.
+   type :: held_type
+      real(wp) :: eccentricity_ratio = unset, attitude_deg = unset, position(2) = unset
+   contains
+      procedure :: is_wanted
+   end type held_type
+
    type :: integration_type
       real(wp) :: relative_tolerance = 1e-5_wp, tolerance_scale = 1
       !> 0: no limit.
@@ -325,6 +334,12 @@ module case_groups
    end type rotor_type
 
 contains
+
+   !> Whether the journal is held.
+   elemental logical function is_wanted(self)
+      class(held_type), intent(in) :: self
+      is_wanted = is_set(max(self%eccentricity_ratio, self%attitude_deg, maxval(self%position)))
+   end function is_wanted
 
    !> False for a number that is left out.
    elemental logical function is_set(x)

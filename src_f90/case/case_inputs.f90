@@ -1,8 +1,8 @@
 !> What a run is about: the values of all namelist groups. A default case is the paper's bearing.
 module case_inputs
    use kinds, only: wp, rpm
-   use case_groups, only: about_type, operation_type, bearing_type, thermal_type, start_type, integration_type, &
-      & output_type, coefficients_type, periodic_type, branch_type, is_set, rotor_type
+   use case_groups, only: about_type, operation_type, bearing_type, thermal_type, start_type, held_type, &
+      & integration_type, output_type, coefficients_type, periodic_type, branch_type, is_set, rotor_type
    use excitations, only: excitation_type
    implicit none (type, external)
    private
@@ -15,6 +15,7 @@ module case_inputs
       type(operation_type) :: operation
       type(thermal_type) :: thermal
       type(start_type) :: start
+      type(held_type) :: held
       type(integration_type) :: integration
       type(output_type) :: output
       type(coefficients_type) :: coefficients

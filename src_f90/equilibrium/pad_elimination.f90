@@ -14,7 +14,7 @@ module pad_elimination
       & static_derivatives, newton_step
    implicit none (type, external)
    private
-   public :: eliminate_pads, search_pads
+   public :: eliminate_pads, search_pads, settle_all_pads
 
    !> Unbalanced forces over the reference force at which a pad and the journal are in equilibrium: near enough for
    !> Newton's method on the whole.
@@ -129,6 +129,28 @@ contains
          pads = trial
       end subroutine move_journal
    end subroutine eliminate_pads
+
+   !> Moves the pads from y to equilibrium with the journal where it is, from other tilts and on their asperities where
+   !> nothing else is found; the model is evaluated there.
+   subroutine settle_all_pads(model, y, in_equilibrium, ok)
+      type(machine_model), intent(inout) :: model
+      real(wp), intent(inout) :: y(:)
+      logical, intent(out) :: in_equilibrium(:), ok
+      type(pad_state) :: pads(size(in_equilibrium))
+      logical :: by_films
+      integer :: attempt
+      do attempt = 1, 2
+         by_films = attempt == 1
+         in_equilibrium = .false.
+         pads = model%layout%elements(1)%pad_states(y)
+         call settle_pads(model, model%rotor%journal(y(:model%rotor%states), 1), pads, in_equilibrium, ok, by_films)
+         if (.not. ok) return
+         call model%layout%put_all_pads(pads, y)
+         if (.not. all(in_equilibrium)) call search_pads(model, y, in_equilibrium, by_films)
+         if (all(in_equilibrium)) exit
+      end do
+      call model%evaluate(0.0_wp, y, .true., ok)
+   end subroutine settle_all_pads
 
    !> Every pad to its own equilibrium with the journal where it is; which of them found it.
    subroutine settle_pads(model, journal, pads, in_equilibrium, ok, by_films)

@@ -81,6 +81,7 @@ contains
       call list_thermal()
       if (rigid) call list_contacts(inputs%bearings(1))
       call list_start()
+      if (rigid) call list_held()
       if (rigid) call list_film(inputs%bearings(1)%film)
       call list_march()
       call list_analyses()
@@ -176,6 +177,18 @@ contains
          call v%each(inputs%start%pivot_deflection_rate, 'pads', 'pivot_deflection_rate', -1e3_wp, 1e3_wp, 'm/s', &
             & 'tilting_radial: their rates')
       end subroutine list_start
+
+      subroutine list_held()
+         call group('held', 'Where the journal is held, for comparison with tables, with the tasks equilibrium and ' &
+            & //'coefficients: the static load is then what holds it there')
+         call v%number(inputs%held%eccentricity_ratio, 'eccentricity_ratio', 0.0_wp, 100.0_wp, '1', &
+            & 'distance of the journal from the middle over the bearing clearance c_r')
+         call v%number(inputs%held%attitude_deg, 'attitude_deg', -360.0_wp, 360.0_wp, 'deg', &
+            & 'angle from the load of the case to the journal, in the sense of rotation; if left out, that at which ' &
+            & //'the load that holds the journal has the direction of the load of the case')
+         call v%numbers(inputs%held%position, 'position', -0.1_wp, 0.1_wp, 'm', &
+            & 'instead of eccentricity_ratio: displacement of the journal along y and z')
+      end subroutine list_held
 
       !> Integration and output.
       subroutine list_march()

@@ -430,6 +430,8 @@ contains
       name = bearing_of(a%group)
       if (kind == 'excitation') call look_at_number(size(inputs%excitations))
       if (inputs%rotor%is_rigid() .or. allocated(error)) return
+      call require(kind /= 'held', a%origin//': &held holds the rigid journal of one bearing, not a shaft; run ' &
+         & //'each bearing alone, where &held takes the places that the machine gives its journal', error)
       associate (elastic => inputs%rotor%elastic, bearings => inputs%bearings)
          if (kind == 'disc') call look_at_number(size(elastic%discs))
          if (kind == 'unbalance') call look_at_number(size(elastic%unbalances))

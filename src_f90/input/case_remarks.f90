@@ -111,7 +111,10 @@ contains
          integer :: i
          lines = ''
          associate (r => inputs%rotor, bearings => inputs%bearings)
-            if (r%is_rigid()) then
+            if (inputs%held%is_wanted()) then
+               ! its load is not known yet
+               return
+            else if (r%is_rigid()) then
                lines = on_force('rotor%static_load', norm2(r%static_load), r%mass*r%gravity)//on_low_load() &
                   & //on_table(bearings(1), load(inputs))
                if (inputs%moves()) lines = lines//remark_on_unbalance(inputs%unbalance(), r%mass, bearings( &

@@ -22,6 +22,8 @@ module namelist_writer
 
    !> Temperatures of warm oil, C.
    real(wp), parameter :: warm(3) = [60.0_wp, 80.0_wp, 100.0_wp]
+   !> The only group that may have no lines.
+   character(len=*), parameter :: nothing_held = '&held'//newline//'/'//newline
 
 contains
 
@@ -36,7 +38,7 @@ contains
       do i = 1, table%count
          text = text//group_start(table, i)//lines_of(table%variables(i), '')
       end do
-      text = text//'/'//newline
+      text = without_empty_group(text//'/'//newline)
    end function namelist_of
 
    !> The input reference, Markdown tables of all groups: variable, default, unit, allowed values, meaning.
@@ -91,6 +93,16 @@ contains
       text = '| `'//v%name//'` | '//default//' | '//trim(v%unit)//' | '//allowed//' | '//meaning//' |'//newline
    end function row
 
+   !> A text without the one group that may have no lines, where it has none.
+   pure function without_empty_group(text) result(shorter)
+      character(len=*), intent(in) :: text
+      character(len=:), allocatable :: shorter
+      shorter = text
+      associate (at => index(text, nothing_held))
+         if (at > 0) shorter = text(:at - 1)//text(at + len(nothing_held):)
+      end associate
+   end function without_empty_group
+
    ! What --check prints: the resolved case, where each value comes from, and what follows from the values.
 
    !> The text of a case with a mark behind each value that its assignments do not give: a default, or derived from
@@ -126,7 +138,7 @@ contains
             text = text//group_start(table, i)//lines_of(v, mark)
          end associate
       end do
-      text = text//'/'//newline
+      text = without_empty_group(text//'/'//newline)
    end function marked_text
 
    !> What follows from a complete case, as comments.
@@ -175,6 +187,7 @@ contains
       text = ''
       if (is_set(inputs%rotor%balance_grade)) text = said('unbalance', inputs%unbalance(), &
          & 'kg m, by rotor%balance_grade')
+      if (inputs%held%is_wanted()) return
       text = text//said('load', load(inputs), 'N, weight and static load') &
          & //said('specific load', specific_load(inputs), 'Pa, W/(L D)')
       if (load(inputs) > 0) text = text//said('Sommerfeld number', sommerfeld_number(inputs), &

@@ -10,7 +10,7 @@ module equilibrium_results
    use film_energy, only: solid_layers
    use film_oils, only: film_oil, uneven_oil, weights_degree, polynomials
    use bearing_shape, only: bearing_shape_type
-   use bearing_numbers, only: load, specific_load, sommerfeld_number
+   use bearing_numbers, only: load, load_on_journal, specific_load, sommerfeld_number
    use tilting_pad, only: pad_coordinates_type
    use equilibrium_record, only: equilibrium_type, static_figures_type
    use summary_group, only: put_figure
@@ -87,6 +87,12 @@ contains
             & 'angle from the load to the journal displacement, in the sense of rotation')
          call put('sommerfeld_number', sommerfeld_number(inputs), '1', &
             & 'mu N L D/W (R_J/c_r)^2, mu of the oil as supplied')
+      end if
+      if (inputs%held%is_wanted()) then
+         associate (force => load_on_journal(inputs))
+            call put('bearing_load_y', force(1), 'N', 'load that holds the journal, vertical')
+            call put('bearing_load_z', force(2), 'N', 'load that holds the journal, horizontal')
+         end associate
       end if
       associate (pads => figures%pads)
          call put('load', pads%load, 'N', 'force of film and asperities on the journal')

@@ -16,7 +16,7 @@ module static_model
    use force_balance, only: forces, force_derivatives, masses
    implicit none (type, external)
    private
-   public :: make_static, make_quick, make_fine, solve_equilibrium, start, starts, follow_motion, &
+   public :: make_static, make_quick, make_fine, solve_equilibrium, start, starts, placed, follow_motion, &
       & unbalanced, reference_force, clearances, next_time_step, residual_limit, newtons, longest_move, &
       & shortest_move, trace, set_free, static_derivatives, newton_step
 
@@ -110,32 +110,37 @@ contains
    function start(model, k) result(y)
       type(machine_model), intent(in) :: model
       integer, intent(in) :: k
+      real(wp) :: y(model%n), place(2)
+      place = 0
+      associate (load => model%point%load)
+         if (norm2(load) > 0) place = fractions(k)*model%bearings(1)%clearance*load/norm2(load)
+      end associate
+      if (.not. model%layout%elements(1)%has(tilt)) place = place + middle_of_bores(model)
+      y = placed(model, place)
+   end function start
+
+   !> The journal at this place, m, pivots carrying a share of the load, and pads that tilt tilted so that every film
+   !> converges.
+   function placed(model, place) result(y)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: place(2)
       real(wp) :: y(model%n)
       type(journal_motion) :: journal
       type(pad_state) :: pads(model%layout%pads)
       type(pad_frame) :: frame
       integer :: i
-      associate (load => model%point%load)
-         if (norm2(load) > 0) then
-            journal%position = fractions(k)*model%bearings(1)%clearance*load/norm2(load)
-            if (model%layout%elements(1)%has(pivot_deflection)) then
-               do i = 1, size(pads)
-                  pads(i)%x(pivot_deflection) = model%bearings(1)%pivots(i)%contact%law%pivot_deflection(norm2(load) &
-                     & /size(pads))
-               end do
-            end if
-         end if
-         if (.not. model%layout%elements(1)%has(tilt)) journal%position = journal%position + middle_of_bores(model)
-         do i = 1, size(pads)
-            associate (position => model%bearings(1)%pads(i)%position)
-               frame = frame_of(position, journal, pads(i))
-               pads(i)%x(tilt) = (frame%along + model%inputs%bearings(1)%machined_clearance(i)/3) &
-                  & /position%centre_distance
-            end associate
-         end do
-      end associate
+      journal%position = place
+      do i = 1, size(pads)
+         if (model%layout%elements(1)%has(pivot_deflection) .and. norm2(model%point%load) > 0) pads(i)%x( &
+            & pivot_deflection) = model%bearings(1)%pivots(i)%contact%law%pivot_deflection(norm2(model%point%load) &
+            & /size(pads))
+         associate (position => model%bearings(1)%pads(i)%position)
+            frame = frame_of(position, journal, pads(i))
+            pads(i)%x(tilt) = (frame%along + model%inputs%bearings(1)%machined_clearance(i)/3)/position%centre_distance
+         end associate
+      end do
       y = model%state(journal, pads)
-   end function start
+   end function placed
 
    !> The mean of the places, m, at which the journal lies in the middle of a pad's bore, among pads without tilt.
    pure function middle_of_bores(model) result(middle)

@@ -51,6 +51,8 @@ START = (
     *("start%from", "start%file", "start%journal", "start%journal_velocity", "start%pad_tilt"),
     *("start%pad_tilt_rate", "start%pivot_deflection", "start%pivot_deflection_rate"),
 )
+#: Where the journal is held, in the order in which they belong together.
+HELD = ("held%eccentricity_ratio", "held%attitude_deg", "held%position")
 #: The oil's law, what it needs, and the heat balance.
 OIL = (
     *("oil%law", "oil%grade", "oil%kinematic_viscosity", "oil%at_temperature", "oil%density_at_15"),
@@ -72,7 +74,7 @@ SPECIAL = {
     "pivot%file",
     *(
         key
-        for group in (*TOGETHER, ALONE, EITHER, INSTEAD, SHAPE, OF_LAW, TURBULENCE, START, OIL)
+        for group in (*TOGETHER, ALONE, EITHER, INSTEAD, SHAPE, OF_LAW, TURBULENCE, START, HELD, OIL)
         for key in group
     ),
 }
@@ -132,6 +134,8 @@ def set_task(dice: Random, variables: dict[str, Variable], found: dict[str, tupl
     found["case%task"] = (task.encode(),)
     if task == "branch":
         found.pop("output%keep", None)
+    if task in ("equilibrium", "coefficients") and "rotor%static_load" not in found and dice.random() < 0.3:
+        found.update(held(dice, variables, found))
     if task not in OF_TASK:
         return
     for key in (*OF_MARCH, *(START if task == "coefficients" else ())):
@@ -142,6 +146,14 @@ def set_task(dice: Random, variables: dict[str, Variable], found: dict[str, tupl
     # above the speed, or none
     if "coefficients%threshold_up_to_rpm" in found:
         found["coefficients%threshold_up_to_rpm"] = (0.0,)
+
+
+def held(dice: Random, variables: dict[str, Variable], found: dict[str, tuple]) -> dict[str, tuple]:
+    """Where the journal is held: a position or, from the direction of a load, an eccentricity."""
+    if dice.random() < 0.5 or found.get("rotor%gravity") == (0.0,):
+        return {"held%position": anything(dice, variables["held%position"])}
+    keys = HELD[: dice.choice((1, 2))]
+    return {key: anything(dice, variables[key]) for key in keys}
 
 
 def start(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:

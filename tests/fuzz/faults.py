@@ -46,6 +46,8 @@ TOGETHER = (
     ({"thermal%march": "groove"}, "thermal%march"),
     ({"start%file": "'x.h5'"}, "start%file"),
     ({"start%from": "file"}, "start%file"),
+    ({"held%attitude_deg": "20"}, "held%attitude_deg"),
+    ({"held%eccentricity_ratio": "0.5"}, "case%task = 'equilibrium'"),
     ({"start%pivot_deflection": "1e-6", "pads%motion": "tilting_only"}, "start%pivot_deflection"),
     ({"pads%motion": "fixed", "friction%model": "lugre"}, "friction%model"),
     ({"pads%motion": "fixed", "start%pad_tilt": "1e-3"}, "start%pad_tilt"),

@@ -110,7 +110,7 @@ UNITS = {
     **{"pivot_deflection": "m", "pivot_deflection_rate": "m/s"},
     **dict.fromkeys(("offset", "length", "contact_length", "diameter", "bore"), "m"),
     **{"polar_inertia": "kg m²", "diametral_inertia": "kg m²", "moment": "kg m", "force": "N"},
-    **{"amplitude": "N", "start": "s", "end": "s"},
+    **{"amplitude": "N", "start": "s", "end": "s", "position": "m"},
     **{"stiffness": "N/m", "rotational_stiffness": "N m/rad", "damping": "N s/m"},
     **{"frequency": "Hz", "damp_above": "Hz"},
     **dict.fromkeys(("critical_velocity", "stribeck_velocity"), "m/s"),
