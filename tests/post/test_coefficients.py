@@ -10,6 +10,7 @@ import pytest
 import tiltpad
 import xarray
 from tiltpad import command, figures
+from tiltpad.calculate.results import result
 from tiltpad.draw import study_report
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
@@ -130,6 +131,24 @@ def test_modes_solve_the_equations_of_motion(run):
         parts = np.array([value**2 * mass @ shape, value * damping @ shape, stiffness @ shape])
         assert np.abs(parts.sum(axis=0)).max() < 1e-7 * np.abs(parts).max()
     np.testing.assert_allclose(found.damping_ratio, -found.eigenvalue.real / np.abs(found.eigenvalue))
+
+
+def test_elements_and_decrement_are_results_by_name(study):
+    """At the whirl frequency of the shaft, which is the second; the decrement is the rotor's least."""
+    whirls = list(study.frequency_ratio)
+    for name, row, column in (("stiffness_yz", 0, 1), ("damping_zz", 1, 1)):
+        own = result(study, name, pivot="stuck")
+        of = study[name.partition("_")[0]][:, PIVOTS.index("stuck"), whirls.index(1), row, column]
+        np.testing.assert_array_equal(own.values, of)
+        assert own.shown.label.startswith(name.replace("_", " ") + ", pivots stuck (")
+    modes = tiltpad.modes(study, "free")
+    journal = np.char.startswith(modes.name.astype(str), "journal") & (modes.eigenvalue.imag > 0)
+    least = np.where(journal, modes.log_decrement, np.inf).min(axis=1)
+    least[np.isinf(least)] = np.nan
+    order = np.argsort(study.speed_rpm)
+    found = tiltpad.percentiles(study, "log_decrement")
+    np.testing.assert_allclose(result(study, "log_decrement").values[order], least, rtol=1e-9)
+    assert found.mean[0] == pytest.approx(least[np.isfinite(least)].mean(), rel=1e-9)
 
 
 def test_names_of_modes_are_those_of_the_program(study, run, folder, opened):

@@ -5,6 +5,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import tiltpad
+from sampled import write_study
 from tiltpad import command, diagrams, figures
 from tiltpad.calculate import selection
 
@@ -94,6 +95,14 @@ def test_a_second_parameter_is_a_line_each(study):
     assert [text.get_text() for text in legend.get_texts()] == ["4000", "6500", "not done (1)"]
     ax = diagrams.diagram(study("both"))
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["no friction", "LuGre"]
+
+
+def test_a_second_parameter_has_the_unit_of_its_size(tmp_path):
+    parameters = {"clearance": np.repeat([60e-6, 90e-6], 3), "speed_rpm": np.tile([1e3, 2e3, 3e3], 2)}
+    with tiltpad.read_study(write_study(tmp_path / "two.h5", parameters, {"a": np.arange(6.0)})) as made:
+        legend = diagrams.diagram(made, show="a", over="speed_rpm").get_legend()
+    assert legend.get_title().get_text() == "bearing clearance (µm)"
+    assert [text.get_text() for text in legend.get_texts()] == ["60", "90"]
 
 
 def test_a_map_over_two_parameters(study):

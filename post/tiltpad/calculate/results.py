@@ -20,6 +20,17 @@ KEYS = (
 )
 
 
+#: Elements of the coefficients of the journal, by the names of these results: quantity, row, column.
+ELEMENTS = {
+    f"{name}_{row}{column}": (name, i, j)
+    for name in ("stiffness", "damping")
+    for i, row in enumerate("yz")
+    for j, column in enumerate("yz")
+}
+#: The logarithmic decrement of the rotor's least damped mode, and what it follows from.
+DECREMENT, RATIO = "log_decrement", "rotor_damping_ratio"
+
+
 class Result(NamedTuple):
     """A result: values of the runs, (run,) or (run, revolution), how they are shown, dataset, its pivots."""
 
@@ -37,11 +48,8 @@ def result(
     One of small vibrations is of the given pivots, by default of the first, and says so where there are
     several, which fixed pads have not. Raises ValueError where the study has no such result.
     """
-    if name in study and study.scales(name) == PIVOTS:
-        own, k = place_of_pivot(study, pivot)
-        shown = described(study, name)
-        text = shown.text + (f", pivots {literal(own)}" if study.length("pivot") > 1 else "")
-        return Result(study[name][:, k], shown._replace(text=text), name, own)
+    if name in small_vibrations(study):
+        return of_vibrations(study, name, pivot)
     if name in (*DEFAULTS, *POINTS) and name not in study:
         raise ValueError(f"{study.path}: no {name} in this study: no run has it")
     wanted = ("run", *(["revolution"] if revolutions else []), *(["pad"] if pad is not None else []))
@@ -55,6 +63,7 @@ def result(
     if has != wanted:
         what = f"{'Poincare points' if revolutions else 'a result'}{' of a pad' if pad is not None else ''}"
         there = [each for each in study.names() if is_result(study, each) and study.scales(each) == wanted]
+        there += [] if len(wanted) > 1 else small_vibrations(study)
         needs(name, there, "show", what)
     shown = described(study, name, POINTS.get(name, name.removeprefix("pad_")))
     if pad is None:
@@ -63,6 +72,37 @@ def result(
         raise ArgumentError("{pad} {own}: must be 1 to {last}, the pads of this study", own=pad, last=last)
     text = f"{shown.text}, pad {pad}"
     return Result(study[name][..., pad - 1], shown._replace(text=text), name)
+
+
+def small_vibrations(study: Study) -> list[str]:
+    """Names of the results of small vibrations that a study has, of each of its pivots."""
+    found = [each for each in study.names() if study.scales(each) == PIVOTS]
+    found += [each for each, (name, *_) in ELEMENTS.items() if name in study]
+    return found + [DECREMENT] * (RATIO in study)
+
+
+def of_vibrations(study: Study, name: str, pivot: str | None) -> Result:
+    """One of them: a dataset, an element of the coefficients of the journal, or the logarithmic decrement.
+
+    Elements are those at the whirl frequency of the study that is nearest to the speed.
+    """
+    own, k = place_of_pivot(study, pivot)
+    if name in ELEMENTS:
+        of, row, column = ELEMENTS[name]
+        ratios = study["frequency_ratio"]
+        nearest = int(np.argmin(np.abs(ratios - 1)))
+        values, shown = study[of][:, k, nearest, row, column], described(study, of)
+        whirl = "" if ratios[nearest] == 1 else f" at {ratios[nearest]:g} × shaft speed"
+        shown = shown._replace(text=f"{name.replace('_', ' ')}{whirl}")
+    elif name == DECREMENT:
+        ratio = study[RATIO][:, k]
+        with np.errstate(invalid="ignore"):
+            values = 2 * np.pi * ratio / np.sqrt(1 - ratio**2)
+        shown = Shown("logarithmic decrement of the rotor", 1, "")
+    else:
+        values, shown = study[name][:, k], described(study, name)
+    text = shown.text + (f", pivots {literal(own)}" if study.length("pivot") > 1 else "")
+    return Result(values, shown._replace(text=text), name, own)
 
 
 def is_result(study: Study, name: str) -> bool:

@@ -173,16 +173,14 @@ def default_kind(study: Study, show: str | None, over: str, others: Sequence[str
 
 def axis(study: Study, name: str, ax: Axes, which: str) -> tuple[Shown, np.ndarray]:
     """Unit of a parameter, positions of the runs along its axis, (run,); sets scale and ticks."""
-    values = study[name]
-    text = literal(study.about(name, "long_name") or name)
+    values, shown = study[name], shown_as(study, name)
     if not selection.is_number(study, name):
         names = selection.distinct(values)
         place = np.array([names.index(value) if value in names else np.nan for value in values], dtype=float)
         texts = [literal(selection.written(each)) for each in names]
         ax.set(**{f"{which}ticks": range(len(names)), f"{which}ticklabels": texts})
         ax.set(**{f"{which}lim": (-0.5, len(names) - 0.5)})
-        return Shown(text, 1, ""), place
-    shown = units.shown(text, literal(study.about(name, "units")), values)
+        return shown, place
     if spread_in_ratio(selection.distinct(values)):
         ax.set(**{f"{which}scale": "log"})
     else:
@@ -215,7 +213,15 @@ def grouped(study: Study, others: Sequence[str], chosen: np.ndarray) -> list[tup
             f"{len(keys)} lines, one for each {' and '.join(others)}, are more than {MOST_LINES}: "
             "choose by {where}, or {kind} map"
         )
-    return [(", ".join(map(selection.written, key)), np.array(found[key])) for key in keys]
+    factors = [shown_as(study, name).factor for name in others]
+    texts = [
+        ", ".join(
+            selection.written(value if isinstance(value, str) else factor * value)
+            for factor, value in zip(factors, key, strict=True)
+        )
+        for key in keys
+    ]
+    return [(text, np.array(found[key])) for text, key in zip(texts, keys, strict=True)]
 
 
 def mark_failed(ax: Axes, place: np.ndarray, color: str | None) -> None:
@@ -235,13 +241,21 @@ def explain(
         texts = [*texts, f"not done ({failed})"]
     if handles:
         columns = max(1, 45 // (max(map(len, texts)) + 6))
-        title = ", ".join(label(study, name) for name in others)
+        title = ", ".join(shown_as(study, name).label for name in others)
         place = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": columns}
-        ax.legend(handles, texts, title=literal(title) or None, **place)
+        ax.legend(handles, texts, title=title or None, **place)
+
+
+def shown_as(study: Study, name: str) -> Shown:
+    """How a parameter is shown: a number in the unit that suits its values."""
+    text = literal(study.about(name, "long_name") or name)
+    if not selection.is_number(study, name):
+        return Shown(text, 1, "")
+    return units.shown(text, literal(study.about(name, "units")), study[name])
 
 
 def label(study: Study, name: str) -> str:
-    """A parameter in words, with its unit."""
+    """A parameter in words, with its unit in the study."""
     text, unit = study.about(name, "long_name") or name, study.about(name, "units")
     return f"{text} ({unit})" if unit not in ("", "1") else text
 
