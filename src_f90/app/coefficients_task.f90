@@ -236,7 +236,7 @@ contains
          i = shown(k)
          associate (value => modes%eigenvalue(i), title => '    mode '//to_text(i)//' ('//trim(modes%name(i))//'): ')
             if (value%im > 0) then
-               print '(a)', title//filled('{.4} Hz, damping ratio {.5}, logarithmic decrement {.4}', &
+               print '(a)', title//filled('{.2} Hz, damping ratio {.4}, logarithmic decrement {.3}', &
                   & [value%im/(2*pi), modes%damping_ratio(i), modes%log_decrement(i)])
             else
                print '(a)', title//filled('grows without vibration, {.3} 1/s', [value%re])

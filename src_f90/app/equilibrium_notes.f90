@@ -164,12 +164,12 @@ contains
       logical, intent(in) :: tilting
       character(len=:), allocatable :: pivot
       integer :: i
-      print '(a)', title//filled('journal y {u.3}, z {u.3} um', static%rotor(:2))//ending
+      print '(a)', title//filled('journal y {u.2}, z {u.2} um', static%rotor(:2))//ending
       do i = 1, size(static%pads)
          pivot = ''
-         if (tilting) pivot = filled('tilt {m.4} mrad, pivot deflection {u.3} um, contact {.1} N, ', &
+         if (tilting) pivot = filled('tilt {m.3} mrad, pivot deflection {u.2} um, contact {.1} N, ', &
             & [static%pads(i)%x(tilt), static%pads(i)%x(pivot_deflection), static%pivot_load(i)])
-         print '(a)', filled('  pad {}: '//pivot//'minimum film thickness {u.3} um, maximum pressure {M.3} MPa', &
+         print '(a)', filled('  pad {}: '//pivot//'minimum film thickness {u.2} um, maximum pressure {M.3} MPa', &
             & [real(wp) :: i, static%min_film_thickness(i), static%max_pressure(i)])
       end do
    end subroutine print_equilibrium
@@ -202,11 +202,11 @@ contains
       print '(a)', filled('  eccentricity ratio {.4}', [figures%eccentricity_ratio])//of_load
       associate (pads => figures%pads)
          do i = 1, size(pads)
-            print '(a)', filled('  pad {}: load {.1} N, loss {.1} W, oil in {u.3}, out {u.3} and at the sides {u.3} ' &
+            print '(a)', filled('  pad {}: load {.1} N, loss {.1} W, oil in {u.2}, out {u.2} and at the sides {u.2} ' &
                & //'ml/s, Reynolds number {.1}', [real(wp) :: i, pads(i)%load, pads(i)%power(), pads(i)%inlet, &
                & pads(i)%outlet, pads(i)%side, figures%reynolds_number(i)])//turbulence(pads(i))
          end do
-         print '(a)', filled('  all pads: loss {.1} W, oil in {u.3}, at the sides {u.3} ml/s', [sum(pads%power()), &
+         print '(a)', filled('  all pads: loss {.1} W, oil in {u.2}, at the sides {u.2} ml/s', [sum(pads%power()), &
             & sum(pads%inlet), sum(pads%side)])//warmer(figures%rise_fresh, ', oil warmer by ', 'fresh at every pad') &
             & //warmer(figures%rise_side, ' to ', 'fresh for the sides alone')
       end associate

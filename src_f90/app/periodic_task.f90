@@ -84,8 +84,8 @@ contains
       if (.not. found%closed) what = 'a march repeats it'
       associate (leading => found%multipliers(1), error => found%errors(1))
          print '(a)', filled('periodic orbit: period {m.4} ms ({} '//trim(merge('revolution), ', 'revolutions),', &
-            & revolutions == 1))//' '//what//'; leading multiplier {.6}'//merge(' + ', ' - ', leading%im >= 0) &
-            & //'{.6} i, modulus {.6}', [real(wp) :: found%period, revolutions, leading%re, abs(leading%im), &
+            & revolutions == 1))//' '//what//'; leading multiplier {.4}'//merge(' + ', ' - ', leading%im >= 0) &
+            & //'{.4} i, modulus {.5}', [real(wp) :: found%period, revolutions, leading%re, abs(leading%im), &
             & abs(leading)])
          print '(a)', filled('  {i} iterations on {i} intervals, after {i} periods of a march; the multiplier errs ' &
             & //'by at most {}', [real(wp) :: found%iterations, found%orbit%intervals(), found%marched, error])

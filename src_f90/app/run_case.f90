@@ -238,7 +238,7 @@ contains
       logical, intent(in) :: tilting
       character(len=:), allocatable :: before, after
       integer :: i
-      print '(a)', title//filled('journal y {u.3} to {u.3}, z {u.3} to {u.3} um', [figure(file, 'journal_y_min'), &
+      print '(a)', title//filled('journal y {u.2} to {u.2}, z {u.2} to {u.2} um', [figure(file, 'journal_y_min'), &
          & figure(file, 'journal_y_max'), figure(file, 'journal_z_min'), figure(file, 'journal_z_max')])
       before = ''
       after = ''
@@ -248,7 +248,7 @@ contains
             & film => pad_figures(file, 'pad_min_film_thickness'), pressure => pad_figures(file, 'pad_max_pressure'))
          do i = 1, size(film)
             if (tilting) then
-               before = filled('tilt {m.4} to {m.4} mrad, ', [lowest(i), highest(i)])
+               before = filled('tilt {m.3} to {m.3} mrad, ', [lowest(i), highest(i)])
                after = filled(', mean contact {.1} N', [contact(i)])
                if (has_figure(file, 'pad_friction_work')) after = after &
                   & //filled(', friction work {m.3} mJ a revolution', [work(i)])
@@ -258,7 +258,7 @@ contains
                   after = after//' in 1000 h'
                end if
             end if
-            print '(a)', filled('  pad {}: '//before//'minimum film thickness {u.3} um, maximum pressure {M.3} MPa', &
+            print '(a)', filled('  pad {}: '//before//'minimum film thickness {u.2} um, maximum pressure {M.3} MPa', &
                & [real(wp) :: i, film(i), pressure(i)])//after
          end do
       end associate

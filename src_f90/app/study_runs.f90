@@ -14,6 +14,7 @@ module study_runs
    use stop_signals, only: stop_requested, stop_reason
    use clock, only: wall_clock
    use progress, only: progress_type, new_progress
+   use study_digest, only: study_digest_type, new_digest
    implicit none (type, external)
    private
    public :: perform_runs, check_runs, tally_type, new_tally, tell
@@ -35,6 +36,8 @@ module study_runs
       type(error_type), allocatable :: errors(:)
       !> Clock when the first was started, s.
       real(wp) :: started = 0
+      !> What is shown of the runs that are performed now.
+      type(study_digest_type) :: digest
    end type tally_type
 
 contains
@@ -81,6 +84,7 @@ contains
       end if
       call start_hdf5()
       progress = new_progress(real(tally%done + tally%failed, wp), real(runs, wp), quiet)
+      tally%digest = new_digest(wanted, quiet)
       next = next_run(wanted, 1)
       children_know = .false.
       do
@@ -176,6 +180,7 @@ contains
          ! one that was killed meanwhile will be told below
          if (.not. ok) cycle
          call note(report%run, report%error, tally)
+         call tally%digest%take(report%run, report%error%status, report%error%message, children(i)%row)
          if (children(i)%row%remarks /= '') tally%remarked = tally%remarked + 1
          if (report%error%status /= stopped) call table%add(report%run, report%error%status, report%error%message, &
             & children(i)%row, runner%own_file(report%run))
@@ -237,6 +242,7 @@ contains
          failures(n)%message = 'run '//to_text(tally%runs(n))//' ('//replaced(tag%study, achar(10), ', ')//'): ' &
             & //failures(n)%message
       end do
+      if (.not. quiet) call tally%digest%print(study)
       if (.not. quiet) print '(a)', to_text(runs)//' runs: '//totals(runs, tally)//'; ' &
          & //fixed_text(wall_clock() - tally%started, 2)//' s; in '//path
       if (tally%remarked > 0 .and. .not. quiet) print '(a)', 'remarks on '//to_text(tally%remarked)//' of the runs: ' &

@@ -114,7 +114,7 @@ def test_all_members_run(tiltpad, case, options):
     folder = case(varied("operation%speed_rpm=3000:3400:100"))
     stdout, errors = result(tiltpad("case.nml", *options, cwd=folder))
     assert errors == []
-    assert re.fullmatch(r"5 runs: 5 done, 0 failed; [0-9.]+ s; in case\.h5\n", stdout)
+    assert re.fullmatch(r"5 runs: 5 done, 0 failed; [0-9.]+ s; in case\.h5", last_line(stdout))
     assert files(folder) == ["case", "case.h5", "case.nml"]
     assert files(folder / "case") == [f"000{k}.h5" for k in range(1, 6)]
     assert [speed(path) for path in sorted((folder / "case").iterdir())] == [3000, 3100, 3200, 3300, 3400]
@@ -167,7 +167,9 @@ def test_a_second_call_runs_what_is_missing(tiltpad, case):
     result(tiltpad("case.nml", cwd=folder))
     before = {path.name: path.stat() for path in (folder / "case").iterdir()}
     (folder / "case/0002.h5").unlink()
-    assert result(tiltpad("case.nml", cwd=folder))[0].startswith("3 runs: 3 done, 0 failed; ")
+    stdout, _ = result(tiltpad("case.nml", cwd=folder))
+    assert last_line(stdout).startswith("3 runs: 3 done, 0 failed; ")
+    assert [line.split()[:2] for line in stdout.splitlines()[:-1]] == [["run", "speed_rpm"], ["2", "4000"]]
     for name, status in before.items():
         now = (folder / "case" / name).stat()
         assert (now.st_mtime_ns == status.st_mtime_ns) == (name != "0002.h5")
@@ -223,7 +225,7 @@ def test_a_study_may_grow(tiltpad, case):
     result(tiltpad("case.nml", cwd=folder))
     before = (folder / "case/0001.h5").read_bytes()
     longer = ("--set", "sweep%operation%speed_rpm=3000,4000,5000")
-    assert result(tiltpad("case.nml", *longer, cwd=folder))[0].startswith("3 runs: 3 done")
+    assert last_line(result(tiltpad("case.nml", *longer, cwd=folder))[0]).startswith("3 runs: 3 done")
     assert (folder / "case/0001.h5").read_bytes() == before
     assert [speed(folder / f"case/000{k}.h5") for k in (1, 2, 3)] == [3000, 4000, 5000]
 
@@ -324,7 +326,7 @@ def test_a_table_that_has_changed_is_noticed(tiltpad, tabled):
     assert errors == [f"case/0002.h5: is of another study than run 1{WAY_OUT}"]
     # however it is written
     (folder / "cases/members.csv").write_text(TABLE.replace("\n", "\r\n") + '5000,"none"\r\n')
-    assert result(tiltpad("cases/case.nml", cwd=folder))[0].startswith("3 runs: 3 done")
+    assert last_line(result(tiltpad("cases/case.nml", cwd=folder))[0]).startswith("3 runs: 3 done")
     assert (folder / "case/0001.h5").read_bytes() == before
 
 
@@ -546,15 +548,51 @@ def test_a_terminal_has_one_line_for_all_members(program, case, loaded):
         assert re.fullmatch(r"\d+ of 20 runs, \d+ failed, [\d.]+ runs/s(, \d+ s left)?", line), line
     counts = [int(line.split()[0]) for line in lines]
     assert counts == sorted(counts)
-    assert "\n" not in text[: text.index("20 runs: ")]
-    assert re.search(r"\r\x1b\[K20 runs: 10 done, 10 failed; [0-9.]+ s; in case\.h5\r\n$", text)
+    assert "\n" not in text[: text.index("  run  mass")]
+    assert "\r\x1b[K  run  mass" in text
+    assert re.search(r"\r\n20 runs: 10 done, 10 failed; [0-9.]+ s; in case\.h5\r\n$", text)
+
+
+def test_a_study_ends_with_a_table(tiltpad, case):
+    """Of the first and the last runs what varied and what the file says of them."""
+    base = "&case task='coefficients' /\n"
+    folder = case(varied("operation%speed_rpm=3000:4000:50", "rotor%static_load(1)=0", base=base))
+    stdout, _ = result(tiltpad("case.nml", cwd=folder))
+    lines = stdout.splitlines()[:-1]
+    assert all(len(line) <= 118 for line in lines)
+    assert lines[9] == "  ..."
+    head, *rows = [line.split() for line in lines[:9] + lines[10:]]
+    assert [int(row[0]) for row in rows] == [*range(1, 9), *range(14, 22)]
+    assert head[:3] == ["run", "speed_rpm", "static_load(1)"]
+    with h5py.File(folder / "case.h5") as study:
+        of = {name: study[name][:] for name in ("speed_rpm", "equilibrium_min_film_thickness", "stiffness")}
+        stable = study["equilibrium_rotor_stable"][:]
+    names = re.sub(r" um| MN/m| kN s/m| dec", "", " ".join(head)).split()
+    for row in rows:
+        k = int(row[0]) - 1
+        shown = dict(zip(names, row[:-1], strict=False))
+        assert float(shown["speed_rpm"]) == of["speed_rpm"][k]
+        film = 1e6 * of["equilibrium_min_film_thickness"][k]
+        assert float(shown["film"]) == pytest.approx(film, rel=1e-3)
+        assert float(shown["K_yy"]) == pytest.approx(1e-6 * of["stiffness"][k, 0, 0, 0, 0], rel=1e-3)
+        assert row[-1] == ("stable" if stable[k] else "unstable")
+
+
+def test_the_table_says_why_a_run_has_nothing(tiltpad, case):
+    folder = case(varied("integration%max_steps=100000,1", base="&operation duration=0.001 /\n"))
+    lines = result(tiltpad("case.nml", cwd=folder), status=2)[0].splitlines()
+    assert lines[0].split()[:2] == ["run", "max_steps"]
+    assert lines[2].split()[:3] == ["2", "1", "-"]
+    assert "the march gave up" in lines[2]
+    assert result(tiltpad("case.nml", "-q", "--overwrite", "-o", "quiet", cwd=folder), status=2)[0] == ""
 
 
 def test_nothing_is_printed_twice(tiltpad, case):
     """Output that waits to be written when a child is made is written once."""
     folder = case(varied("rotor%mass=2000:2900:100"))
     stdout, _ = result(tiltpad("case.nml", cwd=folder))
-    assert stdout.count("\n") == 1
+    lines = stdout.splitlines()
+    assert len(lines) == len(set(lines)) == 12
 
 
 # ---- what is refused -----------------------------------------------------------------------------
