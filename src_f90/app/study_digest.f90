@@ -197,7 +197,7 @@ contains
       end do
    end subroutine add_stability
 
-   !> Prints the lines, each as far as it is not too long, and between the first and the last runs how many there are.
+   !> Prints the lines, each cut where it is too long, and between the first and the last runs how many there are.
    subroutine print_lines(kept, lines)
       type(kept_type), intent(in) :: kept(:)
       type(text_type), intent(in) :: lines(0:)
