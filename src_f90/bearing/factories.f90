@@ -232,7 +232,8 @@ contains
       class(contact_law_type), allocatable, intent(out) :: law
       select case (v%law)
       case ('table')
-         allocate (law, source=new_measured_contact(v%points, v%socket_radius(pad), v%radius_difference(pad)))
+         allocate (law, source=new_measured_contact(v%measured(pad)%points, v%socket_radius(pad), &
+            & v%radius_difference(pad)))
       case ('rocker')
          allocate (law, source=new_rocker_contact(v%contact_length(pad), v%socket_radius(pad), &
             & v%radius_difference(pad), v%young_modulus, v%poisson_ratio))

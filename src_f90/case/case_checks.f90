@@ -137,11 +137,11 @@ contains
             call require(bearing%tilting() .or. all(v%rotational_stiffness <= 0), 'pivot%rotational_stiffness = {}: ' &
                & //'must be 0 for pads%motion = ''fixed'', whose pads do not tilt', [maxval(v%rotational_stiffness)], &
                & error)
-            call require(v%law /= 'table' .or. v%file /= '', 'pivot%file = '''': must name a CSV file for ' &
-               & //'law = ''table''', error)
-            call require(v%law == 'table' .or. v%file == '', 'pivot%file = '''//v%file &
-               & //''': needs pivot%law = ''table''', error)
             do i = 1, size(v%socket_radius)
+               call require(v%law /= 'table' .or. v%file_of(i) /= '', 'pivot%file = '''': must name a CSV file for ' &
+                  & //'law = ''table'' (pad {})', [real(i, wp)], error)
+               call require(v%law == 'table' .or. v%file_of(i) == '', 'pivot%file = '''//v%file_of(i) &
+                  & //''': needs pivot%law = ''table''', error)
                call require(v%law /= 'linear' .or. is_set(v%stiffness(i)), 'pivot%stiffness: must be given for ' &
                   & //'pivot%law = ''linear'' (pad {})', [real(i, wp)], error)
                call require(v%law == 'linear' .or. .not. is_set(v%stiffness(i)), 'pivot%stiffness = {}: needs ' &

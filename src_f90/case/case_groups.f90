@@ -3,7 +3,7 @@
 !> may be, stands in the list of variables, case_fields.
 module case_groups
    use kinds, only: wp, pi
-   use text, only: to_text
+   use text, only: to_text, newline
    implicit none (type, external)
    private
    public :: max_pads, most_ratios, unset, is_set, in_range, mass_range, inertia_range, centre_range, &
@@ -88,6 +88,11 @@ module case_groups
       real(wp), allocatable :: temperature(:)
    end type pads_type
 
+   !> A measured law: pivot deflections, m, and forces, N, (2, point).
+   type :: measured_type
+      real(wp), allocatable :: points(:, :)
+   end type measured_type
+
    type :: pivot_type
       character(len=:), allocatable :: law
       !> One value a pad; the length of the contact of a rocker, m (unset: that of the pad); the stiffness of the linear
@@ -97,13 +102,14 @@ module case_groups
       !> Of ball and socket.
       real(wp) :: young_modulus(2) = 2.1e11_wp, poisson_ratio(2) = 0.3_wp
       real(wp) :: deflection_factor = 4
-      !> CSV file of a measured law, and what was read from it: pivot deflections, m, and forces, N, (2, point).
+      !> CSV file of a measured law, or one for each pad, a line each, and what was read from it for each pad.
       character(len=:), allocatable :: file
-      real(wp), allocatable :: points(:, :)
+      type(measured_type), allocatable :: measured(:)
       !> Archard's, m^3/(N m); 0: the wear is not asked for.
       real(wp) :: wear_coefficient = 0
    contains
       procedure :: is_like
+      procedure :: file_of
    end type pivot_type
 
    type :: friction_type
@@ -407,6 +413,11 @@ contains
       type(pivot_type), intent(in) :: other
       integer, intent(in) :: other_pad
       is_like = all(abs(numbers_of(self, pad) - numbers_of(other, other_pad)) <= 0)
+      if (.not. (is_like .and. allocated(self%measured) .and. allocated(other%measured))) return
+      associate (one => self%measured(pad)%points, two => other%measured(other_pad)%points)
+         is_like = size(one) == size(two)
+         if (is_like) is_like = all(abs(one - two) <= 0)
+      end associate
    contains
       pure function numbers_of(p, i)
          type(pivot_type), intent(in) :: p
@@ -416,6 +427,20 @@ contains
             & p%young_modulus, p%poisson_ratio, p%deflection_factor]
       end function numbers_of
    end function is_like
+
+   !> The file of a pad's measured law: that of all pads, or its line.
+   pure function file_of(self, pad) result(file)
+      class(pivot_type), intent(in) :: self
+      integer, intent(in) :: pad
+      character(len=:), allocatable :: file
+      integer :: i
+      file = self%file
+      if (index(file, newline) == 0) return
+      do i = 2, pad
+         file = file(index(file, newline) + 1:)
+      end do
+      file = file(:index(file//newline, newline) - 1)
+   end function file_of
 
    !> The bearing clearance c_r, m: of pads that differ the smallest.
    elemental real(wp) function clearance(self)

@@ -407,7 +407,8 @@ contains
          call v%word(pivot%law, 'law', 'fang hertz rocker linear table', 'fang: conformal contact (11)-(18); ' &
             & //'hertz: law of Hertz; rocker: line contact of a cylinder in a cylinder, which rolls; linear: a ' &
             & //'spring of pivot%stiffness; table: as measured, by pivot%file')
-         call v%word(pivot%file, 'file', '', 'table: the CSV file whose columns are deflection (m) and force (N)')
+         call v%words(pivot%file, 'pads', size(pivot%socket_radius), 'file', 'table: the CSV file whose columns are ' &
+            & //'deflection (m) and force (N); one for all pads or one each')
          call v%each(pivot%socket_radius, 'pads', 'socket_radius', 1e-5_wp, 10.0_wp, 'm', &
             & 'radius R_2 of the socket, or of the bore that a rocker rolls in')
          call v%each(pivot%radius_difference, 'pads', 'radius_difference', 0.0_wp, 1.0_wp, 'm', &

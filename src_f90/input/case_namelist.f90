@@ -2,7 +2,7 @@
 module case_namelist
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
-   use text, only: to_text, lower_case, shortened, replaced, whole_number, is_utf8, did_you_mean
+   use text, only: newline, to_text, lower_case, shortened, replaced, whole_number, is_utf8, did_you_mean
    use errors, only: error_type, require, refuse, add_context
    use case_groups, only: bearing_type, max_pads, unset, most_sections, most_bearings
    use case_inputs, only: case_type
@@ -112,7 +112,7 @@ contains
                   if (v%each /= list%counts) cycle
                   if (bearing_of(v%group) /= bearing_of(list%group)) cycle
                   v%most = size(list%values)
-                  v%values = spread(v%values(1), 1, v%most)
+                  if (.not. v%is_text) v%values = spread(v%values(1), 1, v%most)
                end associate
             end do
          end associate
@@ -213,7 +213,7 @@ contains
       real(wp), allocatable :: given(:)
       integer :: first
       if (v%is_text) then
-         call read_word(a%values(1)%text)
+         call read_word(all_texts())
          return
       end if
       first = max(1, a%subscript)
@@ -250,6 +250,16 @@ contains
          call refuse(a%origin//': '//assignment_text(a)//': '//reason, error)
       end subroutine refuse_it
 
+      !> Its texts, a line each.
+      function all_texts() result(text)
+         character(len=:), allocatable :: text
+         integer :: i
+         text = a%values(1)%text
+         do i = 2, size(a%values)
+            text = text//newline//a%values(i)%text
+         end do
+      end function all_texts
+
       !> Its one text; a word out of several is in lower case, without blanks around it. A shell has taken the quotes of
       !> --set away, so a bare word is a text there.
       subroutine read_word(text)
@@ -257,11 +267,13 @@ contains
          character(len=:), allocatable :: word
          word = text
          if (v%choices /= '') word = lower_case(trim(adjustl(text)))
-         if (size(a%values) > 1 .and. v%choices == '') then
+         if (v%each /= '' .and. (a%subscript > 0 .or. size(a%values) /= 1 .and. size(a%values) /= v%most)) then
+            call refuse_it('takes one text for all '//trim(v%each)//' or one each ('//to_text(v%most)//')')
+         else if (size(a%values) > 1 .and. v%choices == '' .and. v%each == '') then
             call refuse_it('takes one text, in quotes where it has blanks or commas')
-         else if (size(a%values) > 1 .or. a%subscript > 0) then
+         else if (size(a%values) > 1 .and. v%each == '' .or. a%subscript > 0) then
             call refuse_it('takes one text'//several_runs())
-         else if (v%choices == '' .and. .not. (a%values(1)%quoted .or. a%overrides)) then
+         else if (v%choices == '' .and. .not. (all(a%values%quoted) .or. a%overrides)) then
             call refuse_it('text must stand in quotes')
          else if (v%choices /= '' .and. (scan(word, ' ') > 0 .or. index(' '//v%choices//' ', ' '//word//' ') == 0)) then
             call refuse_it('must be one of '''//replaced(v%choices, ' ', ''', ''')//'''' &

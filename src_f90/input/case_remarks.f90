@@ -305,20 +305,28 @@ contains
       end associate
    end function in_usual_unit
 
-   !> The measured law of the pivots of a bearing, where it ends far below the load or far beyond the clearance.
+   !> The first measured law of the pivots of a bearing that ends far below the load or far beyond the clearance.
    function on_table(bearing, carried) result(lines)
       type(bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: carried
       character(len=:), allocatable :: lines, file
+      integer :: i
       lines = ''
-      if (.not. allocated(bearing%pivot%points)) return
+      if (.not. allocated(bearing%pivot%measured)) return
       file = 'pivot'//bearing%suffix()//'%file'
-      associate (last => bearing%pivot%points(:, size(bearing%pivot%points, 2)), clearance => bearing%clearance())
-         lines = line_if(last(2) < beyond_table*carried, file//': its largest force is {} N, and the bearing carries ' &
-            & //'{} N', [last(2), carried], in_other_units(last(2), 'force', 'N', beyond_table*carried, huge(1.0_wp)))
-         lines = lines//line_if(last(1) > deepest*clearance, file//': its largest deflection is {} m, and the ' &
-            & //'clearance of the bearing is {} m', [last(1), clearance], in_other_units(last(1), 'deflection', 'm', &
-            & 0.0_wp, deepest*clearance))
+      associate (clearance => bearing%clearance())
+         do i = 1, merge(bearing%pad_count(), 1, index(bearing%pivot%file, newline) > 0)
+            associate (points => bearing%pivot%measured(i)%points)
+               associate (last => points(:, size(points, 2)))
+                  lines = lines//line_if(last(2) < beyond_table*carried, file//': its largest force is {} N, and the ' &
+                     & //'bearing carries {} N', [last(2), carried], in_other_units(last(2), 'force', 'N', &
+                     & beyond_table*carried, huge(1.0_wp)))//line_if(last(1) > deepest*clearance, file//': its ' &
+                     & //'largest deflection is {} m, and the clearance of the bearing is {} m', [last(1), clearance], &
+                     & in_other_units(last(1), 'deflection', 'm', 0.0_wp, deepest*clearance))
+               end associate
+            end associate
+            if (lines /= '') exit
+         end do
       end associate
    end function on_table
 

@@ -262,33 +262,50 @@ contains
          end associate
       end do
    contains
-      !> The measured law of the pivots of a bearing, whose file a variable names: deflection and force rise from row to
-      !> row. A first row of zeros says nothing.
+      !> The measured laws of the pivots of a bearing, whose files a variable names.
       subroutine read_pivots(variable, pivot)
          character(len=*), intent(in) :: variable
          type(pivot_type), intent(inout) :: pivot
+         integer :: i, k
+         if (pivot%law /= 'table' .or. allocated(pivot%measured)) return
+         allocate (pivot%measured(size(pivot%socket_radius)))
+         do i = 1, size(pivot%measured)
+            do k = 1, i - 1
+               if (pivot%file_of(k) == pivot%file_of(i)) exit
+            end do
+            if (k < i) then
+               pivot%measured(i) = pivot%measured(k)
+            else
+               call read_pivot(pivot%file_of(i), pivot%measured(i)%points)
+            end if
+            if (allocated(error)) exit
+         end do
+         call add_context(error, variable)
+      end subroutine read_pivots
+
+      !> The measured law of a file: deflection and force rise from row to row. A first row of zeros says nothing.
+      subroutine read_pivot(file, points)
+         character(len=*), intent(in) :: file
+         real(wp), allocatable, intent(out) :: points(:, :)
          real(wp), allocatable :: numbers(:, :)
          real(wp) :: before(2)
          integer :: i, k, first
-         if (pivot%law /= 'table' .or. allocated(pivot%points)) return
-         call read_columns(pivot%file, of_pivots, numbers, error)
-         if (.not. allocated(error)) then
-            first = merge(2, 1, all(abs(numbers(:, 1)) <= 0))
-            before = 0
-            do k = first, size(numbers, 2)
-               do i = 1, 2
-                  if (.not. numbers(i, k) > before(i)) call refuse(pivot%file//filled(' line {i}: ' &
-                     & //trim(of_pivots(i)%name)//' = {}: must be above {}'//trim(merge(repeat(' ', 25), &
-                     & ', that of the line before', k == first)), [real(wp) :: k + 1, numbers(i, k), before(i)]), error)
-               end do
-               before = numbers(:, k)
+         call read_columns(file, of_pivots, numbers, error)
+         if (allocated(error)) return
+         first = merge(2, 1, all(abs(numbers(:, 1)) <= 0))
+         before = 0
+         do k = first, size(numbers, 2)
+            do i = 1, 2
+               if (.not. numbers(i, k) > before(i)) call refuse(file//filled(' line {i}: '//trim(of_pivots(i)%name) &
+                  & //' = {}: must be above {}'//trim(merge(repeat(' ', 25), ', that of the line before', &
+                  & k == first)), [real(wp) :: k + 1, numbers(i, k), before(i)]), error)
             end do
-            pivot%points = numbers(:, first:)
-            if (size(pivot%points, 2) < 2) call refuse(pivot%file//': has one point of force over deflection; it ' &
-               & //'needs two or more above 0', error)
-         end if
-         call add_context(error, variable)
-      end subroutine read_pivots
+            before = numbers(:, k)
+         end do
+         points = numbers(:, first:)
+         if (size(points, 2) < 2) call refuse(file//': has one point of force over deflection; it needs two or more ' &
+            & //'above 0', error)
+      end subroutine read_pivot
 
       !> Reads the tables of a case's excitations.
       subroutine read_excitations()
@@ -398,8 +415,8 @@ contains
       lines = ''
       do i = 1, size(inputs%bearings)
          associate (own => inputs%bearings(i))
-            if (allocated(own%pivot%points)) lines = lines//'pivot'//own%suffix()//'%file ' &
-               & //mark([own%pivot%points])//newline
+            if (allocated(own%pivot%measured)) lines = lines//'pivot'//own%suffix()//'%file ' &
+               & //mark(numbers_of(own%pivot))//newline
          end associate
       end do
       if (.not. inputs%rotor%is_rigid()) then
@@ -418,6 +435,17 @@ contains
          end associate
       end do
    end function file_marks
+
+   !> The numbers of the files of pivots, of each pad where they differ.
+   pure function numbers_of(pivot) result(numbers)
+      type(pivot_type), intent(in) :: pivot
+      real(wp), allocatable :: numbers(:)
+      integer :: i
+      numbers = [pivot%measured(1)%points]
+      do i = 2, merge(size(pivot%measured), 1, index(pivot%file, newline) > 0)
+         numbers = [numbers, pivot%measured(i)%points]
+      end do
+   end function numbers_of
 
    !> Checksum of numbers, to the last bit.
    pure function mark(numbers) result(text)

@@ -2,7 +2,7 @@
 !> case from it; what reads, writes, describes or changes a case goes along the table.
 module variable_table
    use kinds, only: wp
-   use text, only: to_text, exact_text, newline
+   use text, only: to_text, exact_text, newline, replaced
    use case_groups, only: is_set
    use assignments, only: token_type, value_text, group_heading
    implicit none (type, external)
@@ -50,6 +50,7 @@ module variable_table
       procedure :: find
       !> The next variable of the list.
       procedure :: word
+      procedure :: words
       procedure :: whole
       procedure :: number
       procedure :: numbers
@@ -114,6 +115,19 @@ contains
          value = v%word
       end associate
    end subroutine word
+
+   !> A text, or one for each of this number of things: then a line each.
+   subroutine words(self, value, things, number, name, meaning)
+      class(variable_table_type), intent(inout) :: self
+      character(len=:), allocatable, intent(inout) :: value
+      character(len=*), intent(in) :: things, name, meaning
+      integer, intent(in) :: number
+      call self%word(value, name, '', meaning)
+      associate (v => self%variables(self%at))
+         v%each = things
+         v%most = number
+      end associate
+   end subroutine words
 
    !> A fixed number of reals from `low` to `high`.
    subroutine numbers(self, values, name, low, high, unit, meaning)
@@ -257,14 +271,14 @@ contains
       end subroutine add
    end function lines_of
 
-   !> The word of a text, in quotes, which a logical value does not need.
+   !> The word of a text, or its lines, in quotes, which a logical value does not need.
    pure function word_text(v) result(text)
       type(variable_type), intent(in) :: v
       character(len=:), allocatable :: text
       type(token_type) :: token
       token%text = v%word
       token%quoted = v%choices /= logical_words
-      text = value_text(token)
+      text = replaced(value_text(token), newline, ''', ''')
    end function word_text
 
    !> The i-th number, to the last bit.

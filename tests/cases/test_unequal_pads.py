@@ -1,5 +1,7 @@
 """Bearings as they are made: pads that differ in clearances and length."""
 
+import re
+
 import numpy as np
 import pytest
 import tiltpad as package
@@ -264,6 +266,36 @@ def test_a_table_of_the_law_is_the_law(tiltpad, tmp_path):
     assert (
         "needs pivot%law = 'table'" in tiltpad("case.nml", overrides=own[1:], cwd=tmp_path, status=1).stderr
     )
+
+
+def test_each_pad_may_have_a_table_of_its_own(tiltpad, tmp_path, monkeypatch):
+    """Two springs, as law 'linear' has them; file and case keep the names, and both files are looked at."""
+    stiffness = 2e9, 3e8
+    for name, k in zip("ab", stiffness, strict=True):
+        (tmp_path / f"{name}.csv").write_text(f"deflection,force\n1e-6,{1e-6 * k}\n1e-4,{1e-4 * k}\n")
+    own = "law='table', file='a.csv', 'b.csv'"
+    (tmp_path / "case.nml").write_text(f"&operation duration=0.01 /\n&pivot {own} /\n")
+    tiltpad("case.nml", "-q", cwd=tmp_path, status=0)
+    springs = ("pivot%law=linear", "pivot%file=''", "pivot%stiffness=2e9,3e8")
+    tiltpad("case.nml", "-q", "-o", "springs.h5", overrides=springs, cwd=tmp_path, status=0)
+    with package.read(tmp_path / "case.h5") as one, package.read(tmp_path / "springs.h5") as other:
+        assert one.input["pivot"]["file"] == ("a.csv", "b.csv")
+        for name in ("pivot_deflection", "pivot_load"):
+            np.testing.assert_allclose(one.equilibrium[name], other.equilibrium[name], rtol=1e-7)
+        depth = one.equilibrium["pivot_deflection"]
+        np.testing.assert_allclose(one.equilibrium["pivot_load"], stiffness * depth)
+    for value in ("a.csv,b.csv,a.csv", "a.csv,''"):
+        overrides = (f"pivot%file={value}",)
+        done = tiltpad("case.nml", "-o", "bad.h5", overrides=overrides, cwd=tmp_path, status=1)
+        assert re.search(r"one text for all pads or one each \(2\)|must name a CSV file .* \(pad 2\)", done.stderr)
+    monkeypatch.chdir(tmp_path)
+    with package.run("case.nml", pivot={"file": ["b.csv", "a.csv"]}) as turned:
+        np.testing.assert_allclose(
+            turned.equilibrium["pivot_load"], stiffness[::-1] * turned.equilibrium["pivot_deflection"]
+        )
+    (tmp_path / "b.csv").write_text("deflection,force\n1e-6,301\n1e-4,30000\n")
+    said = tiltpad("--resume", "case.h5", "--verify", "1", cwd=tmp_path, status=3).stderr
+    assert "the file that pivot%file names has changed since" in said
 
 
 def test_a_changed_table_of_a_pivot_is_noticed(tiltpad, tmp_path):

@@ -11,6 +11,7 @@ import numpy as np
 
 from tiltpad.files.writing import write
 
+QUOTED = re.compile(r"'((?:[^']|'')*)'")
 ASSIGNMENT = re.compile(r"^&(?P<group>\w+)|^[ \t]+(?P<name>\w+) = (?P<value>.*)$", re.MULTILINE)
 
 #: The group whose values are those of other variables.
@@ -166,10 +167,11 @@ def variables_of(text: str) -> list[tuple[str, dict[str, Any]]]:
     return blocks
 
 
-def value_of(text: str) -> str | bool | int | float | tuple[int | float, ...]:
-    """A text without its quotes, a truth value, a number, or a tuple of numbers."""
+def value_of(text: str) -> str | bool | int | float | tuple[int | float, ...] | tuple[str, ...]:
+    """A text without its quotes, a truth value, a number, or a tuple of texts or numbers."""
     if text.startswith("'"):
-        return text[1:-1].replace("''", "'")
+        texts = tuple(each.replace("''", "'") for each in QUOTED.findall(text))
+        return texts[0] if len(texts) == 1 else texts or text[1:-1]
     if text in TRUTH:
         return TRUTH[text]
     numbers = tuple(number_of(word) for word in text.split(","))
