@@ -272,8 +272,9 @@ contains
       if (name == 'turbulent_prandtl' .and. inputs%thermal%model == 'none') reason = 'thermal%model = ''none'''
       do b = 1, size(inputs%bearings)
          associate (bearing => inputs%bearings(b))
-            if (group == kind_of(group)//bearing%suffix() .and. bearing%film%turbulence == 'none') &
-               & reason = 'film'//bearing%suffix()//'%turbulence = ''none'''
+            if (group == kind_of(group)//bearing%suffix() .and. bearing%film%turbulence == 'none') then
+               reason = 'film'//bearing%suffix()//'%turbulence = ''none'''
+            end if
          end associate
       end do
    end function of_laminar_films

@@ -1,7 +1,7 @@
 !> Turbulent films: closures against values of an independent program, their tables against the closures themselves,
 !> smoothness; single films against that program (finite volumes whose mobilities follow the film), derivatives against
-!> differences, over-relaxation against elimination and modes, tables of films against films that are solved; the laminar
-!> limit.
+!> differences, over-relaxation against elimination and modes, tables of films against films that are solved; the
+!> laminar limit.
 program test_turbulent_film
    use kinds, only: wp, degree
    use film_solver, only: film_solver_type, film_motion, film_response, film_counters, cavitation_none, &
@@ -236,8 +236,8 @@ contains
       call expect_close(norm2(seen%force*[-1, 1] - film%force)/norm2(film%force), 0.0_wp, 1e-12_wp, 'in a mirror')
    end subroutine in_mirror
 
-   !> Over-relaxation: films of even and of uneven oil as elimination has them on the same volumes, full and cavitated; a
-   !> full film, from two grids extrapolated, as the modes have it.
+   !> Over-relaxation: films of even and of uneven oil as elimination has them on the same volumes, full and cavitated;
+   !> a full film, from two grids extrapolated, as the modes have it.
    subroutine over_relaxation()
       type(film_motion), parameter :: loaded = film_motion(clearance*[-0.2_wp, 0.4_wp], [2e-3_wp, -3e-3_wp]), &
          & diverging = film_motion(clearance*[0.1_wp, 0.4_wp], [1e-3_wp, 2e-3_wp])
