@@ -239,8 +239,9 @@ The bearing of [input/examples/turbine_bearing.nml](../input/examples/turbine_be
 differentiates forces, and so has the stiffness of films whose resistance does not grow with their thickness
 ([turbulence](theory/turbulence.md)); here it does, and the stiffness is less, by a sixth where all is turbulent. The
 share of the transition is in ROSS that of the largest Reynolds number of a film, so that all films are turbulent with 500
-to 1000; here each place has its own, and the ends of the loaded pads are not. Its loss is larger by an eighth; which term
-of it, is not known here. Films and damping without a transition agree to 2 %.
+to 1000; here each place has its own, and the ends of the loaded pads are not. Its law of the wall begins 8.8 wall units
+from it, here 10.7 as Ng and Pan have it, and so its shear and its loss are larger, the loss by an eighth. Films and
+damping without a transition agree to 2 %.
 
 | transition | film, um | loss, W | K_yy, MN/m | K_zz | C_yy, MN s/m | C_zz |
 |---|---|---|---|---|---|---|

@@ -34,6 +34,7 @@ CASES = {
     "runup": "&operation speed_rpm=1500, final_speed_rpm=6500, duration=0.1 / &friction model='lugre' /",
     "fixed": "&operation duration=0.06 / &pads motion='fixed' /",
     "equilibrium": "&case task='equilibrium' /",
+    "turbulent": "&case task='equilibrium' / &film turbulence='ng_pan' /",
     "periodic": "&case task='periodic' / &friction model='lugre' /",
     "branch": "&case task='branch' / &operation speed_rpm=3000 / &output samples_per_revolution=60 / "
     "&branch parameter='operation%speed_rpm', last=4000, step=50, max_step=80 /",

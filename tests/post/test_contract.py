@@ -73,6 +73,10 @@ EQUILIBRIUM = {
     "equilibrium/eigenvalue_real": ((), "1/s"),
     "equilibrium/eigenvalue_imag": ((), "1/s"),
 }
+TURBULENCE = {
+    "equilibrium/largest_reynolds_number": (("pad",), "1"),
+    "equilibrium/turbulent_share": (("pad",), "1"),
+}
 SPECTRUM = {
     "spectrum/frequency": (("spectrum/frequency",), "Hz"),
     "spectrum/order": (("spectrum/frequency",), "1"),
@@ -98,6 +102,8 @@ RADIAL = {"pivot_deflection", "pivot_deflection_rate", "equilibrium/pivot_deflec
 BRISTLE = {"bristle_deflection"}
 TILTING = {"pad_tilt", "pad_tilt_rate", "pivot_load", "friction_moment", "spectrum/pad_tilt"}
 TILTING |= {"equilibrium/pad_tilt", "equilibrium/pivot_load"}
+#: Cases that march nothing.
+EQUILIBRIA = ("equilibrium", "turbulent")
 ABSENT = {
     "lugre": set(PERIODIC),
     "bengisu": BRISTLE | set(PERIODIC),
@@ -106,12 +112,13 @@ ABSENT = {
     "four": set(PERIODIC),
     "fixed": RADIAL | BRISTLE | TILTING | set(PERIODIC),
     "runup": set(SPECTRUM) | set(PERIODIC),
-    "equilibrium": set(SERIES) | set(SPECTRUM) | set(ASPERITIES) | set(PERIODIC),
+    **dict.fromkeys(EQUILIBRIA, set(SERIES) | set(SPECTRUM) | set(ASPERITIES) | set(PERIODIC)),
     "periodic": set(),
     "excited": set(PERIODIC),
 }
 ABSENT |= {name: absent | set(EXCITATION) for name, absent in ABSENT.items() if name != "excited"}
-EVERYTHING = SERIES | EXCITATION | CONSTANT | EQUILIBRIUM | SPECTRUM | ASPERITIES | PERIODIC
+ABSENT |= {name: absent | set(TURBULENCE) for name, absent in ABSENT.items() if name != "turbulent"}
+EVERYTHING = SERIES | EXCITATION | CONSTANT | EQUILIBRIUM | TURBULENCE | SPECTRUM | ASPERITIES | PERIODIC
 
 
 @pytest.fixture(params=ABSENT)
@@ -170,7 +177,8 @@ def test_attributes(file, case_name):
     assert attributes["complete"] == 1
     assert attributes["program"] == "tiltpad"
     assert attributes["title"] == ("Steady, it's LuGre" if case_name == "lugre" else "")
-    assert attributes["task"] == (case_name if case_name in ("equilibrium", "periodic") else "march")
+    task = "equilibrium" if case_name in EQUILIBRIA else "periodic" if case_name == "periodic" else "march"
+    assert attributes["task"] == task
     assert attributes["input"].startswith("&case\n")
     grows = file["equilibrium/eigenvalue_real"][()] > 0
     assert attributes["equilibrium_stability"] == ("oscillatory instability" if grows else "stable")
@@ -184,7 +192,7 @@ def test_statistics(file, case_name):
     for name in COUNTS:
         assert np.issubdtype(statistics[name].dtype, np.integer), name
         assert statistics[name][()] >= 0, name
-    marched = case_name != "equilibrium"
+    marched = case_name not in EQUILIBRIA
     assert (statistics["steps"][()] > 0) == marched
     films = sum(statistics[name][()] for name in ("film_table", "film_fourier", "film_volumes"))
     assert (films > 0) == marched

@@ -107,3 +107,19 @@ def test_the_report_of_a_study(folder):
     table = page.partition("<h2>Turbulent films</h2>")[2].partition("</table>")[0]
     assert f"{mean:.0f}, {most:.0f}, {100 * share:.0f} %" in table
     assert table.count("<tr>") == 3, "a head, and the runs with turbulence"
+
+
+def test_the_report_of_a_study_of_machines(tiltpad, root, tmp_path):
+    """A table for each bearing whose films are turbulent."""
+    machine = root / "input/examples/unequal_bearings.nml"
+    overrides = (
+        *("case%task=equilibrium", "film:drive_end%turbulence=ng_pan"),
+        "sweep%operation%speed_rpm=6000,9000",
+    )
+    tiltpad(machine, "-q", "-o", "machines", cwd=tmp_path, overrides=overrides, status=0)
+    with package.read_study(tmp_path / "machines.h5") as study:
+        page = study_report(study)
+        mean = study.bearings["drive_end"]["pad_equilibrium_reynolds_number"][1, 0]
+    table = page.partition("<h2>Turbulent films, bearing drive_end</h2>")[2].partition("</table>")[0]
+    assert f"<td>9000</td><td>{mean:.0f}, " in table.replace("\n", "")
+    assert page.count("<h2>Turbulent films") == 1

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from functools import partial
+from html import escape
 
 import numpy as np
 
@@ -44,6 +45,10 @@ def study_report(study: Study, operating: tuple[float, float] | None = None) -> 
         summary(study),
         section("Operating points", operating_points(study)),
         section("Turbulent films", turbulent_films(study)),
+        *(
+            section(escape(f"Turbulent films, bearing {name}"), turbulent_films(each))
+            for name, each in study.bearings.items()
+        ),
         section("Critical speeds", critical(study, operating)),
         section("Runs that were not done", failures(study)),
         section("Remarks", remarks(study)),
