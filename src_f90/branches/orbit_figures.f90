@@ -50,7 +50,7 @@ contains
       type(orbit_figures_type), intent(out) :: figures
       real(wp) :: y(model%n), t
       integer(i8) :: k, n
-      figures%revolutions = problem%turns()
+      figures%revolutions = problem%revolutions()
       figures%intervals = problem%orbit%intervals()
       figures%period = problem%period()
       select type (problem)

@@ -23,7 +23,7 @@ module limit_cycle
       procedure :: spectrum
       procedure :: go_to
       procedure :: period
-      procedure :: turns
+      procedure :: revolutions
       procedure :: trivial_error
       procedure, private :: set_phase
       procedure, private :: direction
@@ -50,10 +50,10 @@ contains
    end function period
 
    !> Revolutions of the shaft.
-   pure real(wp) function turns(self)
+   pure real(wp) function revolutions(self)
       class(limit_cycle_type), intent(in) :: self
-      turns = self%period()/self%ode%period
-   end function turns
+      revolutions = self%period()/self%ode%period
+   end function revolutions
 
    subroutine linearize(self, matrix, b, error)
       class(limit_cycle_type), intent(inout) :: self

@@ -53,7 +53,7 @@ module orbit_problem
       procedure :: fits
       procedure :: states
       procedure :: period
-      procedure :: turns
+      procedure :: revolutions
       procedure :: residual
    end type orbit_problem_type
 
@@ -127,10 +127,10 @@ contains
    end function states
 
    !> Periods of what drives the model in that of the orbit.
-   pure real(wp) function turns(self)
+   pure real(wp) function revolutions(self)
       class(orbit_problem_type), intent(in) :: self
-      turns = self%period_multiple
-   end function turns
+      revolutions = self%period_multiple
+   end function revolutions
 
    !> Period of the orbit, s.
    pure real(wp) function period(self)

@@ -74,11 +74,7 @@ contains
       if (figures%revolutions > 0) then
          call one('period', figures%period, 's', 'period of the orbit')
          call one('revolutions', figures%revolutions, '1', 'revolutions of the shaft in a period')
-         if (figures%is_cycle) then
-            call one('whirl_ratio', 1/figures%revolutions, '1', 'frequency of the limit cycle over that of the shaft')
-            call one('trivial_multiplier_error', figures%trivial_error, '1', 'error of the multiplier along the ' &
-               & //'motion, which is 1 and is left out')
-         end if
+         if (figures%is_cycle) call put_cycle()
          call one('intervals', real(figures%intervals, wp), '1', 'intervals of the collocation')
          call each('multiplier_real', real(point%values, wp), '1', 'multiplier, real part'//frozen, 'mode')
          call each('multiplier_imag', aimag(point%values), '1', 'multiplier, imaginary part'//frozen, 'mode')
@@ -96,6 +92,12 @@ contains
       call file%hdf5%add(all_values)
       call file%error_of(error)
    contains
+      subroutine put_cycle()
+         call one('whirl_ratio', 1/figures%revolutions, '1', 'frequency of the limit cycle over that of the shaft')
+         call one('trivial_multiplier_error', figures%trivial_error, '1', 'error of the multiplier along the ' &
+            & //'motion, which is 1 and is left out')
+      end subroutine put_cycle
+
       subroutine put_bearing(of, tilting)
          type(bearing_figures_type), intent(in) :: of
          logical, intent(in) :: tilting

@@ -124,7 +124,7 @@ def test_a_cycle_has_no_start(follow):
 
 
 def test_an_unstable_cycle_parts_the_starts(follow, tiltpad, tmp_path):
-    """Just below the threshold: a kick well within the cycle dies away, one well beyond it does not."""
+    """Just below the threshold speed: a kick within the cycle dies away, one beyond it does not."""
     file, _ = follow(FREE, "operation%speed_rpm=14600")
     with file:
         assert file["parameter"][-1] == 14600

@@ -287,7 +287,8 @@ def test_each_pad_may_have_a_table_of_its_own(tiltpad, tmp_path, monkeypatch):
     for value in ("a.csv,b.csv,a.csv", "a.csv,''"):
         overrides = (f"pivot%file={value}",)
         done = tiltpad("case.nml", "-o", "bad.h5", overrides=overrides, cwd=tmp_path, status=1)
-        assert re.search(r"one text for all pads or one each \(2\)|must name a CSV file .* \(pad 2\)", done.stderr)
+        said = r"one text for all pads or one each \(2\)|must name a CSV file .* \(pad 2\)"
+        assert re.search(said, done.stderr)
     monkeypatch.chdir(tmp_path)
     with package.run("case.nml", pivot={"file": ["b.csv", "a.csv"]}) as turned:
         np.testing.assert_allclose(

@@ -111,7 +111,8 @@ def figures(folder):
         yield f"towards higher speeds, at {run['parameter'][0]:.0f} rpm"
         assert (run["parameter"][1:] > run["parameter"][0]).all()
         assert (run["stable"][1:] == 1).all()
-        yield f"to {1e6 * (run['journal_y_max'] - run['journal_y_min'])[-1]:.0f} um from lowest to highest at 8500"
+        size = (run["journal_y_max"] - run["journal_y_min"])[-1]
+        yield f"to {1e6 * size:.0f} um from lowest to highest at 8500"
     with result("threshold.h5") as run:
         yield f"from which speed on: {run['modes/threshold_rpm'][-1]:.0f} rpm"
     with result("warm.h5") as run:
