@@ -31,7 +31,7 @@ contains
    subroutine note_equilibrium(run, static)
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
-      real(wp), allocatable :: loads(:, :), slopes(:)
+      real(wp), allocatable :: loads(:, :), forces(:, :), slopes(:)
       character(len=:), allocatable :: title
       integer :: b, as
       run%model%oil = static%oil
@@ -48,10 +48,16 @@ contains
       loads = bearing_loads(run%model, static)
       slopes = norm2(run%model%rotor%station_slopes(static%rotor), dim=1)
       slopes = slopes(run%inputs%bearings%station)
-      call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads)
+      forces = run%model%rotor%element_forces([static%rotor, 0*static%rotor], run%model%point%static(), 0.0_wp)
+      forces = forces(:, :size(run%inputs%rotor%elastic%elements))
+      call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads, forces)
       if (.not. run%quiet) call print_shaft(run%file)
       if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static%stability, 'shaft', &
          & any(run%inputs%bearings%tilting()))
+      do b = 1, size(forces, 2)
+         if (.not. run%quiet) print '(a)', filled('element {} at station {}: force on the shaft y {.1}, z {.1} N', &
+            & [real(wp) :: b, run%inputs%rotor%elastic%elements(b)%station, forces(:, b)])
+      end do
       do b = 1, size(loads, 2)
          as = b
          if (.not. run%quiet) as = same_equilibrium(run, static, loads, slopes, b)

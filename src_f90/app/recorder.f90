@@ -58,7 +58,7 @@ contains
          self%bearings(b) = run%bearing(b)
       end do
       allocate (self%stations(2, run%model%rotor%stations), self%excitations(2, size(run%inputs%excitations)), &
-         & self%elements(2, size(run%model%others)))
+         & self%elements(2, run%model%rotor%elements + size(run%model%others)))
       self%progress = new_progress(t, run%inputs%operation%duration, run%quiet)
       if (run%inputs%integration%stop_when_periodic > 0) call follow_orbit(self)
    end subroutine begin_recording

@@ -22,7 +22,7 @@ module run_start
    use summary_group, only: put_figure
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
-   use machine_results, only: put_machine
+   use machine_results, only: put_machine, put_origin, read_origin
    use march_results, only: put_viscosity_history
    use equilibrium_results, only: read_shape, put_oil, read_oil
    use stop_signals, only: stop_reason
@@ -61,6 +61,8 @@ contains
       call seek_equilibrium(run, static, error)
       if (allocated(error)) return
       call note_equilibrium(run, static)
+      call run%model%rotor%move_about(static%rotor)
+      call put_origin(run%file, run%inputs, static%rotor)
       y = run%model%static_state(static%rotor, static%pads)
    end subroutine start_at_equilibrium
 
@@ -310,6 +312,7 @@ contains
       if (.not. allocated(error)) call restore_shape(run, run%file, error)
       if (.not. allocated(error)) call restore_oil(run, run%file, error)
       if (allocated(error)) return
+      call read_origin(run%file, run%inputs, run%model%rotor)
       run%computed = .true.
       if (.not. run%quiet) print '(a)', 'going on from t = '//to_text(t)//' s'
    end subroutine continue_from_checkpoint

@@ -169,10 +169,11 @@ contains
       self%refused = allocated(error)
       if (self%refused) return
       if (allocated(unbalanced)) later(n + 1:) = now(n + 1:)
-      call force_derivatives(self%bearing%model, self%stiffness, self%damping)
+      call force_derivatives(self%bearing%model, self%stiffness, self%damping, at_rest=.true.)
       do k = 1, n
          matrix(:n, k) = self%stiffness(:, k)*self%scale(k)
       end do
+      call force_derivatives(self%bearing%model, self%stiffness, self%damping)
       if (size(self%viscosity) > 0) then
          associate (model => self%bearing%model, y => self%state())
             call find_residual_slopes(model, y, self%balance, self%scale(:n), matrix(n + 1:, :self%n))

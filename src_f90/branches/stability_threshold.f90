@@ -7,7 +7,7 @@ module stability_threshold
    use equations_of_motion, only: machine_model
    use film_network, only: warm_films_type
    use case_parameter, only: case_parameter_type, find_parameter
-   use linear_bearing, only: pivot_name, bearing_coefficients_type
+   use linear_bearing, only: pivot_name, bearing_coefficients_type, cross_stiffness_of
    use newton_method, only: branch_point_type, return_to
    use continuation, only: branch_options, start_branch, advance, bifurcation_type, find_bifurcations
    use varied_bearing, only: varied_bearing_type
@@ -44,7 +44,7 @@ contains
       call find_parameter(moving%inputs, 'operation%speed_rpm', speed, error)
       associate (first => model%point%speed_rpm, given => model%inputs%coefficients)
          call begin_equilibria(problem, varied_bearing_type(moving, speed), y, first, first, films)
-         problem%cross_stiffness = model%point%sense*given%cross_stiffness
+         problem%cross_stiffness = cross_stiffness_of(model)
          allocate (found%thresholds(size(found%bearings)), source=ieee_value(first, ieee_quiet_nan))
          options = branch_options(first_step=longest, max_step=longest, high=given%threshold_up_to_rpm)
          options%give_up => model%give_up

@@ -3,7 +3,8 @@ module case_checks
    use kinds, only: wp, degree
    use text, only: to_text, filled, list_text
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: bearing_type, clearance_range, in_range, is_set, elastic_type, most_stations
+   use case_groups, only: bearing_type, clearance_range, in_range, is_set, elastic_type, most_stations, &
+      & station_element_type
    use other_units, only: in_other_units
    use case_inputs, only: case_type
    use excitations, only: excitation_type
@@ -34,12 +35,14 @@ contains
       integer :: b
       ! long: a list of checks, below
       if (.not. inputs%rotor%is_rigid()) then
-         associate (s => inputs%start, q => inputs%coefficients%cross_stiffness)
+         associate (s => inputs%start)
             call check_shaft(inputs%rotor%elastic)
             call check_parts(inputs%rotor%station_count())
+            do b = 1, size(inputs%rotor%elastic%elements)
+               call check_element(b, inputs%rotor%elastic%elements(b), inputs%rotor%station_count())
+            end do
             call require(any(s%from == ['equilibrium', 'file       ']), 'start%from = '''//s%from//''': must be ' &
                & //'''equilibrium'' or ''file'' for a machine', error)
-            call require(.not. abs(q) > 0, 'coefficients%cross_stiffness = {}: must be 0 for a machine', [q], error)
             if (.not. allocated(error)) call check_start(inputs%bearings(1))
          end associate
       end if
@@ -379,14 +382,43 @@ contains
          end associate
       end subroutine check_parts
 
+      !> An element has two ends, and one that acts in motion alone has an equilibrium to move about.
+      subroutine check_element(i, element, stations)
+         integer, intent(in) :: i, stations
+         type(station_element_type), intent(in) :: element
+         character(len=:), allocatable :: name
+         logical :: supported(size(inputs%bearings))
+         integer :: b
+         name = 'element('//to_text(i)//')'
+         call check_station(name, element%station, stations)
+         if (element%to_station > 0) call check_station(name, element%to_station, stations, 'to_station')
+         call require(element%to_station /= element%station .or. allocated(error), name//'%to_station = {}: is its ' &
+            & //'station; an element has two ends', [real(element%to_station, wp)], error)
+         call require(element%to_station == 0 .or. element%housing == '', name//'%housing = '''//element%housing &
+            & //''': to_station is given too; give one of them', error)
+         supported = [(allocated(inputs%bearings(b)%support), b=1, size(supported))]
+         call require(element%housing == '' .or. any([(supported(b) .and. inputs%bearings(b)%name == element%housing, &
+            & b=1, size(supported))]), name//'%housing = '''//element%housing//''': must be the name of a bearing ' &
+            & //'with a group &support', error)
+         call require(element%static .or. inputs%start%from == 'equilibrium', name//'%static = .false.: needs ' &
+            & //'start%from = ''equilibrium'', about which it acts', error)
+         call require(element%static .or. inputs%about%task /= 'branch' .or. inputs%branch%of == 'equilibrium', name &
+            & //'%static = .false.: is not for a branch of periodic orbits, whose equilibria are not found', error)
+      end subroutine check_element
+
       !> Refuses a station that is left out or that the shaft, of this number of stations, does not have.
-      subroutine check_station(group, station, stations)
+      subroutine check_station(group, station, stations, name)
          character(len=*), intent(in) :: group
          integer, intent(in) :: station, stations
+         !> Left out: station.
+         character(len=*), intent(in), optional :: name
+         character(len=:), allocatable :: variable
          real(wp) :: last
+         variable = group//'%station'
+         if (present(name)) variable = group//'%'//name
          last = merge(stations, most_stations, stations > 0)
-         call require(station > 0, group//'%station: must be given, 1 to {}', [last], error)
-         call require(station <= last, group//'%station = {}: must be 1 to {}, the stations of the shaft, of which ' &
+         call require(station > 0, variable//': must be given, 1 to {}', [last], error)
+         call require(station <= last, variable//' = {}: must be 1 to {}, the stations of the shaft, of which ' &
             & //'there is one more than sections', [real(station, wp), last], error)
       end subroutine check_station
 

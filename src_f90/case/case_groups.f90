@@ -12,7 +12,7 @@ module case_groups
       & integration_type, output_type, coefficients_type, periodic_type, branch_type, bearing_type, oil_type, &
       & pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, rotor_type, elastic_type, &
       & shaft_type, disc_type, unbalance_type, load_type, reduction_type, most_bearings, most_sections, &
-      & most_stations, given_rotor_type
+      & most_stations, given_rotor_type, station_element_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
@@ -303,6 +303,19 @@ module case_groups
       real(wp) :: force(2) = 0
    end type load_type
 
+   !> A linear element between a station and the ground, another station or the housing of a bearing: a seal, an
+   !> impeller, a spring. Coefficients yy, yz, zy, zz, N/m, N s/m and kg: its force is -K u - C u' - M u''.
+   type :: station_element_type
+      integer :: station = 0, to_station = 0
+      !> The bearing whose housing is its other end; empty: none is.
+      character(len=:), allocatable :: housing
+      real(wp), dimension(4) :: stiffness = 0, damping = 0, mass = 0
+      !> Beside the stiffness, N/m: what whirls forward is driven by this times its displacement, across it.
+      real(wp) :: cross_stiffness = 0
+      !> Whether it acts at the equilibrium, too, or in motion about it alone.
+      logical :: static = .true.
+   end type station_element_type
+
    !> Up to which frequency, Hz, the shaft's modes on fixed bearings are kept (unset: by themselves); modes above a
    !> frequency, Hz, are damped with a damping ratio.
    type :: reduction_type
@@ -318,6 +331,7 @@ module case_groups
       type(disc_type), allocatable :: discs(:)
       type(unbalance_type), allocatable :: unbalances(:)
       type(load_type), allocatable :: loads(:)
+      type(station_element_type), allocatable :: elements(:)
       type(reduction_type) :: reduction
    contains
       procedure :: begin
@@ -494,10 +508,17 @@ contains
    ! What follows from the groups of a rotor.
 
    !> One with this number of parts, of which nothing is given yet.
-   subroutine begin(self, discs, unbalances, loads)
+   subroutine begin(self, discs, unbalances, loads, elements)
       class(elastic_type), intent(out) :: self
       integer, intent(in) :: discs, unbalances, loads
-      allocate (self%discs(discs), self%unbalances(unbalances), self%loads(loads))
+      integer, intent(in), optional :: elements
+      integer :: i, n
+      n = 0
+      if (present(elements)) n = elements
+      allocate (self%discs(discs), self%unbalances(unbalances), self%loads(loads), self%elements(n))
+      do i = 1, n
+         self%elements(i)%housing = ''
+      end do
       self%rotor_file = ''
       self%shaft%length = [unset]
       self%shaft%diameter = [unset]

@@ -21,6 +21,8 @@ module operating_point
       type(excitation_type), allocatable :: excitations(:)
       !> False: the pivots are without friction; the films do not cavitate, whatever their condition.
       logical :: friction = .true., cavitation = .true.
+      !> False: at rest in equilibrium, without what acts in motion about it alone.
+      logical :: moves = .true.
    contains
       procedure :: speed
       procedure :: shaft_angle
@@ -125,5 +127,6 @@ contains
       static%unbalance = 0
       if (allocated(static%excitations)) deallocate (static%excitations)
       static%friction = .false.
+      static%moves = .false.
    end function static
 end module operating_point

@@ -130,7 +130,7 @@ contains
          real(wp), allocatable :: right(:, :)
          y = 0
          force = forces_at_rest(model, y)
-         call model%rotor%force_derivatives(model%point%speed(0.0_wp), over_positions, over_rates)
+         call model%rotor%force_derivatives(model%point%speed(0.0_wp), over_positions, over_rates, at_rest=.true.)
          call add_others(model, y, over_positions)
          associate (n => 2*size(model%bearings), m => model%rotor%positions, k => over_positions)
             allocate (right(m - n, n + 1))
@@ -358,13 +358,13 @@ contains
    pure function forces_at_rest(model, y) result(force)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
-      real(wp) :: force(model%rotor%positions), of_others(of_journal, size(model%others))
+      real(wp) :: force(model%rotor%positions), of_elements(of_journal, model%rotor%elements + size(model%others))
       integer :: e
       force = model%rotor%force(y(:model%rotor%states), model%point%static(), 0.0_wp)
-      of_others = element_forces(model, 0.0_wp, y)
+      of_elements = element_forces(model, 0.0_wp, y)
       do e = 1, size(model%others)
          associate (at => model%layout%elements(size(model%bearings) + e)%journal)
-            force(at) = force(at) + of_others(:, e)
+            force(at) = force(at) + of_elements(:, model%rotor%elements + e)
          end associate
       end do
    end function forces_at_rest

@@ -3,13 +3,12 @@
 !> pads:drive_end (see assignments).
 module case_fields
    use kinds, only: wp
-   use variable_table, only: variable_table_type, logical_words
-   use case_groups, only: bearing_type, oil_type, pads_type, pivot_type, friction_type, film_type, support_type, &
-      & reduction_type, most_ratios, most_sections, most_stations, max_pads, unset, is_set, mass_range, &
-      & inertia_range, centre_range, temperature_range, viscosity_range
+   use variable_table, only: variable_table_type
+   use machine_fields, only: list_parts, list_support, list_reduction, list_station, list_excitations
+   use case_groups, only: bearing_type, oil_type, pads_type, pivot_type, friction_type, film_type, most_ratios, &
+      & max_pads, mass_range, inertia_range, centre_range, temperature_range, viscosity_range
    use case_inputs, only: case_type
-   use excitations, only: excitation_type, make_excitations
-   use assignments, only: counted
+   use excitations, only: make_excitations
    implicit none (type, external)
    private
    public :: list_variables, put_variables, list_all_variables
@@ -56,7 +55,7 @@ contains
       table%documented = .true.
       copy = inputs
       allocate (copy%rotor%elastic, copy%bearings(1)%support)
-      call copy%rotor%elastic%begin(discs=1, unbalances=1, loads=1)
+      call copy%rotor%elastic%begin(discs=1, unbalances=1, loads=1, elements=1)
       call make_excitations(1, copy%excitations)
       call go_along(copy, table, all=.true.)
    end subroutine list_all_variables
@@ -76,7 +75,7 @@ contains
       rigid = all .or. .not. machine
       ending = ''
       call list_rotor()
-      call list_excitations(inputs%excitations)
+      call list_excitations(v, inputs%excitations, machine, all)
       if (rigid) call list_bearing(inputs%bearings(1))
       call list_thermal()
       if (rigid) call list_contacts(inputs%bearings(1))
@@ -86,9 +85,9 @@ contains
       call list_march()
       call list_analyses()
       if (.not. machine) return
-      call list_parts()
-      if (all) call list_support(inputs%bearings(1)%support)
-      call list_reduction(inputs%rotor%elastic%reduction)
+      call list_parts(v, inputs%rotor%elastic, all)
+      if (all) call list_support(v, inputs%bearings(1)%support, ending)
+      call list_reduction(v, inputs%rotor%elastic%reduction)
       do b = 1, merge(0, size(inputs%bearings), all)
          associate (own => inputs%bearings(b))
             ending = own%suffix()
@@ -100,18 +99,8 @@ contains
    contains
       subroutine group(name, meaning)
          character(len=*), intent(in) :: name, meaning
-         v%this_group = name//ending
-         v%group_meaning = meaning
+         call v%group(name//ending, meaning)
       end subroutine group
-
-      !> The group of the i-th part of a kind.
-      subroutine group_of(i, name, meaning)
-         integer, intent(in) :: i
-         character(len=*), intent(in) :: name, meaning
-         if (.not. all) ending = counted(i)
-         call group(name, meaning)
-         ending = ''
-      end subroutine group_of
 
       subroutine list_rotor()
          call group('case', 'Title and task of the run')
@@ -219,14 +208,14 @@ contains
 
       !> What other tasks than a march have.
       subroutine list_analyses()
-         character(len=:), allocatable :: word
          call group('coefficients', 'Stiffness, damping and stability, for the task coefficients')
          call v%list(inputs%coefficients%frequency_ratio, most_ratios, 'frequency_ratio', 0.0_wp, 1e6_wp, '1', &
             & 'whirl frequencies over the speed of the shaft, of the coefficients of the journal')
          call v%number(inputs%coefficients%threshold_up_to_rpm, 'threshold_up_to_rpm', 0.0_wp, 1e6_wp, 'rpm', &
             & '> 0: the speed at which stability is lost is sought from speed_rpm up to this one')
          call v%number(inputs%coefficients%cross_stiffness, 'cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', 'Q: ' &
-            & //'cross-coupled stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward whirl')
+            & //'cross-coupled stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward ' &
+            & //'whirl; of a machine at each journal, and &element has it at other stations')
          call group('periodic', 'A periodic orbit and its stability, for the tasks periodic and branch')
          call v%whole(inputs%periodic%revolutions, 'revolutions', 1.0_wp, 1000.0_wp, &
             & 'revolutions of the shaft in a period')
@@ -250,10 +239,8 @@ contains
          call v%number(inputs%branch%max_step, 'max_step', 0.0_wp, 1e15_wp, '', &
             & 'its largest change from point to point; 0: ten times the first')
          call v%whole(inputs%branch%max_points, 'max_points', 2.0_wp, 1e5_wp, 'maximum number of points of a branch')
-         word = trim(merge('.true. ', '.false.', inputs%branch%switch))
-         call v%word(word, 'switch', logical_words, &
+         call v%flag(inputs%branch%switch, 'switch', &
             & 'periodic: whether the orbits of double period are followed, too, where the period doubles')
-         inputs%branch%switch = word == '.true.'
       end subroutine list_analyses
 
       ! The variables of a bearing.
@@ -288,11 +275,11 @@ contains
          call v%number(own%cavitation_pressure, 'cavitation_pressure', -1e9_wp, 1e9_wp, 'Pa', &
             & 'pressure at which the film cavitates')
          if (machine) then
-            call list_station(own%station)
+            call list_station(v, own%station)
             call v%numbers(own%offset, 'offset', -0.1_wp, 0.1_wp, 'm', &
                & 'of a machine: how far the bearing stands from the line of the others, along y and z')
          end if
-         if (allocated(own%support) .and. .not. all) call list_support(own%support)
+         if (allocated(own%support) .and. .not. all) call list_support(v, own%support, ending)
          call list_oil(own%oil)
       end subroutine list_bearing
 
@@ -484,104 +471,5 @@ contains
          call v%number(film%turbulent_above, 'turbulent_above', 1.0_wp, 1e6_wp, '1', &
             & 'turbulence: Reynolds number above which it is turbulent')
       end subroutine list_film
-
-      ! The variables of a machine, and of excitations.
-
-      !> The shaft and what it carries.
-      subroutine list_parts()
-         integer :: i
-         associate (rotor => inputs%rotor%elastic, shaft => inputs%rotor%elastic%shaft)
-            call group('shaft', 'A machine: the sections of its shaft, from station 1 to station 2, from there to ' &
-               & //'station 3, ...; *Machines* above')
-            call v%list(shaft%length, most_sections, 'length', 1e-6_wp, 1e3_wp, 'm', &
-               & 'length of each section', counts='sections')
-            call v%each(shaft%diameter, 'sections', 'diameter', 1e-4_wp, 100.0_wp, 'm', 'outer diameter')
-            call v%each(shaft%bore, 'sections', 'bore', 0.0_wp, 100.0_wp, 'm', 'inner diameter; 0: solid')
-            call v%number(shaft%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'of its material')
-            call v%number(shaft%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'of its material')
-            call v%number(shaft%density, 'density', 1.0_wp, 1e5_wp, 'kg/m^3', 'of its material')
-            do i = 1, size(rotor%discs)
-               call group_of(i, 'disc', 'A machine: a rigid disc on its shaft; one group for each')
-               call list_station(rotor%discs(i)%station)
-               call v%number(rotor%discs(i)%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', 'mass')
-               call v%number(rotor%discs(i)%polar_inertia, 'polar_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
-                  & 'moment of inertia about the axis of the shaft')
-               call v%number(rotor%discs(i)%diametral_inertia, 'diametral_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
-                  & 'moment of inertia about a diameter')
-            end do
-            do i = 1, size(rotor%unbalances)
-               call group_of(i, 'unbalance', 'A machine: an unbalance; one group for each')
-               call list_station(rotor%unbalances(i)%station)
-               call v%number(rotor%unbalances(i)%moment, 'moment', 0.0_wp, 1e6_wp, 'kg m', 'mass times eccentricity')
-               call v%number(rotor%unbalances(i)%angle_deg, 'angle_deg', -360.0_wp, 360.0_wp, 'deg', &
-                  & 'its angle on the shaft, in the sense of rotation')
-            end do
-            do i = 1, size(rotor%loads)
-               call group_of(i, 'load', 'A machine: a steady force on its shaft, beside the weight; one group for each')
-               call list_station(rotor%loads(i)%station)
-               call v%numbers(rotor%loads(i)%force, 'force', -1e12_wp, 1e12_wp, 'N', 'along y and z')
-            end do
-         end associate
-      end subroutine list_parts
-
-      subroutine list_support(support)
-         type(support_type), intent(inout) :: support
-         call group('support', 'A machine: what a bearing stands on; without this group it stands on the ground')
-         call v%number(support%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', &
-            & 'mass that moves with the housing of the bearing, that of the pads with it; must be above 0')
-         call v%numbers(support%stiffness, 'stiffness', 0.0_wp, 1e15_wp, 'N/m', 'along y and z')
-         call v%numbers(support%damping, 'damping', 0.0_wp, 1e12_wp, 'N s/m', 'along y and z')
-      end subroutine list_support
-
-      subroutine list_reduction(r)
-         type(reduction_type), intent(inout) :: r
-         call group('reduction', 'A machine: which modes of the shaft are kept')
-         call v%number(r%frequency, 'frequency', 1e-3_wp, 1e7_wp, 'Hz', 'modes of the shaft on fixed bearings up to ' &
-            & //'this frequency are kept; if left out, as many as the run needs')
-         call v%number(r%damp_above, 'damp_above', 0.0_wp, 1e7_wp, 'Hz', 'modes above this frequency are damped')
-         call v%number(r%damping_ratio, 'damping_ratio', 0.0_wp, 1.0_wp, '1', 'their damping ratio')
-      end subroutine list_reduction
-
-      !> A station; none is given where it is 0.
-      subroutine list_station(station)
-         integer, intent(inout) :: station
-         real(wp) :: x
-         x = unset
-         if (station > 0) x = station
-         call v%number(x, 'station', 1.0_wp, real(most_stations, wp), '1', &
-            & 'of a machine: station of its shaft', whole=.true.)
-         station = 0
-         if (is_set(x)) station = nint(x)
-      end subroutine list_station
-
-      subroutine list_excitations(x)
-         type(excitation_type), intent(inout) :: x(:)
-         integer :: i
-         do i = 1, size(x)
-            call group_of(i, 'excitation', 'A force over time on the rotor, for the tasks march and periodic; one ' &
-               & //'group for each; *Excitation* above')
-            if (machine) call list_station(x(i)%station)
-            call v%word(x(i)%kind, 'kind', 'harmonic chirp step ramp table', &
-               & 'harmonic: a vibration; chirp: one whose frequency changes linearly; step: constant from start to ' &
-               & //'end; ramp: from 0 at start to amplitude at end, which it keeps; table: forces from a file')
-            call v%number(x(i)%amplitude, 'amplitude', 0.0_wp, 1e12_wp, 'N', 'amplitude of the force; not of a table')
-            call v%number(x(i)%direction_deg, 'direction_deg', -360.0_wp, 360.0_wp, 'deg', &
-               & 'direction, from +y towards +z; of a rotating force at phase 0')
-            call v%word(x(i)%rotating, 'rotating', 'no forward backward', &
-               & 'harmonic, chirp: whether the force turns, with the shaft or against it; no: it keeps its direction')
-            call v%number(x(i)%frequency_hz, 'frequency_hz', 1e-6_wp, 1e7_wp, 'Hz', &
-               & 'harmonic: frequency; chirp: frequency at start')
-            call v%number(x(i)%frequency_ratio, 'frequency_ratio', 1e-6_wp, 1e6_wp, '1', &
-               & 'harmonic: frequency over the speed of the shaft, instead of frequency_hz')
-            call v%number(x(i)%final_frequency_hz, 'final_frequency_hz', 1e-6_wp, 1e7_wp, 'Hz', &
-               & 'chirp: frequency at end')
-            call v%number(x(i)%phase_deg, 'phase_deg', -360.0_wp, 360.0_wp, 'deg', &
-               & 'harmonic, chirp: phase at start, where 0 is the whole amplitude')
-            call v%number(x(i)%start, 'start', 0.0_wp, 1e6_wp, 's', 'when it begins; of a table the time 0')
-            call v%number(x(i)%end, 'end', 0.0_wp, 1e6_wp, 's', &
-               & 'when it ends; if left out, not before the run (chirp, ramp: with operation%duration)')
-            call v%word(x(i)%file, 'file', '', 'table: CSV file of the columns time, force_y, force_z, in s and N')
-         end do
-      end subroutine list_excitations
    end subroutine go_along
 end module case_fields

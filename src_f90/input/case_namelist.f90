@@ -26,7 +26,7 @@ module case_namelist
    !> Longest text in a case, bytes.
    integer, parameter :: longest_text = 1000
    !> Groups that only a machine has.
-   character(len=*), parameter :: of_machine = ' shaft disc unbalance load support reduction '
+   character(len=*), parameter :: of_machine = ' shaft disc unbalance load element support reduction '
    !> What they are refused without.
    character(len=*), parameter :: needs_shaft = &
       & 'needs a shaft (&shaft) in bearings that have names (&bearing name = ...)'
@@ -412,7 +412,7 @@ contains
       integer :: i, k, b
       allocate (inputs%rotor%elastic)
       call inputs%rotor%elastic%begin(count_of(parsed, 'disc('), count_of(parsed, 'unbalance('), &
-         & count_of(parsed, 'load('))
+         & count_of(parsed, 'load('), count_of(parsed, 'element('))
       deallocate (inputs%bearings)
       allocate (inputs%bearings(count_of(parsed, 'bearing:')))
       associate (groups => parsed%groups, bearings => inputs%bearings)
@@ -448,6 +448,7 @@ contains
          if (kind == 'disc') call look_at_number(size(elastic%discs))
          if (kind == 'unbalance') call look_at_number(size(elastic%unbalances))
          if (kind == 'load') call look_at_number(size(elastic%loads))
+         if (kind == 'element') call look_at_number(size(elastic%elements))
          if (kind == 'support' .and. name == '' .and. size(bearings) > 0 .and. .not. any([(allocated( &
             & bearings(b)%support), b=1, size(bearings))])) call refuse(place_of(a)//': the case has no group ' &
             & //'&support', error)

@@ -7,7 +7,7 @@ module variable_table
    use assignments, only: token_type, value_text, group_heading
    implicit none (type, external)
    private
-   public :: variable_type, variable_table_type, lines_of, group_start, word_text, exact, logical_words
+   public :: variable_type, variable_table_type, lines_of, group_start, word_text, exact
 
    !> The words of a variable that is true or false.
    character(len=*), parameter :: logical_words = '.true. .false.'
@@ -48,9 +48,11 @@ module variable_table
       character(len=:), allocatable :: this_group, group_meaning
    contains
       procedure :: find
+      procedure :: group
       !> The next variable of the list.
       procedure :: word
       procedure :: words
+      procedure :: flag
       procedure :: whole
       procedure :: number
       procedure :: numbers
@@ -97,6 +99,25 @@ contains
       more(:self%count) = self%variables
       call move_alloc(more, self%variables)
    end subroutine make_room
+
+   !> Begins a group; its variables follow.
+   pure subroutine group(self, name, meaning)
+      class(variable_table_type), intent(inout) :: self
+      character(len=*), intent(in) :: name, meaning
+      self%this_group = name
+      self%group_meaning = meaning
+   end subroutine group
+
+   !> .true. or .false.
+   subroutine flag(self, value, name, meaning)
+      class(variable_table_type), intent(inout) :: self
+      logical, intent(inout) :: value
+      character(len=*), intent(in) :: name, meaning
+      character(len=:), allocatable :: word
+      word = trim(merge('.true. ', '.false.', value))
+      call self%word(word, name, logical_words, meaning)
+      value = word == '.true.'
+   end subroutine flag
 
    !> A text: one of the words in `choices`, or any text where `choices` is empty.
    subroutine word(self, value, name, choices, meaning)

@@ -16,7 +16,7 @@ module linear_bearing
    implicit none (type, external)
    private
    public :: linear_bearing_of, pivot_name, vibration_modes_type, rotor_eigenvalues, bearing_coefficients_type, &
-      & find_coefficients, begin_to_carry, rotor_response_type, find_rotor_response
+      & find_coefficients, cross_stiffness_of, begin_to_carry, rotor_response_type, find_rotor_response
 
    !> Length of the names of pivots.
    integer, parameter :: pivot_name = 6
@@ -107,8 +107,8 @@ contains
                      if (.not. ok) exit each_bearing
                   end do
                end do each_bearing
-               if (ok) call find_modes(found%with_rotor(i), model%point%sense*given%cross_stiffness, &
-                  & position_lengths(model), found%modes(i), ok)
+               if (ok) call find_modes(found%with_rotor(i), cross_stiffness_of(model), position_lengths(model), &
+                  & found%modes(i), ok)
                if (.not. ok) then
                   call raise(error, numerics_error, 'the linear equations of the pads with '//found%bearings(i)%pivot &
                      & //' pivots are singular')
@@ -122,6 +122,14 @@ contains
          end associate
       end associate
    end subroutine find_coefficients
+
+   !> The cross-coupled stiffness of the task at a rigid journal, N/m, forward where the shaft turns clockwise; elements
+   !> have that of a machine.
+   pure real(wp) function cross_stiffness_of(model)
+      type(machine_model), intent(in) :: model
+      cross_stiffness_of = merge(model%point%sense*model%inputs%coefficients%cross_stiffness, 0.0_wp, &
+         & model%inputs%rotor%is_rigid())
+   end function cross_stiffness_of
 
    !> Pads whose film only just begins to carry in the equilibrium y of a model, so that its stiffness and damping are
    !> those of a motion to one side: with a film that does not cavitate a small vibration would change the force by more
@@ -358,6 +366,7 @@ contains
          point = operating_point_type(model%inputs)
          point%speed_rpm = model%point%speed_rpm
          point%acceleration = 0
+         point%moves = .false.
          if (allocated(point%excitations)) deallocate (point%excitations)
          associate (n => model%rotor%positions)
             ! f = Re(F exp(i phi)): F from f at phi = 0 and from df/dt = Re(i Omega F) there

@@ -45,16 +45,17 @@ contains
       end associate
    end subroutine take_sample
 
-   !> Forces on the rotor, (2, element), N, of what acts on it beside its bearings, at (t, y).
+   !> Forces on the rotor, (2, element), N, of what acts on it beside its bearings, its own elements first, at (t, y).
    pure function element_forces(model, t, y) result(forces)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: t, y(:)
-      real(wp) :: forces(of_journal, size(model%others))
+      real(wp) :: forces(of_journal, model%rotor%elements + size(model%others))
       integer :: e
+      forces(:, :model%rotor%elements) = model%rotor%element_forces(y, model%point, t)
       do e = 1, size(model%others)
          associate (of => model%layout%elements(size(model%bearings) + e))
-            forces(:, e) = model%others(e)%of%sampled_force(model%rotor%journal(y(:model%rotor%states), of%pair()), &
-               & of%pad_states(y), model%point%speed(t))
+            forces(:, model%rotor%elements + e) = model%others(e)%of%sampled_force(model%rotor%journal( &
+               & y(:model%rotor%states), of%pair()), of%pad_states(y), model%point%speed(t))
          end associate
       end do
    end function element_forces

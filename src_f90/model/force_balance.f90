@@ -189,12 +189,14 @@ contains
 
    !> Derivatives of these forces over positions and over rates, where the derivatives of the elements were taken last,
    !> with those of friction in the state evaluated last.
-   subroutine force_derivatives(model, over_positions, over_rates)
+   subroutine force_derivatives(model, over_positions, over_rates, at_rest)
       type(machine_model), intent(in), target :: model
       real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      !> Those of the forces that act at the equilibrium; left out: in motion about it.
+      logical, intent(in), optional :: at_rest
       real(wp), dimension(model%rotor%positions, model%rotor%positions) :: stiffness, damping
       call add_elements(model, 1, size(model%layout%elements), over_positions, over_rates)
-      call model%rotor%force_derivatives(model%point%speed(0.0_wp), stiffness, damping)
+      call model%rotor%force_derivatives(model%point%speed(0.0_wp), stiffness, damping, at_rest)
       associate (n => model%rotor%positions)
          over_positions(:n, :n) = over_positions(:n, :n) + stiffness
          over_rates(:n, :n) = over_rates(:n, :n) + damping

@@ -107,7 +107,7 @@ contains
       integer :: e, i, n
       x = b(self%position_at)
       u = b(self%rate_at)
-      call rotor%newton_right(gamma, x(:self%rotor), u(:self%rotor))
+      call rotor%newton_right(gamma, self%speed, x(:self%rotor), u(:self%rotor))
       self%matrix%corner = 0
       do e = 1, size(elements)
          associate (of => self%layout%elements(e))

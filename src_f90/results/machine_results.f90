@@ -10,11 +10,13 @@ module machine_results
    implicit none (type, external)
    private
    public :: bearing_group, put_bearings, put_machine, put_machine_equilibrium, put_turned_rotor, turned_time, &
-      & turned_state, mode_signs, other_signs
+      & turned_state, mode_signs, other_signs, put_origin, read_origin
 
    character(len=*), parameter :: group = 'rotor/'
    !> Where the state is from which another march may start, and its time.
    character(len=*), parameter :: turned_time = group//'turned_time', turned_state = group//'turned_state'
+   !> Where it is at the equilibrium.
+   character(len=*), parameter :: origin = group//'equilibrium'
    !> Which of its two signs each mode has; what is said of a file that does not tell, whose states do not fit.
    character(len=*), parameter :: mode_signs = group//'mode_signs', other_signs = 'written by an earlier version of ' &
       & //'tiltpad, in which modes of the shaft had other signs; its states fit no longer, run it anew'
@@ -53,6 +55,32 @@ contains
       call file%put(turned_state, states, '1', 'state of the rotor at that time: displacements, then rates', &
          & turned_state)
    end subroutine put_turned_rotor
+
+   !> Keeps the displacements of the rotor at the equilibrium, about which elements act that only motion has.
+   subroutine put_origin(file, inputs, positions)
+      class(record_type), intent(inout) :: file
+      type(case_type), intent(in) :: inputs
+      real(wp), intent(in) :: positions(:)
+      if (acts_in_motion_alone(inputs)) call file%put(origin, positions, '1', &
+         & 'displacements of the rotor at the equilibrium', origin)
+   end subroutine put_origin
+
+   !> Moves the rotor about them again.
+   subroutine read_origin(file, inputs, rotor)
+      class(record_type), intent(in) :: file
+      type(case_type), intent(in) :: inputs
+      class(rotor_type), intent(inout) :: rotor
+      real(wp) :: positions(rotor%positions)
+      if (.not. acts_in_motion_alone(inputs)) return
+      call file%get_list(origin, positions)
+      call rotor%move_about(positions)
+   end subroutine read_origin
+
+   pure logical function acts_in_motion_alone(inputs)
+      type(case_type), intent(in) :: inputs
+      acts_in_motion_alone = .false.
+      if (.not. inputs%rotor%is_rigid()) acts_in_motion_alone = .not. all(inputs%rotor%elastic%elements%static)
+   end function acts_in_motion_alone
 
    !> Writes the rotor of a machine with its bearings; nothing of a rigid journal.
    subroutine put_machine(file, inputs, rotor)
@@ -119,6 +147,11 @@ contains
          call file%put(group//'bearing_offset_z', bearings%offset(2), 'm', 'offset of the bearing, horizontal', &
             & 'bearing')
       end associate
+      associate (elements => inputs%rotor%elastic%elements)
+         if (size(elements) > 0) call file%put_scale('element', size(elements), 'element number')
+         if (size(elements) > 0) call file%put(group//'element_station', real(elements%station, wp), '1', &
+            & 'station of the element', 'element')
+      end associate
       associate (discs => inputs%rotor%elastic%discs, over => group//'disc')
          if (size(discs) == 0) return
          call file%put_scale(over, size(discs), 'disc number')
@@ -131,14 +164,20 @@ contains
    end subroutine put_attached
 
    !> Writes where the shaft is at the equilibrium with these displacements of the rotor, and what its bearings bear,
-   !> (2, bearing), N.
-   subroutine put_machine_equilibrium(file, rotor, displacements, loads)
+   !> (2, bearing), N, with these forces of its elements, (2, element), N.
+   subroutine put_machine_equilibrium(file, rotor, displacements, loads, forces)
       class(record_type), intent(inout) :: file
       class(rotor_type), intent(in) :: rotor
-      real(wp), intent(in) :: displacements(:), loads(:, :)
+      real(wp), intent(in) :: displacements(:), loads(:, :), forces(:, :)
       real(wp), dimension(2, rotor%stations) :: stations, slopes
       stations = rotor%station_displacements(displacements)
       slopes = rotor%station_slopes(displacements)
+      if (size(forces) > 0) then
+         call file%put('equilibrium/element_force_y', forces(1, :), 'N', &
+            & 'force of the element on the rotor, vertical', 'element')
+         call file%put('equilibrium/element_force_z', forces(2, :), 'N', &
+            & 'force of the element on the rotor, horizontal', 'element')
+      end if
       call file%put('equilibrium/station_y', stations(1, :), 'm', 'shaft displacement, vertical', 'station')
       call file%put('equilibrium/station_z', stations(2, :), 'm', 'shaft displacement, horizontal', 'station')
       call file%put('equilibrium/station_slope_y', slopes(1, :), 'rad', 'shaft slope, vertical', 'station')

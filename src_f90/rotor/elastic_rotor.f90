@@ -26,6 +26,8 @@ module elastic_rotor
       procedure :: turn
       procedure :: accelerations
       procedure :: masses
+      procedure :: move_about
+      procedure :: element_forces
       procedure :: force_derivatives
       procedure :: newton_rows
       procedure :: newton_matrix
@@ -49,6 +51,7 @@ contains
       rotor%positions = size(matrices%load)
       rotor%states = 2*rotor%positions
       rotor%stations = size(matrices%station, 1)/2
+      if (allocated(matrices%elements)) rotor%elements = size(matrices%elements)
       rotor%per_mass = identity(rotor%positions)
       call solve(rotor%positions, rotor%positions, matrices%mass, rotor%per_mass, ok)
       if (.not. ok) return
@@ -139,7 +142,23 @@ contains
             & + point%acceleration*(m%unbalance(:, 1)*sin(phase) - m%unbalance(:, 2)*cos(phase)))
       end associate
       if (allocated(point%excitations)) force = force + from_stations(self, point, point%excitation_forces(t))
+      if (allocated(self%matrices%elements)) call add_elements(self, states, point, speed, force)
    end function force
+
+   !> Adds the forces of the elements that the matrices do not have.
+   pure subroutine add_elements(self, states, point, speed, force)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: states(:), speed
+      type(operating_point_type), intent(in) :: point
+      real(wp), intent(inout) :: force(:)
+      integer :: i
+      associate (elements => self%matrices%elements, n => self%positions)
+         do i = 1, size(elements)
+            if (elements(i)%in_matrices .or. .not. (elements(i)%static .or. point%moves)) cycle
+            force = force + matmul(elements(i)%force(states(:n), states(n + 1:), speed), elements(i)%ends)
+         end do
+      end associate
+   end subroutine add_elements
 
    !> The unbalance turns, and excitations change.
    pure function turn(self, point, t)
@@ -167,12 +186,53 @@ contains
       masses = self%matrices%mass
    end function masses
 
-   pure subroutine force_derivatives(self, speed, over_positions, over_rates)
+   pure function element_forces(self, states, point, t) result(forces)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      type(operating_point_type), intent(in) :: point
+      real(wp), intent(in) :: t
+      real(wp) :: forces(2, self%elements)
+      integer :: i
+      do i = 1, self%elements
+         associate (e => self%matrices%elements(i), n => self%positions)
+            forces(:, i) = 0
+            if (e%static .or. point%moves) forces(:, i) = e%force(states(:n), states(n + 1:2*n), point%speed(t))
+         end associate
+      end do
+   end function element_forces
+
+   !> What acts in motion alone vanishes at the equilibrium.
+   pure subroutine move_about(self, positions)
+      class(elastic_rotor_type), intent(inout) :: self
+      real(wp), intent(in) :: positions(:)
+      integer :: i
+      if (.not. allocated(self%matrices%elements)) return
+      do i = 1, size(self%matrices%elements)
+         associate (e => self%matrices%elements(i))
+            if (.not. e%static) e%origin = matmul(e%ends, positions(:self%positions)) + e%offset
+         end associate
+      end do
+   end subroutine move_about
+
+   pure subroutine force_derivatives(self, speed, over_positions, over_rates, at_rest)
       class(elastic_rotor_type), intent(in) :: self
       real(wp), intent(in) :: speed
       real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      logical, intent(in), optional :: at_rest
+      logical :: moves
+      integer :: i
       over_positions = -self%matrices%stiffness
       over_rates = -(self%matrices%damping + speed*self%matrices%gyroscopic)
+      if (.not. allocated(self%matrices%elements)) return
+      moves = .true.
+      if (present(at_rest)) moves = .not. at_rest
+      do i = 1, size(self%matrices%elements)
+         associate (e => self%matrices%elements(i))
+            if (e%in_matrices .or. .not. (e%static .or. moves)) cycle
+            over_positions = over_positions - e%onto_rotor(e%stiffness(speed))
+            over_rates = over_rates - e%onto_rotor(e%damping(speed))
+         end associate
+      end do
    end subroutine force_derivatives
 
    !> P = 1: forces.
@@ -187,16 +247,32 @@ contains
       class(elastic_rotor_type), intent(in) :: self
       real(wp), intent(in) :: gamma, speed
       real(wp) :: matrix(self%positions, self%positions)
+      integer :: i
       associate (m => self%matrices)
          matrix = m%mass + gamma*(m%damping + speed*m%gyroscopic) + gamma**2*m%stiffness
+         if (.not. allocated(m%elements)) return
+         do i = 1, size(m%elements)
+            associate (e => m%elements(i))
+               if (e%in_matrices) cycle
+               matrix = matrix + e%onto_rotor(gamma*e%damping(speed) + gamma**2*e%stiffness(speed))
+            end associate
+         end do
       end associate
    end function newton_matrix
 
-   pure subroutine newton_right(self, gamma, x, u)
+   pure subroutine newton_right(self, gamma, speed, x, u)
       class(elastic_rotor_type), intent(in) :: self
-      real(wp), intent(in) :: gamma, x(:)
+      real(wp), intent(in) :: gamma, speed, x(:)
       real(wp), intent(inout) :: u(:)
+      integer :: i
       u = matmul(self%matrices%mass, u) - gamma*matmul(self%matrices%stiffness, x)
+      if (.not. allocated(self%matrices%elements)) return
+      do i = 1, size(self%matrices%elements)
+         associate (e => self%matrices%elements(i))
+            if (e%in_matrices) cycle
+            u = u - gamma*matmul(matmul(e%stiffness(speed), matmul(e%ends, x)), e%ends)
+         end associate
+      end do
    end subroutine newton_right
 
    pure function row_accelerations(self, rows, journal) result(accelerations)

@@ -25,6 +25,7 @@ module fixed_interface
       procedure :: find_modes
       procedure, private :: half_band_width
       procedure :: basis
+      procedure :: add_residual_modes
       procedure :: residual_deflection
    end type fixed_interface_type
 
@@ -33,6 +34,8 @@ module fixed_interface
    real(wp), parameter :: least_pivot = 1e-11_wp
    !> The smallest mu = 1/omega^2, relative to the largest one, that is not rounding.
    real(wp), parameter :: rounding = 1e-13_wp
+   !> The smallest part of a deflection, by its energy, that modes leave out and that is not rounding.
+   real(wp), parameter :: least_residual = 1e-9_wp
    !> How far from its eigenvalue, relative to it, a mode is iterated, and how often: two modes that differ as little
    !> are found as a pair.
    real(wp), parameter :: shift = 1e-8_wp
@@ -197,6 +200,52 @@ contains
          x = x/sqrt(dot_product(x, self%mass%times(x)))
       end do
    end function next_mode
+
+   !> Puts behind the first modes what these leave out of the deflections under forces, (displacement of one plane,
+   !> force), N: shapes that are orthogonal to them and to each other over mass and stiffness, with modal masses 1, so
+   !> that they count as modes. Deflections that the modes have all of add nothing.
+   subroutine add_residual_modes(self, forces, count, added)
+      class(fixed_interface_type), intent(inout) :: self
+      real(wp), intent(in) :: forces(:, :)
+      integer, intent(in) :: count
+      integer, intent(out) :: added
+      real(wp), allocatable :: x(:, :), shapes(:, :), whole(:, :), mass(:, :), stiffness(:, :), mu(:), work(:)
+      real(wp) :: square
+      integer :: i, j, info
+      associate (inner => self%inner, own => forces(self%inner, :))
+         x = deflections(self, own)
+         allocate (whole(size(self%static, 1), count + size(forces, 2)), source=0.0_wp)
+         whole(:, :count) = self%modes(:, :count)
+         shapes = x
+         added = 0
+         do i = 1, size(x, 2)
+            square = dot_product(own(:, i), x(:, i))
+            x(:, i) = x(:, i) - matmul(whole(inner, :count), matmul(own(:, i), whole(inner, :count)) &
+               & /self%frequency(:count)**2)
+            ! twice, as a large part of it may be taken away
+            do j = 1, 2
+               x(:, i) = x(:, i) - matmul(shapes(:, :added), matmul(self%stiffness%times(x(:, i)), shapes(:, :added)))
+            end do
+            associate (left => dot_product(x(:, i), self%stiffness%times(x(:, i))))
+               if (left <= least_residual*square) cycle
+               added = added + 1
+               shapes(:, added) = x(:, i)/sqrt(left)
+            end associate
+         end do
+         shapes = shapes(:, :added)
+         mass = matmul(transpose(shapes), self%mass%times(shapes))
+         stiffness = identity(added)
+         allocate (mu(added), work(34*added + 1))
+         call dsygv(1, 'V', 'U', added, mass, max(1, added), stiffness, max(1, added), mu, work, size(work), info)
+         mu = mu(added:1:-1)
+         shapes = matmul(shapes, mass(:, added:1:-1))/spread(sqrt(mu), 1, size(shapes, 1))
+         do i = 1, added
+            whole(inner, count + i) = sign(1.0_wp, first_large(shapes(:, i)))*shapes(:, i)
+         end do
+      end associate
+      self%modes = whole(:, :count + added)
+      self%frequency = [self%frequency(:count), 1/sqrt(mu), self%frequency(count + 1:)]
+   end subroutine add_residual_modes
 
    !> Static deflections and this many modes, which are found, in all planes: (all displacements, journals and modes),
    !> y and z of each one after the other.

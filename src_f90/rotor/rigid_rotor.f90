@@ -17,6 +17,8 @@ module rigid_rotor
    type :: rotor_type
       !> Displacements; states, twice as many; journals, each in a bearing; stations whose displacements it tells.
       integer :: positions = 0, states = 0, journals = 0, stations = 0
+      !> Linear elements that act on it.
+      integer :: elements = 0
       !> Whether newton_matrix is the identity matrix, whatever gamma and speed are.
       logical :: is_identity = .false.
       !> Of a rigid one, kg.
@@ -31,6 +33,8 @@ module rigid_rotor
       procedure :: turn
       procedure :: accelerations
       procedure :: masses
+      procedure :: move_about
+      procedure :: element_forces
       procedure :: force_derivatives
       procedure :: newton_rows
       procedure :: newton_matrix
@@ -136,11 +140,29 @@ contains
       masses = reshape([self%mass, 0.0_wp, 0.0_wp, self%mass], [2, 2])
    end function masses
 
+   !> Forces of its elements on it, (2, element), N, in a state at time t.
+   pure function element_forces(self, states, point, t) result(forces)
+      class(rotor_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      type(operating_point_type), intent(in) :: point
+      real(wp), intent(in) :: t
+      real(wp) :: forces(2, self%elements)
+      forces = 0
+   end function element_forces
+
+   !> Notes its displacements at the equilibrium, about which it moves.
+   pure subroutine move_about(self, positions)
+      class(rotor_type), intent(inout) :: self
+      real(wp), intent(in) :: positions(:)
+   end subroutine move_about
+
    !> Derivatives of the forces over displacements and over rates at a speed, rad/s.
-   pure subroutine force_derivatives(self, speed, over_positions, over_rates)
+   pure subroutine force_derivatives(self, speed, over_positions, over_rates, at_rest)
       class(rotor_type), intent(in) :: self
       real(wp), intent(in) :: speed
       real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      !> Those of the forces that act at the equilibrium; left out: in motion about it.
+      logical, intent(in), optional :: at_rest
       over_positions = 0
       over_rates = 0
    end subroutine force_derivatives
@@ -164,9 +186,9 @@ contains
    end function newton_matrix
 
    !> Their right-hand side, P (M u_0 + gamma dF/dx x_0), in place of u_0.
-   pure subroutine newton_right(self, gamma, x, u)
+   pure subroutine newton_right(self, gamma, speed, x, u)
       class(rotor_type), intent(in) :: self
-      real(wp), intent(in) :: gamma, x(:)
+      real(wp), intent(in) :: gamma, speed, x(:)
       real(wp), intent(inout) :: u(:)
    end subroutine newton_right
 

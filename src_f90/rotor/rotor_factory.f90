@@ -44,7 +44,7 @@ contains
       if (present(before)) then
          select type (before)
          type is (elastic_rotor_type)
-            modes = size(before%matrices%mode_frequency)
+            modes = size(before%matrices%mode_frequency) - before%matrices%residual_modes
          end select
       end if
       call find_rotor(inputs, highest_speed(inputs), matrices, error, modes)
@@ -225,6 +225,8 @@ contains
       associate (rotor => inputs%rotor%elastic)
          if (size(rotor%unbalances) > 0) highest = max(highest, maxval(rotor%unbalances%station))
          if (size(rotor%loads) > 0) highest = max(highest, maxval(rotor%loads%station))
+         if (size(rotor%elements) > 0) highest = max(highest, maxval(rotor%elements%station), &
+            & maxval(rotor%elements%to_station))
       end associate
       call require(highest <= stations, file//'has '//to_text(stations)//' stations, but station = ' &
          & //to_text(highest)//' is asked for', error)

@@ -1,7 +1,7 @@
 !> A rotor in few displacements: how many modes with its journals held (fixed_interface) it keeps, and what the others
 !> and the damping of the high ones cost; and the equations that the time integration has of a shaft.
 module rotor_reduction
-   use kinds, only: wp, pi
+   use kinds, only: wp, pi, rpm
    use linear_algebra, only: zgbsv, solve_complex
    use sparse_matrix, only: sparse_matrix_type
    use case_groups, only: is_set, reduction_type
@@ -9,6 +9,7 @@ module rotor_reduction
    use rotor_component, only: rotor_component_type, static_forces, unbalance_moments
    use fixed_interface, only: fixed_interface_type
    use linear_element, only: relative_displacements, add_supports
+   use acting_element, only: acting_element_type, new_acting_element, elements_of
    implicit none (type, external)
    private
    public :: mode_selection_type, select_modes, most_modes, rotor_matrices_type, reduced_rotor
@@ -80,6 +81,10 @@ module rotor_reduction
       !> Frequencies of the kept modes, Hz (each in both planes of a shaft); of the first that is left out, 0: none is.
       real(wp), allocatable :: mode_frequency(:)
       real(wp) :: left_out_frequency = 0
+      !> How many of these, in a plane, are what the modes of the shaft leave out of the deflections under elements.
+      integer :: residual_modes = 0
+      !> Where there are some.
+      type(acting_element_type), allocatable :: elements(:)
    end type rotor_matrices_type
 
 contains
@@ -253,13 +258,20 @@ contains
    function reduced_rotor(inputs, component, fixed, selection) result(r)
       type(case_type), intent(in) :: inputs
       type(rotor_component_type), intent(in) :: component
-      type(fixed_interface_type), intent(in) :: fixed
+      type(fixed_interface_type), intent(inout) :: fixed
       type(mode_selection_type), intent(in) :: selection
       type(rotor_matrices_type) :: r
       real(wp), allocatable :: basis(:, :), into(:, :), offset(:), force(:), deflection(:)
       integer :: i, modes
       r%mode_selection_type = selection
       modes = selection%modes
+      if (modes < size(fixed%frequency)) r%left_out_frequency = fixed%frequency(modes + 1)/(2*pi)
+      associate (elements => elements_of(inputs))
+         if (size(elements) > 0) call fixed%add_residual_modes(forces_at(component, [elements%station, &
+            & pack(elements%to_station, elements%to_station > 0)]), modes, r%residual_modes)
+      end associate
+      modes = modes + r%residual_modes
+      r%modes = modes
       r%journals = size(inputs%bearings)
       basis = fixed%basis(modes)
       into = relative_displacements(inputs%bearings, size(basis, 2))
@@ -279,7 +291,6 @@ contains
          & component%sense), r%station))
       r%total_mass = component%total_mass
       r%mode_frequency = fixed%frequency(:modes)/(2*pi)
-      if (modes < size(fixed%frequency)) r%left_out_frequency = fixed%frequency(modes + 1)/(2*pi)
       ! the last displacements are the modes
       r%high_damping = [spread(0.0_wp, 1, size(r%load) - fixed%planes*modes), &
          & mode_damping(inputs%rotor%elastic%reduction, fixed, modes)]
@@ -287,7 +298,70 @@ contains
          r%damping(i, i) = r%damping(i, i) + r%high_damping(i)
       end do
       call add_supports(inputs%bearings, inputs%rotor%gravity, r%mass, r%damping, r%stiffness, r%load)
+      call add_elements(inputs, r)
    end function reduced_rotor
+
+   !> Forces of 1 N at stations, each once, on all displacements: of one plane where both are alike.
+   pure function forces_at(component, stations) result(forces)
+      type(rotor_component_type), intent(in) :: component
+      integer, intent(in) :: stations(:)
+      real(wp), allocatable :: forces(:, :)
+      real(wp) :: one(component%station%rows)
+      integer :: i, p, n
+      allocate (forces(component%station%columns/component%planes, 2*size(stations)/component%planes))
+      n = 0
+      do i = 1, size(stations)
+         do p = 1, 2/component%planes
+            one = 0
+            one(2*stations(i) - 2 + p) = 1
+            n = n + 1
+            associate (whole => component%station%transposed_times(one))
+               forces(:, n) = whole(::component%planes)
+            end associate
+         end do
+      end do
+   end function forces_at
+
+   !> Adds the elements: what is constant and acts at rest is part of the matrices, and masses are.
+   pure subroutine add_elements(inputs, r)
+      type(case_type), intent(in) :: inputs
+      type(rotor_matrices_type), intent(inout) :: r
+      integer :: i, b, at
+      associate (from => elements_of(inputs))
+         if (size(from) == 0) return
+         allocate (r%elements(size(from)))
+         do i = 1, size(from)
+            r%elements(i) = new_acting_element(from(i), inputs%sense())
+            associate (e => r%elements(i), here => [2*from(i)%station - 1, 2*from(i)%station])
+               e%ends = r%station(here, :)
+               e%offset = r%station_offset(here)
+               if (from(i)%to_station > 0) then
+                  associate (there => [2*from(i)%to_station - 1, 2*from(i)%to_station])
+                     e%ends = e%ends - r%station(there, :)
+                     e%offset = e%offset - r%station_offset(there)
+                  end associate
+               end if
+               at = 2*r%journals
+               do b = 1, r%journals
+                  if (.not. allocated(inputs%bearings(b)%support)) cycle
+                  if (inputs%bearings(b)%name == from(i)%housing) then
+                     e%ends(1, at + 1) = e%ends(1, at + 1) - 1
+                     e%ends(2, at + 2) = e%ends(2, at + 2) - 1
+                  end if
+                  at = at + 2
+               end do
+               associate (speed => inputs%operation%speed_rpm*rpm)
+                  r%mass = r%mass + e%onto_rotor(e%mass(speed))
+                  e%in_matrices = e%static
+                  if (.not. e%in_matrices) cycle
+                  r%damping = r%damping + e%onto_rotor(e%damping(speed))
+                  r%stiffness = r%stiffness + e%onto_rotor(e%stiffness(speed))
+                  r%load = r%load - matmul(matmul(e%stiffness(speed), e%offset), e%ends)
+               end associate
+            end associate
+         end do
+      end associate
+   end subroutine add_elements
 
    !> The matrices in the displacements x. The mass of the modes is 1 and no stiffness joins them, but for rounding.
    pure subroutine reduce_matrices(component, basis, into, journals, r)

@@ -325,7 +325,7 @@ contains
    subroutine static_derivatives(model, stiffness, damping)
       type(machine_model), intent(in) :: model
       real(wp), intent(out) :: stiffness(:, :), damping(:, :)
-      call force_derivatives(model, stiffness, damping)
+      call force_derivatives(model, stiffness, damping, at_rest=.true.)
       damping = damping - trace*model%point%speed(0.0_wp)*masses(model)
    end subroutine static_derivatives
 

@@ -24,6 +24,8 @@ MARCHES = {
     "friction": "&operation speed_rpm=3000, duration=0.3 /\n&friction model='lugre' /\n",
     "run-up": "&operation speed_rpm=2000, final_speed_rpm=4000, duration=0.5 /\n",
     "warm films": "&operation speed_rpm=3000, duration=0.2 /\n&oil grade=46 /\n&thermal model='film' /\n",
+    "element": "&operation speed_rpm=3000, duration=0.2 /\n"
+    "&element station=4, stiffness=2e7, 1e6, -1e6, 2e7, static=.false. /\n",
     "last revolutions": "&operation speed_rpm=3000, duration=0.3 /\n&output keep='last_revolutions' /\n",
 }
 BRANCH = """&case task='branch' /

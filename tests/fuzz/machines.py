@@ -38,6 +38,13 @@ def draw(dice: Random) -> Case:
     if dice.random() < 0.3:
         groups.append(f"&load force={_numbers(dice, 2, -1e4, 1e4)} station={dice.randint(1, stations)} /")
     if dice.random() < 0.3:
+        ends = dice.sample(range(1, stations + 1), 2)
+        groups.append(
+            f"&element station={ends[0]}{dice.choice((f', to_station={ends[1]}', ''))}, "
+            f"stiffness={_numbers(dice, 4, -1e7, 1e7)}, damping={_numbers(dice, 4, 0, 1e4)}, mass=1, 2*0, 1, "
+            f"cross_stiffness={dice.uniform(-1e7, 1e7)!r}, static={dice.choice(('.true.', '.false.'))} /"
+        )
+    if dice.random() < 0.3:
         groups.append(f"&reduction frequency={dice.uniform(1, 1e4)!r}, damp_above=1e3 /")
     names: set[str] = set()
     places = dice.sample(range(1, stations + 1), dice.randint(2, min(4, stations)))

@@ -1,0 +1,165 @@
+!> The variables of a machine, of what there may be several of on its shaft, and of excitations, for the list of all
+!> (case_fields).
+module machine_fields
+   use kinds, only: wp
+   use variable_table, only: variable_table_type
+   use case_groups, only: elastic_type, support_type, reduction_type, station_element_type, most_sections, &
+      & most_stations, unset, is_set
+   use excitations, only: excitation_type
+   use assignments, only: counted
+   implicit none (type, external)
+   private
+   public :: list_parts, list_support, list_reduction, list_station, list_excitations
+
+   character(len=*), parameter :: of_element = 'yy, yz, zy, zz of the force on the station against displacement, ' &
+      & //'velocity and acceleration towards it from the other end'
+
+contains
+
+   !> The group of the i-th part of a kind.
+   subroutine group_of(v, i, all, name, meaning)
+      type(variable_table_type), intent(inout) :: v
+      integer, intent(in) :: i
+      logical, intent(in) :: all
+      character(len=*), intent(in) :: name, meaning
+      if (all) call v%group(name, meaning)
+      if (.not. all) call v%group(name//counted(i), meaning)
+   end subroutine group_of
+
+   !> The shaft and what it carries.
+   subroutine list_parts(v, rotor, all)
+      type(variable_table_type), intent(inout) :: v
+      type(elastic_type), intent(inout) :: rotor
+      !> Whether each group is listed once, without a number.
+      logical, intent(in) :: all
+      integer :: i
+      associate (shaft => rotor%shaft)
+         call v%group('shaft', 'A machine: the sections of its shaft, from station 1 to station 2, from there to ' &
+            & //'station 3, ...; *Machines* above')
+         call v%list(shaft%length, most_sections, 'length', 1e-6_wp, 1e3_wp, 'm', &
+            & 'length of each section', counts='sections')
+         call v%each(shaft%diameter, 'sections', 'diameter', 1e-4_wp, 100.0_wp, 'm', 'outer diameter')
+         call v%each(shaft%bore, 'sections', 'bore', 0.0_wp, 100.0_wp, 'm', 'inner diameter; 0: solid')
+         call v%number(shaft%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'of its material')
+         call v%number(shaft%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'of its material')
+         call v%number(shaft%density, 'density', 1.0_wp, 1e5_wp, 'kg/m^3', 'of its material')
+         do i = 1, size(rotor%discs)
+            call group_of(v, i, all, 'disc', 'A machine: a rigid disc on its shaft; one group for each')
+            call list_station(v, rotor%discs(i)%station)
+            call v%number(rotor%discs(i)%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', 'mass')
+            call v%number(rotor%discs(i)%polar_inertia, 'polar_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
+               & 'moment of inertia about the axis of the shaft')
+            call v%number(rotor%discs(i)%diametral_inertia, 'diametral_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
+               & 'moment of inertia about a diameter')
+         end do
+         do i = 1, size(rotor%unbalances)
+            call group_of(v, i, all, 'unbalance', 'A machine: an unbalance; one group for each')
+            call list_station(v, rotor%unbalances(i)%station)
+            call v%number(rotor%unbalances(i)%moment, 'moment', 0.0_wp, 1e6_wp, 'kg m', 'mass times eccentricity')
+            call v%number(rotor%unbalances(i)%angle_deg, 'angle_deg', -360.0_wp, 360.0_wp, 'deg', &
+               & 'its angle on the shaft, in the sense of rotation')
+         end do
+         do i = 1, size(rotor%loads)
+            call group_of(v, i, all, 'load', 'A machine: a steady force on its shaft, beside the weight; one group ' &
+               & //'for each')
+            call list_station(v, rotor%loads(i)%station)
+            call v%numbers(rotor%loads(i)%force, 'force', -1e12_wp, 1e12_wp, 'N', 'along y and z')
+         end do
+         do i = 1, size(rotor%elements)
+            call list_element(v, i, all, rotor%elements(i))
+         end do
+      end associate
+   end subroutine list_parts
+
+   subroutine list_element(v, i, all, element)
+      type(variable_table_type), intent(inout) :: v
+      integer, intent(in) :: i
+      logical, intent(in) :: all
+      type(station_element_type), intent(inout) :: element
+      call group_of(v, i, all, 'element', 'A machine: a seal, an impeller, a spring: what acts on a station of its ' &
+         & //'shaft by coefficients; one group for each; *Elements* above')
+      call list_station(v, element%station)
+      call list_station(v, element%to_station, 'to_station', 'the station that is its other end; if this and ' &
+         & //'housing are left out, the ground is')
+      call v%word(element%housing, 'housing', '', 'the bearing with a group support whose housing is its other end')
+      call v%numbers(element%stiffness, 'stiffness', -1e15_wp, 1e15_wp, 'N/m', of_element)
+      call v%numbers(element%damping, 'damping', -1e12_wp, 1e12_wp, 'N s/m', of_element)
+      call v%numbers(element%mass, 'mass', -1e9_wp, 1e9_wp, 'kg', of_element//'; it has no weight')
+      call v%number(element%cross_stiffness, 'cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', 'Q: cross-coupled ' &
+         & //'stiffness beside stiffness; > 0 drives forward whirl, whatever the rotation')
+      call v%flag(element%static, 'static', 'whether it acts at the equilibrium, too; .false.: only in ' &
+         & //'motion about it')
+   end subroutine list_element
+
+   subroutine list_support(v, support, ending)
+      type(variable_table_type), intent(inout) :: v
+      type(support_type), intent(inout) :: support
+      !> What stands behind the name of the group.
+      character(len=*), intent(in) :: ending
+      call v%group('support'//ending, 'A machine: what a bearing stands on; without this group it stands on the ground')
+      call v%number(support%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', &
+         & 'mass that moves with the housing of the bearing, that of the pads with it; must be above 0')
+      call v%numbers(support%stiffness, 'stiffness', 0.0_wp, 1e15_wp, 'N/m', 'along y and z')
+      call v%numbers(support%damping, 'damping', 0.0_wp, 1e12_wp, 'N s/m', 'along y and z')
+   end subroutine list_support
+
+   subroutine list_reduction(v, r)
+      type(variable_table_type), intent(inout) :: v
+      type(reduction_type), intent(inout) :: r
+      call v%group('reduction', 'A machine: which modes of the shaft are kept')
+      call v%number(r%frequency, 'frequency', 1e-3_wp, 1e7_wp, 'Hz', 'modes of the shaft on fixed bearings up to ' &
+         & //'this frequency are kept; if left out, as many as the run needs')
+      call v%number(r%damp_above, 'damp_above', 0.0_wp, 1e7_wp, 'Hz', 'modes above this frequency are damped')
+      call v%number(r%damping_ratio, 'damping_ratio', 0.0_wp, 1.0_wp, '1', 'their damping ratio')
+   end subroutine list_reduction
+
+   !> A station; none is given where it is 0.
+   subroutine list_station(v, station, name, meaning)
+      type(variable_table_type), intent(inout) :: v
+      integer, intent(inout) :: station
+      character(len=*), intent(in), optional :: name, meaning
+      real(wp) :: x
+      x = unset
+      if (station > 0) x = station
+      if (present(name)) then
+         call v%number(x, name, 1.0_wp, real(most_stations, wp), '1', meaning, whole=.true.)
+      else
+         call v%number(x, 'station', 1.0_wp, real(most_stations, wp), '1', 'of a machine: station of its shaft', &
+            & whole=.true.)
+      end if
+      station = 0
+      if (is_set(x)) station = nint(x)
+   end subroutine list_station
+
+   subroutine list_excitations(v, x, machine, all)
+      type(variable_table_type), intent(inout) :: v
+      type(excitation_type), intent(inout) :: x(:)
+      logical, intent(in) :: machine, all
+      integer :: i
+      do i = 1, size(x)
+         call group_of(v, i, all, 'excitation', 'A force over time on the rotor, for the tasks march and periodic; ' &
+            & //'one group for each; *Excitation* above')
+         if (machine) call list_station(v, x(i)%station)
+         call v%word(x(i)%kind, 'kind', 'harmonic chirp step ramp table', &
+            & 'harmonic: a vibration; chirp: one whose frequency changes linearly; step: constant from start to ' &
+            & //'end; ramp: from 0 at start to amplitude at end, which it keeps; table: forces from a file')
+         call v%number(x(i)%amplitude, 'amplitude', 0.0_wp, 1e12_wp, 'N', 'amplitude of the force; not of a table')
+         call v%number(x(i)%direction_deg, 'direction_deg', -360.0_wp, 360.0_wp, 'deg', &
+            & 'direction, from +y towards +z; of a rotating force at phase 0')
+         call v%word(x(i)%rotating, 'rotating', 'no forward backward', &
+            & 'harmonic, chirp: whether the force turns, with the shaft or against it; no: it keeps its direction')
+         call v%number(x(i)%frequency_hz, 'frequency_hz', 1e-6_wp, 1e7_wp, 'Hz', &
+            & 'harmonic: frequency; chirp: frequency at start')
+         call v%number(x(i)%frequency_ratio, 'frequency_ratio', 1e-6_wp, 1e6_wp, '1', &
+            & 'harmonic: frequency over the speed of the shaft, instead of frequency_hz')
+         call v%number(x(i)%final_frequency_hz, 'final_frequency_hz', 1e-6_wp, 1e7_wp, 'Hz', &
+            & 'chirp: frequency at end')
+         call v%number(x(i)%phase_deg, 'phase_deg', -360.0_wp, 360.0_wp, 'deg', &
+            & 'harmonic, chirp: phase at start, where 0 is the whole amplitude')
+         call v%number(x(i)%start, 'start', 0.0_wp, 1e6_wp, 's', 'when it begins; of a table the time 0')
+         call v%number(x(i)%end, 'end', 0.0_wp, 1e6_wp, 's', &
+            & 'when it ends; if left out, not before the run (chirp, ramp: with operation%duration)')
+         call v%word(x(i)%file, 'file', '', 'table: CSV file of the columns time, force_y, force_z, in s and N')
+      end do
+   end subroutine list_excitations
+end module machine_fields
