@@ -1,6 +1,6 @@
 !> Checks of a case: what no single value can tell. A message names the variables, their values and what is allowed.
 module case_checks
-   use kinds, only: wp, degree
+   use kinds, only: wp, degree, rpm
    use text, only: to_text, filled, list_text
    use errors, only: error_type, require, refuse, add_context
    use case_groups, only: bearing_type, clearance_range, in_range, is_set, elastic_type, most_stations, &
@@ -10,13 +10,15 @@ module case_checks
    use excitations, only: excitation_type
    implicit none (type, external)
    private
-   public :: check_case
+   public :: check_case, check_element_tables
 
    !> How far a pad that bends may reach from its pivot, deg.
    real(wp), parameter :: farthest = 90
 
    !> Most values in the blocks of all columns and pads, times four: 400 MB.
    real(wp), parameter :: most_in_blocks = 2e8_wp
+   !> Rounding of a speed.
+   real(wp), parameter :: small = 1e-9_wp
    !> Longest arc of a pad that tilts, deg.
    real(wp), parameter :: longest_arc = 350
    !> Axial length over the radius of the journal that is allowed.
@@ -65,6 +67,7 @@ contains
       call check_branch()
       call check_held()
       call check_excitations()
+      call check_element_tables(inputs, error)
    contains
       !> Solver of the films, and sizes of a bearing.
       subroutine check_bearing(bearing)
@@ -400,6 +403,10 @@ contains
          call require(element%housing == '' .or. any([(supported(b) .and. inputs%bearings(b)%name == element%housing, &
             & b=1, size(supported))]), name//'%housing = '''//element%housing//''': must be the name of a bearing ' &
             & //'with a group &support', error)
+         call require(element%file == '' .or. all(abs([element%stiffness, element%damping, element%mass]) <= 0), name &
+            & //'%file = '''//element%file//''': stiffness, damping or mass is given too; give one of them', error)
+         call require(element%file /= '' .or. element%frequency == 'own', name//'%frequency = '''//element%frequency &
+            & //''': has no effect without a file', error)
          call require(element%static .or. inputs%start%from == 'equilibrium', name//'%static = .false.: needs ' &
             & //'start%from = ''equilibrium'', about which it acts', error)
          call require(element%static .or. inputs%about%task /= 'branch' .or. inputs%branch%of == 'equilibrium', name &
@@ -498,6 +505,63 @@ contains
             & //'there is no end', [x%start], error)
       end subroutine check_times
    end subroutine check_case
+
+   !> The tables of elements, where they were read, cover all speeds of the run, and a motion has coefficients that do
+   !> not depend on its frequency.
+   subroutine check_element_tables(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), allocatable :: speeds(:)
+      integer :: i
+      if (inputs%rotor%is_rigid()) return
+      associate (o => inputs%operation, task => inputs%about%task, up_to => inputs%coefficients%threshold_up_to_rpm)
+         speeds = [o%speed_rpm, o%final_speed_rpm]
+         if (task == 'coefficients' .and. up_to > 0) speeds = [speeds, up_to]
+         if (task == 'branch' .and. inputs%branch%parameter == 'operation%speed_rpm') then
+            if (is_set(inputs%branch%last)) speeds = [speeds, inputs%branch%last]
+         end if
+         do i = 1, size(inputs%rotor%elastic%elements)
+            associate (e => inputs%rotor%elastic%elements(i))
+               if (.not. allocated(e%table) .or. allocated(error)) cycle
+               call check_range('speed_rpm', e%speeds/rpm)
+               if (size(e%whirls) == 0) then
+                  call require(e%frequency == 'own', name_of(i)//'%frequency = '''//e%frequency//''': has no effect, ' &
+                     & //'as '//e%file//' has no column frequency_hz', error)
+               else if (e%frequency == 'synchronous') then
+                  call check_range('frequency_hz', e%whirls/rpm)
+               else
+                  call require((task == 'coefficients' .and. up_to <= 0) .or. task == 'equilibrium', name_of(i) &
+                     & //'%frequency = ''own'': '//e%file//' has coefficients over the frequency, which only ' &
+                     & //'modes take at their own; frequency = ''synchronous'' serves motions, branches and ' &
+                     & //'thresholds', error)
+               end if
+               associate (masses => e%table(9:, :, :))
+                  call require(inputs%is_steady() .or. .not. any(abs(masses - spread(spread(masses(:, 1, 1), 2, &
+                     & size(masses, 2)), 3, size(masses, 3))) > 0), name_of(i)//'%file = '''//e%file//''': m_yy to ' &
+                     & //'m_zz must be constant where the speed changes', error)
+               end associate
+            end associate
+         end do
+      end associate
+   contains
+      subroutine check_range(column, covered)
+         character(len=*), intent(in) :: column
+         real(wp), intent(in) :: covered(:)
+         integer :: k
+         do k = 1, size(speeds)
+            ! rpm to rad/s and back, rounding
+            call require(in_range(speeds(k), [covered(1)*(1 - small), covered(size(covered))*(1 + small)]), &
+               & name_of(i)//'%file = '''//inputs%rotor%elastic%elements(i)%file//''': its '//column//' goes from {} ' &
+               & //'to {} rpm, and the run has {} rpm', [covered(1), covered(size(covered)), speeds(k)], error)
+         end do
+      end subroutine check_range
+
+      pure function name_of(i) result(name)
+         integer, intent(in) :: i
+         character(len=:), allocatable :: name
+         name = 'element('//to_text(i)//')'
+      end function name_of
+   end subroutine check_element_tables
 
    !> What each kind needs, and what it has no use for.
    subroutine check_values(x, name, error)

@@ -314,6 +314,12 @@ module case_groups
       real(wp) :: cross_stiffness = 0
       !> Whether it acts at the equilibrium, too, or in motion about it alone.
       logical :: static = .true.
+      !> Instead of the coefficients: CSV file of them; at which frequency they are taken, 'own' of a mode or
+      !> 'synchronous'.
+      character(len=:), allocatable :: file, frequency
+      !> What was read: rising speeds and whirl frequencies, rad/s (none: they do not depend on it), and the 12
+      !> coefficients of stiffness, damping and mass, (coefficient, frequency, speed).
+      real(wp), allocatable :: speeds(:), whirls(:), table(:, :, :)
    end type station_element_type
 
    !> Up to which frequency, Hz, the shaft's modes on fixed bearings are kept (unset: by themselves); modes above a
@@ -518,6 +524,8 @@ contains
       allocate (self%discs(discs), self%unbalances(unbalances), self%loads(loads), self%elements(n))
       do i = 1, n
          self%elements(i)%housing = ''
+         self%elements(i)%file = ''
+         self%elements(i)%frequency = 'own'
       end do
       self%rotor_file = ''
       self%shaft%length = [unset]

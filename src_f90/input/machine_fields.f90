@@ -87,6 +87,10 @@ contains
       call v%numbers(element%mass, 'mass', -1e9_wp, 1e9_wp, 'kg', of_element//'; it has no weight')
       call v%number(element%cross_stiffness, 'cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', 'Q: cross-coupled ' &
          & //'stiffness beside stiffness; > 0 drives forward whirl, whatever the rotation')
+      call v%word(element%file, 'file', '', 'instead of stiffness, damping and mass: the CSV file whose columns ' &
+         & //'are speed_rpm, frequency_hz (may be left out), k_yy to k_zz, c_yy to c_zz, m_yy to m_zz (also)')
+      call v%word(element%frequency, 'frequency', 'own synchronous', 'of a file with frequency_hz: own: modes take ' &
+         & //'the coefficients at their own frequency; synchronous: all take them at that of the speed')
       call v%flag(element%static, 'static', 'whether it acts at the equilibrium, too; .false.: only in ' &
          & //'motion about it')
    end subroutine list_element

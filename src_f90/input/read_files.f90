@@ -6,12 +6,13 @@
 !> more memory than their file.
 module read_files
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp, i8
+   use kinds, only: wp, i8, pi, rpm
    use text, only: to_text, lower_case, shortened, filled, checksum, newline
    use errors, only: error_type, raise, require, refuse, add_context, system_error
    use files, only: is_regular
    use case_groups, only: pivot_type, in_range
    use case_inputs, only: case_type
+   use case_checks, only: check_element_tables
    use other_units, only: in_other_units
    use assignments, only: read_number
    implicit none (type, external)
@@ -55,15 +56,25 @@ module read_files
 
    !> A column, and what is allowed of its numbers, in this unit.
    type :: column_type
-      character(len=10) :: name
+      character(len=12) :: name
       real(wp) :: low, high
-      character(len=1) :: unit
+      character(len=5) :: unit
+      !> Whether a file may have it or not.
+      logical :: optional = .false.
    end type column_type
 
    type(column_type), parameter :: of_pivots(2) = [column_type('deflection', 0.0_wp, 0.1_wp, 'm'), &
       & column_type('force', 0.0_wp, 1e12_wp, 'N')]
    type(column_type), parameter :: of_excitations(3) = [column_type('time', 0.0_wp, 1e6_wp, 's'), &
       & column_type('force_y', -1e12_wp, 1e12_wp, 'N'), column_type('force_z', -1e12_wp, 1e12_wp, 'N')]
+
+   character(len=2), parameter :: cross(4) = ['yy', 'yz', 'zy', 'zz']
+   integer :: i
+   type(column_type), parameter :: of_elements(14) = [column_type('speed_rpm', 0.0_wp, 1e6_wp, 'rpm'), &
+      & column_type('frequency_hz', 0.0_wp, 1e7_wp, 'Hz', .true.), &
+      & (column_type('k_'//cross(i), -1e15_wp, 1e15_wp, 'N/m'), i=1, 4), &
+      & (column_type('c_'//cross(i), -1e12_wp, 1e12_wp, 'N s/m'), i=1, 4), &
+      & (column_type('m_'//cross(i), -1e9_wp, 1e9_wp, 'kg', .true.), i=1, 4)]
 
 contains
 
@@ -255,6 +266,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: b
       call read_excitations()
+      if (.not. allocated(error)) call read_elements()
       do b = 1, size(inputs%bearings)
          if (allocated(error)) return
          associate (own => inputs%bearings(b))
@@ -307,6 +319,59 @@ contains
             & //'above 0', error)
       end subroutine read_pivot
 
+      !> Reads the coefficients of elements over the speed, and over the frequency: every speed has the same ones.
+      subroutine read_elements()
+         real(wp), allocatable :: numbers(:, :)
+         logical :: given(size(of_elements))
+         integer :: i, n
+         if (inputs%rotor%is_rigid()) return
+         do i = 1, size(inputs%rotor%elastic%elements)
+            associate (e => inputs%rotor%elastic%elements(i))
+               if (e%file == '' .or. allocated(e%table)) cycle
+               call read_columns(e%file, of_elements, numbers, error, given)
+               if (.not. allocated(error) .and. any(given(11:) .neqv. given(11))) call refuse(e%file//' line 1: must ' &
+                  & //'have all of m_yy, m_yz, m_zy, m_zz or none', error)
+               if (.not. allocated(error)) then
+                  n = 1
+                  if (given(2)) n = count(numbers(1, :) <= numbers(1, 1))
+                  call check_grid(e%file, numbers(:2, :), n)
+               end if
+               call add_context(error, 'element('//to_text(i)//')%file')
+               if (allocated(error)) return
+               e%speeds = numbers(1, ::n)*rpm
+               allocate (e%whirls(0))
+               if (given(2)) e%whirls = numbers(2, :n)*2*pi
+               e%table = reshape(numbers(3:, :), [12, n, size(e%speeds)])
+            end associate
+         end do
+         call check_element_tables(inputs, error)
+      end subroutine read_elements
+
+      !> Speeds and frequencies, (2, row), rise, and the n frequencies of the first speed are those of every other.
+      subroutine check_grid(file, rows, n)
+         character(len=*), intent(in) :: file
+         real(wp), intent(in) :: rows(:, :)
+         integer, intent(in) :: n
+         character(len=:), allocatable :: place
+         logical :: fits
+         integer :: k
+         do k = 2, size(rows, 2)
+            if (mod(k - 1, n) > 0) then
+               fits = abs(rows(1, k) - rows(1, k - 1)) <= 0 .and. rows(2, k) > rows(2, k - 1)
+            else
+               fits = rows(1, k) > rows(1, k - 1)
+            end if
+            if (k > n) fits = fits .and. abs(rows(2, k) - rows(2, k - n)) <= 0
+            if (k == size(rows, 2)) fits = fits .and. mod(k, n) == 0
+            if (fits) cycle
+            place = file//filled(' line {i}: speed_rpm = {}', [real(wp) :: k + 1, rows(1, k)])
+            if (n > 1) place = place//filled(', frequency_hz = {}', [rows(2, k)])
+            call refuse(place//': speeds must rise from row to row, and each must have the frequencies of the first, ' &
+               & //'rising', error)
+            return
+         end do
+      end subroutine check_grid
+
       !> Reads the tables of a case's excitations.
       subroutine read_excitations()
          real(wp), allocatable :: numbers(:, :)
@@ -329,17 +394,22 @@ contains
       end subroutine read_excitations
    end subroutine read_tables
 
-   !> Numbers of a file, (column, row), two rows at least. Its columns must be these in this order.
-   subroutine read_columns(file, columns, numbers, error)
+   !> Numbers of a file, (column, row), two rows at least. Its columns must be these in this order, but for those that
+   !> may be left out, whose numbers are 0.
+   subroutine read_columns(file, columns, numbers, error, given)
       character(len=*), intent(in) :: file
       type(column_type), intent(in) :: columns(:)
       real(wp), allocatable, intent(out) :: numbers(:, :)
       type(error_type), allocatable, intent(out) :: error
+      !> Which columns there are.
+      logical, intent(out), optional :: given(:)
       type(csv_table_type) :: table
+      logical :: there(size(columns))
       integer :: k
       call read_csv(file, longest_file, table, error)
       if (allocated(error)) return
-      allocate (numbers(size(columns), max(0, table%rows)))
+      allocate (numbers(size(columns), max(0, table%rows)), source=0.0_wp)
+      there = .true.
       if (table%rows >= 0) call check_names(table%row(0))
       do k = 1, table%rows
          if (allocated(error)) return
@@ -354,12 +424,17 @@ contains
          type(cell_type) :: cell
          integer :: at, i
          logical :: fit
+         integer :: before
          at = 1
          fit = .true.
          do i = 1, size(columns)
+            before = at
             call next_cell(line, at, cell)
-            fit = fit .and. lower_case(content(line, cell)) == trim(columns(i)%name)
+            there(i) = lower_case(content(line, cell)) == trim(columns(i)%name)
+            fit = fit .and. (there(i) .or. columns(i)%optional)
+            if (.not. there(i)) at = before
          end do
+         if (present(given)) given = there
          call require(fit .and. at > len(line) + 1, file//' line 1: '//shortened(line)//': must name the columns, ' &
             & //listed(columns%name), error)
       end subroutine check_names
@@ -374,6 +449,7 @@ contains
          logical :: ok
          at = 1
          do i = 1, size(columns)
+            if (.not. there(i)) cycle
             call next_cell(line, at, cell)
             text = content(line, cell)
             associate (c => columns(i), x => numbers(i))
@@ -384,12 +460,12 @@ contains
                      & //'separate the columns, and decimals have a point', error)
                else if (.not. in_range(x, [c%low, c%high])) then
                   call refuse(origin//': '//trim(c%name)//filled(' = {}: must be {} to {} ', [x, c%low, c%high]) &
-                     & //c%unit//in_other_units(x, trim(c%name), c%unit, c%low, c%high), error)
+                     & //trim(c%unit)//in_other_units(x, trim(c%name), trim(c%unit), c%low, c%high), error)
                end if
             end associate
          end do
-         call require(at > len(line) + 1, origin//': has more than '//to_text(size(columns))//' numbers; the columns ' &
-            & //'are '//listed(columns%name), error)
+         call require(at > len(line) + 1, origin//': has more than '//to_text(count(there))//' numbers; the columns ' &
+            & //'are '//listed(pack(columns%name, there)), error)
       end subroutine read_row
    end subroutine read_columns
 
@@ -420,6 +496,12 @@ contains
          end associate
       end do
       if (.not. inputs%rotor%is_rigid()) then
+         do i = 1, size(inputs%rotor%elastic%elements)
+            associate (e => inputs%rotor%elastic%elements(i))
+               if (allocated(e%table)) lines = lines//'element('//to_text(i)//')%file '//mark([e%speeds, e%whirls, &
+                  & e%table])//newline
+            end associate
+         end do
          if (allocated(inputs%rotor%elastic%given)) then
             associate (g => inputs%rotor%elastic%given)
                lines = lines//'rotor%file '//mark([g%slope, g%station, g%stiffness, g%gyroscopic, g%damping, g%mass, &

@@ -4,6 +4,7 @@
 module linear_bearing
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
+   use text, only: to_text
    use linear_algebra, only: solve_complex
    use errors, only: error_type, raise, numerics_error
    use state_layout, only: tilt, of_journal
@@ -62,6 +63,10 @@ module linear_bearing
       real(wp) :: sought_up_to = 0
    end type bearing_coefficients_type
 
+   !> Parts in which the elements' own frequencies come in; most rounds of Newton's method for each, and the last change
+   !> of an eigenvalue, over itself.
+   integer, parameter :: parts = 4, most_rounds = 60
+   real(wp), parameter :: closeness = 1e-11_wp
    !> Least whirl frequency over the speed of the shaft: slower whirl is taken there, as the coefficients have a limit.
    real(wp), parameter :: slowest = 1e-6_wp
 
@@ -108,7 +113,8 @@ contains
                   end do
                end do each_bearing
                if (ok) call find_modes(found%with_rotor(i), cross_stiffness_of(model), position_lengths(model), &
-                  & found%modes(i), ok)
+                  & found%modes(i), ok, model, error)
+               if (allocated(error)) return
                if (.not. ok) then
                   call raise(error, numerics_error, 'the linear equations of the pads with '//found%bearings(i)%pivot &
                      & //' pivots are singular')
@@ -242,13 +248,17 @@ contains
 
    !> The modes of rotor and pads with a cross-coupled stiffness, N/m. `ok` is false where the eigenvalues are not
    !> found.
-   subroutine find_modes(bearing, cross_stiffness, lengths, modes, ok)
+   subroutine find_modes(bearing, cross_stiffness, lengths, modes, ok, model, error)
       type(linear_bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: cross_stiffness
       !> What stands for 1 rad of a position's, m; 1 where it is a displacement.
       real(wp), intent(in) :: lengths(:)
       type(vibration_modes_type), intent(out) :: modes
       logical, intent(out) :: ok
+      !> Where it is given, elements that depend on the frequency of a whirl have that of each mode, else that of the
+      !> speed; an error where there is none.
+      type(machine_model), intent(in), optional :: model
+      type(error_type), allocatable, intent(inout), optional :: error
       complex(wp), allocatable :: values(:), shapes(:, :)
       real(wp), allocatable :: ratio(:)
       integer, allocatable :: kept(:)
@@ -257,6 +267,7 @@ contains
       kept = pack([(i, i=1, size(bearing%moves))], bearing%moves)
       call rotor_eigenvalues(bearing, cross_stiffness, values, ok, shapes)
       if (.not. ok) return
+      if (present(model)) call take_own_frequencies(model, bearing, kept, values, shapes, error)
       ratio = damping_ratio(values)
       waiting = values%im >= 0
       n = count(waiting)
@@ -294,6 +305,75 @@ contains
       stiffness(2, 1) = stiffness(2, 1) - cross_stiffness
       call find_vibrations(bearing%mass(kept, kept), -stiffness, -bearing%damping(kept, kept), values, ok, shapes)
    end subroutine rotor_eigenvalues
+
+   !> Brings the eigenvalues, 1/s, and shapes of the positions that are kept from elements with the frequency of the
+   !> speed to elements with that of each vibration, its imaginary part: the difference acts in parts that grow to all
+   !> of it, so that no mode is taken for another.
+   subroutine take_own_frequencies(model, bearing, kept, values, shapes, error)
+      type(machine_model), intent(in) :: model
+      type(linear_bearing_type), intent(in) :: bearing
+      integer, intent(in) :: kept(:)
+      complex(wp), intent(inout) :: values(:), shapes(:, :)
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: i, k
+      select type (rotor => model%rotor)
+      type is (elastic_rotor_type)
+         if (.not. rotor%has_own_frequencies()) return
+         do i = 1, size(values)
+            if (values(i)%im < 0) cycle
+            do k = 1, parts
+               call follow_mode(rotor, model%point%speed(0.0_wp), bearing, kept, real(k, wp)/parts, values(i), &
+                  & shapes(:, i), error)
+               if (allocated(error)) return
+            end do
+         end do
+      end select
+   end subroutine take_own_frequencies
+
+   !> Newton's method on an eigenvalue, 1/s, and its shape, with this part of what its own frequency changes: a fixed
+   !> point in the frequency.
+   subroutine follow_mode(rotor, speed, bearing, kept, part, value, shape, error)
+      type(elastic_rotor_type), intent(in) :: rotor
+      real(wp), intent(in) :: speed, part
+      type(linear_bearing_type), intent(in) :: bearing
+      integer, intent(in) :: kept(:)
+      complex(wp), intent(inout) :: value, shape(:)
+      type(error_type), allocatable, intent(inout) :: error
+      real(wp), dimension(rotor%positions, rotor%positions) :: stiffness, damping, mass
+      real(wp), dimension(size(kept), size(kept)) :: k, c, m
+      complex(wp) :: matrix(size(kept) + 1, size(kept) + 1), step(size(kept) + 1, 1)
+      integer :: round
+      logical :: ok
+      associate (n => size(kept), r => rotor%positions)
+         do round = 1, most_rounds
+            call rotor%whirl_changes(speed, value%im, stiffness, damping, mass)
+            k = bearing%stiffness(kept, kept)
+            c = bearing%damping(kept, kept)
+            m = bearing%mass(kept, kept)
+            ! the first positions are the rotor's, and all of these move
+            k(:r, :r) = k(:r, :r) + part*stiffness
+            c(:r, :r) = c(:r, :r) + part*damping
+            m(:r, :r) = m(:r, :r) + part*mass
+            shape = shape/norm2([norm2(shape%re), norm2(shape%im)])
+            matrix(:n, :n) = k + value*c + value**2*m
+            matrix(:n, n + 1) = matmul(c + 2*value*m, shape)
+            matrix(n + 1, :n) = conjg(shape)
+            matrix(n + 1, n + 1) = 0
+            step(:n, 1) = -matmul(matrix(:n, :n), shape)
+            step(n + 1, 1) = 0
+            call solve_complex(n + 1, 1, matrix, step, ok)
+            if (.not. ok) exit
+            shape = shape + step(:n, 1)
+            if (value%im <= 0) step(n + 1, 1)%im = 0
+            value = value + step(n + 1, 1)
+            value%im = max(0.0_wp, value%im)
+            if (abs(step(n + 1, 1)) <= closeness*abs(value)) return
+         end do
+      end associate
+      call raise(error, numerics_error, 'a mode at '//to_text(value%im/(2*pi))//' Hz does not settle with the ' &
+         & //'coefficients of its elements at its own frequency; element%frequency = ''synchronous'' takes those of ' &
+         & //'the speed')
+   end subroutine follow_mode
 
    !> 1 where nothing moves.
    elemental real(wp) function damping_ratio(value)

@@ -2,6 +2,7 @@
 !> coefficients over the speed.
 module acting_element
    use kinds, only: wp
+   use rising_numbers, only: number_up_to
    use case_groups, only: station_element_type
    use case_inputs, only: case_type
    implicit none (type, external)
@@ -17,11 +18,17 @@ module acting_element
       !> u is matmul(ends, x) + offset with the displacements x of the rotor, m; where its force vanishes.
       real(wp), allocatable :: ends(:, :)
       real(wp) :: offset(2) = 0, origin(2) = 0
-      real(wp), private, dimension(2, 2) :: constant_stiffness = 0, constant_damping = 0, constant_mass = 0
+      !> Coefficients of stiffness, damping and mass, in this order, yy, yz, zy, zz of each, (coefficient, whirl
+      !> frequency, speed), over rising frequencies and speeds, rad/s, if there are any.
+      real(wp), allocatable, private :: table(:, :, :), speeds(:), whirls(:)
+      !> Cross-coupled stiffness, N/m, forward where the shaft turns clockwise.
+      real(wp), private :: cross_stiffness = 0
+      !> Whether it depends on the frequency of a whirl.
+      logical :: own_frequency = .false.
    contains
-      procedure :: stiffness
-      procedure :: damping
-      procedure :: mass
+      procedure :: is_constant
+      procedure :: coefficients
+      procedure :: at_rest
       procedure :: force
       procedure :: onto_rotor
    end type acting_element_type
@@ -58,50 +65,89 @@ contains
       real(wp), intent(in) :: sense
       type(acting_element_type) :: element
       element%static = from%static
-      element%constant_stiffness = matrix(from%stiffness) &
-         & + sense*from%cross_stiffness*reshape([0.0_wp, -1.0_wp, 1.0_wp, 0.0_wp], [2, 2])
-      element%constant_damping = matrix(from%damping)
-      element%constant_mass = matrix(from%mass)
+      element%cross_stiffness = sense*from%cross_stiffness
+      if (allocated(from%table)) then
+         element%speeds = from%speeds
+         element%whirls = from%whirls
+         element%table = from%table
+         element%own_frequency = size(from%whirls) > 0 .and. from%frequency == 'own'
+      else
+         allocate (element%speeds(0), element%whirls(0))
+         element%table = reshape([from%stiffness, from%damping, from%mass], [12, 1, 1])
+      end if
    end function new_acting_element
 
-   !> Of coefficients yy, yz, zy, zz.
-   pure function matrix(coefficients)
-      real(wp), intent(in) :: coefficients(4)
-      real(wp) :: matrix(2, 2)
-      matrix = transpose(reshape(coefficients, [2, 2]))
-   end function matrix
+   !> Whether neither speed nor frequency matters.
+   pure logical function is_constant(self)
+      class(acting_element_type), intent(in) :: self
+      is_constant = size(self%speeds) == 0
+   end function is_constant
 
-   !> N/m at a speed, rad/s.
-   pure function stiffness(self, speed)
+   !> Stiffness, N/m, damping, N s/m, and mass, kg, at a speed, rad/s: linear between the speeds of its table, and
+   !> between its frequencies, beyond which they stay what they are.
+   pure function coefficients(self, speed, whirl)
       class(acting_element_type), intent(in) :: self
       real(wp), intent(in) :: speed
-      real(wp) :: stiffness(2, 2)
-      stiffness = self%constant_stiffness
-   end function stiffness
+      !> Frequency of the whirl, rad/s; left out: the speed.
+      real(wp), intent(in), optional :: whirl
+      real(wp) :: coefficients(2, 2, 3), values(12), part, frequency
+      integer :: i, k, k2
+      part = 0
+      i = 1
+      if (size(self%speeds) > 1) then
+         i = max(1, min(number_up_to(self%speeds, speed), size(self%speeds) - 1))
+         part = (speed - self%speeds(i))/(self%speeds(i + 1) - self%speeds(i))
+      end if
+      if (size(self%whirls) < 2) then
+         values = at_frequency(1, 1, 0.0_wp)
+      else
+         frequency = speed
+         if (present(whirl)) frequency = whirl
+         k = max(1, min(number_up_to(self%whirls, frequency), size(self%whirls) - 1))
+         k2 = k + 1
+         values = at_frequency(k, k2, max(0.0_wp, min(1.0_wp, (frequency - self%whirls(k)) &
+            & /(self%whirls(k2) - self%whirls(k)))))
+      end if
+      do k = 1, 3
+         coefficients(:, :, k) = transpose(reshape(values(4*k - 3:4*k), [2, 2]))
+      end do
+      coefficients(1, 2, 1) = coefficients(1, 2, 1) + self%cross_stiffness
+      coefficients(2, 1, 1) = coefficients(2, 1, 1) - self%cross_stiffness
+   contains
+      !> Between two frequencies, at the speed.
+      pure function at_frequency(low, high, way) result(values)
+         integer, intent(in) :: low, high
+         real(wp), intent(in) :: way
+         real(wp) :: values(12)
+         associate (next => min(i + 1, size(self%table, 3)))
+            values = (1 - part)*((1 - way)*self%table(:, low, i) + way*self%table(:, high, i)) &
+               & + part*((1 - way)*self%table(:, low, next) + way*self%table(:, high, next))
+         end associate
+      end function at_frequency
+   end function coefficients
 
-   !> N s/m at a speed, rad/s.
-   pure function damping(self, speed)
+   !> The same at the equilibrium, where what depends on the frequency has that of a whirl without any.
+   pure function at_rest(self, speed) result(coefficients)
       class(acting_element_type), intent(in) :: self
       real(wp), intent(in) :: speed
-      real(wp) :: damping(2, 2)
-      damping = self%constant_damping
-   end function damping
-
-   !> kg at a speed, rad/s.
-   pure function mass(self, speed)
-      class(acting_element_type), intent(in) :: self
-      real(wp), intent(in) :: speed
-      real(wp) :: mass(2, 2)
-      mass = self%constant_mass
-   end function mass
+      real(wp) :: coefficients(2, 2, 3)
+      coefficients = self%coefficients(speed, merge(0.0_wp, speed, self%own_frequency))
+   end function at_rest
 
    !> Force on its station, N, but for that of its mass, where the rotor has these displacements and rates.
-   pure function force(self, x, v, speed)
+   pure function force(self, x, v, speed, moves)
       class(acting_element_type), intent(in) :: self
       real(wp), intent(in) :: x(:), v(:), speed
-      real(wp) :: force(2)
-      force = -matmul(self%stiffness(speed), matmul(self%ends, x) + self%offset - self%origin) &
-         & - matmul(self%damping(speed), matmul(self%ends, v))
+      !> False: at the equilibrium.
+      logical, intent(in) :: moves
+      real(wp) :: force(2), c(2, 2, 3)
+      if (moves) then
+         c = self%coefficients(speed)
+      else
+         c = self%at_rest(speed)
+      end if
+      force = -matmul(c(:, :, 1), matmul(self%ends, x) + self%offset - self%origin) - matmul(c(:, :, 2), &
+         & matmul(self%ends, v))
    end function force
 
    !> Coefficients between its ends as those of the displacements of the rotor.

@@ -33,6 +33,8 @@ module elastic_rotor
       procedure :: newton_matrix
       procedure :: newton_right
       procedure :: row_accelerations
+      procedure :: has_own_frequencies
+      procedure :: whirl_changes
    end type elastic_rotor_type
 
 contains
@@ -155,7 +157,7 @@ contains
       associate (elements => self%matrices%elements, n => self%positions)
          do i = 1, size(elements)
             if (elements(i)%in_matrices .or. .not. (elements(i)%static .or. point%moves)) cycle
-            force = force + matmul(elements(i)%force(states(:n), states(n + 1:), speed), elements(i)%ends)
+            force = force + matmul(elements(i)%force(states(:n), states(n + 1:), speed, point%moves), elements(i)%ends)
          end do
       end associate
    end subroutine add_elements
@@ -196,7 +198,8 @@ contains
       do i = 1, self%elements
          associate (e => self%matrices%elements(i), n => self%positions)
             forces(:, i) = 0
-            if (e%static .or. point%moves) forces(:, i) = e%force(states(:n), states(n + 1:2*n), point%speed(t))
+            if (e%static .or. point%moves) forces(:, i) = e%force(states(:n), states(n + 1:2*n), point%speed(t), &
+               & point%moves)
          end associate
       end do
    end function element_forces
@@ -220,6 +223,7 @@ contains
       real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
       logical, intent(in), optional :: at_rest
       logical :: moves
+      real(wp) :: c(2, 2, 3)
       integer :: i
       over_positions = -self%matrices%stiffness
       over_rates = -(self%matrices%damping + speed*self%matrices%gyroscopic)
@@ -229,11 +233,44 @@ contains
       do i = 1, size(self%matrices%elements)
          associate (e => self%matrices%elements(i))
             if (e%in_matrices .or. .not. (e%static .or. moves)) cycle
-            over_positions = over_positions - e%onto_rotor(e%stiffness(speed))
-            over_rates = over_rates - e%onto_rotor(e%damping(speed))
+            if (moves) then
+               c = e%coefficients(speed)
+            else
+               c = e%at_rest(speed)
+            end if
+            over_positions = over_positions - e%onto_rotor(c(:, :, 1))
+            over_rates = over_rates - e%onto_rotor(c(:, :, 2))
          end associate
       end do
    end subroutine force_derivatives
+
+   !> Whether an element depends on the frequency of a whirl.
+   pure logical function has_own_frequencies(self)
+      class(elastic_rotor_type), intent(in) :: self
+      has_own_frequencies = .false.
+      if (allocated(self%matrices%elements)) has_own_frequencies = any(self%matrices%elements%own_frequency)
+   end function has_own_frequencies
+
+   !> What a whirl at another frequency than that of the speed, both in rad/s, changes of its matrices.
+   pure subroutine whirl_changes(self, speed, whirl, stiffness, damping, mass)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: speed, whirl
+      real(wp), intent(out), dimension(:, :) :: stiffness, damping, mass
+      real(wp) :: c(2, 2, 3)
+      integer :: i
+      stiffness = 0
+      damping = 0
+      mass = 0
+      do i = 1, size(self%matrices%elements)
+         associate (e => self%matrices%elements(i))
+            if (.not. e%own_frequency) cycle
+            c = e%coefficients(speed, whirl) - e%coefficients(speed)
+            stiffness = stiffness + e%onto_rotor(c(:, :, 1))
+            damping = damping + e%onto_rotor(c(:, :, 2))
+            mass = mass + e%onto_rotor(c(:, :, 3))
+         end associate
+      end do
+   end subroutine whirl_changes
 
    !> P = 1: forces.
    pure function newton_rows(self, forces) result(rows)
@@ -247,6 +284,7 @@ contains
       class(elastic_rotor_type), intent(in) :: self
       real(wp), intent(in) :: gamma, speed
       real(wp) :: matrix(self%positions, self%positions)
+      real(wp) :: c(2, 2, 3)
       integer :: i
       associate (m => self%matrices)
          matrix = m%mass + gamma*(m%damping + speed*m%gyroscopic) + gamma**2*m%stiffness
@@ -254,7 +292,8 @@ contains
          do i = 1, size(m%elements)
             associate (e => m%elements(i))
                if (e%in_matrices) cycle
-               matrix = matrix + e%onto_rotor(gamma*e%damping(speed) + gamma**2*e%stiffness(speed))
+               c = e%coefficients(speed)
+               matrix = matrix + e%onto_rotor(gamma*c(:, :, 2) + gamma**2*c(:, :, 1))
             end associate
          end do
       end associate
@@ -264,13 +303,15 @@ contains
       class(elastic_rotor_type), intent(in) :: self
       real(wp), intent(in) :: gamma, speed, x(:)
       real(wp), intent(inout) :: u(:)
+      real(wp) :: c(2, 2, 3)
       integer :: i
       u = matmul(self%matrices%mass, u) - gamma*matmul(self%matrices%stiffness, x)
       if (.not. allocated(self%matrices%elements)) return
       do i = 1, size(self%matrices%elements)
          associate (e => self%matrices%elements(i))
             if (e%in_matrices) cycle
-            u = u - gamma*matmul(matmul(e%stiffness(speed), matmul(e%ends, x)), e%ends)
+            c = e%coefficients(speed)
+            u = u - gamma*matmul(matmul(c(:, :, 1), matmul(e%ends, x)), e%ends)
          end associate
       end do
    end subroutine newton_right

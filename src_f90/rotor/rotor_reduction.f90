@@ -326,6 +326,7 @@ contains
    pure subroutine add_elements(inputs, r)
       type(case_type), intent(in) :: inputs
       type(rotor_matrices_type), intent(inout) :: r
+      real(wp) :: c(2, 2, 3)
       integer :: i, b, at
       associate (from => elements_of(inputs))
          if (size(from) == 0) return
@@ -351,12 +352,13 @@ contains
                   at = at + 2
                end do
                associate (speed => inputs%operation%speed_rpm*rpm)
-                  r%mass = r%mass + e%onto_rotor(e%mass(speed))
-                  e%in_matrices = e%static
+                  c = e%coefficients(speed)
+                  r%mass = r%mass + e%onto_rotor(c(:, :, 3))
+                  e%in_matrices = e%static .and. e%is_constant()
                   if (.not. e%in_matrices) cycle
-                  r%damping = r%damping + e%onto_rotor(e%damping(speed))
-                  r%stiffness = r%stiffness + e%onto_rotor(e%stiffness(speed))
-                  r%load = r%load - matmul(matmul(e%stiffness(speed), e%offset), e%ends)
+                  r%damping = r%damping + e%onto_rotor(c(:, :, 2))
+                  r%stiffness = r%stiffness + e%onto_rotor(c(:, :, 1))
+                  r%load = r%load - matmul(matmul(c(:, :, 1), e%offset), e%ends)
                end associate
             end associate
          end do

@@ -72,6 +72,91 @@ LEVEL_I = {
     3787588.3490775484: -33.63781106259043 + 562.9571428716819j,
 }
 
+#: A balance piston by whirl frequency, rad/s: direct and cross-coupled stiffness (+yz, -zy), damping.
+BY_FREQUENCY = (
+    (125.66370614359172, 1500000.0, 8500000.0, 34000.0),
+    (314.1592653589793, 3200000.0, 8400000.0, 33000.0),
+    (502.6548245743669, 6000000.0, 8200000.0, 31000.0),
+    (691.1503837897545, 9500000.0, 7800000.0, 28500.0),
+    (942.4777960769379, 15000000.0, 7100000.0, 25000.0),
+    (1256.6370614359173, 24000000.0, 6000000.0, 20500.0),
+    (1633.6281798666923, 34000000.0, 4700000.0, 16000.0),
+    (2010.6192982974676, 43000000.0, 3600000.0, 12500.0),
+)
+#: Level II: the first forward mode with five labyrinths, and with the piston, too, at the frequency of the
+#: speed and at its own.
+LABYRINTHS = "".join(
+    f"&element station={at}, static=.false., stiffness=0.2e6, 0.45e6, -0.45e6, 0.2e6, damping=600, 2*0, 600/"
+    for at in (5, 6, 7, 8, 9)
+)
+LEVEL_II = {
+    "": -46.47915012100492 + 564.9894728765697j,
+    ", frequency='synchronous'": -69.9845245052924 + 616.7662215689816j,
+    ", frequency='own'": -74.346254196342 + 577.9789572129857j,
+}
+#: A seal by speed, rpm: direct and cross-coupled stiffness, damping.
+BY_SPEED = (
+    (2000, 1.0e6, 0.8e6, 6000, 100),
+    (4000, 2.5e6, 1.8e6, 7000, 200),
+    (6000, 5.0e6, 3.2e6, 8500, 400),
+    (8000, 8.0e6, 5.0e6, 10000, 600),
+    (10000, 12.0e6, 7.0e6, 11000, 800),
+    (12000, 16.0e6, 9.0e6, 12000, 1000),
+)
+#: Where stations are in the run-up with it, at the start and after each tenth of it, m, and the largest
+#: amplitude from peak to peak.
+RUN_UP = {
+    7: [
+        -4.963848900157425e-05,
+        -4.6301701019789156e-05,
+        -4.421358019050857e-05,
+        -4.052394717875113e-05,
+        -4.082590327902297e-05,
+        -4.077826329677637e-05,
+        -4.027146410599586e-05,
+        -3.441996751101726e-05,
+        -3.281349520444682e-05,
+        -3.33776221690035e-05,
+        -3.653989950537173e-05,
+    ],
+    10: [
+        -4.627860435550685e-05,
+        -4.3058188753645994e-05,
+        -4.092414333331573e-05,
+        -3.744550003784318e-05,
+        -3.746803402056523e-05,
+        -3.710551977216485e-05,
+        -3.6509057454307586e-05,
+        -3.144464081024358e-05,
+        -2.9925177984793105e-05,
+        -3.0210014057555816e-05,
+        -3.243874933831495e-05,
+    ],
+}
+LARGEST = 9.007167702191594e-06
+COLUMNS = "k_yy,k_yz,k_zy,k_zz,c_yy,c_yz,c_zy,c_zz"
+
+#: What is set, and what the line says.
+TABLE_REFUSED = {
+    "operation%speed_rpm=12001": "its speed_rpm goes from 2000 to 12000 rpm, and the run has 12001 rpm",
+    "case%task=march operation%final_speed_rpm=1500": "2000 to 12000 rpm, and the run has 1500 rpm",
+    "coefficients%threshold_up_to_rpm=13000": "and the run has 13000 rpm",
+    "element(1)%damping=4*1e3": "stiffness, damping or mass is given too; give one of them",
+    "element(1)%frequency=synchronous": "has no effect, as seal.csv has no column frequency_hz",
+    "element(1)%file=x.csv": "element(1)%file: x.csv: no such file",
+}
+ROW = "1,2,3,4,5,6,7,8"
+FILE_REFUSED = {
+    f"speed_rpm,{COLUMNS},m_yy\n1,{ROW},1\n2,{ROW},1\n": " line 1: must have all of m_yy, m_yz, m_zy, m_zz",
+    f"speed_rpm,frequency,{COLUMNS}\n": " line 1: speed_rpm,frequency,k_yy",
+    f"speed_rpm,{COLUMNS}\n1,{ROW},9\n": "line 2: has more than 9 numbers; the columns",
+    f"speed_rpm,{COLUMNS}\n2,{ROW}\n1,{ROW}\n": " line 3: speed_rpm = 1: speeds must rise",
+    f"speed_rpm,frequency_hz,{COLUMNS}\n1,10,{ROW}\n1,20,{ROW}\n2,10,{ROW}\n2,21,{ROW}\n": " line 5: "
+    "speed_rpm = 2, frequency_hz = 21: speeds must rise from row to row, and each must",
+    f"speed_rpm,frequency_hz,{COLUMNS}\n1,10,{ROW}\n1,20,{ROW}\n20000,10,{ROW}\n20000,20,{ROW}\n": " "
+    "'own': seal.csv has coefficients over the frequency, which only modes take at their own",
+}
+
 REFUSED = {
     "&element stiffness=4*1e6 /": "element(1)%station: must be given, 1 to 16",
     "&element station=17 /": "element(1)%station = 17: must be 1 to 16",
@@ -180,3 +265,60 @@ def test_a_branch_of_orbits_has_no_equilibria_to_move_about(run):
     branch = "&branch parameter='operation%speed_rpm', last=12000 /\n"
     done = run(COMPRESSOR + branch + PISTON.format(", static=.false."), "case%task=branch", status=1)
     assert "static = .false.: is not for a branch of periodic orbits" in done.stderr
+
+
+@pytest.fixture
+def seal(tmp_path):
+    """Writes the table of the seal over the speed."""
+    rows = [f"{speed},{k},{q},{-q},{k},{c},{d},{-d},{c}" for speed, k, q, c, d in BY_SPEED]
+    (tmp_path / "seal.csv").write_text("\n".join([f"speed_rpm,{COLUMNS}", *rows, ""]))
+
+
+def test_level_ii(result, tmp_path):
+    """Coefficients over the whirl frequency: modes take them at their own, or at that of the speed."""
+    rows = [
+        f"{speed},{nu / (2 * np.pi)!r},{k},{q},{-q},{k},{c},0,0,{c}"
+        for speed in (5000, 15000)
+        for nu, k, q, c in BY_FREQUENCY
+    ]
+    (tmp_path / "piston.csv").write_text("\n".join([f"speed_rpm,frequency_hz,{COLUMNS}", *rows, ""]))
+    for frequency, eigenvalue in LEVEL_II.items():
+        piston = f"&element station=10, static=.false., file='piston.csv'{frequency} /\n" if frequency else ""
+        with result(COMPRESSOR + WHOLE + LABYRINTHS + piston) as file:
+            expect_eigenvalues(file, [eigenvalue], 1e-6)
+
+
+def test_a_run_up_has_the_coefficients_of_each_speed(result, seal):
+    """The first twelve modes in a plane, as the values have them; steps as fine as their errors are small.
+
+    With the coefficients of the start amplitudes would be 4 % smaller.
+    """
+    other = "&unbalance station=16, moment=1e-4, angle_deg=90 /"
+    case = COMPRESSOR.replace("moment=1e-4 /", f"moment=3e-4 /\n{other}")
+    case = case.replace("speed_rpm=11000", "speed_rpm=3500, final_speed_rpm=8500, duration=1")
+    run_up = ("case%task=march", "integration%relative_tolerance=1e-7", "reduction%frequency=4700")
+    with result(case + "&element station=10, file='seal.csv' /\n", *run_up) as file:
+        for station, expected in RUN_UP.items():
+            found = np.interp(np.linspace(0, 1, 11), file["time"], file["station_y"][:, station - 1])
+            assert abs(found - expected).max() < 2e-4 * LARGEST
+
+
+@pytest.mark.parametrize("override", TABLE_REFUSED)
+def test_a_table_is_refused(run, seal, override):
+    case = COMPRESSOR + "&element station=10, file='seal.csv' /\n"
+    assert TABLE_REFUSED[override] in run(case, *override.split(), status=1).stderr
+
+
+@pytest.mark.parametrize("text", FILE_REFUSED)
+def test_the_file_of_a_table_is_refused(run, tmp_path, text):
+    (tmp_path / "seal.csv").write_text(text)
+    line = run(COMPRESSOR + "&element station=10, file='seal.csv' /\n", "case%task=march", status=1).stderr
+    assert f"element(1)%file: seal.csv{FILE_REFUSED[text]}" in line or FILE_REFUSED[text] in line
+
+
+def test_masses_are_constant_where_the_speed_changes(run, tmp_path):
+    rows = [f"{speed},{ROW},{speed},0,0,1" for speed in (1, 20000)]
+    (tmp_path / "seal.csv").write_text("\n".join([f"speed_rpm,{COLUMNS},m_yy,m_yz,m_zy,m_zz", *rows, ""]))
+    case = COMPRESSOR + "&element station=10, file='seal.csv' /\n"
+    line = run(case, "case%task=march", "operation%final_speed_rpm=9000", status=1).stderr
+    assert "element(1)%file = 'seal.csv': m_yy to m_zz must be constant where the speed changes" in line
