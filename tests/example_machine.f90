@@ -34,6 +34,7 @@ contains
       real(wp), intent(in) :: lengths(:), diameter
       type(case_type) :: machine
       allocate (machine%rotor%elastic, machine%bearings(0))
+      machine%about%task = 'march'
       call machine%rotor%elastic%begin(0, 0, 0)
       associate (shaft => machine%rotor%elastic%shaft)
          shaft%length = lengths

@@ -23,7 +23,7 @@ module coefficients_task
 
    !> Whirl frequencies, and modes of the rotor and of the pads, that are printed at most.
    integer, parameter :: most = 4
-   !> Modes of which more than this part of the damping is that of the reduction are not listed.
+   !> Modes of which more than this part of the damping in a march is that of the reduction are not listed.
    real(wp), parameter :: mostly = 0.5_wp
 
 contains
@@ -104,7 +104,7 @@ contains
    subroutine print_coefficients(found, inputs, of_reduction)
       type(bearing_coefficients_type), intent(in) :: found
       type(case_type), intent(in) :: inputs
-      !> Whether the damping of a mode is that of the reduction, (mode, pivot).
+      !> Whether the damping of a mode in a march is that of the reduction, (mode, pivot).
       logical, intent(in) :: of_reduction(:, :)
       character(len=:), allocatable :: kept
       integer :: b, i, k
@@ -230,7 +230,8 @@ contains
       integer :: i, k
       if (.not. any(of_kind)) return
       shown = pack([(i, i=1, size(of_kind))], of_kind .and. modes%damping_ratio < 1 .and. .not. of_reduction)
-      print '(a)', '  '//who//trim(merge(' unstable', ' stable  ', any(of_kind .and. modes%eigenvalue%re > 0))) &
+      print '(a)', '  '//who//trim(merge(' unstable', ' stable  ', any(of_kind .and. modes%eigenvalue%re > 0 &
+         & .and. .not. of_reduction))) &
          & //trim(merge(':                  ', ', without vibration', size(shown) > 0))
       do k = 1, min(most, size(shown))
          i = shown(k)
@@ -243,8 +244,10 @@ contains
             end if
          end associate
       end do
-      if (any(of_kind .and. of_reduction)) print '(a)', '    not listed: '//to_text(count(of_kind .and. of_reduction)) &
-         & //' with the damping that high modes of the shaft are given (reduction%damp_above)'
+      if (any(of_kind .and. of_reduction)) print '(a)', '    not listed: ' &
+         & //to_text(count(of_kind .and. of_reduction))//trim(merge(' high mode ', ' high modes', &
+         & count(of_kind .and. of_reduction) == 1))//' of the shaft, which ' &
+         & //'a march damps (reduction%damp_above)'
    end subroutine print_kind
 
    !> "pivots stuck"; "coefficients" where no bearing has pivots.

@@ -153,14 +153,17 @@ contains
    subroutine print_shaft(file)
       class(record_type), intent(in) :: file
       real(wp), allocatable :: frequencies(:)
-      character(len=:), allocatable :: modes
+      character(len=:), allocatable :: modes, damped
       frequencies = file%get_all('rotor/mode_frequency')
       modes = 'no modes besides'
       if (size(frequencies) > 0) modes = filled('{} modes up to {.1} Hz', [real(size(frequencies), wp), &
          & maxval(frequencies)])
-      print '(a)', filled('rotor: {.1} kg, '//modes//'; amplitudes err by {} by modes left out and by {} by their ' &
-         & //'damping', [file%get_real('rotor/total_mass'), file%get_real('rotor/truncation_error'), &
-         & file%get_real('rotor/damping_error')])
+      damped = ''
+      associate (error => file%get_real('rotor/damping_error'))
+         if (error > 0) damped = filled(' and by {} by their damping', [error])
+         print '(a)', filled('rotor: {.1} kg, '//modes//'; amplitudes err by {} by modes left out', &
+            & [file%get_real('rotor/total_mass'), file%get_real('rotor/truncation_error')])//damped
+      end associate
    end subroutine print_shaft
 
    !> An equilibrium of a bearing, behind this title; `ending` ends its first line.

@@ -77,8 +77,8 @@ module linear_bearing
       complex(wp), allocatable :: unbalance(:, :, :)
       !> Stations in the modes, m, (2, station, mode, pivot); 0 of modes that there are not.
       complex(wp), allocatable :: shapes(:, :, :, :)
-      !> Part of the damping of each mode that the reduction gives to high modes, (mode, pivot); 0 of modes that there
-      !> are not.
+      !> Part of the damping of each mode in a march that the reduction gives to high modes, (mode, pivot); 0 of modes
+      !> that there are not.
       real(wp), allocatable :: of_reduction(:, :)
       !> Modes of the rotor on synchronously reduced coefficients.
       type(vibration_modes_type), allocatable :: synchronous(:)
@@ -180,6 +180,9 @@ contains
       associate (pivots => pivots_of(model))
          call force_derivatives(model, over_positions, over_rates)
          with_rotor = [(linear_bearing_of(model, pivots(i), over_positions, over_rates), i=1, size(pivots))]
+         do i = 1, size(pivots)
+            call take_high_damping(model, with_rotor(i)%damping)
+         end do
          call bearing_derivatives(model, over_positions, over_rates)
          alone = [(linear_bearing_of(model, pivots(i), over_positions, over_rates), i=1, size(pivots))]
       end associate
@@ -476,6 +479,7 @@ contains
          call model%rotor%force_derivatives(model%point%speed(0.0_wp), linear%stiffness, linear%damping)
          linear%stiffness = -linear%stiffness
          linear%damping = -linear%damping
+         call take_high_damping(model, linear%damping)
          do b = 1, size(model%bearings)
             associate (of => model%layout%elements(b), at => model%layout%elements(b)%journal)
                call bearings%condense(of%all_positions(), 1.0_wp, model%point%speed(0.0_wp), stiffness, damping, ok)
@@ -488,18 +492,34 @@ contains
       end subroutine reduce
    end subroutine find_rotor_response
 
-   !> Part of the damping of a mode that the reduction gives to the high modes of the shaft: the power of this damping
-   !> in a vibration, over the power with which the vibration decays. 0 of what does not vibrate, or grows.
+   !> Takes away the damping that the reduction gives to the high modes of the shaft: marches alone need it.
+   pure subroutine take_high_damping(model, damping)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(inout) :: damping(:, :)
+      integer :: i
+      select type (rotor => model%rotor)
+      type is (elastic_rotor_type)
+         do i = 1, rotor%positions
+            damping(i, i) = damping(i, i) - rotor%matrices%high_damping(i)
+         end do
+      end select
+   end subroutine take_high_damping
+
+   !> Part of the damping of a mode in a march that the reduction gives to the high modes of the shaft: the power of
+   !> this damping in a vibration, over the sum of it and of the power with which the mode decays or grows without. 0 of
+   !> what does not vibrate.
    pure real(wp) function part_of_reduction(model, linear, shape, eigenvalue) result(part)
       type(machine_model), intent(in) :: model
       type(linear_bearing_type), intent(in) :: linear
       complex(wp), intent(in) :: shape(:), eigenvalue
       part = 0
-      if (.not. (eigenvalue%im > 0 .and. eigenvalue%re < 0)) return
+      if (.not. eigenvalue%im > 0) return
       select type (rotor => model%rotor)
       type is (elastic_rotor_type)
-         part = sum(rotor%matrices%high_damping*abs(shape(:rotor%positions))**2)/max(tiny(part), &
-            & 2*abs(eigenvalue%re)*real(dot_product(shape, matmul(linear%mass, shape))))
+         associate (power => sum(rotor%matrices%high_damping*abs(shape(:rotor%positions))**2), &
+            & own => 2*abs(eigenvalue%re)*real(dot_product(shape, matmul(linear%mass, shape))))
+            part = power/max(tiny(part), power + own)
+         end associate
       end select
    end function part_of_reduction
 end module linear_bearing

@@ -86,13 +86,13 @@ contains
    end subroutine put_full
 
    !> The names and eigenvalues of the modes of rotor and pads, and the least damping ratios: of all, of the rotor
-   !> without the damping of its reduction, and of the pads.
+   !> and of the pads, without high modes that a march damps.
    subroutine put_modes(file, found, of_reduction)
       class(record_type), intent(inout) :: file
       type(bearing_coefficients_type), intent(in) :: found
-      !> Whether the damping of a mode is that of the reduction, (mode, pivot).
+      !> Whether the damping of a mode in a march is that of the reduction, (mode, pivot).
       logical, intent(in) :: of_reduction(:, :)
-      real(wp) :: least(2, size(found%modes))
+      real(wp) :: least(3, size(found%modes))
       character(len=mode_name_length), allocatable :: names(:, :)
       integer :: i
       call put_mode_values(file, 'modes', of_modes, found%modes, 2*size(found%bearings(1)%moves))
@@ -102,15 +102,14 @@ contains
          names(:size(found%modes(i)%name), i) = found%modes(i)%name
       end do
       call file%put('modes/name', [names], 'what moves in the mode', shape(names), of_modes)
-      ! those in vibration stand in the order of their damping
-      call put_figure(file, 'least_damping_ratio', [(found%modes(i)%damping_ratio(1), i=1, size(found%modes))], '1', &
-         & 'least damping ratio of all modes', 'pivot')
       do i = 1, size(found%modes)
          associate (ratio => found%modes(i)%damping_ratio, of_rotor => is_of_rotor(found%modes(i)%name))
             least(1, i) = least_of(ratio, of_rotor .and. .not. of_reduction(:size(ratio), i))
             least(2, i) = least_of(ratio, .not. of_rotor)
+            least(3, i) = least_of(ratio, .not. of_reduction(:size(ratio), i))
          end associate
       end do
+      call put_figure(file, 'least_damping_ratio', least(3, :), '1', 'least damping ratio of all modes', 'pivot')
       call put_figure(file, 'rotor_damping_ratio', least(1, :), '1', 'least damping ratio of journal or shaft', 'pivot')
       call put_figure(file, 'pads_damping_ratio', least(2, :), '1', 'least damping ratio of the pads', 'pivot')
    end subroutine put_modes
@@ -227,8 +226,8 @@ contains
       real(wp) :: all_parts(n, size(parts, 2))
       all_parts = 0
       all_parts(:size(parts, 1), :) = parts
-      call file%put('modes/part_of_reduction', all_parts, '1', 'part of the damping of the mode that the ' &
-         & //'reduction gives to high modes of the shaft (reduction%damp_above)', 'pivot mode')
+      call file%put('modes/part_of_reduction', all_parts, '1', 'part of the damping of the mode in a ' &
+         & //'march that the reduction gives to high modes of the shaft (reduction%damp_above)', 'pivot mode')
    end subroutine put_parts
 
    !> Major semi-axes of ellipses (y, z): the sum of the circles that turn forward and backward.

@@ -43,7 +43,8 @@ module rotor_reduction
    end type projection_type
 
    !> Modes kept in a plane, and errors of amplitudes at the highest speed, relative to the largest one: of leaving out
-   !> the others, and of damping those above `reduction%damp_above`; 0 where the number of modes was given.
+   !> the others, and, in a motion, of damping those above `reduction%damp_above`; 0 where the number of modes was
+   !> given.
    type :: mode_selection_type
       integer :: modes = 0
       real(wp) :: truncation_error = 0, damping_error = 0
@@ -132,6 +133,7 @@ contains
             call fixed%find_modes(tried)
             reduced = whole%reduced(component, fixed%basis(tried))
          end do
+         if (.not. inputs%moves()) return
          damping = mode_damping(inputs%rotor%elastic%reduction, fixed, modes)
          do i = 1, size(damping)
             associate (element => reduced%stiffness(size(border) + i, size(border) + i))

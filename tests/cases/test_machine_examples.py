@@ -100,9 +100,18 @@ def test_the_page_of_results_lists_what_a_machine_has_more(tiltpad, fan, root):
     page = (root / "docs/results.md").read_text()
     table, seen = documented(page), set()
     known = set(re.findall(r"(\w+)`", page))
+    seal = fan.parent / "seal.nml"
+    seal.write_text(fan.read_text() + "&element station=5, cross_stiffness=1e5, static=.false. /\n")
     for task, overrides in TASKS.items():
         path = fan.parent / f"{task}.h5"
-        tiltpad(fan, "--quiet", "--output", path, overrides=[f"case%task={task}", *overrides], status=0)
+        tiltpad(
+            fan if task == "branch" else seal,
+            "--quiet",
+            "--output",
+            path,
+            overrides=[f"case%task={task}", *overrides],
+            status=0,
+        )
         for name, (dimensions, unit) in found(path).items():
             seen.add(name)
             if name in table:

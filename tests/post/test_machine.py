@@ -232,7 +232,7 @@ def test_the_report_leaves_out_modes_with_the_damping_of_the_reduction(machine):
         vibrate = run["modes/frequency"] > 0
         left_out = int((parts > 0.5).sum())
         assert left_out > 0
-        assert f"Not listed: {left_out} with the damping" in page
+        assert f"Not listed: high modes of the shaft, {left_out}, which a march damps" in page
         shown = (vibrate | (run["modes/damping_ratio"] < 0)) & ~(parts > 0.5)
         assert page.count("<tr>") == 1 + shown.sum()
 

@@ -37,8 +37,8 @@ class Modes(NamedTuple):
                          its stations: y_1, z_1, y_2, ...
         whirl            likewise as frequency, from -1 (circular backward) to 1 (forward, as the shaft
                          turns): of the journal, of a machine of all stations
-        of_reduction     likewise as frequency, true where the damping is that of the reduction of a machine's
-                         shaft (reduction%damp_above)
+        of_reduction     likewise as frequency, true of high modes of a machine's shaft, whose damping in a
+                         march is that of its reduction (reduction%damp_above)
         threshold_rpm    lowest speed at which a mode turns unstable, nan where there is none, or none was
                          looked for; of a study (run,)
         parameters       of a study: values of its parameters by name, (run,) each

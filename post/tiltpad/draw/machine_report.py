@@ -105,8 +105,8 @@ def mode_table(run: Run) -> str:
         if "modes/threshold_rpm" in run and np.isfinite(speed := run["modes/threshold_rpm"][number]):
             notes.append(f"{pivot} pivots: {speed:.1f} rpm")
         left_out += int((~found.own).sum())
-    why = "the damping that high modes of the shaft are given (reduction%damp_above)"
-    note = paragraph(f"Not listed: {left_out} with {why}." if left_out else "")
+    why = "which a march damps (reduction%damp_above)"
+    note = paragraph(f"Not listed: high modes of the shaft, {left_out}, {why}." if left_out else "")
     return table(("pivots, whirl of the shaft", *VIBRATION), rows) + threshold(notes) + note
 
 
