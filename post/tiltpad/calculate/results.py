@@ -48,7 +48,7 @@ def result(
     One of small vibrations is of the given pivots, by default of the first, and says so where there are
     several, which fixed pads have not. Raises ValueError where the study has no such result.
     """
-    if name in small_vibrations(study):
+    if is_of_vibrations(study, name):
         return of_vibrations(study, name, pivot)
     if name in (*DEFAULTS, *POINTS) and name not in study:
         raise ValueError(f"{study.path}: no {name} in this study: no run has it")
@@ -63,7 +63,8 @@ def result(
     if has != wanted:
         what = f"{'Poincare points' if revolutions else 'a result'}{' of a pad' if pad is not None else ''}"
         there = [each for each in study.names() if is_result(study, each) and study.scales(each) == wanted]
-        there += [] if len(wanted) > 1 else small_vibrations(study)
+        every = () if len(wanted) > 1 else (*study.names(), *ELEMENTS, DECREMENT)
+        there += [each for each in every if is_of_vibrations(study, each)]
         needs(name, there, "show", what)
     shown = described(study, name, POINTS.get(name, name.removeprefix("pad_")))
     if pad is None:
@@ -74,11 +75,11 @@ def result(
     return Result(study[name][..., pad - 1], shown._replace(text=text), name)
 
 
-def small_vibrations(study: Study) -> list[str]:
-    """Names of the results of small vibrations that a study has, of each of its pivots."""
-    found = [each for each in study.names() if study.scales(each) == PIVOTS]
-    found += [each for each, (name, *_) in ELEMENTS.items() if name in study]
-    return found + [DECREMENT] * (RATIO in study)
+def is_of_vibrations(study: Study, name: str) -> bool:
+    """Whether a study has this result of small vibrations, of each of its pivots."""
+    if name in study and study.scales(name) == PIVOTS:
+        return True
+    return name in ELEMENTS and ELEMENTS[name][0] in study or name == DECREMENT and RATIO in study
 
 
 def of_vibrations(study: Study, name: str, pivot: str | None) -> Result:
