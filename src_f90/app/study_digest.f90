@@ -37,7 +37,7 @@ module study_digest
       & figure_type('K_yy MN/m', 'stiffness', 1, 1e-6_wp, ''), figure_type('K_zz', 'stiffness', 4, 1e-6_wp, ''), &
       & figure_type('C_yy kN s/m', 'damping', 1, 1e-3_wp, ''), figure_type('C_zz', 'damping', 4, 1e-3_wp, ''), &
       & figure_type('peak MPa', 'max_pressure equilibrium_max_pressure', 1, 1e-6_wp, 'greatest'), &
-      & figure_type('loss W', 'equilibrium_total_power_loss', 1, 1.0_wp, 'greatest')]
+      & figure_type('loss W', 'equilibrium_total_power_loss', 1, 1.0_wp, '')]
    !> This one is a logarithmic decrement, by the damping ratio.
    integer, parameter :: decrement = findloc(figures%heading, 'log dec', dim=1)
    !> Whether journal or shaft are stable.
