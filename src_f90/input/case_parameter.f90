@@ -248,16 +248,21 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(case_parameter_type) :: parameter
       real(wp) :: first
+      !> Whether the parameter is an unbalance.
+      logical :: drives
       if (inputs%about%task /= 'branch') return
       associate (b => inputs%branch)
          call find_parameter(inputs, b%parameter, parameter, error)
          call add_context(error, 'branch%parameter = '''//b%parameter//'''')
          if (allocated(error)) return
          first = parameter%value(inputs)
-         call require(b%of /= 'equilibrium' .or. .not. (any(kind_of(parameter%group) == [character(len=9) :: &
-            & 'friction', 'unbalance']) .or. parameter%name == 'unbalance' .or. index(parameter%name, &
-            & 'balance_') == 1), 'branch%parameter = '''//b%parameter//''': has no effect on equilibria, which are ' &
-            & //'without friction and unbalance', error)
+         drives = kind_of(parameter%group) == 'unbalance' .or. parameter%name == 'unbalance' &
+            & .or. index(parameter%name, 'balance_') == 1
+         call require(b%of /= 'equilibrium' .or. .not. (drives .or. kind_of(parameter%group) == 'friction'), &
+            & 'branch%parameter = '''//b%parameter//''': has no effect on equilibria, which are without friction and ' &
+            & //'unbalance', error)
+         call require(b%of /= 'limit_cycle' .or. .not. drives, 'branch%parameter = '''//b%parameter//''': limit ' &
+            & //'cycles are without unbalance; branch%of = ''periodic'' follows orbits over it', error)
          call require(is_set(b%last), 'branch%last: must be given, as twice '//b%parameter//' = {} is no other value', &
             & [first], error)
          if (allocated(error)) return

@@ -226,6 +226,11 @@ REFUSALS = {
     "unbalance": (("rotor%unbalance=0.01",), 1, "must be without unbalance (0.01 kg m; rotor%unbalance = 0)"),
     "friction": (("friction%model='bengisu_akay'",), 1, "must be 'none' or 'lugre'"),
     "no Hopf point": (("branch%last=8500",), 2, "the equilibria have no Hopf point"),
+    "parameter": (
+        ("branch%parameter='rotor%unbalance'", "branch%last=0.01"),
+        1,
+        "limit cycles are without unbalance; branch%of = 'periodic' follows orbits over it",
+    ),
     "switch": (("branch%switch=.false.",), 1, "has no effect on a branch of equilibria or limit cycles"),
 }
 
