@@ -381,10 +381,10 @@ contains
    pure function half_apart(problem)
       class(orbit_problem_type), intent(in) :: problem
       real(wp), allocatable :: half_apart(:)
-      real(wp) :: y(problem%n)
+      real(wp) :: y(problem%states())
       associate (orbit => problem%orbit)
          call orbit%state_at(0.5_wp*orbit%time(orbit%intervals()), y)
-         half_apart = problem%weight*(y - orbit%start)/orbit%scale
+         half_apart = problem%weight(:size(y))*(y - orbit%start)/orbit%scale
       end associate
    end function half_apart
 end module branch_progress

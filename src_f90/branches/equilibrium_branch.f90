@@ -173,7 +173,9 @@ contains
       do k = 1, n
          matrix(:n, k) = self%stiffness(:, k)*self%scale(k)
       end do
-      call force_derivatives(self%bearing%model, self%stiffness, self%damping)
+      ! elements of the shaft may act in motion alone
+      if (self%bearing%model%rotor%elements > 0) call force_derivatives(self%bearing%model, self%stiffness, &
+         & self%damping)
       if (size(self%viscosity) > 0) then
          associate (model => self%bearing%model, y => self%state())
             call find_residual_slopes(model, y, self%balance, self%scale(:n), matrix(n + 1:, :self%n))
