@@ -85,6 +85,7 @@ contains
       with_pads = .false.
       do guess = 1, guesses
          call guess_oil(warm, guess)
+         if (allocated(films)) deallocate (films)
          call find_warm()
          if (.not. allocated(error)) then
             if (is_usable(static, y, found, traces)) return
@@ -94,6 +95,9 @@ contains
             call find_warm()
             if (.not. allocated(error)) then
                if (is_usable(static, y, found, traces)) return
+            else if (error%status /= stopped) then
+               ! the equilibrium before is there all the same, and says why it is none to start from
+               deallocate (error)
             end if
          end if
          if (.not. allocated(error)) cycle
@@ -121,8 +125,8 @@ contains
             if (.not. allocated(error)) call move_alloc(films, found%films)
          else
             call solve_thermal_equilibrium(static, y, found%residual, error, films=found%films)
+            if (allocated(error) .and. .not. allocated(found%films)) call name_start()
          end if
-         if (allocated(error) .and. .not. allocated(found%films)) call name_start()
          with_pads = with_pads .or. allocated(found%films)
       end subroutine find_warm
 
