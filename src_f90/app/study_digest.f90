@@ -203,9 +203,7 @@ contains
       type(text_type), intent(in) :: lines(0:)
       integer :: k
       do k = 0, size(kept)
-         if (k > 1) then
-            if (kept(k)%run > kept(k - 1)%run + 1) print '(a)', '  ...'
-         end if
+         if (kept(max(1, k))%run > kept(max(1, k - 1))%run + 1) print '(a)', '  ...'
          print '(a)', lines(k)%text(:min(len(lines(k)%text), longest_line))
       end do
    end subroutine print_lines
