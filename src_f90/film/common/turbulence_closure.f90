@@ -54,6 +54,7 @@ module turbulence_closure
    contains
       procedure :: is_that_of
       procedure :: at
+      procedure :: value_of
       procedure :: turbulent_share
    end type closure_type
 
@@ -135,13 +136,9 @@ contains
       real(wp), intent(in) :: log_reynolds
       type(closure_factors) :: found
       real(wp) :: x, unit, beyond
-      integer :: cell, k, n
-      n = size(self%bounds)
+      integer :: cell, k
       if (log_reynolds <= self%bounds(1)) return
-      cell = min(number_up_to(self%bounds, log_reynolds), n - 1)
-      beyond = max(log_reynolds - self%bounds(n), 0.0_wp)
-      unit = 2/(self%bounds(cell + 1) - self%bounds(cell))
-      x = unit*(log_reynolds - beyond - self%bounds(cell)) - 1
+      call find_place(self, log_reynolds, cell, unit, x, beyond)
       do k = 1, factors
          found%value(:, k) = horner(self%polynomials(:, k, cell), x)*[1.0_wp, unit, unit**2, unit**3]
       end do
@@ -150,6 +147,42 @@ contains
          found%value(2:, :) = 0
       end if
    end function at
+
+   !> The same of one factor, without derivatives.
+   elemental real(wp) function value_of(self, factor, log_reynolds) result(value)
+      class(closure_type), intent(in) :: self
+      integer, intent(in) :: factor
+      real(wp), intent(in) :: log_reynolds
+      type(closure_factors) :: all_of_them
+      real(wp) :: x, unit, beyond
+      integer :: cell, j
+      value = 0
+      if (log_reynolds <= self%bounds(1)) return
+      call find_place(self, log_reynolds, cell, unit, x, beyond)
+      if (beyond > 0) then
+         all_of_them = self%at(log_reynolds)
+         value = all_of_them%value(0, factor)
+         return
+      end if
+      do j = degree, 0, -1
+         value = value*x + self%polynomials(j, factor, cell)
+      end do
+   end function value_of
+
+   !> The cell of a Reynolds number and the place in it, with the derivative of the place over ln Re, and how far beyond
+   !> the last cell ln Re is.
+   pure subroutine find_place(self, log_reynolds, cell, unit, x, beyond)
+      class(closure_type), intent(in) :: self
+      real(wp), intent(in) :: log_reynolds
+      integer, intent(out) :: cell
+      real(wp), intent(out) :: unit, x, beyond
+      integer :: n
+      n = size(self%bounds)
+      cell = min(number_up_to(self%bounds, log_reynolds), n - 1)
+      beyond = max(log_reynolds - self%bounds(n), 0.0_wp)
+      unit = 2/(self%bounds(cell + 1) - self%bounds(cell))
+      x = unit*(log_reynolds - beyond - self%bounds(cell)) - 1
+   end subroutine find_place
 
    !> The largest power of the Reynolds number with which the resistance to a pressure grows in the transition of a
    !> closure: d ln kx/d ln Re, by differences of it.

@@ -131,11 +131,9 @@ contains
       type(pad_gap_type), intent(in) :: gap
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: phi
-      type(closure_factors) :: of
       weight = self%oil%shear_weight(gap, motion, phi)
-      if (.not. self%has_eddies) return
-      of = self%closure%at(log(self%reynolds_number(gap, motion, phi)))
-      weight = weight*exp(of%value(0, shear))
+      if (self%has_eddies) weight = weight*exp(self%closure%value_of(shear, &
+         & log(self%reynolds_number(gap, motion, phi))))
    end function shear_weight
 
    pure function numbers(self)
