@@ -187,7 +187,7 @@ contains
       logical, intent(in) :: cavitates
       type(volume_flow_type), intent(inout) :: full(2), cavitated(2)
       type(film_loss), intent(inout) :: loss
-      type(elimination_film_type) :: volumes, coarse
+      type(elimination_film_type) :: volumes(2)
       type(film_grid_type) :: grid
       type(film_response) :: response
       type(film_counters) :: counters
@@ -195,22 +195,21 @@ contains
       integer :: k
       associate (surface => speed*self%gap%journal_radius)
          do k = 1, 2
-            volumes = new_following_grid(self%gap, motion, speed, k*(enough_rows/2))
-            call volumes%evaluate(motion, oil, speed, .false., .false., counters, response)
-            call volumes%cells(grid, pressure, film)
+            volumes(k) = new_following_grid(self%gap, motion, speed, k*(enough_rows/2))
+            call volumes(k)%evaluate(motion, oil, speed, .false., .false., counters, response)
+            call volumes(k)%cells(grid, pressure, film)
             full(k) = flows_of_volumes(grid, oil, surface, pressure, film > 0)
             if (.not. cavitates) then
                cavitated(k) = full(k)
             else if (self%condition == cavitation_reynolds) then
-               if (k == 2) call volumes%start_from(coarse)
-               call volumes%evaluate(motion, oil, speed, .true., .false., counters, response)
-               call volumes%cells(grid, pressure, film)
+               if (k == 2) call volumes(k)%start_from(volumes(1))
+               call volumes(k)%evaluate(motion, oil, speed, .true., .false., counters, response)
+               call volumes(k)%cells(grid, pressure, film)
                cavitated(k) = flows_of_volumes(grid, oil, surface, pressure, film > 0)
             else
                cavitated(k) = flows_of_volumes(grid, oil, surface, pressure, pressure > 0)
             end if
             loss%status = max(loss%status, response%status)
-            coarse = volumes
          end do
       end associate
    end subroutine on_two_grids

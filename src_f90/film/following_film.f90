@@ -88,15 +88,15 @@ contains
       logical, intent(in) :: want_derivatives
       type(film_counters), intent(inout) :: counters
       type(film_response), intent(out) :: answers(0:2), wholes(2)
-      type(elimination_film_type) :: grid, finer
-      integer :: k
-      do k = merge(0, 1, want_derivatives), 2
-         finer = new_following_grid(self%gap, motion, speed, self%rows/2**(2 - k))
-         finer%ends_between = .true.
-         if (k > 0) call finer%evaluate(motion, oil, speed, .false., want_derivatives, counters, wholes(k))
-         if (allocated(grid%film)) call finer%start_from(grid)
-         call finer%evaluate(motion, oil, speed, .true., want_derivatives, counters, answers(k))
-         grid = finer
+      type(elimination_film_type) :: grids(0:2)
+      integer :: first, k
+      first = merge(0, 1, want_derivatives)
+      do k = first, 2
+         grids(k) = new_following_grid(self%gap, motion, speed, self%rows/2**(2 - k))
+         grids(k)%ends_between = .true.
+         if (k > 0) call grids(k)%evaluate(motion, oil, speed, .false., want_derivatives, counters, wholes(k))
+         if (k > first) call grids(k)%start_from(grids(k - 1))
+         call grids(k)%evaluate(motion, oil, speed, .true., want_derivatives, counters, answers(k))
       end do
    end subroutine solve_grids
 

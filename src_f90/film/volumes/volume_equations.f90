@@ -65,7 +65,9 @@ contains
       associate (m => self%basis%m, rows => grid%rows, columns => grid%columns)
          allocate (self%film(m, columns), self%filled(columns), source=0.0_wp)
          self%film(:rows, :) = 1
-         allocate (self%per_pivot(m, columns), self%block(m, rows, columns), source=0.0_wp)
+         allocate (self%per_pivot(m, columns), source=0.0_wp)
+         ! not set: most columns are whole, and have no use for theirs
+         allocate (self%block(m, rows, columns))
       end associate
    end function new_volume_equations
 
