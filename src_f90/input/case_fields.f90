@@ -11,7 +11,7 @@ module case_fields
    use excitations, only: make_excitations
    implicit none (type, external)
    private
-   public :: list_variables, put_variables, list_all_variables
+   public :: list_variables, put_variables, list_all_variables, change_number
    public :: title_variable, checkpoint_variable, counting_variables
 
    !> Variables without effect on what is calculated: a study cannot vary the title, and a resumed run may have
@@ -45,6 +45,13 @@ contains
       table%at = 0
       call go_along(inputs, table, all=.false.)
    end subroutine put_variables
+
+   !> Gives the number that a table seeks its new value, if there is one; the table then has what it was.
+   subroutine change_number(table, inputs)
+      type(variable_table_type), intent(inout) :: table
+      type(case_type), intent(inout) :: inputs
+      call go_along(inputs, table, all=.false.)
+   end subroutine change_number
 
    !> The variables of all groups that any case has, each group once, with their defaults: those of a rigid journal in
    !> one bearing, and those of a machine; documented.

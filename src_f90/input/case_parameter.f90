@@ -9,7 +9,7 @@ module case_parameter
    use case_inputs, only: case_type
    use case_checks, only: check_case
    use variable_table, only: variable_type, variable_table_type
-   use case_fields, only: list_variables, list_all_variables, put_variables
+   use case_fields, only: list_variables, list_all_variables, change_number
    use assignments, only: split_subscript, kind_of
    implicit none (type, external)
    private
@@ -198,8 +198,11 @@ contains
       class(case_parameter_type), intent(in) :: self
       type(case_type), intent(in) :: inputs
       type(variable_table_type) :: table
-      call list_variables(inputs, table)
-      value = table%variables(table%find(self%group, self%name))%values(max(1, self%element))
+      type(case_type) :: copy
+      copy = inputs
+      call table%seek(self%group, self%name, self%element)
+      call change_number(table, copy)
+      value = table%value
    end function value
 
    !> Gives it another value in a case. An error says why the case cannot be; it is changed all the same.
@@ -209,12 +212,8 @@ contains
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(out) :: error
       type(variable_table_type) :: table
-      call list_variables(inputs, table)
-      associate (v => table%variables(table%find(self%group, self%name)))
-         if (self%element == 0) v%values = spread(value, 1, size(v%values))
-         if (self%element > 0) v%values(self%element) = value
-      end associate
-      call put_variables(table, inputs)
+      call table%seek(self%group, self%name, self%element, value)
+      call change_number(table, inputs)
       ! a run-up has no orbit
       inputs%operation%final_speed_rpm = inputs%operation%speed_rpm
       if (value < self%low .or. value > self%high) then

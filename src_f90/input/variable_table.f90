@@ -46,7 +46,14 @@ module variable_table
       !> The variable just seen, and its group.
       integer :: at = 0
       character(len=:), allocatable :: this_group, group_meaning
+      !> Instead of all variables: the numbers of this one, whose elements from one to another are changed where they
+      !> have a new value; the first of them as it was.
+      character(len=:), allocatable, private :: sought_group, sought_name
+      integer, private :: first = 0, last = 0
+      real(wp), allocatable, private :: new_value
+      real(wp) :: value = 0
    contains
+      procedure :: seek
       procedure :: find
       procedure :: group
       !> The next variable of the list.
@@ -61,6 +68,21 @@ module variable_table
    end type variable_table_type
 
 contains
+
+   !> Lets the list be gone along for the numbers of one variable alone, one element of them or, with 0, all; they get
+   !> the new value, if there is one.
+   subroutine seek(self, group, name, element, new_value)
+      class(variable_table_type), intent(inout) :: self
+      character(len=*), intent(in) :: group, name
+      integer, intent(in) :: element
+      real(wp), intent(in), optional :: new_value
+      self%sought_group = group
+      self%sought_name = name
+      self%first = max(1, element)
+      self%last = merge(element, huge(element), element > 0)
+      if (present(new_value)) self%new_value = new_value
+      allocate (self%variables(1))
+   end subroutine seek
 
    !> Number of a variable in the table; 0 if there is none of this name.
    pure integer function find(self, group, name) result(at)
@@ -77,6 +99,11 @@ contains
       character(len=*), intent(in) :: name, meaning
       self%at = self%at + 1
       new = .not. self%filled
+      if (allocated(self%sought_name)) then
+         ! one place serves for all
+         self%at = 1
+         new = .false.
+      end if
       if (.not. new) return
       call make_room(self)
       self%count = self%at
@@ -133,7 +160,7 @@ contains
             v%unit = ''
             v%word = value
          end if
-         value = v%word
+         if (.not. allocated(self%sought_name)) value = v%word
       end associate
    end subroutine word
 
@@ -158,6 +185,10 @@ contains
       character(len=*), intent(in) :: name, unit, meaning
       logical :: new
       new = next(self, name, meaning)
+      if (allocated(self%sought_name)) then
+         call look_at(self, values, name)
+         return
+      end if
       associate (v => self%variables(self%at))
          if (new) then
             v%unit = unit
@@ -170,6 +201,16 @@ contains
          values = v%values
       end associate
    end subroutine numbers
+
+   !> Looks at numbers of this name, and changes them, if they are those that are sought.
+   pure subroutine look_at(self, values, name)
+      class(variable_table_type), intent(inout) :: self
+      real(wp), intent(inout) :: values(:)
+      character(len=*), intent(in) :: name
+      if (name /= self%sought_name .or. self%this_group /= self%sought_group) return
+      self%value = values(self%first)
+      if (allocated(self%new_value)) values(self%first:min(self%last, size(values))) = self%new_value
+   end subroutine look_at
 
    !> One real; with `whole` only a whole one is allowed.
    subroutine number(self, value, name, low, high, unit, meaning, whole)
