@@ -204,9 +204,10 @@ def test_a_pad_without_load_that_vibrates_is_no_instability_of_the_journal(tiltp
         drawn = of_pads.get_offsets()[:, 1]
         assert set(drawn) == set(own.frequency[own.damping_ratio < 0])
         assert len(drawn) >= 2
-    assert {text.get_text() for text in ax.figure.legends[0].get_texts()} >= {
-        "journal unstable", "pad unstable"
-    }  # fmt: skip
+    # the legend names what the picture has, and no more
+    named = {text.get_text() for text in ax.figure.legends[0].get_texts()}
+    assert "pad unstable" in named
+    assert not named & {"journal unstable", "crossing"}
 
 
 def test_a_study_s_modes_are_those_of_its_members_in_another_order(study, run):

@@ -230,18 +230,22 @@ def campbell(
     needs(over or "speed_rpm", ("speed_rpm",), "over", "the parameter of a Campbell diagram")
     found = parts(runs, pivot, "speed_rpm", where)
     fig, ax = plt.subplots(figsize=(COLUMN, 3.2))
-    top, told = 0.0, {"forward", "backward"}
+    top = 0.0
+    # what the picture has, and its legend names
+    told: set[str] = set()
     for number, one in enumerate(found):
         own_color = part_color(number, len(found))
         own = modes(one.source, one.pivot, one.where or None)
         shown = (own.frequency > 0) & ~own.of_reduction
         own = own._replace(frequency=np.where(shown, own.frequency, np.nan))
-        told |= {str(each).rpartition(", ")[-1] for each in np.unique(own.name)}
+        told |= kinds(own)
         shade = own_color if len(found) > 1 else "0.8"
         # modes of pads leap from run to run: they are points alone
         of_rotor = np.where(of_journal(own.name), own.frequency, np.nan)
         ax.plot(own.speed_rpm, of_rotor, color=shade, linewidth=0.8, zorder=1)
-        ax.plot(*crossings(own.speed_rpm, of_rotor), **CROSSING)
+        crossed = crossings(own.speed_rpm, of_rotor)
+        told |= {"crossing"} if len(crossed[0]) else set()
+        ax.plot(*crossed, **CROSSING)
         points = campbell_points(ax, own, own_color if len(found) > 1 else None)
         mark_failed(ax, own.speed_rpm[np.isnan(own.frequency).all(axis=1)], None)
         top = max(top, ORDERS * own.speed_rpm.max() / 60)
@@ -256,13 +260,22 @@ def campbell(
     rotor = "shaft" if any(STATION in one.source for one in found) else "journal"
     whirls = [(word, each) for word, each in WHIRLS.items() if word in told]
     marks = [(f"{rotor} {word}", mark | {"marker": each}) for word, each in whirls]
-    marks += [("pads", mark | {"marker": "o", "markersize": 2})]
-    rings = zip((f"{rotor} unstable", "pad unstable"), UNSTABLE, strict=True)
-    marks += [(text, ring | {"markeredgecolor": color}) for text, color in rings]
-    marks += [("crossing", CROSSING)]
+    marks += [("pads", mark | {"marker": "o", "markersize": 2})] if "pads" in told else []
+    rings = zip(("unstable", "pads unstable"), (f"{rotor} unstable", "pad unstable"), UNSTABLE, strict=True)
+    marks += [(text, ring | {"markeredgecolor": color}) for kind, text, color in rings if kind in told]
+    marks += [("crossing", CROSSING)] if "crossing" in told else []
     marks += [("shaft speed", {"color": "0.3"}), ("0.5x", {"color": "0.3", "linestyle": "--"})]
     heading(fig, [*names([one.text for one in found]), *marks], title(runs))
     return fig
+
+
+def kinds(own: Modes) -> set[str]:
+    """The kinds of modes, with a frequency, that the points of a Campbell diagram are of."""
+    seen = np.isfinite(own.frequency)
+    journal, growing = of_journal(own.name) & seen, (own.log_decrement < 0) & seen
+    found = {str(each).rpartition(", ")[-1] for each in np.unique(own.name[journal])}
+    held = {"pads": seen & ~journal, "unstable": growing & journal, "pads unstable": growing & ~journal}
+    return found | {kind for kind, where in held.items() if where.any()}
 
 
 def crossings(speed_rpm: np.ndarray, frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
