@@ -66,17 +66,19 @@ contains
       logical, intent(in) :: cavitates, want_derivatives
       type(film_counters), intent(inout) :: counters
       type(film_response), intent(out) :: response
-      integer :: round
+      integer :: round, same
       logical :: changed, whole
+      same = 0
       associate (grid => self%grid)
          call grid%set_motion(motion, oil, speed)
          whole = all(self%film(:grid%rows, :) > 0)
          do round = 1, max(max_rounds, rounds_a_column*grid%columns)
-            call self%eliminate(cavitates)
+            call self%eliminate(cavitates, same=same)
             call self%solve(-grid%source, -grid%edge_source, self%pressure)
             counters%passes = counters%passes + 1
-            changed = .false.
-            if (cavitates) call update_film(self, whole .and. round <= rounds_of_growth, changed)
+            same = grid%columns
+            if (cavitates) call update_film(self, whole .and. round <= rounds_of_growth, same)
+            changed = same < grid%columns
             if (.not. changed) exit
          end do
          if (changed) response%status = film_not_converged
@@ -234,11 +236,12 @@ contains
    !> Takes cells below the cavitation pressure out of the film, and puts those back that would fill. A film
    !> whose pressure falls below that at its edges does so in a column with a source > 0; so the other whole
    !> columns need no look. `grows_far`: what flows into a cell beyond what fills it is handed on to the next column,
-   !> away from the film, as a flow changes little along the short way to where the film ends.
-   pure subroutine update_film(self, grows_far, changed)
+   !> away from the film, as a flow changes little along the short way to where the film ends. `same`: number of columns
+   !> from the first on that keep their cells.
+   pure subroutine update_film(self, grows_far, same)
       type(elimination_film_type), intent(inout) :: self
       logical, intent(in) :: grows_far
-      logical, intent(out) :: changed
+      integer, intent(out) :: same
       !> Pressure by rows, scaled, with a rim; on a fine grid too much for the stack.
       real(wp), allocatable :: p(:, :)
       real(wp) :: floor, inflow, limit, new, changes, surplus(self%basis%m)
@@ -262,13 +265,14 @@ contains
             floor = max(floor, p(1, i))
          end do
          floor = -rounding*floor
-         changes = 0
+         same = grid%columns
          surplus = 0
          ! a film that diverges at the trailing edge ends there
          ends = merge([grid%columns, 1], [1, grid%columns], grid%source(1) > 0)
          do i = ends(1), ends(2), sign(1, ends(2) - ends(1))
             if (.not. grid%source(i) > 0 .and. (i < first - 1 .or. i > last + 1)) cycle
             limit = -floor*(grid%along(i - 1) + grid%along(i) + 2*grid%beside(i))
+            changes = 0
             !$omp simd private(inflow, new) reduction(+:changes)
             do k = 1, rows
                inflow = grid%along(i - 1)*p(k, i - 1) + grid%along(i)*p(k, i + 1) &
@@ -279,8 +283,8 @@ contains
                changes = changes + abs(new - self%film(k, i))
                self%film(k, i) = new
             end do
+            if (changes > 0) same = min(same, i - 1)
          end do
-         changed = changes > 0
       end associate
    end subroutine update_film
 

@@ -73,13 +73,18 @@ contains
 
    !> Pivots and blocks: whole columns from both edges of the pad inwards, mode by mode, then the columns
    !> between, from the first to the last; none of these where the film does not cavitate.
-   pure subroutine eliminate(self, cavitates, more)
+   pure subroutine eliminate(self, cavitates, more, same)
       class(volume_equations_type), intent(inout) :: self
       logical, intent(in) :: cavitates
       !> Added to the diagonal beside cavitated cells, (row, column).
       real(wp), intent(in), optional :: more(:, :)
-      integer :: i, j, m
+      !> Columns from the first on that are what they were at the last elimination.
+      integer, intent(in), optional :: same
+      integer :: i, j, m, kept
       m = self%basis%m
+      kept = 0
+      ! the last block has besides what lies behind it
+      if (present(same)) kept = merge(min(same, self%last - 1), 0, same >= self%first)
       associate (grid => self%grid, c => self%grid%along, n => self%grid%columns, rows => self%grid%rows)
          self%first = n + 1
          self%last = n
@@ -94,7 +99,7 @@ contains
          end if
          call factor_chain(m, n, 1, self%first - 1, c, grid%beside, self%basis%eigenvalue, self%per_pivot)
          call factor_chain(m, n, n, self%last + 1, c, grid%beside, self%basis%eigenvalue, self%per_pivot)
-         do i = self%first, self%last
+         do i = max(self%first, min(kept, self%last - 1) + 1), self%last
             if (.not. self%filled(i) > 0) cycle
             associate (block => self%block(:, :, i))
                if (i > self%first) then
