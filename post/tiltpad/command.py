@@ -42,11 +42,13 @@ OF_EITHER = (*VIBRATIONS, RESPONSE, "temperatures")
 SAMPLES = ("tornado", "distribution", "scatter")
 #: The plot of branches, below which studies may lie.
 BRANCH = "branch"
+#: The plot of curves over two parameters.
+CHART = "chart"
 #: Plots of a machine; MACHINE is that of a case or a result, drawn to scale.
 MACHINE, STATIONS, SHAFT, SHAPES = "machine", "stations", "shaft", "shapes"
 OF_MACHINES = (MACHINE, STATIONS, SHAFT, SHAPES)
 #: Plots of what a machine has as a whole, which the result of any of its bearings has, too.
-OF_WHOLE = ("multipliers", "stability")
+OF_WHOLE = ("multipliers", "stability", CHART)
 #: Options of some plots alone.
 OWN_OPTIONS = {
     "time": ("pressure", "film"),
@@ -64,9 +66,9 @@ OWN_OPTIONS = {
 #: Plots without the options --last and --pad.
 WITHOUT_LAST = (
     *("equilibrium", "runup", "orders", "waterfall", "pressure", "film", "turbulence", BEARING, STUDY),
-    *(BRANCH, *OF_EITHER, *SAMPLES, MACHINE, SHAFT, SHAPES),
+    *(BRANCH, CHART, *OF_EITHER, *SAMPLES, MACHINE, SHAFT, SHAPES),
 )
-WITHOUT_PAD = (BEARING, MOVIE, *VIBRATIONS, RESPONSE, *OF_MACHINES)
+WITHOUT_PAD = (BEARING, MOVIE, CHART, *VIBRATIONS, RESPONSE, *OF_MACHINES)
 #: Plots without the option --bearing.
 WITHOUT_BEARING = (STUDY, *SAMPLES, *OF_MACHINES)
 #: What the speeds are for from which critical speeds must keep away.
@@ -92,6 +94,7 @@ PLOTS = {
     "waterfall": "amplitudes over speed and frequency of a run-up (of the journal; --pad: of its tilt)",
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
     "branch": "branches over their parameter, stable or not (--pad: its tilt), over studies of marches",
+    "chart": "stability chart: curves of bifurcation points over two parameters, with their stable side",
     "response": "first harmonic, critical speeds, amplification: studies, run-ups, branches (also .csv)",
     "temperatures": "temperatures and viscosity of the pads: studies, a branch; heat balances of results",
     "film": "thickness and pressure of the films around the bearing at one instant (likewise)",

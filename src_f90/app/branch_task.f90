@@ -9,9 +9,9 @@ module branch_task
    use equilibrium, only: settle_equilibrium
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of
-   use newton_method, only: branch_point_type, return_to
+   use newton_method, only: branch_point_type
    use continuation, only: bifurcation_type
-   use branch_progress, only: branch_progress_type
+   use branch_progress, only: branch_progress_type, precise
    use equations_of_motion, only: machine_model
    use static_model, only: make_fine
    use orbit_figures, only: orbit_figures_type, find_orbit_figures
@@ -23,6 +23,7 @@ module branch_task
    use case_run, only: case_run_type
    use run_start, only: seek_equilibrium, make_start, take_oil
    use equilibrium_notes, only: note_equilibrium
+   use case_groups, only: branch_type
    use case_inputs, only: case_type
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
@@ -49,31 +50,32 @@ contains
       allocate (notes%special(0))
       notes%ends = ''
       call b%prepare(run%model, run%earlier_steps(), error)
+      b%options%give_up => stop_requested
       if (.not. allocated(error)) then
          if (run%resumed) then
             call go_on(run, b, notes, error)
          else
             call begin(run, b, hopf, error)
-            if (b%of_cycles .and. .not. allocated(error)) call note(run, b, hopf, notes)
+            if (b%given%of == 'limit_cycle' .and. .not. allocated(error)) call note(run, b, hopf, notes)
          end if
       end if
       if (allocated(error)) return
-      b%options%give_up => stop_requested
       more = .true.
       do while (more)
          call follow(run, b, notes, error)
          if (allocated(error)) exit
          call b%begin_double(more)
          if (more .and. .not. run%quiet) print '(a)', 'branch '//to_text(b%branch)//': double period, from ' &
-            & //b%given%parameter//' = '//to_text(b%here%parameter)
+            & //b%place(b%here)
       end do
       call bring_up_to_date(run, b, notes)
       if (.not. allocated(error)) then
+         if (allocated(b%curve) .and. .not. run%quiet) call print_curve(run%file, b%given)
          if (.not. run%quiet) call print_branch(run%file, run%inputs, b%given%parameter, &
             & has_warm_oil(run%model))
       else if (error%status == stopped) then
-         error%message = stop_reason()//' behind '//b%given%parameter//' = '//to_text(b%here%parameter)//', point ' &
-            & //to_text(b%points)//' of branch '//to_text(b%branch)
+         error%message = stop_reason()//' behind '//b%place(b%here)//', point '//to_text(b%points)//' of branch ' &
+            & //to_text(b%branch)
          call begin_checkpoint(run, b, notes)
          call run%stop_here(0.0_wp, error)
       end if
@@ -93,6 +95,8 @@ contains
       else
          call first_equilibrium(run, b, error)
       end if
+      if (.not. (allocated(error) .or. b%of_cycles)) call b%first_point(error)
+      if (allocated(b%curve) .and. .not. allocated(error)) call b%first_of_curve(error)
       if (allocated(error)) then
          if (error%status /= stopped) return
          ! nothing to go on from
@@ -100,10 +104,12 @@ contains
          error%message = stop_reason()//' before the first point of the branch; nothing was written'
          return
       end if
-      if (.not. b%of_cycles) call b%first_point(error)
-      if (allocated(error)) return
       call run%file%put_text('branch_of', b%given%of)
       call run%file%put_text('branch_parameter', b%given%parameter)
+      if (allocated(b%curve)) then
+         call run%file%put_text('branch_point', b%given%point)
+         call run%file%put_text('branch_second_parameter', b%given%second_parameter)
+      end if
       call open_series(run, b)
       call record(run, b, b%here, error)
    end subroutine begin
@@ -191,8 +197,8 @@ contains
          call raise(error, system_error, run%path//': damaged: its checkpoint is none of this branch')
          return
       end if
-      if (.not. run%quiet) print '(a)', 'going on behind '//b%given%parameter//' = ' &
-         & //to_text(b%here%parameter)//', point '//to_text(b%points)//' of branch '//to_text(b%branch)
+      if (.not. run%quiet) print '(a)', 'going on behind '//b%place(b%here)//', point '//to_text(b%points) &
+         & //' of branch '//to_text(b%branch)
       call open_series(run, b)
    end subroutine go_on
 
@@ -213,7 +219,7 @@ contains
       type(case_run_type), intent(inout) :: run
       type(branch_progress_type), intent(inout) :: b
       type(notes_type), intent(in) :: notes
-      call put_bifurcations(run%file, notes%special, b%parameter)
+      call put_bifurcations(run%file, notes%special, b)
       call run%file%put_text('branch_ends', notes%ends)
       associate (counts => run%counts, orbits => b%orbits)
          counts%rhs_evaluations = counts%rhs_evaluations + orbits%evaluations + orbits%tangents
@@ -246,8 +252,7 @@ contains
          if (at_end /= '') exit
       end do
       if (notes%ends /= '') notes%ends = notes%ends//newline
-      notes%ends = notes%ends//'branch '//to_text(b%branch)//' ends at '//b%given%parameter//' = ' &
-         & //precise(b%here%parameter)//': '//at_end
+      notes%ends = notes%ends//'branch '//to_text(b%branch)//' ends at '//b%place(b%here, .true.)//': '//at_end
    end subroutine follow
 
    !> Adds the point that was found to the file, and the bifurcation points before it.
@@ -259,12 +264,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       integer :: k
       do k = 1, size(special)
-         call return_to(b%problem, special(k)%point)
+         call b%stand_at(special(k)%point)
          call record(run, b, special(k)%point, error)
          if (allocated(error)) return
          call note(run, b, special(k), notes)
+         ! a curve may end in such a point
+         if (special(k)%point%arc_length >= b%here%arc_length) return
       end do
-      if (size(special) > 0) call return_to(b%problem, b%here)
+      if (size(special) > 0) call b%stand_at(b%here)
       call record(run, b, b%here, error)
    end subroutine record_step
 
@@ -274,8 +281,8 @@ contains
       type(branch_progress_type), intent(in) :: b
       type(bifurcation_type), intent(in) :: special
       type(notes_type), intent(inout) :: notes
-      notes%special = [notes%special, noted(run%file, b%branch, special)]
-      if (.not. run%quiet) call print_bifurcation(special, b%given%parameter, has_warm_oil(run%model))
+      notes%special = [notes%special, noted(run%file, b, special)]
+      if (.not. run%quiet) call print_bifurcation(special, b%place(special%point, .true.), has_warm_oil(run%model))
    end subroutine note
 
    !> Adds a point to the file, at which the problem stands.
@@ -296,7 +303,7 @@ contains
          viscosity = [real(wp) ::]
          if (allocated(oil)) call b%equilibria%temperatures(oil, viscosity)
       end if
-      call add_point(run%file, run%model, b%branch, b%parameter, point, figures, error, oil, viscosity)
+      call add_point(run%file, run%model, b, point, figures, error, oil, viscosity)
       call run%file%beat(int(wall_clock() - run%started))
    end subroutine record
 
@@ -312,25 +319,16 @@ contains
    ! What is printed of branches: bifurcation points as they are found, and at the end all of it.
 
    !> A bifurcation point, found between two points.
-   subroutine print_bifurcation(special, parameter, warm)
+   subroutine print_bifurcation(special, place, warm)
       type(bifurcation_type), intent(in) :: special
-      character(len=*), intent(in) :: parameter
+      character(len=*), intent(in) :: place
       !> Whether the oil has temperatures.
       logical, intent(in) :: warm
       associate (value => special%value)
-         print '(a)', '  '//trim(special%kind)//' at '//parameter//' = '//precise(special%point%parameter) &
-            & //filled(', {.4}'//merge(' + ', ' - ', value%im >= 0)//'{.4} i', [value%re, abs(value%im)])//frozen(warm)
+         print '(a)', '  '//trim(special%kind)//' at '//place//filled(', {.4}'//merge(' + ', ' - ', value%im >= 0) &
+            & //'{.4} i', [value%re, abs(value%im)])//frozen(warm)
       end associate
    end subroutine print_bifurcation
-
-   !> Ten significant digits.
-   function precise(x) result(digits)
-      real(wp), intent(in) :: x
-      character(len=:), allocatable :: digits
-      character(len=24) :: buffer
-      write (buffer, '(ss,g0.10)') x
-      digits = trim(buffer)
-   end function precise
 
    !> All branches: points, those that are stable, what warm oil does, and their ends.
    subroutine print_branch(file, inputs, parameter, warm)
@@ -359,6 +357,37 @@ contains
       call file%get_text('branch_ends', ends)
       print '(a)', ends
    end subroutine print_branch
+
+   !> The points of a curve: where they are, the frequency of what begins there, and which side is stable.
+   subroutine print_curve(file, given)
+      type(run_file_type), intent(inout) :: file
+      type(branch_type), intent(in) :: given
+      real(wp), allocatable, dimension(:, :) :: first, second, side, stable, frequency, ratio
+      character(len=32) :: vibration
+      character(len=5) :: at
+      integer :: n, k
+      logical :: vibrates
+      n = int(file%hdf5%samples)
+      call file%hdf5%last_samples('parameter', n, first)
+      call file%hdf5%last_samples('second_parameter', n, second)
+      call file%hdf5%last_samples('stable_side', n, side)
+      call file%hdf5%last_samples('stable', n, stable)
+      vibration = ''
+      vibrates = file%hdf5%has_series('frequency')
+      if (vibrates) then
+         call file%hdf5%last_samples('frequency', n, frequency)
+         call file%hdf5%last_samples('frequency_ratio', n, ratio)
+         vibration = 'Hz, over that of the shaft'
+      end if
+      print '(2(1x,a),1x,a)', given%second_parameter, given%parameter, trim(vibration)//' '//trim(merge( &
+         & 'solutions  ', 'stable side', index(given%point, 'fold') > 0))
+      do k = 1, n
+         at = merge('above', 'below', side(1, k) > 0)
+         if (.not. stable(1, k) > 0 .and. index(given%point, 'fold') == 0) at = 'none'
+         if (vibrates) write (vibration, '(f12.3,f9.5)') frequency(1, k), ratio(1, k)
+         print '(2(1x,a15),a,2x,a)', precise(second(1, k)), precise(first(1, k)), trim(vibration), trim(at)
+      end do
+   end subroutine print_curve
 
    !> To which side limit cycles are born, and how far unstable ones reach: a kick beyond them leads away from an
    !> equilibrium that is stable.

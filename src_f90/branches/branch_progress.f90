@@ -1,8 +1,8 @@
 !> The branches of a bearing over a number of its input: what is followed, how far it has come, and the next point.
 module branch_progress
-   use kinds, only: wp, i8
-   use text, only: to_text
-   use errors, only: error_type, add_context, numerics_error, stopped
+   use kinds, only: wp, i8, pi
+   use text, only: to_text, filled
+   use errors, only: error_type, raise, add_context, numerics_error, stopped
    use case_groups, only: branch_type
    use case_parameter, only: case_parameter_type, find_parameter
    use equations_of_motion, only: machine_model
@@ -12,23 +12,25 @@ module branch_progress
    use orbit_polynomials, only: orbit_type, points
    use orbit_problem, only: orbit_problem_type, begin_orbits, period_multiple_at
    use limit_cycle, only: limit_cycle_type, begin_cycles
-   use hopf_start, only: find_hopf_point, begin_at_hopf_point
+   use hopf_start, only: begin_at_hopf_point
    use newton_method, only: branch_problem_type, branch_point_type, can_be_of, return_to
-   use continuation, only: branch_options, start_branch, advance, bifurcation_type, find_bifurcations
+   use continuation, only: branch_options, start_branch, advance, bifurcation_type, find_bifurcations, find_first
+   use bifurcation_curve, only: curve_type, begin_curve, go_to_point, follow_curve
    use varied_bearing, only: varied_bearing_type, bearing_orbits_type
+   use linear_bearing, only: pivot_name
    use heat_balance_equations, only: has_warm_oil
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
    use linear_algebra, only: solve
    implicit none (type, external)
    private
-   public :: branch_progress_type, double_period
+   public :: branch_progress_type, double_period, precise
 
    type :: branch_progress_type
       !> What the case asks for.
       type(branch_type) :: given
       type(case_parameter_type) :: parameter
       type(branch_options) :: options
-      !> Value of the case, and the size of the way from there.
+      !> Value of the case, and the size of the way from there; on a curve 0 and 1.
       real(wp) :: first = 0, way = 0
       !> Either is followed; it is the problem. Orbits may be limit cycles.
       logical :: of_orbits = .true., of_cycles = .false.
@@ -46,6 +48,8 @@ module branch_progress
       integer, private :: longest_turns = 0
       !> Period doublings from which branches are still to be followed.
       type(branch_point_type), allocatable :: period_doublings(:)
+      !> Where bifurcation points over two parameters are followed.
+      type(curve_type), allocatable :: curve
    contains
       procedure :: prepare
       procedure :: begin_oil
@@ -54,6 +58,13 @@ module branch_progress
       procedure :: begin_at_hopf
       procedure :: begin_anywhere
       procedure :: first_point
+      procedure :: first_of_curve
+      procedure :: values_at
+      procedure :: place
+      procedure :: stand_at
+      procedure :: speed
+      procedure, private :: bearing
+      procedure, private :: seek
       procedure :: go_on
       procedure :: take_step
       procedure :: begin_double
@@ -83,8 +94,8 @@ contains
          if (allocated(error)) return
          self%first = self%parameter%value(model%inputs)
          self%way = abs(given%last - self%first)
-         self%of_orbits = given%of /= 'equilibrium'
-         self%of_cycles = given%of == 'limit_cycle'
+         self%of_orbits = model%inputs%followed() /= 'equilibrium'
+         self%of_cycles = model%inputs%followed() == 'limit_cycle'
          if (self%of_cycles) then
             allocate (limit_cycle_type :: self%orbits)
          else
@@ -95,6 +106,7 @@ contains
          self%options%first_step = abs(given%step)/self%way
          self%options%max_step = given%max_step/self%way
          if (.not. given%max_step > 0) self%options%max_step = usual_growth*self%options%first_step
+         if (given%of == 'curve') call prepare_curve()
       end associate
       self%given = model%inputs%branch
       self%longest_turns = longest_period*model%inputs%periodic%revolutions
@@ -103,7 +115,7 @@ contains
       if (self%of_orbits) then
          self%problem => self%orbits
          self%options%tolerance = model%inputs%periodic%tolerance
-         self%ode%bearing = varied_bearing_type(model, self%parameter)
+         self%ode%bearing = self%bearing(model)
          self%ode%model => model
          ! for meshes alone, wherever the branch leads
          self%ode%march = march_settings_of(model, steps)
@@ -111,7 +123,99 @@ contains
          self%problem => self%equilibria
          call make_fine(model, self%static)
       end if
+   contains
+      !> The branch on which a curve begins goes along one side of its plane.
+      subroutine prepare_curve()
+         allocate (self%curve)
+         associate (curve => self%curve, given => model%inputs%branch)
+            curve%kind = given%point
+            if (self%of_cycles) curve%kind = 'fold'
+            curve%of_multipliers = self%of_orbits
+            curve%longest = merge(self%options%max_step, self%options%first_step, given%max_step > 0)
+            curve%names = [character(len=max(len(given%parameter), len(given%second_parameter))) :: given%parameter, &
+               & given%second_parameter]
+            call find_parameter(model%inputs, given%second_parameter, curve%line%second, error)
+            curve%line%first = [self%first, curve%line%second%value(model%inputs)]
+            curve%line%last = [given%last, given%second_last]
+         end associate
+         self%first = 0
+         self%way = 1
+         self%options%low = 0
+         self%options%high = 1
+      end subroutine prepare_curve
    end subroutine prepare
+
+   !> A model with what varies.
+   function bearing(self, model)
+      class(branch_progress_type), intent(in), target :: self
+      type(machine_model), intent(in), target :: model
+      type(varied_bearing_type) :: bearing
+      bearing%model => model
+      bearing%parameter = self%parameter
+      if (allocated(self%curve)) bearing%line => self%curve%line
+   end function bearing
+
+   !> The values of the parameters at a point; the second is 0 where there is one.
+   pure function values_at(self, point) result(values)
+      class(branch_progress_type), intent(in) :: self
+      type(branch_point_type), intent(in) :: point
+      real(wp) :: values(2)
+      values = [point%parameter, 0.0_wp]
+      if (.not. allocated(self%curve)) return
+      associate (line => self%curve%line)
+         values = line%at(point%curve%origin + point%parameter*point%curve%line)
+      end associate
+   end function values_at
+
+   !> Speed of the shaft where the problem stands, rad/s.
+   pure real(wp) function speed(self)
+      class(branch_progress_type), intent(in) :: self
+      if (self%of_orbits) then
+         speed = 2*pi/self%ode%period
+      else
+         speed = self%static%point%speed(0.0_wp)
+      end if
+   end function speed
+
+   !> In words, with ten significant digits or those that suffice.
+   function place(self, point, closely) result(text)
+      class(branch_progress_type), intent(in) :: self
+      type(branch_point_type), intent(in) :: point
+      logical, intent(in), optional :: closely
+      character(len=:), allocatable :: text
+      real(wp) :: values(2)
+      values = self%values_at(point)
+      text = self%given%parameter//' = '//digits(values(1))
+      if (allocated(self%curve)) text = text//', '//self%given%second_parameter//' = '//digits(values(2))
+   contains
+      function digits(x)
+         real(wp), intent(in) :: x
+         character(len=:), allocatable :: digits
+         digits = to_text(x)
+         if (present(closely)) digits = precise(x)
+      end function digits
+   end function place
+
+   !> Ten significant digits.
+   function precise(x) result(digits)
+      real(wp), intent(in) :: x
+      character(len=:), allocatable :: digits
+      character(len=24) :: buffer
+      write (buffer, '(ss,g0.10)') x
+      digits = trim(buffer)
+   end function precise
+
+   !> Takes the problem to a point.
+   subroutine stand_at(self, point, refusal)
+      class(branch_progress_type), intent(inout) :: self
+      type(branch_point_type), intent(in) :: point
+      type(error_type), allocatable, intent(out), optional :: refusal
+      if (allocated(self%curve)) then
+         call go_to_point(self%curve, self%problem, point, refusal)
+      else
+         call return_to(self%problem, point, refusal)
+      end if
+   end subroutine stand_at
 
    !> Gives orbits the viscosities of warm oil from the equilibrium, whose state this is and whose viscosities the model
    !> has.
@@ -123,7 +227,7 @@ contains
       ! Newton's method on the orbit asks
       nullify (self%static%give_up)
       allocate (self%ode%oil)
-      self%ode%oil%bearing = varied_bearing_type(self%static, self%parameter)
+      self%ode%oil%bearing = self%bearing(self%static)
       self%ode%start = [equilibrium_state, model%oil%viscosity]
    end subroutine begin_oil
 
@@ -145,9 +249,18 @@ contains
       class(branch_progress_type), intent(inout), target :: self
       real(wp), intent(in) :: y(:)
       type(warm_films_type), allocatable, intent(in), optional :: films(:)
-      call begin_equilibria(self%equilibria, varied_bearing_type(self%static, self%parameter), y, self%first, &
-         & self%way, films)
+      call begin_equilibria(self%equilibria, self%bearing(self%static), y, self%first, self%way, films)
+      if (self%given%point == 'hopf') self%equilibria%pivot = at_rest(self%static)
    end subroutine begin_with_equilibrium
+
+   !> How pivots behave in small vibrations about a place of rest.
+   pure function at_rest(model) result(pivot)
+      type(machine_model), intent(in) :: model
+      character(len=pivot_name) :: pivot
+      integer :: b
+      pivot = merge('stuck', 'free ', any([(model%inputs%bearings(b)%friction%model /= 'none', b=1, &
+         & size(model%bearings))]))
+   end function at_rest
 
    !> With the limit cycles that begin at the first Hopf point of the equilibria. `fine`, a static model, is in
    !> equilibrium in y, with these temperatures along and across its films, if it has any.
@@ -160,29 +273,84 @@ contains
       type(bifurcation_type), intent(out) :: hopf
       type(error_type), allocatable, intent(out) :: error
       type(equilibrium_problem_type) :: equilibria
-      real(wp) :: at_rest(model%n)
-      integer :: b
-      call begin_equilibria(equilibria, varied_bearing_type(fine, self%parameter), y, self%first, self%way, films)
-      if (any([(model%inputs%bearings(b)%friction%model /= 'none', b=1, size(model%bearings))])) then
-         equilibria%pivot = 'stuck'
-      end if
-      call find_hopf_point(equilibria, self%options, self%given%parameter, hopf, error)
+      type(branch_point_type) :: here
+      real(wp) :: rest(model%n)
+      call begin_equilibria(equilibria, self%bearing(fine), y, self%first, self%way, films)
+      equilibria%pivot = at_rest(model)
+      call start_branch(equilibria, self%options, self%options%high > self%first, here, error)
+      call add_context(error, 'the first equilibrium')
+      if (.not. allocated(error)) call self%seek(equilibria, 'hopf', here, hopf, error)
       if (allocated(error)) return
-      at_rest = 0
-      at_rest(model%layout%positions()) = equilibria%positions
+      rest = 0
+      rest(model%layout%positions()) = equilibria%positions
       if (has_warm_oil(model)) then
-         call self%begin_oil(model, at_rest)
-         self%ode%start = [at_rest, fine%oil%viscosity]
+         call self%begin_oil(model, rest)
+         self%ode%start = [rest, fine%oil%viscosity]
          self%ode%found = self%ode%start
       end if
       select type (cycles => self%orbits)
       type is (limit_cycle_type)
-         call begin_at_hopf_point(cycles, self%ode, at_rest, model%scale, hopf%value, hopf%point%parameter, self%way, &
+         call begin_at_hopf_point(cycles, self%ode, rest, model%scale, hopf%value, hopf%point%parameter, self%way, &
             & self%here, error)
       end select
       self%length = min(first_cycle, self%options%first_step)
       self%points = 0
    end subroutine begin_at_hopf
+
+   !> Follows a problem's branch from a point to the first bifurcation point of a kind. An error where there is none up
+   !> to the bound of the parameter says what comes closest to the border of stability there.
+   subroutine seek(self, problem, kind, here, found, error)
+      class(branch_progress_type), intent(in) :: self
+      class(branch_problem_type), intent(inout) :: problem
+      character(len=*), intent(in) :: kind
+      type(branch_point_type), intent(inout) :: here
+      type(bifurcation_type), intent(out) :: found
+      type(error_type), allocatable, intent(out) :: error
+      character(len=:), allocatable :: none, start, leading
+      real(wp) :: length
+      start = self%place(here)
+      length = self%length
+      call find_first(problem, self%options, kind, here, length, found, error)
+      select case (kind)
+      case ('hopf')
+         none = 'Hopf point'
+      case ('neimark_sacker')
+         none = 'Neimark-Sacker point'
+      case ('period_doubling')
+         none = 'period doubling'
+      case default
+         none = kind
+      end select
+      if (allocated(error)) then
+         if (error%status /= stopped) call add_context(error, 'no '//none//' up to '//self%place(here))
+      else if (found%kind == '') then
+         select type (problem)
+         type is (equilibrium_problem_type)
+            none = 'the equilibria have no '//none
+            leading = 'eigenvalue is '//filled('{} 1/s at {} Hz', [here%values(1)%re, abs(here%values(1)%im)/(2*pi)])
+         class default
+            none = trim(merge('the limit cycles have no', 'the orbits have no      ', self%of_cycles))//' '//none
+            leading = 'multiplier is '//filled('{} + {} i', [here%values(1)%re, abs(here%values(1)%im)])
+         end select
+         call raise(error, numerics_error, none//' from '//start//' to '//self%place(here)//': there the leading ' &
+            & //leading//'; try another branch%last, or another first value')
+      end if
+   end subroutine seek
+
+   !> Goes on from the first point of a branch to that of a curve.
+   subroutine first_of_curve(self, error)
+      class(branch_progress_type), intent(inout) :: self
+      type(error_type), allocatable, intent(out) :: error
+      type(branch_point_type) :: here
+      type(bifurcation_type) :: found
+      here = self%here
+      call self%seek(self%problem, trim(self%curve%kind), here, found, error)
+      if (allocated(error)) return
+      call begin_curve(self%curve, self%problem, self%options, found, self%here, error)
+      call add_context(error, 'the first point of the curve')
+      self%points = 1
+      self%length = self%curve%longest
+   end subroutine first_of_curve
 
    !> Where `go_on` will lead to the place of a checkpoint.
    subroutine begin_anywhere(self, model)
@@ -222,7 +390,7 @@ contains
       ok = can_be_of(self%problem, self%here) .and. all([(can_be_of(self%problem, self%period_doublings(k)), k=1, &
          & size(self%period_doublings))])
       if (.not. ok) return
-      call return_to(self%problem, self%here, refusal)
+      call self%stand_at(self%here, refusal)
       ok = .not. allocated(refusal)
       if (ok) call self%problem%spectrum(values, growth, ok)
       if (ok) ok = size(growth) == size(self%here%growth)
@@ -241,18 +409,24 @@ contains
       real(wp), allocatable :: split(:)
       real(wp) :: length
       logical :: ends
-      allocate (special(0))
       found = .false.
       at_end = ''
+      length = self%length
+      if (allocated(self%curve)) then
+         call follow_curve(self%curve, self%problem, self%options, self%here, length, next, special, at_end, error)
+         call add_context(error, 'the curve was lost behind '//self%place(self%here)//', point '//to_text(self%points))
+         if (.not. allocated(error)) call accept()
+         return
+      end if
+      allocate (special(0))
       split = [real(wp) ::]
       if (self%branch > 1 .or. self%of_cycles) split = half_apart(self%orbits)
-      length = self%length
       call advance(self%problem, self%options, self%here, length, next, ends, error)
       if (allocated(error)) then
          call find_oil_error()
          if (error%status == numerics_error .and. .not. self%problem%refused) call add_context(error, 'branch ' &
-            & //to_text(self%branch)//' was lost behind '//self%given%parameter//' = ' &
-            & //to_text(self%here%parameter)//', its point '//to_text(self%points))
+            & //to_text(self%branch)//' was lost behind '//self%place(self%here)//', its point ' &
+            & //to_text(self%points))
          if (error%status == stopped .or. .not. self%problem%refused) return
          at_end = 'there is nothing beyond: '//error%message
          deallocate (error)
@@ -271,16 +445,20 @@ contains
          & error)
       if (allocated(error)) return
       call note_doublings()
-      found = .true.
-      self%here = next
-      self%points = self%points + 1
-      ! not before: a stop goes on from the point before, with its length
-      self%length = length
       if (ends) at_end = trim(merge('the first value', 'the last value ', abs(next%parameter - self%first) <= 0))
-      if (self%points >= self%given%max_points .and. .not. ends) at_end = 'after '//to_text(self%given%max_points) &
-         & //' points (branch%max_points)'
+      call accept()
 
    contains
+
+      subroutine accept()
+         found = .true.
+         self%here = next
+         self%points = self%points + 1
+         ! not before: a stop goes on from the point before, with its length
+         self%length = length
+         if (self%points >= self%given%max_points .and. at_end == '') at_end = 'after ' &
+            & //to_text(self%given%max_points)//' points (branch%max_points)'
+      end subroutine accept
 
       !> Keeps the period doublings among bifurcation points from which a branch is to be followed.
       subroutine note_doublings()

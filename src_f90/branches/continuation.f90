@@ -8,7 +8,8 @@ module continuation
    use roots, only: root_bracket
    implicit none (type, external)
    private
-   public :: branch_options, start_branch, advance, bifurcation_type, find_bifurcations, kinds_of_points, kind_length
+   public :: branch_options, start_branch, advance, bifurcation_type, find_bifurcations, find_first, &
+      & kinds_of_points, kind_length
 
    type, extends(newton_options) :: branch_options
       !> First and longest step along the branch.
@@ -30,7 +31,8 @@ module continuation
    !> Length of the names of kinds, and all names.
    integer, parameter :: kind_length = 15
    character(len=kind_length), parameter :: kinds_of_points(*) = [character(len=kind_length) :: 'fold', &
-      & 'period_doubling', 'neimark_sacker', 'hopf', 'branch_point', 'divergence']
+      & 'period_doubling', 'neimark_sacker', 'hopf', 'branch_point', 'divergence', 'double_hopf', 'fold_hopf', &
+      & 'bogdanov_takens', 'cusp', 'resonance_1_1', 'resonance_1_2']
 
    type :: bifurcation_type
       character(len=kind_length) :: kind = ''
@@ -235,6 +237,39 @@ contains
          one%value = point%values(max(1, k))
       end subroutine locate
    end subroutine find_bifurcations
+
+   !> Follows a branch from a point, at which a problem stands, to the first bifurcation point of a kind, at which it
+   !> stands then; without a kind where there is none up to the bound of the parameter. `here` is then the last point.
+   subroutine find_first(problem, options, kind, here, length, found, error)
+      class(branch_problem_type), intent(inout) :: problem
+      type(branch_options), intent(in) :: options
+      character(len=*), intent(in) :: kind
+      type(branch_point_type), intent(inout) :: here
+      real(wp), intent(inout) :: length
+      type(bifurcation_type), intent(out) :: found
+      type(error_type), allocatable, intent(out) :: error
+      type(bifurcation_type), allocatable :: special(:)
+      type(branch_point_type) :: next
+      integer :: k
+      logical :: ends
+      ends = .false.
+      do while (.not. ends)
+         call advance(problem, options, here, length, next, ends, error)
+         if (allocated(error)) return
+         allocate (special(0))
+         ! where cycles begin one more multiplier is 1
+         if (.not. begins_across(problem, here)) call find_bifurcations(problem, options, here, next, special, error)
+         if (allocated(error)) return
+         here = next
+         k = findloc(special%kind, kind, dim=1)
+         if (k > 0) then
+            found = special(k)
+            call return_to(problem, found%point)
+            return
+         end if
+         deallocate (special)
+      end do
+   end subroutine find_first
 
    pure integer function unstable(point)
       type(branch_point_type), intent(in) :: point

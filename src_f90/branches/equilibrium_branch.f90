@@ -227,7 +227,10 @@ contains
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       self%anew = .true.
-      self%beside = min(longest_beside, part*sqrt(self%dot(change, change)))
+      associate (way => sqrt(self%dot(change, change)))
+         self%beside = longest_beside
+         if (way > 0) self%beside = min(longest_beside, part*way)
+      end associate
       call self%move(change, .false.)
    end subroutine predict
 

@@ -1,66 +1,20 @@
-!> Where limit cycles begin: the Hopf point of a branch of equilibria, and the vibration there as a cycle of no size.
+!> Where limit cycles begin: the vibration at a Hopf point of a branch of equilibria as a cycle of no size.
 module hopf_start
    use kinds, only: wp, pi
-   use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error, stopped
+   use errors, only: error_type, raise, numerics_error
    use linear_algebra, only: find_eigenvalues
    use newton_method, only: branch_point_type, return_to
-   use continuation, only: branch_options, start_branch, advance, bifurcation_type, find_bifurcations
    use orbit_polynomials, only: orbit_type, points
    use orbit_problem, only: parametric_ode_type
    use limit_cycle, only: limit_cycle_type, begin_cycles
-   use equilibrium_branch, only: equilibrium_problem_type
    implicit none (type, external)
    private
-   public :: find_hopf_point, begin_at_hopf_point
+   public :: begin_at_hopf_point
 
    !> Intervals of the first cycle, which is nearly harmonic: the collocation leaves less than 1e-8 of it.
    integer, parameter :: intervals = 24
 
 contains
-
-   !> Follows equilibria, from where a problem stands, to the first Hopf point, at which it stands then. An error where
-   !> there is none up to the bound of the parameter, which has this name.
-   subroutine find_hopf_point(problem, options, parameter, found, error)
-      type(equilibrium_problem_type), intent(inout) :: problem
-      type(branch_options), intent(in) :: options
-      character(len=*), intent(in) :: parameter
-      type(bifurcation_type), intent(out) :: found
-      type(error_type), allocatable, intent(out) :: error
-      type(branch_point_type) :: here, next
-      type(bifurcation_type), allocatable :: special(:)
-      real(wp) :: length, first
-      logical :: ends
-      integer :: k
-      first = problem%parameter
-      length = options%first_step
-      call start_branch(problem, options, options%high > first, here, error)
-      call add_context(error, 'the first equilibrium')
-      ends = .false.
-      do while (.not. (allocated(error) .or. ends))
-         call advance(problem, options, here, length, next, ends, error)
-         if (.not. allocated(error)) call find_bifurcations(problem, options, here, next, special, error)
-         if (allocated(error)) exit
-         do k = 1, size(special)
-            if (special(k)%kind /= 'hopf') cycle
-            found = special(k)
-            call return_to(problem, found%point)
-            return
-         end do
-         here = next
-      end do
-      if (allocated(error)) then
-         if (error%status /= stopped) call add_context(error, 'no Hopf point of the equilibria up to '//parameter &
-            & //' = '//to_text(here%parameter))
-         return
-      end if
-      associate (leading => here%values(1))
-         call raise(error, numerics_error, 'the equilibria have no Hopf point, where limit cycles begin, from ' &
-            & //parameter//' = '//to_text(first)//' to '//to_text(here%parameter)//': there the leading eigenvalue ' &
-            & //'is '//to_text(leading%re)//' 1/s at '//to_text(abs(leading%im)/(2*pi))//' Hz; try another ' &
-            & //'branch%last, or another first value')
-      end associate
-   end subroutine find_hopf_point
 
    !> The first point of a branch of cycles: the place of rest y of an ODE at a value of the parameter, over the period
    !> of the vibration of nearly this eigenvalue, 1/s. Its tangent is that vibration.

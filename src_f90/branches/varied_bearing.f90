@@ -18,19 +18,32 @@ module varied_bearing
    use orbit_problem, only: parametric_ode_type
    implicit none (type, external)
    private
-   public :: varied_bearing_type, bearing_orbits_type
+   public :: varied_bearing_type, bearing_orbits_type, parameter_line_type
+
+   !> A line in the plane of two numbers of the input, each 0 at its first value and 1 at its last: the way along it is
+   !> the parameter of a branch.
+   type :: parameter_line_type
+      type(case_parameter_type) :: second
+      real(wp) :: first(2) = 0, last(2) = 1, origin(2) = 0, direction(2) = [1, 0]
+   contains
+      procedure :: values
+      procedure :: at
+   end type parameter_line_type
 
    type :: varied_bearing_type
       type(machine_model), pointer :: model => null()
       type(case_parameter_type) :: parameter
+      !> Where there are two parameters.
+      type(parameter_line_type), pointer :: line => null()
    contains
       procedure :: set_value
+      procedure, private :: values_at
    end type varied_bearing_type
 
    !> A state in equilibrium and the oil there, at a value of the parameter; where its search began: a state and the
    !> viscosities, Pa s, as numbers.
    type :: static_state_type
-      real(wp) :: value = -huge(1.0_wp)
+      real(wp) :: value = 0, values(2) = -huge(1.0_wp)
       real(wp), allocatable :: start(:), state(:)
       type(film_oil), allocatable :: oil(:)
       !> Of each bearing, where films have temperatures along and across.
@@ -61,6 +74,31 @@ module varied_bearing
 
 contains
 
+   !> The numbers at a point of the line.
+   pure function values(self, along)
+      class(parameter_line_type), intent(in) :: self
+      real(wp), intent(in) :: along
+      real(wp) :: values(2)
+      values = self%at(self%origin + along*self%direction)
+   end function values
+
+   !> The numbers at a place of the plane; at 0 and 1 they are the first and last ones to the last bit.
+   pure function at(self, place) result(values)
+      class(parameter_line_type), intent(in) :: self
+      real(wp), intent(in) :: place(2)
+      real(wp) :: values(2)
+      values = (1 - place)*self%first + place*self%last
+   end function at
+
+   !> The numbers that a value of the parameter stands for; the second is 0 where there is one.
+   pure function values_at(self, value) result(values)
+      class(varied_bearing_type), intent(in) :: self
+      real(wp), intent(in) :: value
+      real(wp) :: values(2)
+      values = [value, 0.0_wp]
+      if (associated(self%line)) values = self%line%values(value)
+   end function values_at
+
    !> Gives the model another value; an error, with which the model is of this value all the same, where no valid case
    !> has it. `anew`, its films start so that what it answers does not depend on what it was asked before.
    subroutine set_value(self, value, anew, error)
@@ -69,8 +107,13 @@ contains
       logical, intent(in) :: anew
       type(error_type), allocatable, intent(out) :: error
       type(case_type) :: inputs
+      real(wp) :: values(2)
       inputs = self%model%inputs
-      call self%parameter%set(value, inputs, error)
+      values = self%values_at(value)
+      ! whether both are allowed shows where the case has both
+      if (associated(self%line)) call self%line%second%set(values(2), inputs, error)
+      call self%parameter%set(values(1), inputs, error)
+      if (associated(self%line) .and. .not. allocated(error)) call self%line%second%set(values(2), inputs, error)
       call self%model%adopt(inputs, anew)
    end subroutine set_value
 
@@ -96,6 +139,7 @@ contains
             if (allocated(error)) return
             self%known(2) = self%known(1)
             self%known(1)%value = value
+            self%known(1)%values = self%bearing%values_at(value)
             self%known(1)%start = start
             self%known(1)%state = y
             self%known(1)%oil = model%oil
@@ -107,7 +151,7 @@ contains
    contains
       pure logical function is_known(state)
          type(static_state_type), intent(in) :: state
-         is_known = abs(state%value - value) <= 0
+         is_known = all(abs(state%values - self%bearing%values_at(value)) <= 0)
          if (is_known) is_known = all(abs(state%start - start) <= 0)
       end function is_known
    end subroutine find

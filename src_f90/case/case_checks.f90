@@ -8,6 +8,7 @@ module case_checks
    use other_units, only: in_other_units
    use case_inputs, only: case_type
    use excitations, only: excitation_type
+   use branch_checks, only: check_branch
    implicit none (type, external)
    private
    public :: check_case, check_element_tables
@@ -64,7 +65,7 @@ contains
          if (inputs%bearings(b)%changes_shape()) call check_shape(inputs%bearings(b))
          call add_context(error, inputs%bearings(b)%label())
       end do
-      call check_branch()
+      call check_branch(inputs, error)
       call check_held()
       call check_excitations()
       call check_element_tables(inputs, error)
@@ -286,34 +287,6 @@ contains
          end associate
       end subroutine check_held
 
-      !> A branch needs a parameter; `case_parameter` checks what it, its last value and its step mean.
-      subroutine check_branch()
-         if (inputs%about%task /= 'branch') return
-         associate (b => inputs%branch)
-            call require(b%parameter /= '', 'branch%parameter = '''': must name a number of the input, such as ' &
-               & //'''operation%speed_rpm''', error)
-            if (is_set(b%step) .and. b%max_step > 0) call require(b%max_step >= abs(b%step), 'branch%max_step = {}: ' &
-               & //'must be 0 or at least the size of branch%step = {}', [b%max_step, b%step], error)
-            if (b%of == 'limit_cycle') call check_free()
-            call require(b%switch .or. b%of == 'periodic', 'branch%switch = .false.: has no effect on a branch of ' &
-               & //'equilibria or limit cycles', error)
-         end associate
-      end subroutine check_branch
-
-      !> Limit cycles are of a motion that nothing drives, and begin where pivots at rest have stiffness or none.
-      subroutine check_free()
-         integer :: b
-         call require(.not. inputs%unbalance() > 0, 'branch%of = ''limit_cycle'': must be without unbalance ' &
-            & //'({} kg m; rotor%unbalance = 0), which would drive the motion', [inputs%unbalance()], error)
-         do b = 1, size(inputs%bearings)
-            associate (model => inputs%bearings(b)%friction%model)
-               call require(model /= 'bengisu_akay', inputs%bearings(b)%label(': ')//'friction%model = '''//model &
-                  & //''': must be ''none'' or ''lugre'' with branch%of = ''limit_cycle'', as pivots at rest hold ' &
-                  & //'with no stiffness there', error)
-            end associate
-         end do
-      end subroutine check_free
-
       ! Checks of a machine: what no single value of its shaft and of what stands on it or under it can tell. A message
       ! names the group, its variables, their values and what is allowed.
 
@@ -409,8 +382,8 @@ contains
             & //''': has no effect without a file', error)
          call require(element%static .or. inputs%start%from == 'equilibrium', name//'%static = .false.: needs ' &
             & //'start%from = ''equilibrium'', about which it acts', error)
-         call require(element%static .or. inputs%about%task /= 'branch' .or. inputs%branch%of == 'equilibrium', name &
-            & //'%static = .false.: is not for a branch of periodic orbits, whose equilibria are not found', error)
+         call require(element%static .or. inputs%about%task /= 'branch' .or. inputs%followed() == 'equilibrium', &
+            & name//'%static = .false.: is not for a branch of periodic orbits, whose equilibria are not found', error)
       end subroutine check_element
 
       !> Refuses a station that is left out or that the shaft, of this number of stations, does not have.
@@ -517,9 +490,7 @@ contains
       associate (o => inputs%operation, task => inputs%about%task, up_to => inputs%coefficients%threshold_up_to_rpm)
          speeds = [o%speed_rpm, o%final_speed_rpm]
          if (task == 'coefficients' .and. up_to > 0) speeds = [speeds, up_to]
-         if (task == 'branch' .and. inputs%branch%parameter == 'operation%speed_rpm') then
-            if (is_set(inputs%branch%last)) speeds = [speeds, inputs%branch%last]
-         end if
+         if (task == 'branch') speeds = [speeds, inputs%branch%speeds()]
          do i = 1, size(inputs%rotor%elastic%elements)
             associate (e => inputs%rotor%elastic%elements(i))
                if (.not. allocated(e%table) .or. allocated(error)) cycle

@@ -251,10 +251,15 @@ module case_groups
       !> Its value at the end; its first change; its largest change in a step, 0: ten times the first. Unset where they
       !> are left out.
       real(wp) :: last = unset, step = unset, max_step = 0
+      !> Of a curve: what its points are, the other number, and its value at the end, unset where it is left out.
+      character(len=:), allocatable :: point, second_parameter
+      real(wp) :: second_last = unset
       !> Most points of a branch.
       integer :: max_points = 500
       !> Whether the branch of double period is followed where one begins.
       logical :: switch = .true.
+   contains
+      procedure :: speeds
    end type branch_type
 
    ! Groups of a rotor: rigid, a shaft, or the matrices of another program. Stations count from 1, between the sections
@@ -484,6 +489,15 @@ contains
       class(bearing_type), intent(in) :: self
       tilting_radial = self%pads%motion == 'tilting_radial'
    end function tilting_radial
+
+   !> Last values of the speed, rpm, if a branch is over it.
+   pure function speeds(self)
+      class(branch_type), intent(in) :: self
+      real(wp), allocatable :: speeds(:)
+      speeds = [real(wp) ::]
+      if (self%parameter == 'operation%speed_rpm' .and. is_set(self%last)) speeds = [self%last]
+      if (self%second_parameter == 'operation%speed_rpm' .and. is_set(self%second_last)) speeds = [self%second_last]
+   end function speeds
 
    !> "bearing 'drive_end'", and what follows it; empty for one without name.
    pure function label(self, ending) result(text)

@@ -29,6 +29,7 @@ module case_inputs
       procedure :: alone
       procedure :: moves
       procedure :: seeks_orbits
+      procedure :: followed
       procedure :: highest_speed
       procedure :: unbalance
       procedure :: sense
@@ -61,6 +62,8 @@ contains
       inputs%coefficients%frequency_ratio = [1.0_wp]
       inputs%branch%of = 'periodic'
       inputs%branch%parameter = ''
+      inputs%branch%point = ''
+      inputs%branch%second_parameter = ''
       allocate (inputs%excitations(0), inputs%bearings(1))
       inputs%bearings(1) = bearing_type()
       call inputs%set_final_speed()
@@ -102,9 +105,27 @@ contains
    !> Whether the task seeks periodic orbits, limit cycles among them.
    pure logical function seeks_orbits(self)
       class(case_type), intent(in) :: self
-      seeks_orbits = self%about%task == 'periodic' .or. self%about%task == 'branch' .and. self%branch%of &
+      seeks_orbits = self%about%task == 'periodic' .or. self%about%task == 'branch' .and. self%followed() &
          & /= 'equilibrium'
    end function seeks_orbits
+
+   !> What a branch is of, or the branches on which a curve has its points: 'periodic', 'equilibrium' or 'limit_cycle'.
+   pure function followed(self)
+      class(case_type), intent(in) :: self
+      character(len=:), allocatable :: followed
+      followed = self%branch%of
+      if (followed /= 'curve') return
+      select case (self%branch%point)
+      case ('hopf')
+         followed = 'equilibrium'
+      case ('cycle_fold')
+         followed = 'limit_cycle'
+      case ('fold')
+         followed = trim(merge('periodic   ', 'equilibrium', self%unbalance() > 0))
+      case default
+         followed = 'periodic'
+      end select
+   end function followed
 
    !> The case of bearing b alone, with a rigid journal in the place of an elastic rotor, under a load along y and z, N.
    pure type(case_type) function alone(self, b, load) result(inputs)

@@ -230,11 +230,16 @@ contains
             & 'how far from the orbit Newton''s method may end, over the characteristic scale of each state')
          call v%whole(inputs%periodic%max_iterations, 'max_iterations', 1.0_wp, 1e6_wp, &
             & 'maximum number of iterations of Newton''s method; more is a failure')
-         call group('branch', 'Equilibria, periodic orbits or limit cycles over a number of the input, for the task ' &
-            & //'branch')
-         call v%word(inputs%branch%of, 'of', 'periodic equilibrium limit_cycle', 'periodic: orbits, as the task ' &
-            & //'periodic finds them; equilibrium: equilibria without friction in the pivots; limit_cycle: the self-' &
-            & //'excited vibrations, without unbalance, that begin at the first Hopf point of the equilibria')
+         call group('branch', 'Equilibria, periodic orbits or limit cycles over a number of the input, or their ' &
+            & //'bifurcation points over two, for the task branch')
+         call v%word(inputs%branch%of, 'of', 'periodic equilibrium limit_cycle curve', 'periodic: orbits, as the ' &
+            & //'task periodic finds them; equilibrium: equilibria without friction in the pivots; limit_cycle: the ' &
+            & //'self-excited vibrations, without unbalance, that begin at the first Hopf point of the equilibria; ' &
+            & //'curve: the bifurcation points of a kind over two numbers of the input, from the first one that ' &
+            & //'such a branch has')
+         call v%word(inputs%branch%point, 'point', 'hopf fold period_doubling neimark_sacker cycle_fold', 'curve: ' &
+            & //'hopf: Hopf points of equilibria, without unbalance; fold: folds of orbits, without unbalance of ' &
+            & //'equilibria; period_doubling, neimark_sacker: of orbits; cycle_fold: folds of limit cycles')
          call v%word(inputs%branch%parameter, 'parameter', '', &
             & 'the number that changes, from the value that the case gives it: ''operation%speed_rpm''; with an ' &
             & //'element where there are several, ''rotor%static_load(1)''; of values of the pads all without one. ' &
@@ -243,8 +248,12 @@ contains
             & //'the first one if left out; it also ends where it comes back to the first value')
          call v%number(inputs%branch%step, 'step', -1e15_wp, 1e15_wp, '', &
             & 'its first change, a twentieth of the way if left out; later steps are as long as the iteration allows')
-         call v%number(inputs%branch%max_step, 'max_step', 0.0_wp, 1e15_wp, '', &
-            & 'its largest change from point to point; 0: ten times the first')
+         call v%number(inputs%branch%max_step, 'max_step', 0.0_wp, 1e15_wp, '', 'its largest change from point to ' &
+            & //'point, of a curve the same part of both ways; 0: ten times the first, of a curve the first')
+         call v%word(inputs%branch%second_parameter, 'second_parameter', '', 'curve: the other number, from the ' &
+            & //'value that the case gives it: ''rotor%mass''')
+         call v%number(inputs%branch%second_last, 'second_last', -1e15_wp, 1e15_wp, '', 'curve: its value where the ' &
+            & //'curve ends, twice the first one if left out; it also ends at the first or last value of either')
          call v%whole(inputs%branch%max_points, 'max_points', 2.0_wp, 1e5_wp, 'maximum number of points of a branch')
          call v%flag(inputs%branch%switch, 'switch', &
             & 'periodic: whether the orbits of double period are followed, too, where the period doubles')

@@ -5,7 +5,7 @@ module case_parameter
    use kinds, only: wp
    use text, only: lower_case, filled, find_similar, did_you_mean
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: is_set, in_range
+   use case_groups, only: is_set, in_range, unset
    use case_inputs, only: case_type
    use case_checks, only: check_case
    use variable_table, only: variable_type, variable_table_type
@@ -227,52 +227,75 @@ contains
    !> Where the end of a branch is left out, twice its first value; where its step is, a part of the way.
    subroutine complete_branch(inputs)
       type(case_type), intent(inout) :: inputs
-      type(case_parameter_type) :: parameter
-      type(error_type), allocatable :: error
       real(wp) :: first
       if (inputs%about%task /= 'branch') return
       associate (b => inputs%branch)
-         call find_parameter(inputs, b%parameter, parameter, error)
+         if (b%of == 'curve' .and. b%second_parameter /= '') call complete(b%second_parameter, b%second_last)
+         call complete(b%parameter, b%last)
+         if (is_set(first) .and. is_set(b%last) .and. .not. is_set(b%step)) b%step = (b%last - first)/first_steps
+      end associate
+   contains
+      subroutine complete(name, last)
+         character(len=*), intent(in) :: name
+         real(wp), intent(inout) :: last
+         type(case_parameter_type) :: parameter
+         type(error_type), allocatable :: error
+         first = unset
+         call find_parameter(inputs, name, parameter, error)
          if (allocated(error)) return
          first = parameter%value(inputs)
          ! from 0 there is no telling where to
-         if (.not. is_set(b%last) .and. abs(first) > 0) b%last = min(max(2*first, parameter%low), parameter%high)
-         if (is_set(b%last) .and. .not. is_set(b%step)) b%step = (b%last - first)/first_steps
-      end associate
+         if (.not. is_set(last) .and. abs(first) > 0) last = min(max(2*first, parameter%low), parameter%high)
+      end subroutine complete
    end subroutine complete_branch
 
    !> Refuses a branch over what is no number of the input, to where it may not go, or that starts the wrong way.
    subroutine check_branch_parameter(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(out) :: error
-      type(case_parameter_type) :: parameter
+      type(case_parameter_type) :: parameter, second
       real(wp) :: first
-      !> Whether the parameter is an unbalance.
-      logical :: drives
       if (inputs%about%task /= 'branch') return
       associate (b => inputs%branch)
-         call find_parameter(inputs, b%parameter, parameter, error)
-         call add_context(error, 'branch%parameter = '''//b%parameter//'''')
+         if (b%of == 'curve') call check(b%second_parameter, 'branch%second_', b%second_last, second)
+         if (.not. allocated(error)) call check(b%parameter, 'branch%', b%last, parameter)
          if (allocated(error)) return
-         first = parameter%value(inputs)
-         drives = kind_of(parameter%group) == 'unbalance' .or. parameter%name == 'unbalance' &
-            & .or. index(parameter%name, 'balance_') == 1
-         call require(b%of /= 'equilibrium' .or. .not. (drives .or. kind_of(parameter%group) == 'friction'), &
-            & 'branch%parameter = '''//b%parameter//''': has no effect on equilibria, which are without friction and ' &
-            & //'unbalance', error)
-         call require(b%of /= 'limit_cycle' .or. .not. drives, 'branch%parameter = '''//b%parameter//''': limit ' &
-            & //'cycles are without unbalance; branch%of = ''periodic'' follows orbits over it', error)
-         call require(is_set(b%last), 'branch%last: must be given, as twice '//b%parameter//' = {} is no other value', &
-            & [first], error)
-         if (allocated(error)) return
-         call require(in_range(b%last, [parameter%low, parameter%high]), 'branch%last = {}: must be {} ' &
-            & //'to {}, as '//b%parameter, [b%last, parameter%low, parameter%high], error)
-         call require(abs(b%last - first) > 0, 'branch%last = {}: is the value of '//b%parameter//' already, where ' &
-            & //'the branch starts', [b%last], error)
+         call require(b%of /= 'curve' .or. .not. (parameter%group == second%group .and. parameter%name == second%name &
+            & .and. (parameter%element == second%element .or. min(parameter%element, second%element) == 0)), &
+            & 'branch%second_parameter = '''//b%second_parameter//''': is branch%parameter already; a curve is ' &
+            & //'over two different numbers', error)
          call require(b%step*(b%last - first) > 0, 'branch%step = {}: must be '//merge('> 0', '< 0', b%last > first) &
             & //', from '//b%parameter//' = {} towards branch%last = {}', [b%step, first, b%last], error)
          call require(abs(b%step) <= abs(b%last - first), 'branch%step = {}: must be smaller than the way from ' &
             & //b%parameter//' = {} to branch%last = {}', [b%step, first, b%last], error)
       end associate
+   contains
+
+      !> One parameter and its last value.
+      subroutine check(name, which, last, parameter)
+         character(len=*), intent(in) :: name, which
+         real(wp), intent(in) :: last
+         type(case_parameter_type), intent(out) :: parameter
+         !> Whether the parameter is an unbalance.
+         logical :: drives
+         call find_parameter(inputs, name, parameter, error)
+         call add_context(error, which//'parameter = '''//name//'''')
+         if (allocated(error)) return
+         first = parameter%value(inputs)
+         drives = kind_of(parameter%group) == 'unbalance' .or. parameter%name == 'unbalance' &
+            & .or. index(parameter%name, 'balance_') == 1
+         call require(inputs%followed() /= 'equilibrium' .or. .not. (drives .or. kind_of(parameter%group) &
+            & == 'friction' .and. inputs%branch%point /= 'hopf'), which//'parameter = '''//name//''': has no effect ' &
+            & //'on equilibria, which are without friction and unbalance', error)
+         call require(inputs%followed() /= 'limit_cycle' .or. .not. drives, which//'parameter = '''//name//''': ' &
+            & //'limit cycles are without unbalance; branch%of = ''periodic'' follows orbits over it', error)
+         call require(is_set(last), which//'last: must be given, as twice '//name//' = {} is no other value', &
+            & [first], error)
+         if (allocated(error)) return
+         call require(in_range(last, [parameter%low, parameter%high]), which//'last = {}: must be {} to {}, as ' &
+            & //name, [last, parameter%low, parameter%high], error)
+         call require(abs(last - first) > 0, which//'last = {}: is the value of '//name//' already, where the ' &
+            & //trim(merge('curve ', 'branch', inputs%branch%of == 'curve'))//' starts', [last], error)
+      end subroutine check
    end subroutine check_branch_parameter
 end module case_parameter

@@ -58,9 +58,14 @@ contains
       do b = 1, size(inputs%bearings)
          lines = lines//behind(inputs%bearings(b)%label(': '), on_bearing(inputs%bearings(b)))
       end do
-      if (inputs%about%task == 'branch' .and. inputs%branch%of == 'limit_cycle') lines = lines//line_if(any([( &
+      if (inputs%about%task == 'branch' .and. inputs%followed() == 'limit_cycle') lines = lines//line_if(any([( &
          & inputs%bearings(b)%film%cavitation == 'none', b=1, size(inputs%bearings))]), 'film%cavitation = ''none'': ' &
          & //'limit cycles may be held by tension of the oil, which real films do not bear')
+      associate (b => inputs%branch)
+         if (inputs%about%task == 'branch' .and. b%point == 'hopf') lines = lines//line_if(index( &
+            & b%parameter//b%second_parameter, 'ic_coefficient') > 0, 'friction: Hopf points of stuck pads depend on ' &
+            & //'friction%bristle_stiffness, not on the coefficients of friction, as pivots at rest do not slide')
+      end associate
       lines = lines//remarks_on_units()//remarks_on_forces()
       if (allocated(inputs%about%of_paper)) lines = lines//'not given, and so as in the paper''s bearing: ' &
          & //inputs%about%of_paper//newline
@@ -249,7 +254,7 @@ contains
       case ('periodic')
          is_idle = .not. inputs%seeks_orbits()
       case ('start')
-         is_idle = .not. inputs%moves() .or. inputs%about%task == 'branch' .and. inputs%branch%of == 'limit_cycle'
+         is_idle = .not. inputs%moves() .or. inputs%about%task == 'branch' .and. inputs%followed() == 'limit_cycle'
       case ('integration', 'output')
          is_idle = inputs%about%task /= 'march' .and. any(name == [character(len=18) :: 'stop_when_periodic', &
             & 'start_time'])

@@ -7,8 +7,8 @@ module newton_method
    use linear_algebra, only: solve
    implicit none (type, external)
    private
-   public :: branch_problem_type, place_part_type, branch_point_type, newton_options, correct, newton_iterations
-   public :: return_to, can_be_of
+   public :: branch_problem_type, place_part_type, branch_point_type, curve_place_type, newton_options, correct
+   public :: newton_iterations, return_to, can_be_of
 
    !> Numbers of a place, as a file names them.
    type :: place_part_type
@@ -93,6 +93,22 @@ module newton_method
       end subroutine put_place
    end interface
 
+   !> What a point of a curve of bifurcation points has more; places are in the plane of both parameters.
+   type :: curve_place_type
+      !> The line through the point whose branch was followed: where its parameter is 0, and its direction. Direction of
+      !> the curve.
+      real(wp) :: origin(2) = 0, line(2) = [1, 0], ahead(2) = [0, 1]
+      !> Where the curve leads: part along that branch, part ahead; how far it turns in a step, over its square; slope
+      !> of what is 0 on the curve.
+      real(wp) :: direction(2) = [0, 1], turn = 0, slope = 0
+      !> The value that has come to the border of stability; what is 0 at points of codimension two; 1 or -1: larger or
+      !> smaller values of the first parameter are stable, or have the solutions that meet in a fold.
+      complex(wp) :: value = 0
+      real(wp) :: tests(4) = 0, stable_side = 0
+      !> Whether all other values are stable.
+      logical :: others_stable = .true.
+   end type curve_place_type
+
    type :: branch_point_type
       real(wp) :: parameter = 0
       !> Length of the branch up to here, and of its last step along the tangent there.
@@ -106,6 +122,7 @@ module newton_method
       !> Rounds of Newton's method; the last correction; in a plane, the length of the way from where it was sought.
       integer :: iterations = 0
       real(wp) :: correction = huge(1.0_wp), distance = 0
+      type(curve_place_type) :: curve
    end type branch_point_type
 
    type :: newton_options

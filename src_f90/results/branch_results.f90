@@ -1,11 +1,11 @@
 !> What the file of a run says of its branches: names, dimensions and units as docs/results.md lists them.
 module branch_results
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-   use kinds, only: wp, i8
+   use kinds, only: wp, i8, pi
    use errors, only: error_type, raise, system_error
    use text, only: to_text
-   use case_parameter, only: case_parameter_type
-   use newton_method, only: branch_point_type
+   use newton_method, only: branch_point_type, curve_place_type
+   use bifurcation_curve, only: curve_type
    use continuation, only: bifurcation_type, kinds_of_points, kind_length
    use heat_balance, only: oil_temperatures_type
    use state_layout, only: tilt
@@ -22,7 +22,8 @@ module branch_results
    !> A bifurcation point as the file has it: its number among all points and among the kinds, and where it is.
    type :: noted_point_type
       integer :: point = 0, kind = 0, branch = 1
-      real(wp) :: parameter = 0
+      !> Of the first and, on a curve, the second parameter.
+      real(wp) :: parameters(2) = 0
       complex(wp) :: value = 0
    end type noted_point_type
 
@@ -42,11 +43,10 @@ contains
    end subroutine begin_branches
 
    !> Adds a point of a branch of a model; of oil that has no temperatures without `oil`.
-   subroutine add_point(file, model, branch, parameter, point, figures, error, oil, viscosity)
+   subroutine add_point(file, model, branches, point, figures, error, oil, viscosity)
       type(run_file_type), intent(inout), target :: file
       type(machine_model), intent(in) :: model
-      integer, intent(in) :: branch
-      type(case_parameter_type), intent(in) :: parameter
+      type(branch_progress_type), intent(in) :: branches
       type(branch_point_type), intent(in) :: point
       type(orbit_figures_type), intent(in) :: figures
       type(error_type), allocatable, intent(out) :: error
@@ -57,19 +57,28 @@ contains
       type(bearing_file_type) :: part
       character(len=:), allocatable :: frozen
       real(wp), allocatable :: all_values(:)
+      real(wp) :: values(2)
       logical :: first
       integer :: b
+      ! long: a list of what the file has of a point
       first = .not. file%hdf5%declared
       all_values = [real(wp) ::]
       frozen = ''
       if (present(oil)) frozen = ', at frozen viscosity'
       part = new_bearing_file(file)
       call one('point', real(file%hdf5%samples + 1, wp), '1', 'point number')
-      call one('branch', real(branch, wp), '1', 'branch number: 1 the first, then those of double period')
-      call one('parameter', point%parameter, trim(parameter%unit), parameter%meaning)
+      call one('branch', real(branches%branch, wp), '1', 'branch number: 1 the first, then those of double period')
+      values = branches%values_at(point)
+      associate (parameter => branches%parameter)
+         call one('parameter', values(1), trim(parameter%unit), parameter%meaning)
+      end associate
       call one('arc_length', point%arc_length, '1', 'length of the branch')
-      call one('stable', merge(1.0_wp, 0.0_wp, all(point%growth < 0)), '1', &
-         & '1 where small disturbances die away'//frozen)
+      if (allocated(branches%curve)) then
+         call put_curve(branches%curve, point%curve)
+      else
+         call one('stable', merge(1.0_wp, 0.0_wp, all(point%growth < 0)), '1', &
+            & '1 where small disturbances die away'//frozen)
+      end if
       call one('iterations', real(point%iterations, wp), '1', 'iterations of Newton''s method')
       if (figures%revolutions > 0) then
          call one('period', figures%period, 's', 'period of the orbit')
@@ -92,6 +101,31 @@ contains
       call file%hdf5%add(all_values)
       call file%error_of(error)
    contains
+      !> Of a point of a curve, whose orbit is none on its stable side.
+      subroutine put_curve(curve, at)
+         type(curve_type), intent(in) :: curve
+         type(curve_place_type), intent(in) :: at
+         real(wp) :: frequency, rotation
+         call one('second_parameter', values(2), trim(curve%line%second%unit), curve%line%second%meaning)
+         call one('stable', merge(1.0_wp, 0.0_wp, at%others_stable), '1', '1 where small disturbances die away on ' &
+            & //'the stable side'//frozen)
+         call one('stable_side', at%stable_side, '1', '1: at larger values of the parameter, -1: at smaller ones; of ' &
+            & //'folds where the two solutions are that meet')
+         frequency = 0
+         if (curve%kind == 'hopf') frequency = abs(at%value%im)/(2*pi)
+         if (curve%of_multipliers) then
+            rotation = merge(1.0_wp, atan2(abs(at%value%im), at%value%re)/(2*pi), figures%is_cycle)
+            frequency = rotation/figures%period
+         end if
+         if (curve%kind == 'neimark_sacker') call one('rotation_number', rotation, '1', 'angle of the multipliers ' &
+            & //'over the full circle: turns of a disturbance in a period of the orbit, or whole ones more or less')
+         if (curve%kind /= 'fold' .or. figures%is_cycle) then
+            call one('frequency', frequency, 'Hz', 'frequency of the vibration that begins')
+            call one('frequency_ratio', 2*pi*frequency/branches%speed(), '1', 'this frequency over that of ' &
+               & //'the shaft')
+         end if
+      end subroutine put_curve
+
       subroutine put_cycle()
          call one('whirl_ratio', 1/figures%revolutions, '1', 'frequency of the limit cycle over that of the shaft')
          call one('trivial_multiplier_error', figures%trivial_error, '1', 'error of the multiplier along the ' &
@@ -163,19 +197,19 @@ contains
    end subroutine add_point
 
    !> How a bifurcation point of a branch is noted that is the last point of the file.
-   type(noted_point_type) function noted(file, branch, special)
+   type(noted_point_type) function noted(file, branches, special)
       type(run_file_type), intent(in) :: file
-      integer, intent(in) :: branch
+      type(branch_progress_type), intent(in) :: branches
       type(bifurcation_type), intent(in) :: special
-      noted = noted_point_type(int(file%hdf5%samples), findloc(kinds_of_points, special%kind, dim=1), branch, &
-         & special%point%parameter, special%value)
+      noted = noted_point_type(int(file%hdf5%samples), findloc(kinds_of_points, special%kind, dim=1), &
+         & branches%branch, branches%values_at(special%point), special%value)
    end function noted
 
    !> Writes the bifurcation points anew, if there are any.
-   subroutine put_bifurcations(file, special, parameter)
+   subroutine put_bifurcations(file, special, branches)
       class(record_type), intent(inout) :: file
       type(noted_point_type), intent(in) :: special(:)
-      type(case_parameter_type), intent(in) :: parameter
+      type(branch_progress_type), intent(in) :: branches
       character(len=*), parameter :: over = 'bifurcations/point'
       character(len=kind_length) :: kinds(size(special))
       call file%delete('bifurcations')
@@ -183,7 +217,11 @@ contains
       kinds = kinds_of_points(special%kind)
       call file%put(over, real(special%point, wp), '1', 'number of the point', over)
       call file%put('bifurcations/kind', kinds, 'kind of bifurcation point')
-      call file%put('bifurcations/parameter', special%parameter, trim(parameter%unit), parameter%meaning, over)
+      associate (parameter => branches%parameter)
+         call file%put('bifurcations/parameter', special%parameters(1), trim(parameter%unit), parameter%meaning, over)
+      end associate
+      if (allocated(branches%curve)) call file%put('bifurcations/second_parameter', special%parameters(2), &
+         & trim(branches%curve%line%second%unit), branches%curve%line%second%meaning, over)
       call file%put('bifurcations/branch', real(special%branch, wp), '1', 'branch number', over)
       call file%put('bifurcations/value_real', real(special%value, wp), '1', &
          & 'multiplier or eigenvalue (1/s) that crosses, real part', over)
@@ -238,6 +276,7 @@ contains
       call numbers('change', point%change, '1', 'correction from where the equations were linearised')
       call numbers('tangent', point%tangent, '1', 'unit tangent of the branch')
       call numbers('growth', point%growth, '1', 'how far each eigenvalue or multiplier is on the unstable side')
+      if (allocated(branches%curve)) call pass_curve(point%curve)
       if (reading) call branches%problem%get_place(point%place)
       do k = 1, size(point%place)
          associate (part => point%place(k))
@@ -247,6 +286,19 @@ contains
          end associate
       end do
    contains
+      !> What the next step depends on.
+      subroutine pass_curve(at)
+         type(curve_place_type), intent(inout) :: at
+         real(wp), allocatable :: list(:)
+         list = [at%origin, at%line, at%ahead, at%direction, at%turn, at%slope, at%value%re, at%value%im, at%tests]
+         k = size(list)
+         call numbers('curve', list, '1', 'line across the curve, where the curve leads, its slope, its value, tests')
+         ok = ok .and. size(list) == k
+         if (.not. (reading .and. ok)) return
+         at = curve_place_type(list(1:2), list(3:4), list(5:6), list(7:8), list(9), list(10), cmplx(list(11), &
+            & list(12), wp), list(13:16))
+      end subroutine pass_curve
+
       subroutine number(name, value, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(inout) :: value
@@ -308,7 +360,7 @@ contains
       class(record_type), intent(inout) :: file
       type(noted_point_type), allocatable, intent(out) :: special(:)
       logical, intent(out) :: ok
-      real(wp), allocatable, dimension(:) :: kind, point, branch, parameter, re, im
+      real(wp), allocatable, dimension(:) :: kind, point, branch, first, second, re, im
       integer :: k
       ok = .true.
       allocate (special(0))
@@ -316,12 +368,14 @@ contains
       kind = file%get_all('checkpoint/special_kinds')
       point = file%get_all('bifurcations/point')
       branch = file%get_all('bifurcations/branch')
-      parameter = file%get_all('bifurcations/parameter')
+      first = file%get_all('bifurcations/parameter')
+      second = 0*first
+      if (file%has('bifurcations/second_parameter')) second = file%get_all('bifurcations/second_parameter')
       re = file%get_all('bifurcations/value_real')
       im = file%get_all('bifurcations/value_imag')
-      ok = all([size(point), size(branch), size(parameter), size(re), size(im)] == size(kind))
+      ok = all([size(point), size(branch), size(first), size(second), size(re), size(im)] == size(kind))
       if (ok) ok = all(kind >= 1 .and. kind <= size(kinds_of_points)) .and. all(abs([point, branch]) < huge(1))
-      if (ok) special = [(noted_point_type(nint(point(k)), nint(kind(k)), nint(branch(k)), parameter(k), &
-         & cmplx(re(k), im(k), wp)), k=1, size(kind))]
+      if (ok) special = [(noted_point_type(nint(point(k)), nint(kind(k)), nint(branch(k)), &
+         & [first(k), second(k)], cmplx(re(k), im(k), wp)), k=1, size(kind))]
    end subroutine get_special
 end module branch_results

@@ -67,10 +67,9 @@ contains
    pure real(wp) function highest_speed(inputs)
       type(case_type), intent(in) :: inputs
       highest_speed = inputs%highest_speed()
-      associate (branch => inputs%branch, task => inputs%about%task)
+      associate (task => inputs%about%task)
          if (task == 'coefficients') highest_speed = max(highest_speed, inputs%coefficients%threshold_up_to_rpm*rpm)
-         if (task /= 'branch') return
-         if (branch%parameter == 'operation%speed_rpm') highest_speed = max(highest_speed, branch%last*rpm)
+         if (task == 'branch') highest_speed = maxval([highest_speed, inputs%branch%speeds()*rpm])
       end associate
    end function highest_speed
 

@@ -54,6 +54,14 @@ UNEVEN_ORBITS = WARM_ORBITS.replace("'pad'", "'film'").replace("step=0.1", "step
 CYCLES = LUGRE.replace("last=11700, step=20, max_step=40", "of='limit_cycle', last=9300, step=50").replace(
     "&operation speed_rpm=11500", "&rotor unbalance=0 / &operation speed_rpm=9000"
 )
+#: Hopf points of pads that stick over two numbers, and Neimark-Sacker points of their orbits.
+HOPF = CYCLES.replace(
+    "'limit_cycle'", "'curve', point='hopf', second_parameter='rotor%mass', second_last=1500"
+)
+SACKER = HOPF.replace("hopf", "neimark_sacker").replace(
+    "mass', second_last=1500", "unbalance', second_last=5e-3"
+)
+SACKER = SACKER.replace("unbalance=0", "mass=2000, unbalance=3e-3")
 #: Films that are solved by SOR sweeps from the last ones.
 RELAXED = EQUILIBRIA.replace("&rotor", "&film solver='sor', circumferential_cells=20, axial_cells=4 / &rotor")
 #: What each stretch of a run has of its own, and the input, where the time between checkpoints may change.
@@ -81,6 +89,8 @@ SLICED = {
     "lugre": LUGRE,
     "switching": SWITCHING,
     "cycles": CYCLES,
+    "curve": HOPF,
+    "neimark_sacker": SACKER,
     "warm equilibria": THERMAL_EQUILIBRIA,
     "uneven equilibria": UNEVEN_EQUILIBRIA,
     "warm": WARM_ORBITS,
@@ -134,7 +144,7 @@ def stopped(start, tmp_path):
 OF_ORBITS = {"periods": 0, "interval_ends": 1, "switching_points": 1}
 
 
-@pytest.mark.parametrize("case", [EQUILIBRIA, LUGRE], ids=["equilibria", "lugre"])
+@pytest.mark.parametrize("case", [EQUILIBRIA, LUGRE, HOPF], ids=["equilibria", "lugre", "curve"])
 def test_a_checkpoint_that_is_none(tiltpad, stopped, case):
     """Numbers that cannot be, and lists that are too short or not there."""
     path = stopped(case)

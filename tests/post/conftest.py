@@ -36,6 +36,9 @@ CASES = {
     "equilibrium": "&case task='equilibrium' /",
     "turbulent": "&case task='equilibrium' / &film turbulence='ng_pan' /",
     "periodic": "&case task='periodic' / &friction model='lugre' /",
+    "curve": "&case task='branch' / &rotor mass=200, unbalance=0 / &operation speed_rpm=12500 / "
+    "&branch of='curve', point='hopf', parameter='operation%speed_rpm', last=20000, "
+    "second_parameter='rotor%mass', second_last=400 /",
     "branch": "&case task='branch' / &operation speed_rpm=3000 / &output samples_per_revolution=60 / "
     "&branch parameter='operation%speed_rpm', last=4000, step=50, max_step=80 /",
     # offset pivots and a load beside the vertical: no symmetry

@@ -109,3 +109,39 @@ def test_reports_of_branches(result, tmp_path):
     assert all(f'alt="{name}"' in page for name in ("branch", "multipliers", "response"))
     with h5py.File(result("branch")) as file:
         assert file.attrs["complete"]
+
+
+def test_a_chart_has_bands_on_stable_sides(run, changed, opened, result, tmp_path):
+    curve = run("curve")
+    (ax,) = pictures.chart(curve).axes
+    (line, _), (band,) = ax.get_lines(), ax.patches
+    np.testing.assert_array_equal(line.get_xdata(), curve["second_parameter"])
+    np.testing.assert_array_equal(line.get_ydata(), curve["parameter"])
+    edge = band.get_xy()[len(line.get_xdata()) : -1]
+    assert (np.interp(edge[:, 0], line.get_xdata(), line.get_ydata()) >= edge[:, 1]).all()
+
+    def round_curve(file):
+        """A circle whose inside is stable, but for its last points, where nothing is."""
+        angle = np.linspace(0.2, 6, len(file["point"]))
+        for name, values in (
+            ("parameter", np.sin(angle)),
+            ("second_parameter", np.cos(angle)),
+            ("arc_length", angle),
+        ):
+            file[name][...] = values
+        file["stable_side"][...] = -np.sign(np.sin(angle))
+        file["stable"][-3:] = 0
+
+    turning = opened(changed("curve", round_curve))
+    places = np.stack([turning["second_parameter"], turning["parameter"]], axis=1)
+    inwards = branches.stable_sides(turning, np.ones(2))
+    np.testing.assert_allclose(inwards, -places, atol=0.15)
+    (ax,) = pictures.chart(turning).axes
+    assert [each.is_dashed() for each in ax.get_lines()[:2]] == [False, True]
+    with pytest.raises(tiltpad.NotInRunError, match="no curve over two parameters in this run"):
+        pictures.chart(run("branch"))
+    output = tmp_path / "page.html"
+    assert command.report([str(result("curve")), "-o", str(output)]) == 0
+    page = output.read_text()
+    assert 'alt="chart"' in page
+    assert "points of the branches" not in page

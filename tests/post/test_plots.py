@@ -33,6 +33,7 @@ PLOTS = [
         "movie",
         "study",
         "branch",
+        "chart",
         *command.OF_EITHER,
         *command.SAMPLES,
         *command.OF_MACHINES,

@@ -113,6 +113,11 @@ def figures(folder):
         assert (run["stable"][1:] == 1).all()
         size = (run["journal_y_max"] - run["journal_y_min"])[-1]
         yield f"to {1e6 * size:.0f} um from lowest to highest at 8500"
+    with result("curve.h5") as run:
+        lowest = int(np.argmin(run["parameter"]))
+        viscosity = 1e3 * run["second_parameter"][lowest]
+        yield f"to {run['parameter'][lowest]:.0f} rpm at {viscosity:.1f} mPa s"
+        yield f"rises to {run['parameter'][-1]:.0f} rpm at 5 mPa s"
     with result("threshold.h5") as run:
         yield f"from which speed on: {run['modes/threshold_rpm'][-1]:.0f} rpm"
     with result("warm.h5") as run:

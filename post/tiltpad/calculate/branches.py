@@ -15,6 +15,12 @@ KINDS = {
     "hopf": ("HB", "Hopf"),
     "branch_point": ("BP", "branch point"),
     "divergence": ("DV", "divergence"),
+    "double_hopf": ("HH", "double Hopf"),
+    "fold_hopf": ("ZH", "fold and Hopf"),
+    "bogdanov_takens": ("BT", "Bogdanov-Takens"),
+    "cusp": ("CP", "cusp"),
+    "resonance_1_1": ("R1", "1:1 resonance"),
+    "resonance_1_2": ("R2", "1:2 resonance"),
 }
 
 
@@ -77,6 +83,22 @@ def bifurcations(run: Run) -> list[SpecialPoint]:
     ]
 
 
+def stable_sides(run: Run, sizes: np.ndarray) -> np.ndarray:
+    """Unit vectors to the stable side of a curve over (second, first) parameter, both over their sizes.
+
+    Of folds it is the side where the two solutions are that meet.
+    """
+    needs_curve(run)
+    places = np.stack([run["second_parameter"], run["parameter"]], axis=1) / sizes
+    along = np.gradient(places, run["arc_length"], axis=0)
+    normal = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    # where the curve runs along the first parameter, its neighbours know better
+    towards = run["stable_side"] * normal[:, 1]
+    near = np.convolve(towards, np.ones(3), "same")
+    return normal * np.sign(np.where(np.abs(towards) < 0.1, near, towards))[:, None]
+
+
 def multipliers(run: Run) -> np.ndarray:
     """Floquet multipliers along branches, complex, (point, multiplier), those of largest modulus first."""
     needs_branch(run)
@@ -88,3 +110,8 @@ def multipliers(run: Run) -> np.ndarray:
 def needs_branch(run: Run) -> None:
     if not run.is_branch:
         raise not_in_run(run, "branch", f"its task is '{run.task}'")
+
+
+def needs_curve(run: Run) -> None:
+    if not run.is_branch or "stable_side" not in run:
+        raise not_in_run(run, "curve over two parameters", "branch%of = 'curve' follows one")

@@ -16,7 +16,7 @@ from tiltpad.calculate import branches, signals
 from tiltpad.calculate.critical_speeds import operating_range
 from tiltpad.calculate.response import DIRECTIONS, Peak
 from tiltpad.calculate.response import response as response_of
-from tiltpad.calculate.selection import SPEED, Where, needs
+from tiltpad.calculate.selection import SPEED, ArgumentError, Where, needs
 from tiltpad.draw import layout, plots
 from tiltpad.draw.vibrations import parts
 from tiltpad.files import units
@@ -29,6 +29,16 @@ from tiltpad.files.units import SHOWN, literal
 UNSTABLE = {"linestyle": (0, (4, 2)), "linewidth": 0.9}
 MARK = {"linestyle": "", "marker": "o", "markersize": 4, "markerfacecolor": "white", "zorder": 4}
 MARCHED = {"linestyle": "", "marker": ".", "markersize": 2, "color": "0.65", "zorder": 0}
+#: Parameters of a curve, what its points are, and how wide its band is, of the picture.
+CHARTED = ("branch_parameter", "branch_second_parameter")
+POINTS = {
+    "hopf": "Hopf points",
+    "fold": "folds",
+    "period_doubling": "period doublings",
+    "neimark_sacker": "Neimark-Sacker points",
+    "cycle_fold": "folds of limit cycles",
+}
+BAND = 0.03
 #: Multipliers farther away are not shown.
 FARTHEST = 2
 
@@ -125,6 +135,53 @@ def branch(runs: Sequence[Run | Study], pad: int | None = None) -> Figure:
     return fig
 
 
+@layout.of_several
+def chart(runs: Sequence[Run]) -> Figure:
+    """Curves of bifurcation points over two parameters, each with a band on its stable side.
+
+    Of folds the band is where the two solutions are that meet. Dashed: on neither side is anything stable.
+    """
+    for run in runs:
+        branches.needs_curve(run)
+    if len({tuple(f"{run.attributes[name]}" for name in CHARTED) for run in runs}) > 1:
+        raise ArgumentError("the curves are over different parameters: a chart has those over the same two")
+    fig, ax = plt.subplots(figsize=(layout.COLUMN, 3.4))
+    places = zip(*((run["second_parameter"], run["parameter"]) for run in runs), strict=True)
+    sizes = np.array([np.ptp(np.concatenate(each)) or 1.0 for each in places])
+    entries, marked = list[tuple[str, dict[str, Any]]](), list[tuple[float, float, str]]()
+    kinds = [POINTS.get(f"{run.attributes['branch_point']}", "") for run in runs]
+    labels = [layout.plain(each, layout.width(fig)) for each in layout.labels(runs)]
+    for color, run, name, kind in zip(layout.colors(runs), runs, labels, kinds, strict=True):
+        sides = BAND * sizes * branches.stable_sides(run, sizes)
+        x, y = run["second_parameter"], run["parameter"]
+        for each in branches.stretches(run):
+            own = each.points
+            ax.plot(x[own], y[own], color=color, **({} if each.stable else UNSTABLE))
+            if each.stable:
+                edge = np.stack([x[own], y[own]], axis=1) + sides[own]
+                ax.fill(
+                    [*x[own], *edge[::-1, 0]], [*y[own], *edge[::-1, 1]], color=color, alpha=0.2, linewidth=0
+                )
+        special = branches.bifurcations(run)
+        ax.plot(
+            *np.array([(x[each.point], y[each.point]) for each in special]).reshape(-1, 2).T,
+            **MARK,
+            color=color,
+        )
+        marked += [(x[each.point], y[each.point], literal(each.letters)) for each in special]
+        entries.append((name if len(set(kinds)) < len(runs) else kind, {"color": color}))
+    band = {"color": "0.3", "alpha": 0.3, "linewidth": 6}
+    entries += [("stable side", band)] if any("fold" not in each for each in kinds) else []
+    entries += [("side of the solutions", band)] if all("fold" in each for each in kinds) else []
+    for place, height, letters in apart(marked, ax):
+        where = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"}
+        ax.annotate(letters, (place, height), **where, size="x-small")
+    ax.set(ylabel=parameter_of(runs[0]).label, xlabel=parameter_of(runs[0], CHARTED[1]).label)
+    ax.margins(0.06)
+    layout.heading(fig, entries, layout.title(runs))
+    return fig
+
+
 def draw_branches(run: Run, ax: Axes, name: str, pad: int | None, color: str | None) -> None:
     """The highest and lowest values of a dataset along all branches of a run, with the bifurcation points."""
     part = slice(None) if pad is None else (slice(None), pad - 1)
@@ -169,9 +226,9 @@ def draw_marches(study: Study, ax: Axes, run: Run, name: str, pad: int | None) -
         ax.plot(places.ravel(), SHOWN[name].factor * values.ravel(), **MARCHED)
 
 
-def parameter_of(run: Run) -> units.Shown:
-    """The parameter of branches in words, with its unit."""
-    text, unit = units.named(f"{run.attributes['branch_parameter']}".partition("(")[0])
+def parameter_of(run: Run, name: str = "branch_parameter") -> units.Shown:
+    """The parameter of branches, or another of a curve, in words, with its unit."""
+    text, unit = units.named(f"{run.attributes[name]}".partition("(")[0])
     return units.Shown(literal(text), 1, unit)
 
 

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from tiltpad.calculate import pivots, signals
 from tiltpad.calculate.selection import ArgumentError
 from tiltpad.draw import diagrams, layout, plots
-from tiltpad.draw.branches import branch, multipliers, response
+from tiltpad.draw.branches import branch, chart, multipliers, response
 from tiltpad.draw.films import film, pressure
 from tiltpad.draw.machines import shaft, shapes, stations
 from tiltpad.draw.orbits import equilibrium, orbit
@@ -203,7 +203,7 @@ FIGURES = {
     for each in (
         *(orbit, equilibrium, size, poincare, waveform, multipliers, spectrum),
         *(hysteresis, friction, sticking, runup, orders, waterfall, pressure, film, turbulence),
-        *(coefficients, stability, campbell, response, branch, temperatures),
+        *(coefficients, stability, campbell, response, branch, chart, temperatures),
         *(tornado, distribution, scatter),
         *(stations, shaft, shapes),
     )

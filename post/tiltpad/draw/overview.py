@@ -67,7 +67,7 @@ def stability(run: Run) -> Iterator[tuple[str, bool]]:
         stable = bool(run["periodic/stable"])
         fate = "stable: small disturbances die out" if stable else "unstable: no motion stays on it"
         yield f"The periodic orbit is {fate}.", not stable
-    if run.is_branch and "stable" in run:
+    if run.is_branch and "stable" in run and "stable_side" not in run:
         count, points = int((run["stable"] > 0).sum()), run.length("point")
         told = f"Of {points} points of the branches {count} are stable."
         yield f"{told} Below is the equilibrium at the first of them.", count < points

@@ -1,0 +1,69 @@
+!> Checks of the input of branches and of curves of bifurcation points: what no single value can tell.
+module branch_checks
+   use errors, only: error_type, require
+   use case_groups, only: is_set
+   use case_inputs, only: case_type
+   implicit none (type, external)
+   private
+   public :: check_branch
+
+contains
+
+   !> A branch needs a parameter; `case_parameter` checks what it, its last value and its step mean.
+   subroutine check_branch(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      if (inputs%about%task /= 'branch') return
+      associate (b => inputs%branch)
+         call require(b%parameter /= '', 'branch%parameter = '''': must name a number of the input, such as ' &
+            & //'''operation%speed_rpm''', error)
+         if (is_set(b%step) .and. b%max_step > 0) call require(b%max_step >= abs(b%step), 'branch%max_step = {}: ' &
+            & //'must be 0 or at least the size of branch%step = {}', [b%max_step, b%step], error)
+         call check_curve()
+         if (inputs%followed() == 'limit_cycle') call check_free('limit cycles')
+         if (b%point == 'hopf') call check_free('Hopf points')
+         call require(b%switch .or. b%of == 'periodic', 'branch%switch = .false.: has no effect on a branch of ' &
+            & //'equilibria or limit cycles and on a curve', error)
+      end associate
+   contains
+
+      !> A curve has a kind of points and two parameters, and nothing else has them.
+      subroutine check_curve()
+         associate (b => inputs%branch)
+            if (b%of == 'curve') then
+               call require(b%point /= '', 'branch%of = ''curve'': needs branch%point, one of ''hopf'', ''fold'', ' &
+                  & //'''period_doubling'', ''neimark_sacker'', ''cycle_fold''', error)
+               call require(b%second_parameter /= '', 'branch%of = ''curve'': needs branch%second_parameter, another ' &
+                  & //'number of the input, such as ''rotor%mass''', error)
+               call require(inputs%unbalance() > 0 .or. all(b%point /= ['period_doubling', 'neimark_sacker ']), &
+                  & 'branch%point = '''//b%point//''': needs an unbalance, about whose orbits it is ' &
+                  & //'(rotor%unbalance); without one ''hopf'' has the points where vibrations begin', error)
+            else
+               call require(b%point == '', 'branch%point = '''//b%point//''': has no effect on branch%of = '''//b%of &
+                  & //'''; branch%of = ''curve'' follows such points over two numbers', error)
+               call require(b%second_parameter == '' .and. .not. is_set(b%second_last), 'branch%second_parameter, ' &
+                  & //'branch%second_last: have no effect on branch%of = '''//b%of//'''', error)
+            end if
+         end associate
+      end subroutine check_curve
+
+      !> Vibrations that nothing drives begin where pivots at rest have stiffness or none.
+      subroutine check_free(what)
+         character(len=*), intent(in) :: what
+         character(len=:), allocatable :: given
+         integer :: b
+         given = 'branch%of = ''limit_cycle'''
+         if (inputs%branch%of == 'curve') given = 'branch%point = '''//inputs%branch%point//''''
+         call require(.not. inputs%unbalance() > 0, given//': must be without unbalance ({} kg m; rotor%unbalance = ' &
+            & //'0), which would drive the motion; '//what//' are those of a motion that nothing drives', &
+            & [inputs%unbalance()], error)
+         do b = 1, size(inputs%bearings)
+            associate (model => inputs%bearings(b)%friction%model)
+               call require(model /= 'bengisu_akay', inputs%bearings(b)%label(': ')//'friction%model = '''//model &
+                  & //''': must be ''none'' or ''lugre'' with '//given//', as pivots at rest hold with no stiffness ' &
+                  & //'there', error)
+            end associate
+         end do
+      end subroutine check_free
+   end subroutine check_branch
+end module branch_checks
