@@ -21,6 +21,7 @@ module bearing_file
       procedure :: put_dataset
       procedure :: has
       procedure :: get_all
+      procedure :: delete
       !> Series: the bearing's own and those of the whole machine (time, shaft angle, speed).
       procedure :: declare
       procedure :: has_series
@@ -68,6 +69,12 @@ contains
       real(wp), allocatable :: values(:)
       values = self%run%get_all(self%prefix//path)
    end function get_all
+
+   subroutine delete(self, path)
+      class(bearing_file_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      call self%run%delete(self%prefix//path)
+   end subroutine delete
 
    !> A series of this number of values over the axis, or, where `across` names a scale of the bearing, over both.
    subroutine declare(self, name, width, units, long_name, across)

@@ -9,9 +9,10 @@ module march_figures
    use case_inputs, only: case_type
    use loops, only: path_integral, harmonic, slow_share, integral_over_way
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
+   use revolution_points, only: revolution_points_type, describe_points, amplitude_at, fewest_points
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type
-   use summary_group, only: put_figure, run_extremes_type
+   use summary_group, only: put_figure, figure, forget_figures, run_extremes_type
    use contact_law, only: contact_law_type, contact_point
    use factories, only: make_law
    implicit none (type, external)
@@ -19,6 +20,10 @@ module march_figures
    public :: put_progress, put_march_figures, put_revolutions, put_station_figures
 
    character(len=*), parameter :: group = 'by_revolution/', over = 'revolution'
+   !> Figures that a motion has which does not repeat after a revolution, or winds round a torus.
+   character(len=*), parameter :: of_points(*) = [character(len=24) :: 'rotation_number', 'rotation_difference', &
+      & 'ring_growth', 'ring_y', 'ring_z', 'second_frequency', 'second_amplitude', 'lower_sideband_frequency', &
+      & 'lower_sideband_amplitude', 'upper_sideband_frequency', 'upper_sideband_amplitude']
    !> Part of a revolution that a whole one may lack by rounding.
    real(wp), parameter :: rounding = 1e-9_wp
 
@@ -67,6 +72,8 @@ contains
          if (tilting .and. bearing%pivot%wear_coefficient > 0) call put_wear(file, bearing%pivot, time(1, :))
          n = file%run%last_revolutions(inputs%output%spectrum_revolutions)
          call put_revolutions(file, tilting, n, inputs%output%spectrum_revolutions)
+         if (inputs%about%task /= 'march' .or. .not. inputs%is_steady()) return
+         call put_points(file, inputs, bearing%clearance(), n)
       end associate
    end subroutine put_march_figures
 
@@ -371,6 +378,60 @@ contains
          next = start
       end do
    end subroutine find_extremes
+
+   !> Writes what the points once a revolution say of the motion, over the last n samples.
+   subroutine put_points(file, inputs, clearance, n)
+      type(bearing_file_type), intent(inout) :: file
+      type(case_type), intent(in) :: inputs
+      !> Of the bearing, m.
+      real(wp), intent(in) :: clearance
+      integer, intent(in) :: n
+      type(revolution_points_type) :: found
+      real(wp), allocatable :: angle(:, :), y(:), z(:)
+      real(wp) :: orders(4)
+      y = file%get_all(group//'poincare_y')
+      z = file%get_all(group//'poincare_z')
+      if (size(y) < fewest_points) return
+      found = describe_points(y, z, clearance, inputs%sense())
+      call forget_figures(file, of_points)
+      call put_figure(file, 'repeats_after', real(found%repeats_after, wp), '1', 'revolutions after which the motion ' &
+         & //'repeats; 0: it does not')
+      call put_figure(file, 'quasi_periodic', merge(1.0_wp, 0.0_wp, found%on_torus), '1', '1 where it winds round a ' &
+         & //'torus')
+      if (found%repeats_after == 1) return
+      call put_figure(file, 'rotation_number', known(found%rotation), '1', 'part of a turn about their centre by ' &
+         & //'which the Poincare points go on in a revolution')
+      call put_figure(file, 'rotation_difference', known(found%difference), '1', 'difference of the rotation numbers ' &
+         & //'of both halves of the points')
+      call put_figure(file, 'ring_growth', found%growth, '1', 'change of the mean square distance from the centre ' &
+         & //'from one half of the points to the other')
+      call put_figure(file, 'ring_y', maxval(y) - minval(y), 'm', 'Poincare points, peak to peak of y')
+      call put_figure(file, 'ring_z', maxval(z) - minval(z), 'm', 'Poincare points, peak to peak of z')
+      if (.not. found%on_torus) return
+      call file%last_samples('shaft_angle', n, angle)
+      ! neither whole turns nor their sense show in the points
+      orders = [found%rotation, 1 - found%rotation, 1 + found%rotation, 2 - found%rotation]
+      associate (order => orders(minloc(abs(orders - figure(file, 'whirl_order')), dim=1)))
+         call put_vibration('second', order, 'second frequency')
+         call put_vibration('lower_sideband', abs(1 - order), 'difference of shaft and second frequency')
+         call put_vibration('upper_sideband', 1 + order, 'sum of shaft and second frequency')
+      end associate
+   contains
+      subroutine put_vibration(name, order, words)
+         character(len=*), intent(in) :: name, words
+         real(wp), intent(in) :: order
+         real(wp), allocatable :: values(:, :)
+         real(wp) :: amplitude(2)
+         integer :: k
+         do k = 1, 2
+            call file%last_samples('journal_'//'yz'(k:k), n, values)
+            amplitude(k) = amplitude_at(order, angle(1, :), values(1, :))
+         end do
+         call put_figure(file, name//'_frequency', order*inputs%highest_speed()/(2*pi), 'Hz', words)
+         call put_figure(file, name//'_amplitude', maxval(amplitude), 'm', words//', amplitude of the journal along ' &
+            & //'y or z, the larger one')
+      end subroutine put_vibration
+   end subroutine put_points
 
    ! Figures of the stations of a shaft in a march or a periodic orbit, from its samples: of the last revolution or the
    ! period.

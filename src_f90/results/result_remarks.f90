@@ -10,10 +10,11 @@ module result_remarks
    use turbulence_closure, only: steepest
    use bearing_equilibrium, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
+   use revolution_points, only: disagreement, steady_ring, enough_points
    use record, only: record_type, lines
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
-   use summary_group, only: figure, pad_figures
+   use summary_group, only: figure, pad_figures, has_figure
    implicit none (type, external)
    private
    public :: remarks_on_run, put_remarks, new_lines, pad_diagnosis, not_closed
@@ -245,6 +246,7 @@ contains
          said = said//line_if(whirls > 0, 'the journal whirls at {.3} of the shaft speed, amplitude {u.3} um', &
             & [order, amplitude])
       end associate
+      said = said//on_repetition(file)
       pads%load = pad_figures(file, 'pad_load')
       pads%unloaded = pad_figures(file, 'pad_unloaded') > 0
       pads%lifted = pad_figures(file, 'pad_lifted')
@@ -267,6 +269,40 @@ contains
          end do
       end associate
    end function on_motion
+
+   !> On a motion that does not repeat after a revolution.
+   function on_repetition(file) result(said)
+      type(bearing_file_type), intent(inout) :: file
+      character(len=:), allocatable :: said
+      said = ''
+      if (.not. has_figure(file, 'rotation_number')) return
+      associate (rotation => figure(file, 'rotation_number'), difference => figure(file, 'rotation_difference'), &
+            & repeats_after => figure(file, 'repeats_after'), growth => figure(file, 'ring_growth'), &
+            & points => file%list_size('by_revolution/poincare_y'))
+         if (repeats_after > 0) then
+            said = filled('the motion is locked to the shaft: it repeats after {} revolutions', [repeats_after])
+         else if (figure(file, 'quasi_periodic') > 0) then
+            said = filled('the motion is quasi-periodic: rotation number {.7}, second frequency {.2} Hz (amplitude ' &
+               & //'{u.3} um), sidebands {.2} and {.2} Hz', [rotation, figure(file, 'second_frequency'), figure(file, &
+               & 'second_amplitude'), figure(file, 'lower_sideband_frequency'), figure(file, &
+               & 'upper_sideband_frequency')])
+         else if (points < enough_points) then
+            return
+         else if (difference > disagreement .or. growth > steady_ring) then
+            said = filled('the motion is not settled, or chaotic: the points once a revolution of the last {} ' &
+               & //'revolutions change from one half to the other', [real(points, wp)])
+         else if (ieee_is_nan(rotation)) then
+            said = 'the motion does not repeat, and has no rotation number: the points once a revolution are no ' &
+               & //'curve that goes round its centre once'
+         else
+            said = filled('the motion does not repeat: rotation number {.7}, in both halves of the last {} ' &
+               & //'revolutions to {}; more of them (output%spectrum_revolutions), or a smaller ' &
+               & //'integration%relative_tolerance, tell whether it is quasi-periodic', [rotation, &
+               & real(points, wp), difference])
+         end if
+      end associate
+      said = said//newline
+   end function on_repetition
 
    !> "carries next to no load (mean 12 N); it flutters at 0.48 of the shaft speed, ..."; empty for a pad like others.
    function pad_diagnosis(pad) result(words)

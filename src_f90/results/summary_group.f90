@@ -6,7 +6,7 @@ module summary_group
    use bearing_samples, only: bearing_sample
    implicit none (type, external)
    private
-   public :: put_figure, figure, pad_figures, has_figure, run_extremes_type
+   public :: put_figure, figure, pad_figures, has_figure, forget_figures, run_extremes_type
 
    !> The least film, the highest pressure and the contact of asperities in all samples of a run.
    type :: run_extremes_type
@@ -44,6 +44,16 @@ contains
       character(len=*), intent(in) :: name
       has_figure = file%has(group//'/'//name)
    end function has_figure
+
+   !> Takes figures away that an earlier part of the run had.
+   subroutine forget_figures(file, names)
+      class(record_type), intent(inout) :: file
+      character(len=*), intent(in) :: names(:)
+      integer :: k
+      do k = 1, size(names)
+         if (has_figure(file, trim(names(k)))) call file%delete(group//'/'//trim(names(k)))
+      end do
+   end subroutine forget_figures
 
    !> A number; 0 where there is none.
    real(wp) function figure(file, name)

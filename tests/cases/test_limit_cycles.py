@@ -1,4 +1,4 @@
-"""Limit cycles against independent programs, marches, their own mirror image, and refusals."""
+"""Limit cycles and tori against independent programs, marches, their own mirror image, and refusals."""
 
 import h5py
 import numpy as np
@@ -207,6 +207,69 @@ def test_mirror(follow):
         found = extremes(mirrored, -1)
         np.testing.assert_allclose(found[:2], expected[:2], atol=1e-9)
         np.testing.assert_allclose([-found[3], -found[2]], expected[2:], atol=1e-9)
+
+
+#: The torus of an unbalance with stuck pads, over 600 revolutions.
+TORUS = LUGRE.partition("&branch")[0].replace("branch", "march").replace("unbalance = 0", "unbalance = 0.002")
+TORUS = TORUS.replace("= 8000", "= 9400, duration = 3.83") + (
+    "&output  samples_per_revolution = 12, spectrum_revolutions = 500 /\n"
+    "&integration  relative_tolerance = 1e-7 /\n"
+)
+
+
+def test_torus(follow):
+    """Another program, whose film is coarser: 0.53154749 at 500 revolutions, to 2e-6 as periods of cycles."""
+    file, printed = follow(TORUS)
+    with file:
+        own = {name: value[()] for name, value in file["summary"].items() if value.shape == ()}
+        assert own["quasi_periodic"] == 1
+        assert own["repeats_after"] == 0
+        assert own["rotation_number"] == pytest.approx(0.53154749, abs=2e-6)
+        assert own["rotation_difference"] < 1e-6
+        points = [file[f"by_revolution/poincare_{axis}"][:] for axis in "yz"]
+        assert own["ring_y"] == pytest.approx(-4.0451e-05 + 5.1722e-05, rel=2e-3)
+        assert own["ring_z"] == pytest.approx(6.006e-06 + 6.799e-06, rel=2e-3)
+        rotation, speed = own["rotation_number"], 9400 / 60
+        assert own["second_frequency"] == pytest.approx(rotation * speed)
+        assert own["second_amplitude"] == pytest.approx(own["whirl_amplitude"], rel=1e-3)
+        orders = {"second": rotation, "lower_sideband": 1 - rotation, "upper_sideband": 1 + rotation}
+        for name, order in orders.items():
+            assert own[f"{name}_frequency"] == pytest.approx(order * speed)
+            # the spectrum under its window, between the lines of which the line may lie
+            line = np.abs(file["spectrum/order"][:] - order).argmin()
+            found = max(file[f"spectrum/journal_{axis}"][line] for axis in "yz")
+            assert 0.8 < found / own[f"{name}_amplitude"] < 1.01
+    assert f"quasi-periodic: rotation number {rotation:.7f}, second frequency 83.28 Hz" in printed
+    for count, known in ((200, 0.53154754), (250, 0.53154742)):
+        number = rotation_number(*(each[-count:] for each in points))
+        assert number == pytest.approx(known, abs=4e-6)
+    # what the plain mean of the same angles makes of them
+    assert abs(rotation_number(*(each[-200:] for each in points), weighted=False) - 0.5315475) > 3e-5
+
+
+def rotation_number(y, z, weighted=True):
+    """The weighted Birkhoff average once more."""
+    at = np.linspace(0, 1, len(y) + 2)[1:-1]
+    weight = np.exp(-1 / (at * (1 - at)))
+    points = y + 1j * z - np.average(y + 1j * z, weights=weight)
+    turns = np.angle(points[1:] / points[:-1]) / (2 * np.pi) % 1
+    at = np.linspace(0, 1, len(turns) + 2)[1:-1]
+    return np.average(turns, weights=np.exp(-1 / (at * (1 - at))) if weighted else None)
+
+
+def test_motions_that_are_no_torus(follow):
+    """Too few revolutions, a march that has come to rest, and one that still grows."""
+    _, printed = follow(TORUS, "output%spectrum_revolutions=150", "integration%relative_tolerance=1e-5")
+    assert "the motion does not repeat: rotation number 0.53" in printed
+    kick = ("rotor%unbalance=0", "start%journal=-45e-6,1e-6", "output%spectrum_revolutions=100")
+    short = ("operation%duration=1",)
+    file, printed = follow(TORUS, *kick, "operation%speed_rpm=8000", *short, "output%checkpoint_seconds=0.02")
+    with file:
+        assert file["summary/repeats_after"][()] == 1
+        # a checkpoint before had some
+        assert not {"rotation_number", "ring_y"} & set(file["summary"])
+    _, printed = follow(TORUS, *kick, "operation%speed_rpm=9086", *short)
+    assert "the motion is not settled, or chaotic" in printed
 
 
 def test_warm_oil_keeps_its_viscosities(follow):

@@ -8,6 +8,7 @@ import zlib
 from pathlib import Path
 from xml.etree import ElementTree
 
+import h5py
 import matplotlib.image
 import matplotlib.pyplot as plt
 import numpy as np
@@ -189,6 +190,33 @@ def test_a_poincare_section_lies_on_the_path(run):
     assert np.abs(path - points[-1]).max(axis=1).min() < 0.1
     ax = tiltpad.plots.poincare(run("lugre"), last=5, names=tiltpad.plots.PHASE, pad=2)
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("tilt (mrad)", "tilt rate (mrad/s)")
+
+
+def test_a_ring_joins_the_points_of_a_torus(made, opened, tmp_path):
+    from tiltpad import figures
+
+    def y(time, angle):
+        return 1e-6 * (20 + 3 * np.cos(angle) + 5 * np.cos(0.53 * angle))
+
+    def z(time, angle):
+        return 1e-6 * 4 * np.sin(0.53 * angle)
+
+    case = made("lugre", 0.5, journal_y=y, journal_z=z)
+    assert len(figures.poincare([case]).axes[0].get_lines()) == 2
+    torus = {"quasi_periodic": 1, "rotation_number": 0.53, "ring_y": 1e-5, "ring_z": 8e-6}
+    path = tmp_path / "torus.h5"
+    path.write_bytes(Path(case.path).read_bytes())
+    with h5py.File(path, "r+") as file:
+        for name, value in torus.items():
+            file["summary"].require_dataset(name, (), "f8")[()] = value
+    left, right = figures.poincare([opened(path)]).axes
+    assert left.get_title() == "journal: rotation number 0.530000,\nring of 8 by 10 µm"
+    _, points, ring = (line.get_xydata() for line in left.get_lines())
+    assert len(points) + 1 == len(ring)
+    # each way between neighbours is short
+    assert np.hypot(*np.diff(ring, axis=0).T).max() < 5
+    assert np.hypot(*np.diff(points, axis=0).T).max() > 8
+    assert len(right.get_lines()) == 3
 
 
 def test_orbit_size_over_what_differs(run, result, tiltpad_set):

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 WEIGHTS = (
     ("touch", "rubs", "whirls", "deeper than the clearance"),
     ("flutters", "lifted off", "near its limit", "little oil film carries", "without equilibrium"),
+    ("quasi-periodic", "not settled", "locked to the shaft"),
     ("no load", "does not close the orbit", "pads bend", "warms by", "gives way", "give way"),
 )
 

@@ -155,6 +155,11 @@ def poincare(
     return {"revolution": whole} | {name: at_angle(angle, run.values(name, part), wanted) for name in names}
 
 
+def is_torus(run: Run) -> bool:
+    """Whether a motion is quasi-periodic: its points once a revolution fill a ring."""
+    return "summary/quasi_periodic" in run and bool(run["summary/quasi_periodic"] > 0)
+
+
 def extremes(run: Run, name: str, last: float = 50) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest value of a dataset in each of the last revolutions, (n,) or (n, pad) each."""
     needs_revolutions(run, "whole revolution")

@@ -114,16 +114,28 @@ def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = N
     tilting = plots.all_tilt(runs)
     for i, run in enumerate(runs):
         for ax, names in ((left, plots.ORBIT), (right, plots.PHASE if tilting else plots.RISE)):
-            plots.poincare(run, ax, last or 50, names, pad or 1, **layout.look(i, 0, runs))
+            count = last or (max(50, run.length("revolution")) if signals.is_torus(run) else 50)
+            plots.poincare(run, ax, count, names, pad or 1, **layout.look(i, 0, runs))
     left.set(box_aspect=1, adjustable="datalim")
     left.margins(0.1)
     right.set(box_aspect=1)
+    right.locator_params(axis="x", nbins=6)
     right.set_title(f"pad {pad or 1}" if tilting else "journal")
-    left.set_title("journal")
+    left.set_title("journal" + (turning_of(runs[0]) if len(runs) == 1 else ""))
     points = {"color": "0.3" if len(runs) > 1 else "C0", "linestyle": "", "marker": ".", "markersize": 5}
     path = (f"last {plots.PATH} revolutions", {"color": "0.7"})
     layout.legend(fig, runs, [("once a revolution", points), path])
     return fig
+
+
+def turning_of(run: Run) -> str:
+    """The rotation number of a quasi-periodic motion, and the size of the ring of its points."""
+    if not signals.is_torus(run):
+        return ""
+    shown = SHOWN["size"]
+    wide, high = (shown.factor * run[f"summary/ring_{axis}"] for axis in "zy")
+    number = run["summary/rotation_number"]
+    return f": rotation number {number:.6f},\nring of {wide:.3g} by {high:.3g} {shown.unit}"
 
 
 @layout.of_several

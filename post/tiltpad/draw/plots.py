@@ -159,7 +159,8 @@ def poincare(
 ) -> Axes:
     """One state over another once a revolution, at a phase of the shaft, on the path of the last revolutions.
 
-    ORBIT is y over z of the journal, PHASE the tilt rate over the tilt of a pad.
+    ORBIT is y over z of the journal, PHASE the tilt rate over the tilt of a pad. The points of a
+    quasi-periodic motion are joined to the ring that they fill.
     """
     column = {
         name: () if name.startswith("journal") else (..., signals.pad_column(run, pad)) for name in names
@@ -169,6 +170,11 @@ def poincare(
     ax.plot(*path, **{**line, "linewidth": 0.6, "alpha": 0.4})
     points = [SHOWN[name].factor * section[name][column[name]] for name in names]
     ax.plot(*points, **{**line, "linestyle": "", "marker": ".", "markersize": 5})
+    if signals.is_torus(run):
+        y, z = (section[name] - section[name].mean() for name in ("journal_y", "journal_z"))
+        ring = np.argsort(np.arctan2(z, y))
+        ring = np.append(ring, ring[0])
+        ax.plot(*(each[ring] for each in points), **{**line, "linewidth": 0.8})
     ax.set(xlabel=SHOWN[names[0]].label, ylabel=SHOWN[names[1]].label)
     if names == ORBIT:
         ax.set_aspect("equal")
