@@ -9,6 +9,7 @@ module branch_task
    use equilibrium, only: settle_equilibrium
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of
+   use marched_cycle, only: find_marched_cycle
    use newton_method, only: branch_point_type
    use continuation, only: bifurcation_type
    use branch_progress, only: branch_progress_type, precise
@@ -56,7 +57,7 @@ contains
             call go_on(run, b, notes, error)
          else
             call begin(run, b, hopf, error)
-            if (b%given%of == 'limit_cycle' .and. .not. allocated(error)) call note(run, b, hopf, notes)
+            if (b%at_hopf .and. b%given%of == 'limit_cycle' .and. .not. allocated(error)) call note(run, b, hopf, notes)
          end if
       end if
       if (allocated(error)) return
@@ -88,14 +89,14 @@ contains
       !> Where limit cycles begin.
       type(bifurcation_type), intent(out) :: hopf
       type(error_type), allocatable, intent(out) :: error
-      if (b%of_cycles) then
+      if (b%at_hopf) then
          call first_cycle(run, b, hopf, error)
       else if (b%of_orbits) then
          call first_orbit(run, b, error)
       else
          call first_equilibrium(run, b, error)
       end if
-      if (.not. (allocated(error) .or. b%of_cycles)) call b%first_point(error)
+      if (.not. (allocated(error) .or. b%at_hopf)) call b%first_point(error)
       if (allocated(b%curve) .and. .not. allocated(error)) call b%first_of_curve(error)
       if (allocated(error)) then
          if (error%status /= stopped) return
@@ -114,7 +115,7 @@ contains
       call record(run, b, b%here, error)
    end subroutine begin
 
-   !> The orbit that the motion from the start of the case leads to.
+   !> The orbit, or the limit cycle, that the motion from the start of the case leads to.
    subroutine first_orbit(run, b, error)
       type(case_run_type), intent(inout), target :: run
       type(branch_progress_type), intent(inout), target :: b
@@ -129,8 +130,14 @@ contains
          if (allocated(error)) return
          call b%begin_oil(run%model, equilibrium_state)
       end if
-      call find_periodic_orbit(run%model, march_settings_of(run%model, run%earlier_steps()), y, found, error)
-      run%counts = found%counts()
+      associate (march => march_settings_of(run%model, run%earlier_steps()))
+         if (b%of_cycles) then
+            call find_marched_cycle(run%model, march, y, found%orbit, run%counts, error)
+         else
+            call find_periodic_orbit(run%model, march, y, found, error)
+            run%counts = found%counts()
+         end if
+      end associate
       if (.not. allocated(error)) call b%begin_with_orbit(found%orbit, run%inputs%periodic%revolutions)
    end subroutine first_orbit
 
@@ -400,14 +407,18 @@ contains
       type(bearing_file_type) :: part
       real(wp), allocatable, dimension(:, :) :: highest, lowest
       real(wp) :: amplitude(2)
+      logical :: unstable(size(value))
       integer :: b, k, axis
       if (size(value) < 2) return
-      print '(a)', '  born towards '//trim(merge('higher', 'lower ', value(2) > value(1)))//' '//parameter
-      associate (unstable => .not. stable(2:))
-         if (.not. any(unstable)) return
-         k = 1 + maxloc(abs(value(2:) - value(1)), dim=1, mask=unstable)
-         print '(a)', '  unstable cycles reach to '//parameter//' = '//precise(value(k))//', where their amplitudes are'
-      end associate
+      if (file%get_real('bifurcations/point') == 1) print '(a)', '  born towards '//trim(merge('higher', 'lower ', &
+         & value(2) > value(1)))//' '//parameter
+      unstable = .not. stable
+      unstable(1) = .false.
+      ! with the ends of their stretches, at folds
+      unstable(2:) = unstable(2:) .or. unstable(:size(value) - 1)
+      if (.not. any(unstable)) return
+      k = maxloc(abs(value - value(1)), dim=1, mask=unstable)
+      print '(a)', '  unstable cycles reach to '//parameter//' = '//precise(value(k))//', where their amplitudes are'
       do b = 1, size(inputs%bearings)
          part = new_bearing_file(file, inputs%bearings(b))
          do axis = 1, 2

@@ -34,6 +34,8 @@ module branch_progress
       real(wp) :: first = 0, way = 0
       !> Either is followed; it is the problem. Orbits may be limit cycles.
       logical :: of_orbits = .true., of_cycles = .false.
+      !> Whether limit cycles are followed from the Hopf point where they begin; else from where a march leads.
+      logical :: at_hopf = .false.
       class(branch_problem_type), pointer :: problem => null()
       class(orbit_problem_type), allocatable :: orbits
       type(equilibrium_problem_type) :: equilibria
@@ -76,6 +78,9 @@ module branch_progress
    real(wp), parameter :: across = 0.3_wp
    !> First step of a branch of limit cycles, over the clearance, at most: it starts across the parameter, too.
    real(wp), parameter :: first_cycle = 0.01_wp
+   !> Cycles are at rest whose displacements differ by less than this after half their period, in their mean square over
+   !> the scales.
+   real(wp), parameter :: shrunk = 1e-4_wp
    !> How far behind the last point of a branch, over the first step, is looked for a reason of its end.
    real(wp), parameter :: step_beyond = 1e-2_wp
    !> Periods are doubled up to this many of the first branch's.
@@ -96,6 +101,8 @@ contains
          self%way = abs(given%last - self%first)
          self%of_orbits = model%inputs%followed() /= 'equilibrium'
          self%of_cycles = model%inputs%followed() == 'limit_cycle'
+         self%at_hopf = self%of_cycles .and. model%inputs%start%from == 'equilibrium' &
+            & .and. .not. model%inputs%is_disturbed()
          if (self%of_cycles) then
             allocate (limit_cycle_type :: self%orbits)
          else
@@ -374,7 +381,14 @@ contains
    subroutine first_point(self, error)
       class(branch_progress_type), intent(inout) :: self
       type(error_type), allocatable, intent(out) :: error
+      real(wp), allocatable :: marched(:)
+      if (self%of_cycles) marched = half_apart(self%orbits)
       call start_branch(self%problem, self%options, self%options%high > self%first, self%here, error)
+      if (self%of_cycles .and. .not. allocated(error)) then
+         if (dot_product(marched, half_apart(self%orbits)) < 0.5_wp*sum(marched**2)) call raise(error, &
+            & numerics_error, 'the march has not come to a limit cycle yet; begin at the end of a longer one ' &
+            & //'(start%from = ''file'')')
+      end if
       call add_context(error, 'the first point of the branch')
       self%points = 1
    end subroutine first_point
@@ -433,7 +447,8 @@ contains
          return
       end if
       if (size(split) > 0 .and. self%points > 0) then
-         if (dot_product(split, half_apart(self%orbits)) < 0) then
+         if (dot_product(split, half_apart(self%orbits)) < 0 .or. self%of_cycles .and. norm2(half_apart(self%orbits)) &
+            & < shrunk*sqrt(maxval(self%orbits%weight))) then
             at_end = 'it comes back to the branch that it left'
             if (self%of_cycles) at_end = 'it shrinks to an equilibrium, at a Hopf point'
             call forget_doublings()

@@ -254,7 +254,7 @@ contains
       case ('periodic')
          is_idle = .not. inputs%seeks_orbits()
       case ('start')
-         is_idle = .not. inputs%moves() .or. inputs%about%task == 'branch' .and. inputs%followed() == 'limit_cycle'
+         is_idle = .not. inputs%moves()
       case ('integration', 'output')
          is_idle = inputs%about%task /= 'march' .and. any(name == [character(len=18) :: 'stop_when_periodic', &
             & 'start_time'])

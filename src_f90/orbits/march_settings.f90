@@ -13,7 +13,7 @@ module march_settings
    use orbit_polynomials, only: orbit_type, points, place
    implicit none (type, external)
    private
-   public :: march_settings_of, has_light_vibrations, march_period, mesh_options
+   public :: march_settings_of, has_light_vibrations, march_period, mesh_options, do_step
 
 
    !> Steps after which the derivatives are taken anew without friction: the motion is smooth, the steps are long.

@@ -183,6 +183,27 @@ def test_the_unstable_cycle_of_a_short_bearing(follow):
         np.testing.assert_allclose(found, [0.3710959187, -0.351305419], atol=6e-3)
 
 
+def test_a_branch_from_the_end_of_a_march(follow, tmp_path):
+    """It comes to the cycles of the branch from the Hopf point, and so does a march from a kick."""
+    branch, _ = follow(LUGRE, name="hopf")
+    march = LUGRE.partition("&branch")[0].replace("branch", "march").replace("= 8000", "= 9500, duration = 1")
+    follow(march, "start%journal=-20e-6,20e-6", name="march")
+    start = ("operation%speed_rpm=9500", "branch%last=9000")
+    for name, how in {
+        "file": ("start%from='file'", f"start%file='{tmp_path / 'march.h5'}'"),
+        "kick": ("start%journal=20e-6,0",),
+    }.items():
+        file, printed = follow(LUGRE, *start, *how, name=name)
+        with file:
+            assert extremes(file, 0) == pytest.approx(extremes(branch, -1), abs=1e-9)
+            assert file["period"][0] == pytest.approx(branch["period"][-1], rel=1e-6)
+            assert abs(multipliers(file, 0)[0] - multipliers(branch, -1)[0]) < 2e-4
+            assert file["parameter"][-1] == pytest.approx(9084.209641, rel=1e-4)
+            assert file.attrs["branch_ends"].endswith("it shrinks to an equilibrium, at a Hopf point")
+            assert "born" not in printed
+    branch.close()
+
+
 def test_elastic_rotor(follow):
     """Another program; its high modes have another damping, which shows in the last digits."""
     file, _ = follow(ELASTIC)
@@ -293,6 +314,11 @@ REFUSALS = {
         ("branch%parameter='rotor%unbalance'", "branch%last=0.01"),
         1,
         "limit cycles are without unbalance; branch%of = 'periodic' follows orbits over it",
+    ),
+    "kick within": (
+        ("start%journal=1e-6,0", "operation%speed_rpm=9000"),
+        2,
+        "no limit cycle was found: the march from the start of the case comes to rest",
     ),
     "switch": (("branch%switch=.false.",), 1, "has no effect on a branch of equilibria or limit cycles"),
 }
