@@ -10,8 +10,9 @@ module coefficients_task
    use linear_bearing, only: bearing_coefficients_type, find_coefficients, begin_to_carry, &
       & vibration_modes_type, rotor_response_type, find_rotor_response
    use stability_threshold, only: find_thresholds
+   use threshold_cycle, only: threshold_cycle_type, follow_cycles
    use coefficient_results, only: put_coefficients, put_one_sided, put_modes, put_shapes, put_thresholds, &
-      & put_rotor_response
+      & put_births, put_rotor_response
    use bearing_file, only: bearing_file_type
    use stop_signals, only: stop_reason
    use case_run, only: case_run_type
@@ -31,7 +32,7 @@ contains
    subroutine run_coefficients(run, error)
       type(case_run_type), intent(inout), target :: run
       type(error_type), allocatable, intent(out) :: error
-      type(machine_model) :: fine
+      type(machine_model), target :: fine
       type(bearing_coefficients_type) :: found
       type(warm_films_type), allocatable :: films(:)
       real(wp), allocatable :: y(:)
@@ -40,6 +41,10 @@ contains
       call find_coefficients(fine, y, found, error)
       if (.not. allocated(error) .and. run%inputs%coefficients%threshold_up_to_rpm > 0) then
          call find_thresholds(fine, y, found, error, films)
+      end if
+      if (.not. allocated(error)) call write_coefficients(run, fine, found, error)
+      if (.not. allocated(error) .and. run%inputs%coefficients%threshold_born) then
+         call note_birth(run, fine, y, films, error)
       end if
       if (allocated(error)) then
          call add_context(error, 'with converged films')
@@ -50,9 +55,33 @@ contains
          end if
          return
       end if
-      call write_coefficients(run, fine, found, error)
-      if (.not. allocated(error)) call note_one_sided(run, fine, y)
+      call note_one_sided(run, fine, y)
    end subroutine run_coefficients
+
+   !> Follows the limit cycles that begin at the threshold speed of free, or with friction stuck, pivots, and says what
+   !> they do.
+   subroutine note_birth(run, fine, y, films, error)
+      type(case_run_type), intent(inout), target :: run
+      type(machine_model), intent(in), target :: fine
+      real(wp), intent(in) :: y(:)
+      type(warm_films_type), allocatable, intent(in) :: films(:)
+      type(error_type), allocatable, intent(out) :: error
+      type(threshold_cycle_type) :: cycles
+      call follow_cycles(fine, y, cycles, error, films)
+      if (allocated(error)) then
+         if (error%status == stopped) return
+         if (.not. run%quiet) print '(a)', 'limit cycles: '//error%message
+         deallocate (error)
+      end if
+      if (.not. cycles%next > 0) return
+      call put_births(run%file, cycles)
+      if (run%quiet) return
+      print '(a)', filled('limit cycles begin at {.2} rpm, born towards '//trim(merge('higher', 'lower ', &
+         & cycles%next > cycles%threshold))//' speeds', [cycles%threshold])
+      if (cycles%lowest < cycles%threshold) print '(a)', filled('  the lowest speed with one is {.2} rpm, of ' &
+         & //'amplitude y {u.2}, z {u.2} um; from there to the threshold speed the kick that leads to whirl ' &
+         & //'falls to nothing', [cycles%lowest, cycles%amplitude])
+   end subroutine note_birth
 
    !> Writes which pads have a film that only just begins to carry in the equilibrium y, and remarks on them.
    subroutine note_one_sided(run, fine, y)

@@ -234,6 +234,8 @@ module case_groups
       real(wp), allocatable :: frequency_ratio(:)
       !> > 0: up to where the threshold speed of stability is sought.
       real(wp) :: threshold_up_to_rpm = 0
+      !> Whether the limit cycles are followed that begin there.
+      logical :: threshold_born = .false.
       !> Q at the journal, N/m: what whirls forward is driven by Q times its displacement, across it.
       real(wp) :: cross_stiffness = 0
    end type coefficients_type

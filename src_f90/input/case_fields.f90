@@ -220,6 +220,9 @@ contains
             & 'whirl frequencies over the speed of the shaft, of the coefficients of the journal')
          call v%number(inputs%coefficients%threshold_up_to_rpm, 'threshold_up_to_rpm', 0.0_wp, 1e6_wp, 'rpm', &
             & '> 0: the speed at which stability is lost is sought from speed_rpm up to this one')
+         call v%flag(inputs%coefficients%threshold_born, 'threshold_born', 'the limit cycles that begin at the ' &
+            & //'threshold speed are followed, without unbalance: towards which speeds they are born, and the lowest ' &
+            & //'with one')
          call v%number(inputs%coefficients%cross_stiffness, 'cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', 'Q: ' &
             & //'cross-coupled stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward ' &
             & //'whirl; of a machine at each journal, and &element has it at other stations')
@@ -234,7 +237,8 @@ contains
             & //'bifurcation points over two, for the task branch')
          call v%word(inputs%branch%of, 'of', 'periodic equilibrium limit_cycle curve', 'periodic: orbits, as the ' &
             & //'task periodic finds them; equilibrium: equilibria without friction in the pivots; limit_cycle: the ' &
-            & //'self-excited vibrations, without unbalance, that begin at the first Hopf point of the equilibria; ' &
+            & //'self-excited vibrations, without unbalance, that begin at the first Hopf point of the equilibria, ' &
+            & //'or, with values of the group start, those to which a march leads; ' &
             & //'curve: the bifurcation points of a kind over two numbers of the input, from the first one that ' &
             & //'such a branch has')
          call v%word(inputs%branch%point, 'point', 'hopf fold period_doubling neimark_sacker cycle_fold', 'curve: ' &

@@ -6,10 +6,11 @@ module coefficient_results
    use summary_group, only: put_figure
    use force_balance, only: mode_name_length, is_of_rotor
    use state_layout, only: element_layout_type
+   use threshold_cycle, only: threshold_cycle_type
    use linear_bearing, only: bearing_coefficients_type, vibration_modes_type, rotor_response_type
    implicit none (type, external)
    private
-   public :: put_coefficients, put_one_sided, put_modes, put_shapes, put_thresholds, put_rotor_response
+   public :: put_coefficients, put_one_sided, put_modes, put_shapes, put_thresholds, put_births, put_rotor_response
 
    character(len=*), parameter :: of_journal = 'pivot frequency_ratio row column'
    character(len=*), parameter :: of_positions = 'position_row position_column', of_modes = 'pivot mode'
@@ -178,6 +179,18 @@ contains
       call file%put('modes/threshold_rpm', found%thresholds, 'rpm', 'speed at which stability changes', 'pivot')
       call file%put('modes/threshold_sought_rpm', found%sought_up_to, 'rpm', 'speed up to which it was sought')
    end subroutine put_thresholds
+
+   !> What the limit cycles do that begin at a threshold speed.
+   subroutine put_births(file, found)
+      class(record_type), intent(inout) :: file
+      type(threshold_cycle_type), intent(in) :: found
+      call file%put('modes/threshold_hopf_rpm', found%threshold, 'rpm', 'speed at which limit cycles begin')
+      call file%put('modes/threshold_born', sign(1.0_wp, found%next - found%threshold), '1', '1 where they are born ' &
+         & //'towards higher speeds, -1 towards lower ones')
+      call file%put('modes/threshold_lowest_rpm', found%lowest, 'rpm', 'lowest speed with a limit cycle')
+      call file%put('modes/threshold_cycle_y', found%amplitude(1), 'm', 'its amplitude, vertical')
+      call file%put('modes/threshold_cycle_z', found%amplitude(2), 'm', 'its amplitude, horizontal')
+   end subroutine put_births
 
    real(wp) function no_number()
       no_number = ieee_value(1.0_wp, ieee_quiet_nan)

@@ -113,6 +113,35 @@ def test_cycles_of_free_pads_turn_back(follow):
         assert file["stable"][-1] == 0
 
 
+@pytest.mark.parametrize("which", ["free", "stuck"])
+def test_what_cycles_do_is_said_beside_a_threshold(follow, which):
+    """The same figures as the branch's own, although the case has an unbalance."""
+    text = FREE if which == "free" else LUGRE
+    low, high = (12500, 15500) if which == "free" else (9000, 9500)
+    branch, _ = follow(text, f"operation%speed_rpm={low}", f"branch%last={high}", name="branch")
+    asked = (
+        "case%task='coefficients'", f"operation%speed_rpm={low}", "rotor%unbalance=0.01",
+        f"coefficients%threshold_up_to_rpm={high}", "coefficients%threshold_born=.true.",
+    )  # fmt: skip
+    file, printed = follow(text, *asked, name="born")
+    with file, branch:
+        own = {name: value[()] for name, value in file["modes"].items() if value.shape == ()}
+        assert own["threshold_hopf_rpm"] == pytest.approx(branch["parameter"][0], rel=1e-6)
+        pivots = [each.decode().strip() for each in file["pivot"][:]]
+        threshold = file["modes/threshold_rpm"][pivots.index(which)]
+        assert own["threshold_hopf_rpm"] == pytest.approx(threshold, rel=1e-5)
+        least = int(np.argmin(branch["parameter"][:]))
+        assert own["threshold_lowest_rpm"] == pytest.approx(branch["parameter"][least], abs=0.5)
+        assert own["threshold_born"] == (-1 if which == "free" else 1)
+        assert f"born towards {'lower' if which == 'free' else 'higher'} speeds" in printed
+        if which == "free":
+            ends = np.reshape(extremes(branch, least), (2, 2))
+            size = [own["threshold_cycle_y"], own["threshold_cycle_z"]]
+            np.testing.assert_allclose(size, (ends[:, 0] - ends[:, 1]) / 2, rtol=2e-2)
+        else:
+            assert "the lowest speed with one" not in printed
+
+
 def test_a_cycle_has_no_start(follow):
     """Cycles that were reached by other steps begin elsewhere on themselves, and are the same."""
     found = []
@@ -314,6 +343,21 @@ REFUSALS = {
         ("branch%parameter='rotor%unbalance'", "branch%last=0.01"),
         1,
         "limit cycles are without unbalance; branch%of = 'periodic' follows orbits over it",
+    ),
+    "born without limit": (
+        ("case%task='coefficients'", "coefficients%threshold_born=.true."),
+        1,
+        "coefficients%threshold_born = .true.: needs coefficients%threshold_up_to_rpm",
+    ),
+    "born with friction": (
+        (
+            "case%task='coefficients'",
+            "coefficients%threshold_up_to_rpm=9500",
+            "coefficients%threshold_born=.true.",
+            "friction%model='bengisu_akay'",
+        ),
+        1,
+        "must be 'none' or 'lugre' with coefficients%threshold_born",
     ),
     "kick within": (
         ("start%journal=1e-6,0", "operation%speed_rpm=9000"),

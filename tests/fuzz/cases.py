@@ -146,6 +146,8 @@ def set_task(dice: Random, variables: dict[str, Variable], found: dict[str, tupl
     # above the speed, or none
     if "coefficients%threshold_up_to_rpm" in found:
         found["coefficients%threshold_up_to_rpm"] = (0.0,)
+    # which it needs
+    found.pop("coefficients%threshold_born", None)
 
 
 def held(dice: Random, variables: dict[str, Variable], found: dict[str, tuple]) -> dict[str, tuple]:
