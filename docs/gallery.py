@@ -49,6 +49,7 @@ RUNS = {
     "warm": ("input/examples/warm_five_pads.nml", ()),
     "bent": ("input/examples/bent_pads.nml", ()),
     "turbine": ("input/examples/turbine_bearing.nml", ()),
+    "lemon": ("input/examples/lemon_bore.nml", ()),
 }
 #: Studies: name, which is that of the folder, case, and what is varied.
 STUDIES = {
@@ -100,6 +101,17 @@ STUDIES = {
         ),
     ),
     "tolerances": ("input/examples/tolerances.nml", ()),
+    "kicks": (
+        "input/examples/lemon_bore.nml",
+        (
+            "case%task=march",
+            "operation%speed_rpm=9800",
+            "operation%duration=0.5",
+            "output%keep=summary",
+            "sweep%start%journal(1)=-30e-6:30e-6:5e-6",
+            "sweep%start%journal(2)=-30e-6:30e-6:5e-6",
+        ),
+    ),
     "whirl": (
         "input/examples/five_pads.nml",
         (
@@ -143,6 +155,8 @@ PICTURES = (
         "",
         "with LuGre friction a torus (Neimark-Sacker) bifurcation appears at high speed",
     ),
+    ("branch", "lemon", "", "a whirl with a fold below its threshold speed"),
+    ("basin", "kicks lemon", "", "the starts within the unstable cycle return"),
     ("response", "soft", "", "pivots that are soft give the rotor a critical speed"),
     ("coefficients", "whirl", "", "stiffness and damping over speed, at two whirl frequencies"),
     ("stability", "whirl", "--pivot stuck", "the modes with pivots that stick"),

@@ -44,6 +44,8 @@ SAMPLES = ("tornado", "distribution", "scatter")
 BRANCH = "branch"
 #: The plot of curves over two parameters.
 CHART = "chart"
+#: The plot of a study of starts and a branch of limit cycles.
+BASIN = "basin"
 #: Plots of a machine; MACHINE is that of a case or a result, drawn to scale.
 MACHINE, STATIONS, SHAFT, SHAPES = "machine", "stations", "shaft", "shapes"
 OF_MACHINES = (MACHINE, STATIONS, SHAFT, SHAPES)
@@ -66,9 +68,9 @@ OWN_OPTIONS = {
 #: Plots without the options --last and --pad.
 WITHOUT_LAST = (
     *("equilibrium", "runup", "orders", "waterfall", "pressure", "film", "turbulence", BEARING, STUDY),
-    *(BRANCH, CHART, *OF_EITHER, *SAMPLES, MACHINE, SHAFT, SHAPES),
+    *(BRANCH, BASIN, CHART, *OF_EITHER, *SAMPLES, MACHINE, SHAFT, SHAPES),
 )
-WITHOUT_PAD = (BEARING, MOVIE, CHART, *VIBRATIONS, RESPONSE, *OF_MACHINES)
+WITHOUT_PAD = (BASIN, BEARING, MOVIE, CHART, *VIBRATIONS, RESPONSE, *OF_MACHINES)
 #: Plots without the option --bearing.
 WITHOUT_BEARING = (STUDY, *SAMPLES, *OF_MACHINES)
 #: What the speeds are for from which critical speeds must keep away.
@@ -95,6 +97,7 @@ PLOTS = {
     "pressure": "film pressure over the unrolled pads at one instant (--time; default: at the equilibrium)",
     "branch": "branches over their parameter, stable or not (--pad: its tilt), over studies of marches",
     "chart": "stability chart: curves of bifurcation points over two parameters, with their stable side",
+    "basin": "starts of a study that whirl or return, and the unstable cycle of a branch of limit cycles",
     "response": "first harmonic, critical speeds, amplification: studies, run-ups, branches (also .csv)",
     "temperatures": "temperatures and viscosity of the pads: studies, a branch; heat balances of results",
     "film": "thickness and pressure of the films around the bearing at one instant (likewise)",
@@ -263,7 +266,7 @@ def picture(options: argparse.Namespace, stack: ExitStack) -> tuple[Any, list[Ru
     from tiltpad.draw import figures, layout
 
     of_study = options.plot in (STUDY, *SAMPLES)
-    either = options.plot in (BRANCH, *OF_EITHER)
+    either = options.plot in (BRANCH, BASIN, *OF_EITHER)
     opened: Callable[[str], Run | Study] = read_study if of_study else read_either if either else read
     sources: list[Any] = [stack.enter_context(opened(path)) for path in options.files]
     runs: list[Any] = [each for source in sources for each in bearings_of(source, options)]

@@ -6,7 +6,7 @@ import pytest
 import tiltpad
 from matplotlib.colors import to_hex
 from tiltpad import command
-from tiltpad.calculate import branches
+from tiltpad.calculate import basins, branches
 from tiltpad.draw import branches as pictures
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
@@ -145,3 +145,61 @@ def test_a_chart_has_bands_on_stable_sides(run, changed, opened, result, tmp_pat
     page = output.read_text()
     assert 'alt="chart"' in page
     assert "points of the branches" not in page
+
+
+@pytest.fixture(scope="module")
+def kicked(root, tiltpad, tmp_path_factory):
+    """A branch of limit cycles with a fold below its Hopf point, and starts of marches between both."""
+    folder, case = tmp_path_factory.mktemp("kicked"), root / "input/examples/lemon_bore.nml"
+    tiltpad("-q", case, "-o", folder / "cycles.h5", status=0)
+    settings = (
+        "case%task=march", "operation%speed_rpm=9800", "operation%duration=0.4", "output%keep=summary",
+        "sweep%start%journal(1)=-16e-6:16e-6:16e-6", "sweep%start%journal(2)=0,16e-6,26e-6",
+    )  # fmt: skip
+    words = [word for each in settings for word in ("--set", each)]
+    tiltpad("-q", case, *words, "-o", folder / "starts", status=0)
+    return folder
+
+
+def test_starts_beyond_the_unstable_cycle_whirl(kicked):
+    with tiltpad.read(kicked / "cycles.h5") as branch, tiltpad.read_study(kicked / "starts.h5") as study:
+        found = basins.basin(study, branch)
+        assert found.parameter == 9800
+        np.testing.assert_allclose(found.cycle, [20.07e-6, 22.33e-6], rtol=1e-2)
+        away = np.hypot(*(found.start / found.cycle).T)
+        assert not found.whirls[away < 0.9].any()
+        assert found.whirls[away > 1.1].all()
+        assert 3 <= found.whirls.sum() < 6
+        assert (found.amplitude[found.whirls] > 40e-6).all()
+        assert found.nearest == np.hypot(*found.start[found.whirls].T).min()
+        # no unstable cycle at a speed below the fold, and none beyond the Hopf point
+        for value in (9400, 10400):
+            with pytest.raises(tiltpad.NotInRunError, match="no unstable limit cycle"):
+                basins.unstable_cycle(branch, value)
+        returns, whirls, cycle = pictures_of_basin(study, branch)
+        assert len(whirls) == found.whirls.sum()
+        assert len(returns) + len(whirls) == 9
+        assert cycle[:, 0].max() == pytest.approx(1e6 * found.cycle[1])
+
+
+def pictures_of_basin(study, branch):
+    figure = tiltpad.figures.basin([study, branch])
+    assert "speed 9800 rpm; nearest start that whirls: 2" in figure.legends[0].get_title().get_text()
+    return [line.get_xydata() for line in figure.axes[0].get_lines()]
+
+
+def test_a_basin_needs_starts_and_cycles(kicked, result, capsys, tmp_path):
+    cycles, starts = str(kicked / "cycles.h5"), str(kicked / "starts.h5")
+    output = tmp_path / "basin.png"
+    assert command.main(["basin", starts, cycles, "-o", str(output)]) == 0
+    assert output.exists()
+    capsys.readouterr()
+    for files, words in (
+        ([cycles], "a basin is of one study of starts and one branch of limit cycles"),
+        ([starts, str(result("branch"))], "no unstable limit cycle at"),
+        ([starts, str(result("none"))], "no branch in this run"),
+    ):
+        assert command.main(["basin", *files, "-o", str(output)]) == 1
+        said = capsys.readouterr().err
+        assert words in said
+        assert said.count("\n") == 1

@@ -35,6 +35,7 @@ PLOTS = [
         "study",
         "branch",
         "chart",
+        "basin",
         *command.OF_EITHER,
         *command.SAMPLES,
         *command.OF_MACHINES,

@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 import tiltpad
 from tiltpad import command
+from tiltpad.calculate import basins
 from tiltpad.draw import bearing
 
 BLOCK = re.compile(r"```(\w+)( fails| ross)?\n(.*?)```", re.DOTALL)
@@ -74,6 +75,7 @@ def test_every_command_of_the_tutorial_does_what_it_says(
         ("overhung", "rotor.nml"),
         ("bent_pads", "large.nml"),
         ("turbine_bearing", "turbine.nml"),
+        ("lemon_bore", "lemon.nml"),
     ):
         assert (root / f"input/examples/{example}.nml").read_text().endswith((tmp_path / own).read_text())
     for words in (*figures(tmp_path), *machine(tmp_path)):
@@ -120,6 +122,22 @@ def figures(folder):
         yield f"rises to {run['parameter'][-1]:.0f} rpm at 5 mPa s"
     with result("threshold.h5") as run:
         yield f"from which speed on: {run['modes/threshold_rpm'][-1]:.0f} rpm"
+    with result("lemon.h5") as run, tiltpad.read_study(folder / "kicks.h5") as study:
+        hopf, fold = run["bifurcations/parameter"]
+        yield f"lose their stability at {hopf:.0f} rpm"
+        yield f"At {fold:.0f} rpm (`LP`, a fold)"
+        found = basins.basin(study, run)
+        yield "at 9800 rpm {:.0f} um in the vertical and {:.0f} um in".format(*1e6 * found.cycle)
+        yield f"whirl, {1e6 * found.amplitude.max():.0f} um to each side"
+        yield f"nearest start that whirls is {1e6 * found.nearest:.0f} um away"
+    with result("born.h5") as run:
+        own = {
+            name: run[f"modes/threshold_{name}"] for name in ("hopf_rpm", "lowest_rpm", "cycle_y", "cycle_z")
+        }
+        yield f"cycles begin at {own['hopf_rpm']:.0f} rpm, are born towards lower speeds"
+        assert run["modes/threshold_born"] == -1
+        size = [1e6 * own[f"cycle_{axis}"] for axis in "yz"]
+        yield f"reach down to {own['lowest_rpm']:.0f} rpm with {size[0]:.0f} and {size[1]:.0f} um"
     with result("warm.h5") as run:
         e = run.equilibrium
         viscosity = np.sort(1e3 * e["viscosity"])

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from tiltpad.calculate import pivots, signals
 from tiltpad.calculate.selection import ArgumentError
 from tiltpad.draw import diagrams, layout, plots
+from tiltpad.draw.basins import basin
 from tiltpad.draw.branches import branch, chart, multipliers, response
 from tiltpad.draw.films import film, pressure
 from tiltpad.draw.machines import shaft, shapes, stations
@@ -215,7 +216,7 @@ FIGURES = {
     for each in (
         *(orbit, equilibrium, size, poincare, waveform, multipliers, spectrum),
         *(hysteresis, friction, sticking, runup, orders, waterfall, pressure, film, turbulence),
-        *(coefficients, stability, campbell, response, branch, chart, temperatures),
+        *(coefficients, stability, campbell, response, branch, chart, basin, temperatures),
         *(tornado, distribution, scatter),
         *(stations, shaft, shapes),
     )
