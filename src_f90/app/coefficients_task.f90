@@ -79,8 +79,7 @@ contains
       print '(a)', filled('limit cycles begin at {.2} rpm, born towards '//trim(merge('higher', 'lower ', &
          & cycles%next > cycles%threshold))//' speeds', [cycles%threshold])
       if (cycles%lowest < cycles%threshold) print '(a)', filled('  the lowest speed with one is {.2} rpm, of ' &
-         & //'amplitude y {u.2}, z {u.2} um; from there to the threshold speed the kick that leads to whirl ' &
-         & //'falls to nothing', [cycles%lowest, cycles%amplitude])
+         & //'amplitude y {u.2}, z {u.2} um: from there on a kick may lead to whirl', [cycles%lowest, cycles%amplitude])
    end subroutine note_birth
 
    !> Writes which pads have a film that only just begins to carry in the equilibrium y, and remarks on them.

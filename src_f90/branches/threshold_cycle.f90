@@ -59,6 +59,7 @@ contains
       static = fine
       static%inputs = inputs
       call b%prepare(moving, 0_i8, error)
+      b%options%give_up => fine%give_up
       if (.not. allocated(error)) call b%begin_at_hopf(moving, static, y, films, hopf, error)
       if (allocated(error)) return
       found%threshold = hopf%point%parameter
