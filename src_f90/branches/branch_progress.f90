@@ -456,8 +456,7 @@ contains
          end if
       end if
       ! where a branch of double period begins a multiplier is 1
-      if (self%points > 0) call find_bifurcations(self%problem, self%options, self%here, next, special, &
-         & error)
+      if (self%points > 0) call find_bifurcations(self%problem, self%options, self%here, next, special, error)
       if (allocated(error)) return
       call note_doublings()
       if (ends) at_end = trim(merge('the first value', 'the last value ', abs(next%parameter - self%first) <= 0))
