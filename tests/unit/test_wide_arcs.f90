@@ -149,11 +149,13 @@ contains
       type(film_counters) :: counters
       type(strip_force_type) :: film, exact
       real(wp) :: position(2), psi, error(n, 2), arc
-      integer :: i, k, last(2)
+      integer :: i, k, which, last(2)
       logical :: good
+      which = 0
       do i = 1, n
          if (mod(i, n/4) == 1) then
-            arc = arcs(1 + 4*(i - 1)/n)
+            which = which + 1
+            arc = arcs(which)
             tables(1) = new_wide_arc_table(pad(arc, 1.0_wp), 4e-5_wp, 100000, .true.)
             tables(2) = new_wide_arc_table(pad(arc, 1.0_wp), 2.5e-6_wp, 100000, .true.)
             films = new_wide_arc_film(pad(arc, 1.0_wp), 40)
