@@ -192,15 +192,15 @@ contains
       character(len=:), allocatable :: text
       real(wp) :: values(2)
       values = self%values_at(point)
-      text = self%given%parameter//' = '//digits(values(1))
-      if (allocated(self%curve)) text = text//', '//self%given%second_parameter//' = '//digits(values(2))
+      text = self%given%parameter//' = '//number(values(1))
+      if (allocated(self%curve)) text = text//', '//self%given%second_parameter//' = '//number(values(2))
    contains
-      function digits(x)
+      function number(x)
          real(wp), intent(in) :: x
-         character(len=:), allocatable :: digits
-         digits = to_text(x)
-         if (present(closely)) digits = precise(x)
-      end function digits
+         character(len=:), allocatable :: number
+         number = to_text(x)
+         if (present(closely)) number = precise(x)
+      end function number
    end function place
 
    !> Ten significant digits.
