@@ -206,6 +206,9 @@ def resolve(assignments: list[Assignment], variables: dict[str, Variable]) -> di
     }
     if "output%keep" not in given and found["case%task"][0] in (b"equilibrium", b"coefficients"):
         found["output%keep"] = (b"summary",)
+    if found["branch%point"] == (b"",):
+        # written where it is given
+        found.pop("branch%point")
     if found["case%task"] == (b"branch",) and found["output%keep"] != (b"all",):
         raise Refused("a branch keeps all of its points")
     if found["operation%final_speed_rpm"] == (None,):

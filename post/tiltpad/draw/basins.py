@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from tiltpad.calculate import basins
 from tiltpad.draw import layout
 from tiltpad.draw.branches import parameter_of
+from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN
@@ -29,7 +30,8 @@ def basin(runs: Sequence[Run | Study]) -> Figure:
     studies = [each for each in runs if isinstance(each, Study)]
     followed = [each for each in runs if isinstance(each, Run)]
     if len(studies) != 1 or len(followed) != 1:
-        raise ValueError("a basin is of one study of starts and one branch of limit cycles")
+        given = ", ".join(str(each.path) for each in runs)
+        raise NotInRunError(f"{given}: a basin is of one study of starts and one branch of limit cycles")
     found, factor = basins.basin(studies[0], followed[0]), SHOWN["journal_y"].factor
     fig, ax = plt.subplots(figsize=(layout.COLUMN, 3.4))
     y, z = factor * found.start.T

@@ -26,6 +26,7 @@ PICTURES = {
     "orders": "Amplitude of the first orders over the speed, and the phase of the first.",
     "waterfall": "Amplitudes over speed and frequency.",
     "branch": "Highest and lowest values along the branches; bifurcation points by their letters.",
+    "basin": "Starts that lead to whirl or back to the equilibrium; the unstable cycle dashed.",
     "chart": "Bifurcation points over two parameters, each curve with its stable side.",
     "response": "First harmonic of the journal: critical speeds, and their amplification factors (AF).",
     "hysteresis": "Friction moment over tilt: the area is the work dissipated, last revolution or period.",
