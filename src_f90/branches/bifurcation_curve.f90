@@ -248,6 +248,8 @@ contains
       slope = merge(here%curve%slope, 0.0_wp, way%radius > 0)
       size_of_way = merge(way%radius, curve%longest, way%radius > 0)
       s = here%curve%turn*way%radius**2
+      s_before = s
+      value_before = 0
       curve%line%direction = way%line
       do points = 1, most_points
          to = place_on(way, s)
