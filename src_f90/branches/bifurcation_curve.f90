@@ -239,6 +239,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(root_bracket) :: bracket
       real(wp), dimension(problem%n + 1) :: normal, change
+      ! long: one iteration, whose parts share all of its state
       real(wp) :: to(2), along, s, step, left, value, s_before, value_before, slope, size_of_way
       logical :: slope_is_old
       normal = here%tangent
