@@ -191,7 +191,7 @@ contains
       problem%parameter = 0
       way%from = place_of(here)
       way%ahead = here%curve%ahead
-      way%line = [way%ahead(2), -way%ahead(1)]
+      way%line = across(way%ahead)
       way%direction = here%curve%direction
    end subroutine stand_at
 

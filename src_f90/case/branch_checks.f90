@@ -1,11 +1,12 @@
-!> Checks of the input of branches and of curves of bifurcation points: what no single value can tell.
+!> Checks of the input of branches, of curves of bifurcation points and of limit cycles at a threshold speed: what no
+!> single value can tell.
 module branch_checks
    use errors, only: error_type, require
    use case_groups, only: is_set
    use case_inputs, only: case_type
    implicit none (type, external)
    private
-   public :: check_branch
+   public :: check_branch, check_threshold_cycles
 
 contains
 
@@ -51,19 +52,38 @@ contains
       subroutine check_free(what)
          character(len=*), intent(in) :: what
          character(len=:), allocatable :: given
-         integer :: b
          given = 'branch%of = ''limit_cycle'''
          if (inputs%branch%of == 'curve') given = 'branch%point = '''//inputs%branch%point//''''
          call require(.not. inputs%unbalance() > 0, given//': must be without unbalance ({} kg m; rotor%unbalance = ' &
             & //'0), which would drive the motion; '//what//' are those of a motion that nothing drives', &
             & [inputs%unbalance()], error)
-         do b = 1, size(inputs%bearings)
-            associate (model => inputs%bearings(b)%friction%model)
-               call require(model /= 'bengisu_akay', inputs%bearings(b)%label(': ')//'friction%model = '''//model &
-                  & //''': must be ''none'' or ''lugre'' with '//given//', as pivots at rest hold with no stiffness ' &
-                  & //'there', error)
-            end associate
-         end do
+         call check_pivots(inputs, given, error)
       end subroutine check_free
    end subroutine check_branch
+
+   !> The limit cycles at a threshold speed need one that is sought.
+   subroutine check_threshold_cycles(inputs, error)
+      type(case_type), intent(in) :: inputs
+      type(error_type), allocatable, intent(inout) :: error
+      if (.not. inputs%coefficients%threshold_born) return
+      call require(inputs%coefficients%threshold_up_to_rpm > 0, 'coefficients%threshold_born = .true.: needs ' &
+         & //'coefficients%threshold_up_to_rpm, the speed in rpm up to which thresholds and their cycles are sought', &
+         & error)
+      call check_pivots(inputs, 'coefficients%threshold_born', error)
+   end subroutine check_threshold_cycles
+
+   !> Pivots at rest have stiffness or none where free vibrations begin; `given` asks for these.
+   subroutine check_pivots(inputs, given, error)
+      type(case_type), intent(in) :: inputs
+      character(len=*), intent(in) :: given
+      type(error_type), allocatable, intent(inout) :: error
+      integer :: b
+      do b = 1, size(inputs%bearings)
+         associate (model => inputs%bearings(b)%friction%model)
+            call require(model /= 'bengisu_akay', inputs%bearings(b)%label(': ')//'friction%model = '''//model &
+               & //''': must be ''none'' or ''lugre'' with '//given//', as pivots at rest hold with no stiffness ' &
+               & //'there', error)
+         end associate
+      end do
+   end subroutine check_pivots
 end module branch_checks

@@ -11,7 +11,7 @@ module case_namelist
    use case_completion, only: leave_out, leave_out_replaced, complete_case
    use variable_table, only: variable_type, variable_table_type
    use case_fields, only: list_variables, list_all_variables, put_variables
-   use threshold_checks, only: check_threshold_cycles
+   use branch_checks, only: check_threshold_cycles
    use case_parameter, only: complete_branch, check_branch_parameter, group_names, names_in, meant_variable, &
       & meant_group, meant_word
    use assignments, only: namelist_type, assignment_type, study_group, token_type, assignment_text, place_of, &
