@@ -234,3 +234,16 @@ def run(tiltpad, tmp_path):
         return tiltpad(f"{name}.nml", *more, overrides=overrides, cwd=tmp_path, status=status)
 
     return make
+
+
+@pytest.fixture
+def follow(tiltpad, tmp_path):
+    """follow(text, *overrides): the file of a branch or a curve, and what the program printed."""
+
+    def perform(text, *overrides, name="case"):
+        (tmp_path / f"{name}.nml").write_text(text)
+        command = (f"{name}.nml", "-o", f"{name}.h5", "--overwrite")
+        done = tiltpad(*command, cwd=tmp_path, overrides=overrides, status=0)
+        return h5py.File(tmp_path / f"{name}.h5"), done.stdout
+
+    return perform

@@ -1,6 +1,5 @@
 """Curves of bifurcation points over two inputs: an independent program, branches over one, and refusals."""
 
-import h5py
 import numpy as np
 import pytest
 
@@ -17,19 +16,6 @@ PADS = """&case  task = 'branch' /
 MASS, CLEARANCE = "rotor%mass", "bearing%machined_clearance"
 FREE = {"mass": 200, "friction": "none", "first": 12500, "last": 20000}
 STUCK = {"mass": 2000, "friction": "lugre", "first": 8000, "last": 9500}
-
-
-@pytest.fixture
-def follow(tiltpad, tmp_path):
-    """follow(text, *overrides): the file of a curve, and what the program printed."""
-
-    def perform(text, *overrides, name="case"):
-        (tmp_path / f"{name}.nml").write_text(text)
-        command = (f"{name}.nml", "-o", f"{name}.h5", "--overwrite")
-        done = tiltpad(*command, cwd=tmp_path, overrides=overrides, status=0)
-        return h5py.File(tmp_path / f"{name}.h5"), done.stdout
-
-    return perform
 
 
 #: Another program: finite volumes x cosine modes, root finding (limit 1e-5): value, rpm, Hz at the end.

@@ -50,19 +50,6 @@ def short(gamma, first, last, radius=0.25, length=0.05):
     return SHORT.format(viscosity=viscosity, first=first * RPM, last=last * RPM, radius=radius, length=length)
 
 
-@pytest.fixture
-def follow(tiltpad, tmp_path):
-    """follow(text, *overrides): the file of a branch, and what the program printed."""
-
-    def perform(text, *overrides, name="case"):
-        (tmp_path / f"{name}.nml").write_text(text)
-        command = (f"{name}.nml", "-o", f"{name}.h5", "--overwrite")
-        done = tiltpad(*command, cwd=tmp_path, overrides=overrides, status=0)
-        return h5py.File(tmp_path / f"{name}.h5"), done.stdout
-
-    return perform
-
-
 def multipliers(file, point):
     return file["multiplier_real"][point] + 1j * file["multiplier_imag"][point]
 
