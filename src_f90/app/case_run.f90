@@ -15,7 +15,7 @@ module case_run
    use bearing_file, only: bearing_file_type, new_bearing_file
    use provenance, only: running
    use summary_group, only: run_extremes_type
-   use march_figures, only: put_progress, put_march_figures, put_station_figures
+   use march_figures, only: put_progress, put_march_figures, put_machine_figures
    use result_remarks, only: remarks_on_run, put_remarks, new_lines
    use clock, only: wall_clock
    use text, only: behind
@@ -116,7 +116,7 @@ contains
       integer :: b
       if (self%inputs%about%task == 'branch' .or. self%file%hdf5%samples == 0) return
       call put_progress(self%file)
-      if (self%model%rotor%stations > 0) call put_station_figures(self%file, self%inputs)
+      if (self%model%rotor%stations > 0) call put_machine_figures(self%file, self%inputs)
       associate (loads => self%model%rotor%loads(self%model%point))
          do b = 1, size(self%inputs%bearings)
             file = self%bearing(b)

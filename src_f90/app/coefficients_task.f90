@@ -200,11 +200,36 @@ contains
          others = other_decrements(found%modes(i), response%synchronous(i), response%of_reduction(:, i) > mostly)
          if (others /= '') print '(a)', pivots//'synchronously reduced coefficients would give other logarithmic ' &
             & //'decrements: '//others
+         call print_of_elements(found%modes(i), response%of_elements(:, :, i), inputs%element_labels(), &
+            & response%of_reduction(:, i) > mostly)
          amplitude = maxval(abs(response%unbalance(:, :, i)), 1)
          print '(a)', pivots//filled('linear response to the unbalance, largest at station {}: {u.3} um', &
             & [real(wp) :: maxloc(amplitude), maxval(amplitude)])
       end do
    end subroutine print_response
+
+   !> What elements and dampers add to the logarithmic decrements of the least damped modes of the rotor.
+   subroutine print_of_elements(modes, parts, labels, of_reduction)
+      type(vibration_modes_type), intent(in) :: modes
+      character(len=*), intent(in) :: labels(:)
+      real(wp), intent(in) :: parts(:, :)
+      logical, intent(in) :: of_reduction(:)
+      character(len=:), allocatable :: text
+      integer, allocatable :: shown(:)
+      integer :: i, k, e
+      if (size(parts, 1) == 0) return
+      shown = pack([(i, i=1, size(modes%name))], is_of_rotor(modes%name) .and. modes%eigenvalue%im > 0 &
+         & .and. .not. of_reduction(:size(modes%name)))
+      do k = 1, min(most, size(shown))
+         i = shown(k)
+         text = ''
+         do e = 1, size(parts, 1)
+            text = text//', '//trim(labels(e))//' '//fixed_text(parts(e, i), 3)
+         end do
+         print '(a)', '    of the logarithmic decrement of mode '//to_text(i)//', ' &
+            & //fixed_text(modes%log_decrement(i), 3)//': '//text(3:)
+      end do
+   end subroutine print_of_elements
 
    !> Modes of the rotor whose logarithmic decrement on synchronously reduced coefficients has another sign than with
    !> the pads' own equations, or differs by more than a tenth: "mode 1 (shaft, backward) 1.0345 and not 1.1234, ...". A

@@ -18,7 +18,8 @@ module equilibrium_notes
    use namelist_writer, only: first_equal
    use equilibrium_results, only: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, &
       & put_film_temperatures, put_oil
-   use machine_results, only: put_machine_equilibrium
+   use machine_results, only: put_machine_equilibrium, put_elements
+   use bearing_samples, only: element_forces, element_positions, eccentricities
    use record, only: record_type
    use case_run, only: case_run_type
    implicit none (type, external)
@@ -31,7 +32,7 @@ contains
    subroutine note_equilibrium(run, static)
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
-      real(wp), allocatable :: loads(:, :), forces(:, :), slopes(:)
+      real(wp), allocatable :: loads(:, :), slopes(:)
       character(len=:), allocatable :: title
       integer :: b, as
       run%model%oil = static%oil
@@ -48,16 +49,11 @@ contains
       loads = bearing_loads(run%model, static)
       slopes = norm2(run%model%rotor%station_slopes(static%rotor), dim=1)
       slopes = slopes(run%inputs%bearings%station)
-      forces = run%model%rotor%element_forces([static%rotor, 0*static%rotor], run%model%point%static(), 0.0_wp)
-      forces = forces(:, :size(run%inputs%rotor%elastic%elements))
-      call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads, forces)
+      call put_machine_equilibrium(run%file, run%model%rotor, static%rotor, loads)
+      call note_elements(run, static)
       if (.not. run%quiet) call print_shaft(run%file)
       if (.not. run%quiet) print '(a)', 'equilibrium: '//stability_text(static%stability, 'shaft', &
          & any(run%inputs%bearings%tilting()))
-      do b = 1, size(forces, 2)
-         if (.not. run%quiet) print '(a)', filled('element {} at station {}: force on the shaft y {.1}, z {.1} N', &
-            & [real(wp) :: b, run%inputs%rotor%elastic%elements(b)%station, forces(:, b)])
-      end do
       do b = 1, size(loads, 2)
          as = b
          if (.not. run%quiet) as = same_equilibrium(run, static, loads, slopes, b)
@@ -69,6 +65,35 @@ contains
       end do
       call run%note_remarks(shown=.true.)
    end subroutine note_equilibrium
+
+   !> What acts on a machine beside its films: forces of elements, and where the rings of dampers are.
+   subroutine note_elements(run, static)
+      type(case_run_type), intent(inout) :: run
+      type(equilibrium_type), intent(in) :: static
+      type(machine_model) :: still
+      real(wp), allocatable :: y(:), forces(:, :), positions(:, :), ratios(:)
+      integer :: i, n
+      y = run%model%static_state(static%rotor, static%pads)
+      still = run%model
+      call still%set_point(run%model%point%static())
+      forces = element_forces(still, 0.0_wp, y)
+      if (size(forces) == 0) return
+      positions = element_positions(still, y)
+      n = run%model%rotor%elements
+      ratios = eccentricities(run%inputs, positions(:, n + 1:))
+      call put_elements(run%file, forces, positions, ratios)
+      if (run%quiet) return
+      associate (elements => run%inputs%station_elements(), dampers => run%inputs%dampers())
+         do i = 1, n
+            print '(a)', elements(i)%label//filled(' at station {}: force on the shaft y {.1}, z {.1} N', &
+               & [real(wp) :: elements(i)%station, forces(:, i)])
+         end do
+         do i = 1, size(dampers)
+            print '(a)', 'damper'//run%inputs%bearings(dampers(i))%suffix()//filled(': ring at y {u.2}, z {u.2} ' &
+               & //'um, eccentricity ratio {.4}', [positions(:, n + i), ratios(i)])
+         end do
+      end associate
+   end subroutine note_elements
 
    !> The first bearing that is as bearing b and whose films, journal and shaft are in the same equilibrium, but for
    !> digits that are not printed: it, or one before it.

@@ -7,7 +7,7 @@ module recorder
    use ode_model, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
    use state_layout, only: pad_state, tilt
-   use bearing_samples, only: bearing_sample, take_sample, element_forces
+   use bearing_samples, only: bearing_sample, take_sample, element_forces, element_positions
    use march_results, only: add_sample, put_spectra
    use machine_results, only: put_turned_rotor
    use result_size, only: sample_interval
@@ -30,8 +30,9 @@ module recorder
       type(bearing_file_type), allocatable, private :: bearings(:)
       !> y and z of the stations in the last sample, (2, station), m.
       real(wp), allocatable, private :: stations(:, :)
-      !> Forces of the excitations, (2, excitation), and of other elements, (2, element), in the last sample, N.
-      real(wp), allocatable, private :: excitations(:, :), elements(:, :)
+      !> Forces of the excitations, (2, excitation), and of other elements, N, and the displacements of these, m,
+      !> (2, element, force and displacement), in the last sample.
+      real(wp), allocatable, private :: excitations(:, :), elements(:, :, :)
       integer(i8), private :: samples = 0
    contains
       procedure :: sample
@@ -58,7 +59,7 @@ contains
          self%bearings(b) = run%bearing(b)
       end do
       allocate (self%stations(2, run%model%rotor%stations), self%excitations(2, size(run%inputs%excitations)), &
-         & self%elements(2, run%model%rotor%elements + size(run%model%others)))
+         & self%elements(2, run%model%rotor%elements + size(run%model%others), 2))
       self%progress = new_progress(t, run%inputs%operation%duration, run%quiet)
       if (run%inputs%integration%stop_when_periodic > 0) call follow_orbit(self)
    end subroutine begin_recording
@@ -136,7 +137,10 @@ contains
          end if
       end associate
       if (size(self%excitations) > 0) self%excitations(:, :) = self%run%model%point%excitation_forces(t)
-      if (size(self%elements) > 0) self%elements(:, :) = element_forces(self%run%model, t, y)
+      if (size(self%elements) > 0) then
+         self%elements(:, :, 1) = element_forces(self%run%model, t, y)
+         self%elements(:, :, 2) = element_positions(self%run%model, y)
+      end if
       call add_sample(self%run%file, self%bearings, self%taken, self%stations, self%excitations, self%elements, error)
       self%run%reached = t
       associate (limit => self%run%inputs%integration%stop_when_periodic)

@@ -4,7 +4,7 @@ module orbit_figures
    use kinds, only: wp, i8, pi
    use state_layout, only: tilt
    use equations_of_motion, only: machine_model
-   use bearing_samples, only: bearing_sample, take_sample
+   use bearing_samples, only: bearing_sample, take_sample, element_positions, eccentricities
    use orbit_problem, only: orbit_problem_type
    use limit_cycle, only: limit_cycle_type
    implicit none (type, external)
@@ -28,7 +28,9 @@ module orbit_figures
 
    type :: orbit_figures_type
       type(bearing_figures_type), allocatable :: bearings(:)
-      type(whirl_figures_type), allocatable :: stations(:)
+      type(whirl_figures_type), allocatable :: stations(:), elements(:)
+      !> Largest displacements of the rings of dampers over their clearances.
+      real(wp), allocatable :: eccentricities(:)
       !> Of an orbit: revolutions of the shaft in it, 0 else; intervals of its collocation; its period, s.
       real(wp) :: revolutions = 0, period = 0
       integer :: intervals = 0
@@ -68,6 +70,7 @@ contains
       if (samples < 3) return
       call finish(figures%bearings%journal)
       call finish(figures%stations)
+      call finish(figures%elements)
 
    contains
 
@@ -85,11 +88,14 @@ contains
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: t, y(:), angle
       type(bearing_sample) :: sample
-      real(wp) :: none(model%outputs), displacements(2, model%rotor%stations)
+      real(wp) :: none(model%outputs), displacements(2, model%rotor%stations), &
+         & positions(2, model%rotor%elements + size(model%others))
       integer :: b, i
       none = 0
       if (.not. allocated(figures%bearings)) then
-         allocate (figures%bearings(size(model%bearings)), figures%stations(model%rotor%stations))
+         allocate (figures%bearings(size(model%bearings)), figures%stations(model%rotor%stations), &
+            & figures%elements(size(positions, 2)), figures%eccentricities(size(model%inputs%dampers())))
+         figures%eccentricities = 0
       end if
       do b = 1, size(figures%bearings)
          if (allocated(sample%states)) deallocate (sample%states, sample%loads)
@@ -110,6 +116,12 @@ contains
       do i = 1, size(figures%stations)
          call add_place(figures%stations(i), displacements(:, i), angle)
       end do
+      positions = element_positions(model, y)
+      do i = 1, size(figures%elements)
+         call add_place(figures%elements(i), positions(:, i), angle)
+      end do
+      if (size(figures%eccentricities) > 0) figures%eccentricities = max(figures%eccentricities, &
+         & eccentricities(model%inputs, positions(:, model%rotor%elements + 1:)))
    end subroutine add_state
 
    !> Takes a place, m, at a shaft angle, rad, into the figures of a journal or a station.

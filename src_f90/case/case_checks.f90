@@ -3,23 +3,21 @@ module case_checks
    use kinds, only: wp, degree, rpm
    use text, only: to_text, filled, list_text
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: bearing_type, clearance_range, in_range, is_set, elastic_type, most_stations, &
-      & station_element_type
+   use case_groups, only: bearing_type, clearance_range, in_range, is_set
    use other_units, only: in_other_units
    use case_inputs, only: case_type
    use excitations, only: excitation_type
    use branch_checks, only: check_branch
+   use machine_checks, only: check_machine, check_element_tables
    implicit none (type, external)
    private
-   public :: check_case, check_element_tables
+   public :: check_case
 
    !> How far a pad that bends may reach from its pivot, deg.
    real(wp), parameter :: farthest = 90
 
    !> Most values in the blocks of all columns and pads, times four: 400 MB.
    real(wp), parameter :: most_in_blocks = 2e8_wp
-   !> Rounding of a speed.
-   real(wp), parameter :: small = 1e-9_wp
    !> Longest arc of a pad that tilts, deg.
    real(wp), parameter :: longest_arc = 350
    !> Axial length over the radius of the journal that is allowed.
@@ -39,11 +37,7 @@ contains
       ! long: a list of checks, below
       if (.not. inputs%rotor%is_rigid()) then
          associate (s => inputs%start)
-            call check_shaft(inputs%rotor%elastic)
-            call check_parts(inputs%rotor%station_count())
-            do b = 1, size(inputs%rotor%elastic%elements)
-               call check_element(b, inputs%rotor%elastic%elements(b), inputs%rotor%station_count())
-            end do
+            call check_machine(inputs, error)
             call require(any(s%from == ['equilibrium', 'file       ']), 'start%from = '''//s%from//''': must be ' &
                & //'''equilibrium'' or ''file'' for a machine', error)
             if (.not. allocated(error)) call check_start(inputs%bearings(1))
@@ -287,120 +281,6 @@ contains
          end associate
       end subroutine check_held
 
-      ! Checks of a machine: what no single value of its shaft and of what stands on it or under it can tell. A message
-      ! names the group, its variables, their values and what is allowed.
-
-      !> A shaft or a rotor from a file, and every section a tube.
-      subroutine check_shaft(elastic)
-         type(elastic_type), intent(in) :: elastic
-         integer :: i
-         associate (shaft => elastic%shaft)
-            if (.not. shaft%is_given()) then
-               call require(elastic%rotor_file /= '', 'shaft%length: must be given, the lengths of the shaft''s ' &
-                  & //'sections; or rotor%file, the matrices of a rotor', error)
-               return
-            end if
-            call require(elastic%rotor_file == '', 'rotor%file = '''//elastic%rotor_file//''': shaft%length is given ' &
-               & //'too; give one of them', error)
-            call require(all(is_set(shaft%length)), 'shaft%length: every section needs one', error)
-            call require(all(is_set(shaft%diameter)), 'shaft%diameter: must be given, of each of the {} sections', &
-               & [real(size(shaft%length), wp)], error)
-            do i = 1, size(shaft%length)
-               call require(shaft%bore(i) < shaft%diameter(i), 'shaft%bore = {}: must be below shaft%diameter = {} ' &
-                  & //'(section {})', [real(wp) :: shaft%bore(i), shaft%diameter(i), i], error)
-            end do
-         end associate
-      end subroutine check_shaft
-
-      !> There are enough bearings, each at a station of its own; what is on the shaft is at its stations, and a support
-      !> holds its bearing.
-      subroutine check_parts(stations)
-         integer, intent(in) :: stations
-         integer :: i, c
-         associate (elastic => inputs%rotor%elastic, bearings => inputs%bearings)
-            if (size(bearings) < 2) call refuse('a machine needs two or more groups &bearing, each with a name; ' &
-               & //'there '//trim(merge('are none', 'is one  ', size(bearings) == 0)), error)
-            do i = 1, size(bearings)
-               call check_station('bearing'//bearings(i)%suffix(), bearings(i)%station, stations)
-               do c = 1, i - 1
-                  if (bearings(i)%station == bearings(c)%station) call refuse('bearing'//bearings(i)%suffix() &
-                     & //'%station = '//to_text(bearings(i)%station)//': is that of '//bearings(c)%label(' already'), &
-                     & error)
-               end do
-            end do
-            do i = 1, size(elastic%discs)
-               associate (disc => elastic%discs(i))
-                  call check_station('disc('//to_text(i)//')', disc%station, stations)
-                  ! the moments of inertia of any body
-                  call require(disc%polar_inertia <= 2*disc%diametral_inertia, 'disc({})%polar_inertia = {}: must be ' &
-                     & //'at most twice diametral_inertia = {}', [real(wp) :: i, disc%polar_inertia, &
-                     & disc%diametral_inertia], error)
-               end associate
-            end do
-            do i = 1, size(elastic%unbalances)
-               call check_station('unbalance('//to_text(i)//')', elastic%unbalances(i)%station, stations)
-            end do
-            do i = 1, size(elastic%loads)
-               call check_station('load('//to_text(i)//')', elastic%loads(i)%station, stations)
-            end do
-            do i = 1, size(inputs%excitations)
-               call check_station('excitation('//to_text(i)//')', inputs%excitations(i)%station, stations)
-            end do
-            do i = 1, size(bearings)
-               if (.not. allocated(bearings(i)%support)) cycle
-               associate (k => bearings(i)%support%stiffness, mass => bearings(i)%support%mass, &
-                  & group => 'support'//bearings(i)%suffix())
-                  call require(mass > 0, group//'%mass = {}: must be above 0, kg', [mass], error)
-                  call require(all(is_set(k)), group//'%stiffness: must be given, along y and z', error)
-                  call require(all(k > 0), group//'%stiffness = {}: must be above 0 along y and z', [minval(k)], error)
-               end associate
-            end do
-         end associate
-      end subroutine check_parts
-
-      !> An element has two ends, and one that acts in motion alone has an equilibrium to move about.
-      subroutine check_element(i, element, stations)
-         integer, intent(in) :: i, stations
-         type(station_element_type), intent(in) :: element
-         character(len=:), allocatable :: name
-         logical :: supported(size(inputs%bearings))
-         integer :: b
-         name = 'element('//to_text(i)//')'
-         call check_station(name, element%station, stations)
-         if (element%to_station > 0) call check_station(name, element%to_station, stations, 'to_station')
-         call require(element%to_station /= element%station .or. allocated(error), name//'%to_station = {}: is its ' &
-            & //'station; an element has two ends', [real(element%to_station, wp)], error)
-         call require(element%to_station == 0 .or. element%housing == '', name//'%housing = '''//element%housing &
-            & //''': to_station is given too; give one of them', error)
-         supported = [(allocated(inputs%bearings(b)%support), b=1, size(supported))]
-         call require(element%housing == '' .or. any([(supported(b) .and. inputs%bearings(b)%name == element%housing, &
-            & b=1, size(supported))]), name//'%housing = '''//element%housing//''': must be the name of a bearing ' &
-            & //'with a group &support', error)
-         call require(element%file == '' .or. all(abs([element%stiffness, element%damping, element%mass]) <= 0), name &
-            & //'%file = '''//element%file//''': stiffness, damping or mass is given too; give one of them', error)
-         call require(element%file /= '' .or. element%frequency == 'own', name//'%frequency = '''//element%frequency &
-            & //''': has no effect without a file', error)
-         call require(element%static .or. inputs%start%from == 'equilibrium', name//'%static = .false.: needs ' &
-            & //'start%from = ''equilibrium'', about which it acts', error)
-         call require(element%static .or. inputs%about%task /= 'branch' .or. inputs%followed() == 'equilibrium', &
-            & name//'%static = .false.: is not for a branch of periodic orbits, whose equilibria are not found', error)
-      end subroutine check_element
-
-      !> Refuses a station that is left out or that the shaft, of this number of stations, does not have.
-      subroutine check_station(group, station, stations, name)
-         character(len=*), intent(in) :: group
-         integer, intent(in) :: station, stations
-         !> Left out: station.
-         character(len=*), intent(in), optional :: name
-         character(len=:), allocatable :: variable
-         real(wp) :: last
-         variable = group//'%station'
-         if (present(name)) variable = group//'%'//name
-         last = merge(stations, most_stations, stations > 0)
-         call require(station > 0, variable//': must be given, 1 to {}', [last], error)
-         call require(station <= last, variable//' = {}: must be 1 to {}, the stations of the shaft, of which ' &
-            & //'there is one more than sections', [real(station, wp), last], error)
-      end subroutine check_station
 
       ! Checks of bent pads and of clearances that heat changes.
 
@@ -478,61 +358,6 @@ contains
             & //'there is no end', [x%start], error)
       end subroutine check_times
    end subroutine check_case
-
-   !> The tables of elements, where they were read, cover all speeds of the run, and a motion has coefficients that do
-   !> not depend on its frequency.
-   subroutine check_element_tables(inputs, error)
-      type(case_type), intent(in) :: inputs
-      type(error_type), allocatable, intent(inout) :: error
-      real(wp), allocatable :: speeds(:)
-      integer :: i
-      if (inputs%rotor%is_rigid()) return
-      associate (o => inputs%operation, task => inputs%about%task, up_to => inputs%coefficients%threshold_up_to_rpm)
-         speeds = [o%speed_rpm, o%final_speed_rpm]
-         if (task == 'coefficients' .and. up_to > 0) speeds = [speeds, up_to]
-         if (task == 'branch') speeds = [speeds, inputs%branch%speeds()]
-         do i = 1, size(inputs%rotor%elastic%elements)
-            associate (e => inputs%rotor%elastic%elements(i))
-               if (.not. allocated(e%table) .or. allocated(error)) cycle
-               call check_range('speed_rpm', e%speeds/rpm)
-               if (size(e%whirls) == 0) then
-                  call require(e%frequency == 'own', name_of(i)//'%frequency = '''//e%frequency//''': has no effect, ' &
-                     & //'as '//e%file//' has no column frequency_hz', error)
-               else if (e%frequency == 'synchronous') then
-                  call check_range('frequency_hz', e%whirls/rpm)
-               else
-                  call require((task == 'coefficients' .and. up_to <= 0) .or. task == 'equilibrium', name_of(i) &
-                     & //'%frequency = ''own'': '//e%file//' has coefficients over the frequency, which only ' &
-                     & //'modes take at their own; frequency = ''synchronous'' serves motions, branches and ' &
-                     & //'thresholds', error)
-               end if
-               associate (masses => e%table(9:, :, :))
-                  call require(inputs%is_steady() .or. .not. any(abs(masses - spread(spread(masses(:, 1, 1), 2, &
-                     & size(masses, 2)), 3, size(masses, 3))) > 0), name_of(i)//'%file = '''//e%file//''': m_yy to ' &
-                     & //'m_zz must be constant where the speed changes', error)
-               end associate
-            end associate
-         end do
-      end associate
-   contains
-      subroutine check_range(column, covered)
-         character(len=*), intent(in) :: column
-         real(wp), intent(in) :: covered(:)
-         integer :: k
-         do k = 1, size(speeds)
-            ! rpm to rad/s and back, rounding
-            call require(in_range(speeds(k), [covered(1)*(1 - small), covered(size(covered))*(1 + small)]), &
-               & name_of(i)//'%file = '''//inputs%rotor%elastic%elements(i)%file//''': its '//column//' goes from {} ' &
-               & //'to {} rpm, and the run has {} rpm', [covered(1), covered(size(covered)), speeds(k)], error)
-         end do
-      end subroutine check_range
-
-      pure function name_of(i) result(name)
-         integer, intent(in) :: i
-         character(len=:), allocatable :: name
-         name = 'element('//to_text(i)//')'
-      end function name_of
-   end subroutine check_element_tables
 
    !> What each kind needs, and what it has no use for.
    subroutine check_values(x, name, error)

@@ -10,7 +10,8 @@ module case_groups
       & temperature_range, viscosity_range, clearance_range, about_type, operation_type, thermal_type, start_type, &
       & held_type, &
       & integration_type, output_type, coefficients_type, periodic_type, branch_type, bearing_type, oil_type, &
-      & pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, rotor_type, elastic_type, &
+      & pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, damper_type, rotor_type, &
+      & elastic_type, &
       & shaft_type, disc_type, unbalance_type, load_type, reduction_type, most_bearings, most_sections, &
       & most_stations, given_rotor_type, station_element_type
 
@@ -159,6 +160,17 @@ module case_groups
       real(wp) :: mass = 0, stiffness(2) = unset, damping(2) = 0
    end type support_type
 
+   !> A squeeze film damper between the housing of a bearing and the ground, beside the spring of its support: radius,
+   !> length of a land and radial clearance, m; the oil's viscosity, Pa s.
+   type :: damper_type
+      real(wp) :: radius = unset, length = unset, clearance = unset, viscosity = unset
+      !> 'pi': the film ruptures where it is pulled; 'full': nowhere; 'sealed': nowhere, and no oil leaves at the ends.
+      character(len=:), allocatable :: film
+      integer :: lands = 1
+      !> Where its ring is in the clearance while the spring of the support is unloaded, y and z, m.
+      real(wp) :: offset(2) = 0
+   end type damper_type
+
    !> A bearing: its group &bearing, and its other groups.
    type :: bearing_type
       !> Empty where it is the only one, with a rigid journal.
@@ -168,6 +180,8 @@ module case_groups
       real(wp) :: offset(2) = 0
       !> Not allocated: it stands on the ground.
       type(support_type), allocatable :: support
+      !> Not allocated: none damps its housing.
+      type(damper_type), allocatable :: damper
       real(wp) :: journal_radius = 49.9e-3_wp
       !> One value a pad. The preload, 1 - assembled over pad clearance, is given instead of the latter; unset in a
       !> complete case.
@@ -316,6 +330,8 @@ module case_groups
       integer :: station = 0, to_station = 0
       !> The bearing whose housing is its other end; empty: none is.
       character(len=:), allocatable :: housing
+      !> What results call it; no variable of the input.
+      character(len=:), allocatable :: label
       real(wp), dimension(4) :: stiffness = 0, damping = 0, mass = 0
       !> Beside the stiffness, N/m: what whirls forward is driven by this times its displacement, across it.
       real(wp) :: cross_stiffness = 0

@@ -1,12 +1,17 @@
 !> What a run is about: the values of all namelist groups. A default case is the paper's bearing.
 module case_inputs
    use kinds, only: wp, rpm
+   use text, only: to_text
    use case_groups, only: about_type, operation_type, bearing_type, thermal_type, start_type, held_type, &
-      & integration_type, output_type, coefficients_type, periodic_type, branch_type, is_set, rotor_type
+      & integration_type, output_type, coefficients_type, periodic_type, branch_type, is_set, rotor_type, &
+      & station_element_type
    use excitations, only: excitation_type
    implicit none (type, external)
    private
    public :: case_type
+
+   !> Longest name of an element in results.
+   integer, parameter :: longest_label = 50
 
    type :: case_type
       !> The namelist group &case.
@@ -27,6 +32,9 @@ module case_inputs
       type(bearing_type), allocatable :: bearings(:)
    contains
       procedure :: alone
+      procedure :: station_elements
+      procedure :: dampers
+      procedure :: element_labels
       procedure :: moves
       procedure :: seeks_orbits
       procedure :: followed
@@ -138,6 +146,65 @@ contains
       inputs%bearings = self%bearings(b:b)
       inputs%bearings(1)%name = ''
    end function alone
+
+   ! What acts on a machine beside its films: linear elements, which its matrices know, then dampers.
+
+   !> The elements of a machine: those of its groups and, for the task coefficients, the cross-coupled stiffness at each
+   !> of its journals.
+   pure function station_elements(self) result(elements)
+      class(case_type), intent(in) :: self
+      type(station_element_type), allocatable :: elements(:)
+      integer :: b, n
+      if (self%rotor%is_rigid()) then
+         allocate (elements(0))
+         return
+      end if
+      associate (given => self%rotor%elastic%elements, q => self%coefficients%cross_stiffness)
+         n = size(given)
+         allocate (elements(n + merge(size(self%bearings), 0, self%about%task == 'coefficients' .and. abs(q) > 0)))
+         do b = 1, n
+            elements(b) = given(b)
+            elements(b)%label = 'element('//to_text(b)//')'
+         end do
+         do b = n + 1, size(elements)
+            associate (bearing => self%bearings(b - n))
+               elements(b)%station = bearing%station
+               elements(b)%housing = ''
+               if (allocated(bearing%support)) elements(b)%housing = bearing%name
+               elements(b)%cross_stiffness = q
+               elements(b)%static = .false.
+               elements(b)%label = 'cross_stiffness'//bearing%suffix()
+            end associate
+         end do
+      end associate
+   end function station_elements
+
+   !> The bearings whose housings have squeeze film dampers.
+   pure function dampers(self) result(bearings)
+      class(case_type), intent(in) :: self
+      integer, allocatable :: bearings(:)
+      integer :: b
+      bearings = pack([(b, b=1, size(self%bearings))], [(allocated(self%bearings(b)%damper), b=1, &
+         & size(self%bearings))] .and. .not. self%rotor%is_rigid())
+   end function dampers
+
+   !> What results call the elements and the dampers: as input does, 'element(1)', 'damper:left'.
+   pure function element_labels(self) result(labels)
+      class(case_type), intent(in) :: self
+      character(len=longest_label), allocatable :: labels(:)
+      type(station_element_type), allocatable :: elements(:)
+      integer, allocatable :: of(:)
+      integer :: i
+      elements = self%station_elements()
+      of = self%dampers()
+      allocate (labels(size(elements) + size(of)))
+      do i = 1, size(elements)
+         labels(i) = elements(i)%label
+      end do
+      do i = 1, size(of)
+         labels(size(elements) + i) = 'damper'//self%bearings(of(i))%suffix()
+      end do
+   end function element_labels
 
    !> Highest speed of the run, rad/s.
    pure real(wp) function highest_speed(self)

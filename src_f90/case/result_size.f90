@@ -66,7 +66,7 @@ contains
       type(case_type), intent(in) :: inputs
       integer :: b
       values = 3 + 2*size(inputs%excitations) + 2*inputs%rotor%station_count()
-      if (.not. inputs%rotor%is_rigid()) values = values + 2*size(inputs%rotor%elastic%elements)
+      values = values + 4*size(inputs%element_labels())
       do b = 1, size(inputs%bearings)
          values = values + values_of_bearing(inputs%bearings(b))
       end do

@@ -7,7 +7,7 @@
 module equilibrium
    use kinds, only: wp
    use text, only: to_text
-   use errors, only: error_type, raise, add_context, numerics_error, stopped, asked
+   use errors, only: error_type, raise, add_context, numerics_error, input_error, stopped, asked
    use linear_algebra, only: solve
    use state_layout, only: pad_state, of_journal
    use equations_of_motion, only: machine_model, new_machine_model
@@ -128,10 +128,11 @@ contains
          real(wp), dimension(model%rotor%positions, model%rotor%positions) :: over_positions, over_rates
          real(wp) :: force(model%rotor%positions), y(model%n)
          real(wp), allocatable :: right(:, :)
+         character(len=:), allocatable :: refusal
          y = 0
          force = forces_at_rest(model, y)
          call model%rotor%force_derivatives(model%point%speed(0.0_wp), over_positions, over_rates, at_rest=.true.)
-         call add_others(model, y, over_positions)
+         call add_others(model, y, over_positions, refusal)
          associate (n => 2*size(model%bearings), m => model%rotor%positions, k => over_positions)
             allocate (right(m - n, n + 1))
             right(:, :n) = -k(n + 1:, :n)
@@ -202,7 +203,8 @@ contains
          type(warm_films_type), allocatable :: films(:)
          type(pad_state), allocatable :: pads(:)
          real(wp), allocatable :: y(:)
-         real(wp) :: journals(2*size(shares))
+         real(wp) :: journals(2*size(shares)), ignored(model%rotor%positions, model%rotor%positions)
+         character(len=:), allocatable :: refusal
          integer :: b
          allocate (pads(0))
          found%search = ''
@@ -215,6 +217,11 @@ contains
          end do
          journals = journals_of(shares)
          y = model%static_state([journals, rotor%bent - matmul(rotor%follow, journals)], pads)
+         call add_others(model, y, ignored, refusal)
+         if (allocated(refusal)) then
+            call raise(error, input_error, 'at the equilibrium '//refusal)
+            return
+         end if
          if (.not. present(known) .and. allocated(shares(1)%found%films)) then
             allocate (films(size(shares)))
             do b = 1, size(shares)
@@ -230,13 +237,13 @@ contains
    end subroutine share_loads
 
    !> Adds how the forces of what acts on the rotor beside its bearings change with its displacements in the state y,
-   !> their own displacements held. One that refuses the state counts as none.
-   subroutine add_others(model, y, over_positions)
+   !> their own displacements held. One that refuses the state counts as none, and `refusal` says why.
+   subroutine add_others(model, y, over_positions, refusal)
       type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: y(:)
       real(wp), intent(inout) :: over_positions(:, :)
+      character(len=:), allocatable, intent(out) :: refusal
       real(wp), allocatable, dimension(:, :) :: positions, rates
-      character(len=:), allocatable :: refusal
       logical :: ok
       integer :: e, i
       do e = 1, size(model%others)

@@ -13,7 +13,7 @@ module assignments
 
    !> Groups of what there may be several of on a rotor, and of each bearing.
    character(len=*), parameter :: several = ' disc unbalance load element excitation '
-   character(len=*), parameter :: of_bearings = ' bearing support oil pads pivot friction asperity film '
+   character(len=*), parameter :: of_bearings = ' bearing support damper oil pads pivot friction asperity film '
    character(len=*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
    !> Longest name of a bearing.
    integer, parameter :: longest_bearing = 30

@@ -4,9 +4,9 @@
 module case_fields
    use kinds, only: wp
    use variable_table, only: variable_table_type
-   use machine_fields, only: list_parts, list_support, list_reduction, list_station, list_excitations
-   use case_groups, only: bearing_type, oil_type, pads_type, pivot_type, friction_type, film_type, most_ratios, &
-      & max_pads, mass_range, inertia_range, centre_range, temperature_range, viscosity_range
+   use machine_fields, only: list_parts, list_support, list_damper, list_reduction, list_station, list_excitations
+   use case_groups, only: bearing_type, damper_type, oil_type, pads_type, pivot_type, friction_type, film_type, &
+      & most_ratios, max_pads, mass_range, inertia_range, centre_range, temperature_range, viscosity_range
    use case_inputs, only: case_type
    use excitations, only: make_excitations
    implicit none (type, external)
@@ -62,6 +62,7 @@ contains
       table%documented = .true.
       copy = inputs
       allocate (copy%rotor%elastic, copy%bearings(1)%support)
+      copy%bearings(1)%damper = damper_type(film='pi')
       call copy%rotor%elastic%begin(discs=1, unbalances=1, loads=1, elements=1)
       call make_excitations(1, copy%excitations)
       call go_along(copy, table, all=.true.)
@@ -94,6 +95,7 @@ contains
       if (.not. machine) return
       call list_parts(v, inputs%rotor%elastic, all)
       if (all) call list_support(v, inputs%bearings(1)%support, ending)
+      if (all) call list_damper(v, inputs%bearings(1)%damper, ending)
       call list_reduction(v, inputs%rotor%elastic%reduction)
       do b = 1, merge(0, size(inputs%bearings), all)
          associate (own => inputs%bearings(b))
@@ -300,6 +302,7 @@ contains
                & 'of a machine: how far the bearing stands from the line of the others, along y and z')
          end if
          if (allocated(own%support) .and. .not. all) call list_support(v, own%support, ending)
+         if (allocated(own%damper) .and. .not. all) call list_damper(v, own%damper, ending)
          call list_oil(own%oil)
       end subroutine list_bearing
 

@@ -4,7 +4,7 @@ module case_namelist
    use kinds, only: wp
    use text, only: newline, to_text, lower_case, shortened, replaced, whole_number, is_utf8, did_you_mean
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: bearing_type, max_pads, unset, most_sections, most_bearings
+   use case_groups, only: bearing_type, damper_type, max_pads, unset, most_sections, most_bearings
    use case_inputs, only: case_type
    use excitations, only: make_excitations
    use case_checks, only: check_case
@@ -27,7 +27,7 @@ module case_namelist
    !> Longest text in a case, bytes.
    integer, parameter :: longest_text = 1000
    !> Groups that only a machine has.
-   character(len=*), parameter :: of_machine = ' shaft disc unbalance load element support reduction '
+   character(len=*), parameter :: of_machine = ' shaft disc unbalance load element support damper reduction '
    !> What they are refused without.
    character(len=*), parameter :: needs_shaft = &
       & 'needs a shaft (&shaft) in bearings that have names (&bearing name = ...)'
@@ -411,7 +411,7 @@ contains
       type(namelist_type), intent(in) :: parsed
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(inout) :: error
-      integer :: i, k, b
+      integer :: i, b
       allocate (inputs%rotor%elastic)
       call inputs%rotor%elastic%begin(count_of(parsed, 'disc('), count_of(parsed, 'unbalance('), &
          & count_of(parsed, 'load('), count_of(parsed, 'element('))
@@ -426,11 +426,19 @@ contains
             b = b + 1
             bearings(b) = bearing_type()
             bearings(b)%name = bearing_of(groups(i)%group)
-            ! without a name a support is that of all bearings
-            if (any([(groups(k)%group == 'support' .or. groups(k)%group == 'support'//bearings(b)%suffix(), &
-               & k=1, size(groups))])) allocate (bearings(b)%support)
+            if (has('support', bearings(b))) allocate (bearings(b)%support)
+            if (has('damper', bearings(b))) bearings(b)%damper = damper_type(film='pi')
          end do
       end associate
+   contains
+      !> Whether a bearing has such a group; without a name it is that of all bearings.
+      pure logical function has(kind, bearing)
+         character(len=*), intent(in) :: kind
+         type(bearing_type), intent(in) :: bearing
+         integer :: k
+         has = any([(parsed%groups(k)%group == kind .or. parsed%groups(k)%group == kind//bearing%suffix(), k=1, &
+            & size(parsed%groups))])
+      end function has
    end subroutine make_machine
 
    !> Refuses a group or an assignment of what the case does not have.
@@ -451,9 +459,8 @@ contains
          if (kind == 'unbalance') call look_at_number(size(elastic%unbalances))
          if (kind == 'load') call look_at_number(size(elastic%loads))
          if (kind == 'element') call look_at_number(size(elastic%elements))
-         if (kind == 'support' .and. name == '' .and. size(bearings) > 0 .and. .not. any([(allocated( &
-            & bearings(b)%support), b=1, size(bearings))])) call refuse(place_of(a)//': the case has no group ' &
-            & //'&support', error)
+         if (name == '' .and. size(bearings) > 0 .and. .not. any([(.not. lacks(bearings(b)), b=1, &
+            & size(bearings))])) call refuse(place_of(a)//': the case has no group &'//kind, error)
          if (a%group == 'bearing' .and. a%name == 'station') call refuse(place_of(a)//': must be in a group &bearing ' &
             & //'with a name, as each bearing has a station of its own', error)
          if (a%group /= kind .and. .not. is_counted(kind) .and. (name == '' .or. .not. may_have_bearing(kind) &
@@ -469,11 +476,18 @@ contains
             if (names == '') names = ' none'
             call refuse(a%origin//': &'//kind//' '//naming_variable(kind)//' = '''//name//''': there is no group ' &
                & //'&bearing of this name'//did_you_mean(name, names)//'; there are:'//names, error)
-         else if (kind == 'support' .and. .not. allocated(bearings(b)%support)) then
-            call refuse(place_of(a)//': the case has no group &support of this bearing', error)
+         else if (lacks(bearings(b))) then
+            call refuse(place_of(a)//': the case has no group &'//kind//' of this bearing', error)
          end if
       end associate
    contains
+      !> Whether this kind is of a group that a bearing has not.
+      pure logical function lacks(bearing)
+         type(bearing_type), intent(in) :: bearing
+         lacks = kind == 'support' .and. .not. allocated(bearing%support) .or. kind == 'damper' .and. .not. &
+            & allocated(bearing%damper)
+      end function lacks
+
       !> Refuses the number of a group that there are fewer of.
       subroutine look_at_number(number)
          integer, intent(in) :: number

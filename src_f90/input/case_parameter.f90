@@ -18,7 +18,7 @@ module case_parameter
 
    !> The groups whose numbers describe the bearing; and the one number of operation that does.
    character(len=*), parameter :: groups = ' rotor operation bearing oil pads pivot friction asperity shaft disc ' &
-      & //'unbalance load element support '
+      & //'unbalance load element support damper '
    character(len=*), parameter :: speed = 'speed_rpm'
    !> First steps from one end of a branch to the other where the step is left out.
    integer, parameter :: first_steps = 20
@@ -181,7 +181,7 @@ contains
          & //'number', error)
       call require(index(groups, ' '//kind_of(parameter%group)//' ') > 0 .and. (parameter%group /= 'operation' &
          & .or. parameter%name == speed), 'must be operation%'//speed//' or a number of rotor, bearing, oil, ' &
-         & //'pads, pivot, friction, asperity, shaft, disc, unbalance, load, element or support', error)
+         & //'pads, pivot, friction, asperity, shaft, disc, unbalance, load, element, support or damper', error)
       if (allocated(error)) return
       associate (n => size(parameter%values))
          call require(parameter%element <= n, 'has {} element'//trim(merge('s', ' ', n /= 1)), [real(n, wp)], error)

@@ -3,13 +3,13 @@
 module machine_fields
    use kinds, only: wp
    use variable_table, only: variable_table_type
-   use case_groups, only: elastic_type, support_type, reduction_type, station_element_type, most_sections, &
-      & most_stations, unset, is_set
+   use case_groups, only: elastic_type, support_type, damper_type, reduction_type, station_element_type, &
+      & most_sections, most_stations, viscosity_range, unset, is_set
    use excitations, only: excitation_type
    use assignments, only: counted
    implicit none (type, external)
    private
-   public :: list_parts, list_support, list_reduction, list_station, list_excitations
+   public :: list_parts, list_support, list_damper, list_reduction, list_station, list_excitations
 
    character(len=*), parameter :: of_element = 'yy, yz, zy, zz of the force on the station against displacement, ' &
       & //'velocity and acceleration towards it from the other end'
@@ -106,6 +106,27 @@ contains
       call v%numbers(support%stiffness, 'stiffness', 0.0_wp, 1e15_wp, 'N/m', 'along y and z')
       call v%numbers(support%damping, 'damping', 0.0_wp, 1e12_wp, 'N s/m', 'along y and z')
    end subroutine list_support
+
+   subroutine list_damper(v, damper, ending)
+      type(variable_table_type), intent(inout) :: v
+      type(damper_type), intent(inout) :: damper
+      character(len=*), intent(in) :: ending
+      real(wp) :: lands
+      call v%group('damper'//ending, 'A machine: a squeeze film damper between the housing of a bearing and the ' &
+         & //'ground, beside the spring of its support; *Dampers* above')
+      call v%number(damper%radius, 'radius', 1e-4_wp, 10.0_wp, 'm', 'radius of its ring')
+      call v%number(damper%length, 'length', 1e-5_wp, 10.0_wp, 'm', 'axial length of its film; with lands of each')
+      call v%number(damper%clearance, 'clearance', 1e-6_wp, 0.1_wp, 'm', 'radial clearance')
+      call v%number(damper%viscosity, 'viscosity', viscosity_range(1), viscosity_range(2), 'Pa s', 'of its oil')
+      call v%word(damper%film, 'film', 'pi full sealed', 'open ends, short film: pi, it ruptures where it is ' &
+         & //'pulled; full, it does not; sealed: no oil leaves at the ends, and it does not rupture')
+      lands = damper%lands
+      call v%number(lands, 'lands', 1.0_wp, 10.0_wp, '1', 'number of such films side by side, with grooves between', &
+         & whole=.true.)
+      damper%lands = nint(lands)
+      call v%numbers(damper%offset, 'offset', -0.1_wp, 0.1_wp, 'm', 'where the ring is in the clearance, along y ' &
+         & //'and z, while the spring is unloaded: upwards where the weight is to bring it to the middle')
+   end subroutine list_damper
 
    subroutine list_reduction(v, r)
       type(variable_table_type), intent(inout) :: v

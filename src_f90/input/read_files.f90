@@ -12,7 +12,7 @@ module read_files
    use files, only: is_regular
    use case_groups, only: pivot_type, in_range
    use case_inputs, only: case_type
-   use case_checks, only: check_element_tables
+   use machine_checks, only: check_element_tables
    use other_units, only: in_other_units
    use assignments, only: read_number
    implicit none (type, external)

@@ -10,7 +10,7 @@ module linear_bearing
    use state_layout, only: tilt, of_journal
    use equations_of_motion, only: machine_model
    use force_balance, only: mode_name, mode_name_length, position_lengths, at_stations, force_derivatives, &
-      & bearing_derivatives, part_derivatives, add_sticking, masses, find_vibrations
+      & bearing_derivatives, other_derivatives, part_derivatives, add_sticking, masses, find_vibrations
    use static_model, only: make_static
    use operating_point, only: operating_point_type
    use elastic_rotor, only: elastic_rotor_type
@@ -80,6 +80,9 @@ module linear_bearing
       !> Part of the damping of each mode in a march that the reduction gives to high modes, (mode, pivot); 0 of modes
       !> that there are not.
       real(wp), allocatable :: of_reduction(:, :)
+      !> What each element and damper adds to the logarithmic decrement of each mode, (element, mode, pivot); no number
+      !> of modes that do not vibrate.
+      real(wp), allocatable :: of_elements(:, :, :)
       !> Modes of the rotor on synchronously reduced coefficients.
       type(vibration_modes_type), allocatable :: synchronous(:)
    end type rotor_response_type
@@ -410,7 +413,9 @@ contains
       associate (pivots => size(coefficients%modes), stations => model%rotor%stations)
          modes = maxval([(size(coefficients%modes(i)%eigenvalue), i=1, pivots)])
          allocate (found%unbalance(2, stations, pivots), found%shapes(2, stations, modes, pivots), &
-            & found%of_reduction(modes, pivots), found%synchronous(pivots))
+            & found%of_reduction(modes, pivots), found%synchronous(pivots), found%of_elements( &
+            & model%rotor%elements + size(model%others), modes, pivots))
+         found%of_elements = ieee_value(1.0_wp, ieee_quiet_nan)
          found%shapes = 0
          found%of_reduction = 0
          do i = 1, pivots
@@ -425,6 +430,8 @@ contains
                found%shapes(:, :, k, i) = at_stations(model, coefficients%modes(i)%shape(:, k))
                found%of_reduction(k, i) = part_of_reduction(model, coefficients%with_rotor(i), &
                   & coefficients%modes(i)%shape(:, k), coefficients%modes(i)%eigenvalue(k))
+               if (coefficients%modes(i)%eigenvalue(k)%im > 0) found%of_elements(:, k, i) = parts_of_elements(model, &
+                  & coefficients%with_rotor(i), coefficients%modes(i)%shape(:, k), coefficients%modes(i)%eigenvalue(k))
             end do
          end do
       end associate
@@ -470,6 +477,7 @@ contains
          type(vibration_modes_type), intent(out) :: modes
          type(linear_bearing_type) :: linear
          real(wp) :: stiffness(2, 2), damping(2, 2)
+         real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: of_others, rates_of_others
          integer :: b, n
          n = model%rotor%positions
          linear%pivot = bearings%pivot
@@ -477,8 +485,9 @@ contains
          allocate (linear%stiffness(n, n), linear%damping(n, n))
          allocate (linear%moves(n), source=.true.)
          call model%rotor%force_derivatives(model%point%speed(0.0_wp), linear%stiffness, linear%damping)
-         linear%stiffness = -linear%stiffness
-         linear%damping = -linear%damping
+         call other_derivatives(model, of_others, rates_of_others)
+         linear%stiffness = -linear%stiffness - of_others(:n, :n)
+         linear%damping = -linear%damping - rates_of_others(:n, :n)
          call take_high_damping(model, linear%damping)
          do b = 1, size(model%bearings)
             associate (of => model%layout%elements(b), at => model%layout%elements(b)%journal)
@@ -491,6 +500,57 @@ contains
          call find_modes(linear, 0.0_wp, spread(1.0_wp, 1, n), modes, ok)
       end subroutine reduce
    end subroutine find_rotor_response
+
+   !> What each element, and then each other thing that acts on the rotor, adds to the logarithmic decrement of a mode
+   !> that vibrates. The real part of shape^H (lambda M + C + K/lambda) shape = 0 is a sum of what each matrix adds to
+   !> -Re(lambda), over M + K/|lambda|^2 of the shape.
+   function parts_of_elements(model, linear, shape, value) result(parts)
+      type(machine_model), intent(in) :: model
+      type(linear_bearing_type), intent(in) :: linear
+      complex(wp), intent(in) :: shape(:), value
+      real(wp) :: parts(model%rotor%elements + size(model%others)), c(2, 2, 3)
+      real(wp), allocatable, dimension(:, :) :: over_positions, over_rates
+      complex(wp) :: stiffness, mass
+      integer :: e
+      stiffness = dot_product(shape, matmul(linear%stiffness, shape))
+      mass = dot_product(shape, matmul(linear%mass, shape))
+      associate (n => model%rotor%elements, speed => model%point%speed(0.0_wp))
+         select type (rotor => model%rotor)
+         type is (elastic_rotor_type)
+            do e = 1, n
+               associate (of => rotor%matrices%elements(e), u => matmul(rotor%matrices%elements(e)%ends, &
+                  & shape(:rotor%positions)))
+                  c = of%coefficients(speed)
+                  if (of%own_frequency) then
+                     stiffness = stiffness - dot_product(u, matmul(c(:, :, 1), u))
+                     mass = mass - dot_product(u, matmul(c(:, :, 3), u))
+                     c = of%coefficients(speed, value%im)
+                     stiffness = stiffness + dot_product(u, matmul(c(:, :, 1), u))
+                     mass = mass + dot_product(u, matmul(c(:, :, 3), u))
+                  end if
+                  parts(e) = added(u, c)
+               end associate
+            end do
+         end select
+         do e = 1, size(model%others)
+            associate (of => model%layout%elements(size(model%bearings) + e))
+               call part_derivatives(model%others(e)%of, 1, 0, over_positions, over_rates)
+               c(:, :, 1) = -over_positions
+               c(:, :, 2) = -over_rates
+               c(:, :, 3) = 0
+               parts(n + e) = added(shape(of%journal), c)
+            end associate
+         end do
+      end associate
+      parts = 2*pi/value%im*parts/(real(mass) + real(stiffness)/abs(value)**2)
+   contains
+      pure real(wp) function added(u, c)
+         complex(wp), intent(in) :: u(2)
+         real(wp), intent(in) :: c(2, 2, 3)
+         added = real(dot_product(u, matmul(c(:, :, 2), u))) + aimag(dot_product(u, matmul(c(:, :, 1), u)))*value%im &
+            & /abs(value)**2 - aimag(dot_product(u, matmul(c(:, :, 3), u)))*value%im
+      end function added
+   end function parts_of_elements
 
    !> Takes away the damping that the reduction gives to the high modes of the shaft: marches alone need it.
    pure subroutine take_high_damping(model, damping)

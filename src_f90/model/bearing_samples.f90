@@ -1,6 +1,7 @@
 !> What is sampled of bearings and other elements in a motion.
 module bearing_samples
    use kinds, only: wp
+   use case_inputs, only: case_type
    use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, of_journal
    use tilting_pad, only: pad_coordinates_type
@@ -8,7 +9,7 @@ module bearing_samples
    use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
-   public :: bearing_sample, take_sample, element_forces
+   public :: bearing_sample, take_sample, element_forces, element_positions, eccentricities
 
    !> What is sampled of a bearing at a time, s: shaft angle, rad; speed, rad/s; journal; states and loads of the pads.
    type :: bearing_sample
@@ -59,4 +60,31 @@ contains
          end associate
       end do
    end function element_forces
+
+   !> How far the station of each of these is displaced from its other end, (2, element), m; of a damper where its ring
+   !> is in the clearance.
+   pure function element_positions(model, y) result(positions)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      real(wp) :: positions(of_journal, model%rotor%elements + size(model%others))
+      integer :: e
+      positions(:, :model%rotor%elements) = model%rotor%element_positions(y)
+      do e = 1, size(model%others)
+         associate (of => model%layout%elements(size(model%bearings) + e))
+            positions(:, model%rotor%elements + e) = model%others(e)%of%sampled_position(model%rotor%journal( &
+               & y(:model%rotor%states), of%pair()))
+         end associate
+      end do
+   end function element_positions
+
+   !> Over the clearances of the dampers, where their rings are, (2, damper), m.
+   pure function eccentricities(inputs, positions) result(ratios)
+      type(case_type), intent(in) :: inputs
+      real(wp), intent(in) :: positions(:, :)
+      real(wp) :: ratios(size(positions, 2))
+      integer :: i
+      associate (dampers => inputs%dampers())
+         ratios = [(norm2(positions(:, i))/inputs%bearings(dampers(i))%damper%clearance, i=1, size(dampers))]
+      end associate
+   end function eccentricities
 end module bearing_samples

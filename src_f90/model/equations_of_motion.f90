@@ -14,6 +14,7 @@ module equations_of_motion
    use viscosity_history, only: viscosity_history_type
    use state_layout, only: state_layout_type, element_layout_type, new_state_layout, pad_state, of_journal
    use abstract_element, only: element_type, element_slot, element_pointer
+   use squeeze_film_damper, only: dampers_of
    use newton_system, only: newton_system_type, new_newton_system
    implicit none (type, external)
    private
@@ -61,8 +62,8 @@ module equations_of_motion
 contains
 
    !> The model of a valid case, at its operating point, with films for a march or, as factories has it, for something
-   !> else, and with these elements beside its bearings. `rotor` is that of the case, where there is one already. Where
-   !> its shaft has no equations, `refusal` says why.
+   !> else, and with these elements beside its bearings, or its dampers. `rotor` is that of the case, where there is one
+   !> already. Where its shaft has no equations, `refusal` says why.
    function new_machine_model(inputs, accuracy, others, rotor) result(model)
       type(case_type), intent(in) :: inputs
       integer, intent(in), optional :: accuracy
@@ -77,8 +78,12 @@ contains
          call make_rotor(inputs, model%rotor, model%refusal)
          if (allocated(model%refusal)) return
       end if
-      allocate (model%bearings(size(inputs%bearings)), model%others(0), model%oil(0))
-      if (present(others)) model%others = others
+      allocate (model%bearings(size(inputs%bearings)), model%oil(0))
+      if (present(others)) then
+         model%others = others
+      else
+         model%others = dampers_of(inputs)
+      end if
       do b = 1, size(model%bearings)
          model%bearings(b) = new_tilting_pad_bearing(inputs, b, accuracy)
          associate (bearing => inputs%bearings(b))
@@ -153,6 +158,7 @@ contains
          end associate
       end do
       self%inputs = inputs
+      if (size(inputs%dampers()) > 0) self%others = dampers_of(inputs)
       call make_rotor(inputs, rotor, refusal, self%rotor)
       if (allocated(rotor)) call move_alloc(rotor, self%rotor)
       point = operating_point_type(inputs)

@@ -13,7 +13,7 @@ module force_balance
    implicit none (type, external)
    private
    public :: mode_name_length, mode_name, is_of_rotor, at_stations, position_lengths, position_names
-   public :: forces, force_derivatives, bearing_derivatives, part_derivatives, masses, add_sticking
+   public :: forces, force_derivatives, bearing_derivatives, other_derivatives, part_derivatives, masses, add_sticking
    public :: stability_type, stability_at, stability_of, find_vibrations
 
 
@@ -209,6 +209,13 @@ contains
       real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
       call add_elements(model, 1, size(model%bearings), over_positions, over_rates)
    end subroutine bearing_derivatives
+
+   !> Those of what acts on the rotor beside them.
+   subroutine other_derivatives(model, over_positions, over_rates)
+      type(machine_model), intent(in), target :: model
+      real(wp), intent(out) :: over_positions(:, :), over_rates(:, :)
+      call add_elements(model, size(model%bearings) + 1, size(model%layout%elements), over_positions, over_rates)
+   end subroutine other_derivatives
 
    !> Those of the elements from one to another.
    subroutine add_elements(model, first, last, over_positions, over_rates)

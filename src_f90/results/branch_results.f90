@@ -93,6 +93,10 @@ contains
       end if
       call put_whirls('station_', figures%stations, 'displacement of the station', 'vibration of the station', &
          & 'station')
+      call put_whirls('element_', figures%elements, 'displacement of the element''s station from its other end', &
+         & 'vibration of the element', 'element')
+      call each('damper_eccentricity', figures%eccentricities, '1', 'largest displacement of the damper''s ring over ' &
+         & //'its clearance', 'damper')
       do b = 1, size(figures%bearings)
          part = new_bearing_file(file, model%inputs%bearings(b))
          call put_bearing(figures%bearings(b), model%layout%elements(b)%has(tilt))

@@ -216,6 +216,7 @@ contains
       call file%put('response/amplitude', amplitude(found%unbalance), 'm', 'major semi-axis of the whirl of ' &
          & //'the station under the unbalance', 'pivot station')
       call put_parts(file, found%of_reduction, 2*size(coefficients%bearings(1)%moves))
+      call put_of_elements(file, found%of_elements, 2*size(coefficients%bearings(1)%moves))
       call put_station_shapes(file, found%shapes, 2*size(coefficients%bearings(1)%moves), sense)
       n = maxval([(size(found%synchronous(i)%eigenvalue), i=1, size(found%synchronous))])
       call file%put_scale('synchronous_mode', n, 'mode number')
@@ -242,6 +243,19 @@ contains
       call file%put('modes/part_of_reduction', all_parts, '1', 'part of the damping of the mode in a ' &
          & //'march that the reduction gives to high modes of the shaft (reduction%damp_above)', 'pivot mode')
    end subroutine put_parts
+
+   !> What elements add to the decrements of n modes, (element, mode, pivot).
+   subroutine put_of_elements(file, parts, n)
+      class(record_type), intent(inout) :: file
+      real(wp), intent(in) :: parts(:, :, :)
+      integer, intent(in) :: n
+      real(wp) :: all_parts(size(parts, 1), n, size(parts, 3))
+      if (size(parts, 1) == 0) return
+      all_parts = no_number()
+      all_parts(:, :size(parts, 2), :) = parts
+      call file%put('modes/element_decrement', all_parts, '1', 'what the element adds to the logarithmic decrement ' &
+         & //'of the mode', 'pivot mode element')
+   end subroutine put_of_elements
 
    !> Major semi-axes of ellipses (y, z): the sum of the circles that turn forward and backward.
    pure function amplitude(whirl)

@@ -9,7 +9,8 @@ module machine_results
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
    private
-   public :: bearing_group, put_bearings, put_machine, put_machine_equilibrium, put_turned_rotor, turned_time, &
+   public :: bearing_group, put_bearings, put_machine, put_machine_equilibrium, put_elements, &
+      & put_turned_rotor, turned_time, &
       & turned_state, mode_signs, other_signs, put_origin, read_origin
 
    character(len=*), parameter :: group = 'rotor/'
@@ -147,10 +148,15 @@ contains
          call file%put(group//'bearing_offset_z', bearings%offset(2), 'm', 'offset of the bearing, horizontal', &
             & 'bearing')
       end associate
-      associate (elements => inputs%rotor%elastic%elements)
-         if (size(elements) > 0) call file%put_scale('element', size(elements), 'element number')
-         if (size(elements) > 0) call file%put(group//'element_station', real(elements%station, wp), '1', &
-            & 'station of the element', 'element')
+      associate (elements => inputs%station_elements(), dampers => inputs%dampers(), labels => inputs%element_labels())
+         if (size(labels) > 0) then
+            call file%put_scale('element', size(labels), 'element number')
+            call file%put(group//'element_name', labels, 'name of the element')
+            call file%put(group//'element_station', real([elements%station, inputs%bearings(dampers)%station], wp), &
+               & '1', 'station of the element; of a damper that of its bearing', 'element')
+         end if
+         if (size(dampers) > 0) call file%put_scale('damper', size(dampers), &
+            & 'damper number; dampers are the last elements')
       end associate
       associate (discs => inputs%rotor%elastic%discs, over => group//'disc')
          if (size(discs) == 0) return
@@ -163,21 +169,33 @@ contains
       end associate
    end subroutine put_attached
 
+   !> Writes forces of the elements at the equilibrium, N, and the displacements of their stations from their other
+   !> ends, m, (2, element); the eccentricities of the dampers.
+   subroutine put_elements(file, forces, positions, ratios)
+      class(record_type), intent(inout) :: file
+      real(wp), intent(in) :: forces(:, :), positions(:, :), ratios(:)
+      call put_pair('element_force', forces, 'N', 'force of the element on the rotor')
+      call put_pair('element', positions, 'm', 'displacement of the element''s station from its other end')
+      if (size(ratios) > 0) call file%put('equilibrium/damper_eccentricity', ratios, '1', &
+         & 'displacement of the damper''s ring over its clearance', 'damper')
+   contains
+      subroutine put_pair(name, values, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), intent(in) :: values(:, :)
+         call file%put('equilibrium/'//name//'_y', values(1, :), units, long_name//', vertical', 'element')
+         call file%put('equilibrium/'//name//'_z', values(2, :), units, long_name//', horizontal', 'element')
+      end subroutine put_pair
+   end subroutine put_elements
+
    !> Writes where the shaft is at the equilibrium with these displacements of the rotor, and what its bearings bear,
-   !> (2, bearing), N, with these forces of its elements, (2, element), N.
-   subroutine put_machine_equilibrium(file, rotor, displacements, loads, forces)
+   !> (2, bearing), N.
+   subroutine put_machine_equilibrium(file, rotor, displacements, loads)
       class(record_type), intent(inout) :: file
       class(rotor_type), intent(in) :: rotor
-      real(wp), intent(in) :: displacements(:), loads(:, :), forces(:, :)
+      real(wp), intent(in) :: displacements(:), loads(:, :)
       real(wp), dimension(2, rotor%stations) :: stations, slopes
       stations = rotor%station_displacements(displacements)
       slopes = rotor%station_slopes(displacements)
-      if (size(forces) > 0) then
-         call file%put('equilibrium/element_force_y', forces(1, :), 'N', &
-            & 'force of the element on the rotor, vertical', 'element')
-         call file%put('equilibrium/element_force_z', forces(2, :), 'N', &
-            & 'force of the element on the rotor, horizontal', 'element')
-      end if
       call file%put('equilibrium/station_y', stations(1, :), 'm', 'shaft displacement, vertical', 'station')
       call file%put('equilibrium/station_z', stations(2, :), 'm', 'shaft displacement, horizontal', 'station')
       call file%put('equilibrium/station_slope_y', slopes(1, :), 'rad', 'shaft slope, vertical', 'station')

@@ -17,7 +17,7 @@ module march_figures
    use factories, only: make_law
    implicit none (type, external)
    private
-   public :: put_progress, put_march_figures, put_revolutions, put_station_figures
+   public :: put_progress, put_march_figures, put_revolutions, put_machine_figures
 
    character(len=*), parameter :: group = 'by_revolution/', over = 'revolution'
    !> Figures that a motion has which does not repeat after a revolution, or winds round a torus.
@@ -433,28 +433,49 @@ contains
       end subroutine put_vibration
    end subroutine put_points
 
-   ! Figures of the stations of a shaft in a march or a periodic orbit, from its samples: of the last revolution or the
-   ! period.
+   ! Figures of the stations of a shaft, and of what acts on it, in a march or a periodic orbit, from its samples: of
+   ! the last revolution or the period.
 
-   !> Writes how far each station moves, and how much of it with the shaft.
-   subroutine put_station_figures(file, inputs)
+   !> Writes how far stations and elements move, and dampers in their clearances.
+   subroutine put_machine_figures(file, inputs)
       class(run_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
+      real(wp), allocatable, dimension(:, :) :: y, z
+      integer :: n, k, i
+      n = file%last_revolutions(whole_turns(file, inputs))
+      call put_whirls(file, n, 'station', 'shaft')
+      if (size(inputs%element_labels()) == 0) return
+      call put_whirls(file, n, 'element', 'element')
+      associate (dampers => inputs%dampers())
+         if (size(dampers) == 0) return
+         call file%hdf5%last_samples('element_y', n, y)
+         call file%hdf5%last_samples('element_z', n, z)
+         k = size(y, 1) - size(dampers)
+         call put_figure(file, 'damper_eccentricity', [(maxval(hypot(y(k + i, :), z(k + i, :))) &
+            & /inputs%bearings(dampers(i))%damper%clearance, i=1, size(dampers))], '1', &
+            & 'largest displacement of the damper''s ring over its clearance', 'damper')
+      end associate
+   end subroutine put_machine_figures
+
+   !> Writes how far each station or element moves in the last n samples, and how much of it with the shaft.
+   subroutine put_whirls(file, n, across, what)
+      class(run_file_type), intent(inout) :: file
+      integer, intent(in) :: n
+      character(len=*), intent(in) :: across, what
       real(wp), allocatable :: angle(:, :), values(:, :)
       complex(wp), allocatable :: parts(:)
-      integer :: n, i, k
-      n = file%last_revolutions(whole_turns(file, inputs))
+      integer :: i, k
       call file%hdf5%last_samples('shaft_angle', n, angle)
       do i = 1, 2
-         associate (name => 'station_'//'yz'(i:i))
+         associate (name => across//'_'//'yz'(i:i))
             call file%hdf5%last_samples(name, n, values)
-            call put(name//'_max', maxval(values, dim=2), 'm', 'highest displacement of the shaft')
-            call put(name//'_min', minval(values, dim=2), 'm', 'lowest displacement of the shaft')
+            call put(name//'_max', maxval(values, dim=2), 'm', 'highest displacement of the '//what)
+            call put(name//'_min', minval(values, dim=2), 'm', 'lowest displacement of the '//what)
             call put(name//'_size', maxval(values, dim=2) - minval(values, dim=2), 'm', &
-               & 'orbit of the shaft, peak to peak')
+               & 'orbit of the '//what//', peak to peak')
             if (file%sampled_revolutions() < 1 - rounding) cycle
             parts = [(harmonic(angle(1, :), values(k, :), 1.0_wp), k=1, size(values, 1))]
-            call put(name//'_amplitude', abs(parts), 'm', 'vibration of the shaft with its turning, amplitude')
+            call put(name//'_amplitude', abs(parts), 'm', 'vibration of the '//what//' with its turning, amplitude')
             call put(name//'_phase', -atan2(parts%im, parts%re), 'rad', &
                & 'angle of the shaft by which its maximum comes after zero')
          end associate
@@ -463,9 +484,9 @@ contains
       subroutine put(name, values, units, long_name)
          character(len=*), intent(in) :: name, units, long_name
          real(wp), intent(in) :: values(:)
-         call put_figure(file, name, values, units, long_name, 'station')
+         call put_figure(file, name, values, units, long_name, across)
       end subroutine put
-   end subroutine put_station_figures
+   end subroutine put_whirls
 
    ! Wear of the pivots in the last revolution of a march or the period of an orbit, by Archard's law: the worn volume
    ! is the wear coefficient times the integral of the pivot load over the distance slid.

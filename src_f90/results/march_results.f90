@@ -25,12 +25,13 @@ module march_results
 contains
 
    !> Adds a sample of all bearings, in the files of these, of where the stations of a shaft are, (2, station), m, and
-   !> of the forces of the excitations, (2, excitation), and of other elements, (2, element), N.
+   !> of the forces of the excitations, (2, excitation), N, and of forces and displacements of other elements, (2,
+   !> element, both), N and m.
    subroutine add_sample(file, bearings, samples, stations, excitations, elements, error)
       type(run_file_type), intent(inout) :: file
       type(bearing_file_type), intent(in) :: bearings(:)
       type(bearing_sample), intent(in) :: samples(:)
-      real(wp), intent(in), contiguous :: stations(:, :), excitations(:, :), elements(:, :)
+      real(wp), intent(in), contiguous :: stations(:, :), excitations(:, :), elements(:, :, :)
       type(error_type), allocatable, intent(out) :: error
       real(wp) :: values(most_values(samples) + size(stations) + size(excitations) + size(elements))
       integer :: n, b
@@ -43,7 +44,10 @@ contains
       end do
       if (size(stations) > 0) call take_pairs(stations, values, n)
       if (size(excitations) > 0) call take_pairs(excitations, values, n)
-      if (size(elements) > 0) call take_pairs(elements, values, n)
+      if (size(elements) > 0) then
+         call take_pairs(elements(:, :, 1), values, n)
+         call take_pairs(elements(:, :, 2), values, n)
+      end if
       call file%hdf5%add(values(:n))
       call file%error_of(error)
    end subroutine add_sample
@@ -127,6 +131,8 @@ contains
       call declare_pair(stations, 'station', 'station', 'm', 'shaft displacement')
       call declare_pair(excitations, 'excitation', 'excitation', 'N', 'force of the excitation')
       call declare_pair(elements, 'element', 'element_force', 'N', 'force of the element on the rotor')
+      call declare_pair(elements, 'element', 'element', 'm', 'displacement of the element''s station from its other ' &
+         & //'end')
    contains
       subroutine declare_pair(number, across, name, units, long_name)
          integer, intent(in) :: number

@@ -25,6 +25,7 @@ module abstract_element
       procedure :: bristle_slopes
       procedure :: own_force
       procedure :: sampled_force
+      procedure :: sampled_position
       procedure :: add_rates
       procedure :: part_masses
       procedure :: length
@@ -133,6 +134,14 @@ contains
       real(wp) :: force(of_journal)
       force = 0
    end function sampled_force
+
+   !> Where its pair is for it, m.
+   pure function sampled_position(self, journal) result(position)
+      class(element_type), intent(in) :: self
+      type(journal_motion), intent(in) :: journal
+      real(wp) :: position(of_journal)
+      position = journal%position
+   end function sampled_position
 
    !> Sets the rates of the states of its parts at y, which was evaluated last, in those of all states.
    pure subroutine add_rates(self, layout, y, dydt)

@@ -4,10 +4,9 @@ module acting_element
    use kinds, only: wp
    use rising_numbers, only: number_up_to
    use case_groups, only: station_element_type
-   use case_inputs, only: case_type
    implicit none (type, external)
    private
-   public :: acting_element_type, new_acting_element, elements_of
+   public :: acting_element_type, new_acting_element
 
    !> The force on one end is -K (u - u0) - C u' - M u'' with the displacement u towards it from the other end; what is
    !> opposite acts there.
@@ -34,30 +33,6 @@ module acting_element
    end type acting_element_type
 
 contains
-
-   !> The elements of a machine: those of its groups and, for the task coefficients, the cross-coupled stiffness at each
-   !> of its journals.
-   pure function elements_of(inputs) result(elements)
-      type(case_type), intent(in) :: inputs
-      type(station_element_type), allocatable :: elements(:)
-      integer :: b, n
-      associate (given => inputs%rotor%elastic%elements, q => inputs%coefficients%cross_stiffness)
-         n = size(given)
-         allocate (elements(n + merge(size(inputs%bearings), 0, inputs%about%task == 'coefficients' .and. abs(q) > 0)))
-         do b = 1, n
-            elements(b) = given(b)
-         end do
-         do b = n + 1, size(elements)
-            associate (bearing => inputs%bearings(b - n))
-               elements(b)%station = bearing%station
-               elements(b)%housing = ''
-               if (allocated(bearing%support)) elements(b)%housing = bearing%name
-               elements(b)%cross_stiffness = q
-               elements(b)%static = .false.
-            end associate
-         end do
-      end associate
-   end function elements_of
 
    !> What a group says of an element of a shaft that turns in this sense (1 clockwise, -1 anticlockwise).
    pure function new_acting_element(from, sense) result(element)

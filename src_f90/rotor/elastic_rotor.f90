@@ -28,6 +28,7 @@ module elastic_rotor
       procedure :: masses
       procedure :: move_about
       procedure :: element_forces
+      procedure :: element_positions
       procedure :: force_derivatives
       procedure :: newton_rows
       procedure :: newton_matrix
@@ -203,6 +204,18 @@ contains
          end associate
       end do
    end function element_forces
+
+   pure function element_positions(self, states) result(positions)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      real(wp) :: positions(2, self%elements)
+      integer :: i
+      do i = 1, self%elements
+         associate (e => self%matrices%elements(i))
+            positions(:, i) = matmul(e%ends, states(:self%positions)) + e%offset
+         end associate
+      end do
+   end function element_positions
 
    !> What acts in motion alone vanishes at the equilibrium.
    pure subroutine move_about(self, positions)

@@ -9,7 +9,8 @@ module linear_element
    use case_groups, only: bearing_type, support_type
    implicit none (type, external)
    private
-   public :: linear_element_type, relative_displacements, add_supports, support_element
+   public :: linear_element_type, relative_displacements, housing_pair, add_supports, &
+      & support_element
 
    type, extends(element_type) :: linear_element_type
       !> N/m, N s/m and kg, over y and z.
@@ -74,6 +75,14 @@ contains
          end do
       end do
    end function relative_displacements
+
+   !> Which pair of the displacements x those of the housing of bearing b are, which has a support.
+   pure integer function housing_pair(bearings, b) result(pair)
+      type(bearing_type), intent(in) :: bearings(:)
+      integer, intent(in) :: b
+      integer :: i
+      pair = size(bearings) + count([(allocated(bearings(i)%support), i=1, b)])
+   end function housing_pair
 
    !> A support as an element on the displacements of its housing.
    pure type(linear_element_type) function support_element(support) result(element)

@@ -35,6 +35,7 @@ module rigid_rotor
       procedure :: masses
       procedure :: move_about
       procedure :: element_forces
+      procedure :: element_positions
       procedure :: force_derivatives
       procedure :: newton_rows
       procedure :: newton_matrix
@@ -149,6 +150,14 @@ contains
       real(wp) :: forces(2, self%elements)
       forces = 0
    end function element_forces
+
+   !> How far their stations are displaced from their other ends, (2, element), m.
+   pure function element_positions(self, states) result(positions)
+      class(rotor_type), intent(in) :: self
+      real(wp), intent(in) :: states(:)
+      real(wp) :: positions(2, self%elements)
+      positions = 0
+   end function element_positions
 
    !> Notes its displacements at the equilibrium, about which it moves.
    pure subroutine move_about(self, positions)

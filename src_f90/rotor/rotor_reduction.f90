@@ -8,8 +8,8 @@ module rotor_reduction
    use case_inputs, only: case_type
    use rotor_component, only: rotor_component_type, static_forces, unbalance_moments
    use fixed_interface, only: fixed_interface_type
-   use linear_element, only: relative_displacements, add_supports
-   use acting_element, only: acting_element_type, new_acting_element, elements_of
+   use linear_element, only: relative_displacements, add_supports, housing_pair
+   use acting_element, only: acting_element_type, new_acting_element
    implicit none (type, external)
    private
    public :: mode_selection_type, select_modes, most_modes, rotor_matrices_type, reduced_rotor
@@ -268,7 +268,7 @@ contains
       r%mode_selection_type = selection
       modes = selection%modes
       if (modes < size(fixed%frequency)) r%left_out_frequency = fixed%frequency(modes + 1)/(2*pi)
-      associate (elements => elements_of(inputs))
+      associate (elements => inputs%station_elements())
          if (size(elements) > 0) call fixed%add_residual_modes(forces_at(component, [elements%station, &
             & pack(elements%to_station, elements%to_station > 0)]), modes, r%residual_modes)
       end associate
@@ -330,7 +330,7 @@ contains
       type(rotor_matrices_type), intent(inout) :: r
       real(wp) :: c(2, 2, 3)
       integer :: i, b, at
-      associate (from => elements_of(inputs))
+      associate (from => inputs%station_elements())
          if (size(from) == 0) return
          allocate (r%elements(size(from)))
          do i = 1, size(from)
@@ -344,14 +344,11 @@ contains
                      e%offset = e%offset - r%station_offset(there)
                   end associate
                end if
-               at = 2*r%journals
-               do b = 1, r%journals
-                  if (.not. allocated(inputs%bearings(b)%support)) cycle
-                  if (inputs%bearings(b)%name == from(i)%housing) then
-                     e%ends(1, at + 1) = e%ends(1, at + 1) - 1
-                     e%ends(2, at + 2) = e%ends(2, at + 2) - 1
-                  end if
-                  at = at + 2
+               do b = 1, merge(0, size(inputs%bearings), from(i)%housing == '')
+                  if (inputs%bearings(b)%name /= from(i)%housing) cycle
+                  at = 2*housing_pair(inputs%bearings, b)
+                  e%ends(1, at - 1) = e%ends(1, at - 1) - 1
+                  e%ends(2, at) = e%ends(2, at) - 1
                end do
                associate (speed => inputs%operation%speed_rpm*rpm)
                   c = e%coefficients(speed)

@@ -322,3 +322,58 @@ def test_masses_are_constant_where_the_speed_changes(run, tmp_path):
     case = COMPRESSOR + "&element station=10, file='seal.csv' /\n"
     line = run(case, "case%task=march", "operation%final_speed_rpm=9000", status=1).stderr
     assert "element(1)%file = 'seal.csv': m_yy to m_zz must be constant where the speed changes" in line
+
+
+#: A compressor whose housings stand on springs in squeeze film dampers, with eight modes in a plane: where
+#: stations and the rings of the dampers go in the orbit, m. Here the weight of the housings is added, by
+#: which all sinks and which the offset takes up.
+SINKS = 40 * 9.81 / 3e7
+IN_DAMPERS = f"""{COMPRESSOR.replace("moment=1e-4", "moment=1.5e-3").replace("11000", "9000")}
+&support mass=40, stiffness=2*3e7 /
+&damper radius=0.09, length=0.03, clearance=0.12e-3, viscosity=0.016, offset={45e-6 + SINKS!r}, 0 /
+&reduction frequency=2500 /
+"""
+ORBITS = {
+    "station": {
+        1: ((-7.764679e-05, -5.506642e-05), (-1.121671e-05, 1.14711e-05)),
+        6: ((-9.469478e-05, -8.339653e-05), (-5.48176e-06, 5.678312e-06)),
+        13: ((-7.340652e-05, -6.425013e-05), (-4.453384e-06, 4.656388e-06)),
+        15: ((-6.896686e-05, -5.641079e-05), (-6.165204e-06, 6.297076e-06)),
+    },
+    "element": {
+        0: ((-6.102425e-05, -4.222748e-05), (-9.310561e-06, 9.317346e-06)),
+        1: ((-5.75228e-05, -4.985838e-05), (-3.774119e-06, 3.747536e-06)),
+    },
+}  # fmt: skip
+
+
+def test_an_orbit_in_dampers(result):
+    """To 1e-4 of the clearance; 360 samples miss an extreme by 4e-5 of the vibration at most."""
+    with result(IN_DAMPERS, "case%task=periodic") as file:
+        for what, shift in (("station", -SINKS), ("element", 45e-6)):
+            for at, expected in ORBITS[what].items():
+                for axis, ends in zip("yz", expected, strict=True):
+                    found = [file[f"summary/{what}_{axis}_{end}"][at] for end in ("min", "max")]
+                    np.testing.assert_allclose(found, np.add(ends, shift * (axis == "y")), atol=1.2e-8)
+        assert [name.decode() for name in file["rotor/element_name"]] == ["damper:left", "damper:right"]
+        sizes = np.hypot(file["element_y"][()], file["element_z"][()]).max(0) / 0.12e-3
+        np.testing.assert_allclose(file["summary/damper_eccentricity"], sizes, rtol=1e-6)
+
+
+DAMPERS_REFUSED = {
+    "damper:left%clearance=-1": "damper:left%clearance: must be given",
+    "damper%offset=1e-3,0": "damper:left%offset = 0.001, 0: must lie within clearance = 1.2e-4",
+    "damper%offset=-80e-6,0": "the damper of bearing 'right' is closed: its ring lies at y -147",
+    "damper%clearance=0.02": "damper:left%clearance = 0.02: must be below a tenth of radius = 0.09",
+    "damper%film=none": "must be one of 'pi', 'full', 'sealed'",
+}
+
+
+@pytest.mark.parametrize("override", DAMPERS_REFUSED)
+def test_a_damper_is_refused(run, override):
+    assert DAMPERS_REFUSED[override] in run(IN_DAMPERS, override, status=1).stderr
+
+
+def test_a_damper_needs_a_spring(run):
+    case = IN_DAMPERS.replace("&support mass=40, stiffness=2*3e7 /", "")
+    assert "damper:left%clearance = 1.2e-4: needs a group &support" in run(case, status=1).stderr

@@ -1,7 +1,7 @@
 !> Elements between a rotor and the ground beside its bearings: what a model makes of the smallest one, a spring with a
 !> damper and with cross-coupling, on a rigid journal, on the journals of a shaft and on the housing of a bearing.
 program test_elements
-   use kinds, only: wp
+   use kinds, only: wp, pi
    use text, only: to_text
    use errors, only: error_type
    use linear_algebra, only: find_eigenvalues
@@ -9,6 +9,10 @@ program test_elements
    use factories, only: converged_films
    use state_layout, only: pad_state
    use abstract_element, only: element_slot
+   use squeeze_film_damper, only: squeeze_film_damper_type
+   use rigid_rotor, only: journal_motion
+   use film_oils, only: film_oil
+   use case_groups, only: damper_type
    use linear_element, only: linear_element_type, support_element
    use equations_of_motion, only: machine_model, new_machine_model
    use bearing_samples, only: element_forces
@@ -44,6 +48,8 @@ program test_elements
    if (runs('on_a_shaft')) call on_a_shaft()
    if (runs('under_a_housing')) call under_a_housing()
    if (runs('shares_of_the_load')) call shares_of_the_load()
+   if (runs('damper_forces')) call damper_forces()
+   if (runs('damper_derivatives')) call damper_derivatives()
    call report()
 
 contains
@@ -441,4 +447,85 @@ contains
       call expect_close(maxval(abs(found%rotor - expected%rotor)/model%scale(:size(found%rotor))), 0.0_wp, 1e-6_wp, &
          & 'displacements, '//what)
    end subroutine same_rest
+
+   !> Forces by quadrature of n (n.v)/h^3 to rounding, of rings that go outward, across, and that stand in the middle;
+   !> sealed ends: on a circle 24 pi mu L (R/c)^3/((2 + e^2) sqrt(1 - e^2)) times the velocity along it.
+   subroutine damper_forces()
+      real(wp), parameter :: places(2, 3) = reshape([30e-6_wp, 20e-6_wp, 80e-6_wp, -40e-6_wp, 0.0_wp, 0.0_wp], [2, 3])
+      real(wp), parameter :: rates(2, 3) = reshape([0.01_wp, -0.004_wp, -0.02_wp, 0.03_wp, 0.01_wp, 0.02_wp], [2, 3])
+      real(wp), parameter :: ruptured(2, 3) = reshape([-382.86843104397116_wp, 6.727497360354518_wp, &
+         & -8.202464700321075_wp, -196.9820160525287_wp, -156.89365039439716_wp, -313.78730078879414_wp], [2, 3])
+      real(wp), parameter :: whole(2, 3) = reshape([-474.688253062607_wp, 96.00436578794306_wp, &
+         & 124893.65283710542_wp, -69463.32376895189_wp, -313.78730078879397_wp, -627.5746015775883_wp], [2, 3])
+      real(wp), parameter :: e = 0.6_wp, mu = 0.007_wp
+      type(squeeze_film_damper_type) :: damper
+      integer :: i
+      do i = 1, 3
+         call expect_close(norm2(force_of('pi', places(:, i), rates(:, i)) - ruptured(:, i)), 0.0_wp, &
+            & 1e-12_wp*norm2(ruptured(:, i)), 'it ruptures, state '//to_text(i))
+         call expect_close(norm2(force_of('full', places(:, i), rates(:, i)) - whole(:, i)), 0.0_wp, &
+            & 1e-12_wp*norm2(whole(:, i)), 'whole, state '//to_text(i))
+      end do
+      damper = damper_of('sealed')
+      associate (d => damper%of)
+         call expect_close(norm2(force_of('sealed', [0.0_wp, e*d%clearance], [0.01_wp, 0.0_wp]) + [24*pi*mu*d%length &
+            & *(d%radius/d%clearance)**3/((2 + e**2)*sqrt(1 - e**2))*0.01_wp, 0.0_wp]), 0.0_wp, 1e-10_wp, 'sealed')
+      end associate
+   end subroutine damper_forces
+
+   !> Those that Newton's method has are those of the forces, by central differences; at rest a film that ruptures has
+   !> half of the damping of a whole one.
+   subroutine damper_derivatives()
+      character(len=*), parameter :: films(*) = [character(len=6) :: 'pi', 'full', 'sealed']
+      real(wp), dimension(2, 2) :: over_positions, over_rates, half, ignored
+      real(wp) :: u(2), v(2), step(2)
+      integer :: i, k, trial
+      do i = 1, size(films)
+         do trial = 1, 5
+            u = [between(-50e-6_wp, 50e-6_wp), between(-50e-6_wp, 50e-6_wp)]
+            v = [between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)]
+            call derivatives_of(trim(films(i)), u, v, over_positions, over_rates)
+            do k = 1, 2
+               step = 0
+               step(k) = 1e-9_wp
+               call expect_close(norm2((force_of(trim(films(i)), u + step, v) - force_of(trim(films(i)), u - step, v)) &
+                  & /(2*step(k)) - over_positions(:, k)), 0.0_wp, 1e-6_wp*norm2(over_positions), films(i)//' position')
+               step(k) = 1e-6_wp
+               call expect_close(norm2((force_of(trim(films(i)), u, v + step) - force_of(trim(films(i)), u, v - step)) &
+                  & /(2*step(k)) - over_rates(:, k)), 0.0_wp, 1e-6_wp*norm2(over_rates), films(i)//' rate')
+            end do
+         end do
+      end do
+      call derivatives_of('pi', u, [0.0_wp, 0.0_wp], ignored, half)
+      call derivatives_of('full', u, [0.0_wp, 0.0_wp], ignored, over_rates)
+      call expect_close(norm2(half - over_rates/2), 0.0_wp, 1e-12_wp*norm2(half), 'half at rest')
+   end subroutine damper_derivatives
+
+   type(squeeze_film_damper_type) function damper_of(film) result(damper)
+      character(len=*), intent(in) :: film
+      damper%of = damper_type(0.065_wp, 0.028_wp, 100e-6_wp, 0.007_wp, film)
+      damper%title = 'the damper'
+   end function damper_of
+
+   function force_of(film, u, v) result(force)
+      character(len=*), intent(in) :: film
+      real(wp), intent(in) :: u(2), v(2)
+      real(wp) :: force(2)
+      type(squeeze_film_damper_type) :: damper
+      damper = damper_of(film)
+      force = damper%sampled_force(journal_motion(u, v), [pad_state ::], 0.0_wp)
+   end function force_of
+
+   subroutine derivatives_of(film, u, v, over_positions, over_rates)
+      character(len=*), intent(in) :: film
+      real(wp), intent(in) :: u(2), v(2)
+      real(wp), intent(out) :: over_positions(2, 2), over_rates(2, 2)
+      type(squeeze_film_damper_type) :: damper
+      character(len=:), allocatable :: refusal
+      logical :: ok
+      damper = damper_of(film)
+      call damper%evaluate(journal_motion(u, v), [pad_state ::], [film_oil ::], 0.0_wp, .true., refusal, ok)
+      call expect(ok, 'a ring that does not touch')
+      call damper%part_derivatives(1, 2, .true., over_positions, over_rates)
+   end subroutine derivatives_of
 end program test_elements
