@@ -4,7 +4,7 @@ module equilibrium_notes
    use kinds, only: wp, pi, degree
    use text, only: filled
    use case_groups, only: bearing_type
-   use case_inputs, only: case_type
+   use case_inputs, only: case_type, longest_label
    use bearing_numbers, only: load, load_on_journal, specific_load, sommerfeld_number, of_supply
    use state_layout, only: tilt, pivot_deflection
    use force_balance, only: stability_type
@@ -72,6 +72,7 @@ contains
       type(equilibrium_type), intent(in) :: static
       type(machine_model) :: still
       real(wp), allocatable :: y(:), forces(:, :), positions(:, :), ratios(:)
+      character(len=longest_label), allocatable :: labels(:)
       integer :: i, n
       y = run%model%static_state(static%rotor, static%pads)
       still = run%model
@@ -79,17 +80,18 @@ contains
       forces = element_forces(still, 0.0_wp, y)
       if (size(forces) == 0) return
       positions = element_positions(still, y)
+      labels = run%inputs%element_labels()
       n = run%model%rotor%elements
       ratios = eccentricities(run%inputs, positions(:, n + 1:))
       call put_elements(run%file, forces, positions, ratios)
       if (run%quiet) return
-      associate (elements => run%inputs%station_elements(), dampers => run%inputs%dampers())
+      associate (elements => run%inputs%station_elements())
          do i = 1, n
-            print '(a)', elements(i)%label//filled(' at station {}: force on the shaft y {.1}, z {.1} N', &
+            print '(a)', trim(labels(i))//filled(' at station {}: force on the shaft y {.1}, z {.1} N', &
                & [real(wp) :: elements(i)%station, forces(:, i)])
          end do
-         do i = 1, size(dampers)
-            print '(a)', 'damper'//run%inputs%bearings(dampers(i))%suffix()//filled(': ring at y {u.2}, z {u.2} ' &
+         do i = 1, size(ratios)
+            print '(a)', trim(labels(n + i))//filled(': ring at y {u.2}, z {u.2} ' &
                & //'um, eccentricity ratio {.4}', [positions(:, n + i), ratios(i)])
          end do
       end associate

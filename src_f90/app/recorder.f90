@@ -7,6 +7,7 @@ module recorder
    use ode_model, only: integrator_counts_type
    use loops, only: periodicity, new_periodicity
    use state_layout, only: pad_state, tilt
+   use operating_point, only: operating_point_type
    use bearing_samples, only: bearing_sample, take_sample, element_forces, element_positions
    use march_results, only: add_sample, put_spectra
    use machine_results, only: put_turned_rotor
@@ -132,8 +133,8 @@ contains
       associate (rotor => self%run%model%rotor)
          if (rotor%stations > 0) then
             self%stations(:, :) = rotor%station_displacements(y(:rotor%states))
-            if (is_turned(self%taken(1), sample_interval(self%run%inputs))) call put_turned_rotor(self%run%file, t, &
-               & y(:rotor%states))
+            if (is_turned(self%run%model%point, t, sample_interval(self%run%inputs))) call put_turned_rotor( &
+               & self%run%file, t, y(:rotor%states))
          end if
       end associate
       if (size(self%excitations) > 0) self%excitations(:, :) = self%run%model%point%excitation_forces(t)
@@ -141,7 +142,8 @@ contains
          self%elements(:, :, 1) = element_forces(self%run%model, t, y)
          self%elements(:, :, 2) = element_positions(self%run%model, y)
       end if
-      call add_sample(self%run%file, self%bearings, self%taken, self%stations, self%excitations, self%elements, error)
+      call add_sample(self%run%file, self%run%model%point, t, self%bearings, self%taken, self%stations, &
+         & self%excitations, self%elements, error)
       self%run%reached = t
       associate (limit => self%run%inputs%integration%stop_when_periodic)
          if (limit > 0) then
@@ -151,11 +153,13 @@ contains
       end associate
    end subroutine record
 
-   !> Whether the shaft has turned whole revolutions at a sample, as closely as samples at this interval, s, are.
-   pure logical function is_turned(sample, interval)
-      type(bearing_sample), intent(in) :: sample
-      real(wp), intent(in) :: interval
-      is_turned = abs(sample%shaft_angle - 2*pi*anint(sample%shaft_angle/(2*pi))) <= 0.501_wp*sample%speed*interval
+   !> Whether the shaft has turned whole revolutions at a time, as closely as samples at this interval are, s.
+   pure logical function is_turned(point, t, interval)
+      type(operating_point_type), intent(in) :: point
+      real(wp), intent(in) :: t, interval
+      associate (angle => point%shaft_angle(t))
+         is_turned = abs(angle - 2*pi*anint(angle/(2*pi))) <= 0.501_wp*point%speed(t)*interval
+      end associate
    end function is_turned
 
    !> Writes the spectra of all bearings, from samples at this interval, s; the row of a run without file has none.

@@ -40,7 +40,7 @@ contains
             call check_machine(inputs, error)
             call require(any(s%from == ['equilibrium', 'file       ']), 'start%from = '''//s%from//''': must be ' &
                & //'''equilibrium'' or ''file'' for a machine', error)
-            if (.not. allocated(error)) call check_start(inputs%bearings(1))
+            if (.not. allocated(error) .and. size(inputs%bearings) == 0) call check_start(bearing_type())
          end associate
       end if
       do b = 1, size(inputs%bearings)

@@ -10,7 +10,8 @@ module case_groups
       & temperature_range, viscosity_range, clearance_range, about_type, operation_type, thermal_type, start_type, &
       & held_type, &
       & integration_type, output_type, coefficients_type, periodic_type, branch_type, bearing_type, oil_type, &
-      & pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, damper_type, rotor_type, &
+      & pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, damper_type, mount_type, &
+      & linear_bearing_type, rotor_type, &
       & elastic_type, &
       & shaft_type, disc_type, unbalance_type, load_type, reduction_type, most_bearings, most_sections, &
       & most_stations, given_rotor_type, station_element_type
@@ -171,10 +172,12 @@ module case_groups
       real(wp) :: offset(2) = 0
    end type damper_type
 
-   !> A bearing: its group &bearing, and its other groups.
-   type :: bearing_type
+   !> What holds a rotor at a station, whatever it is made of.
+   type :: mount_type
       !> Empty where it is the only one, with a rigid journal.
       character(len=:), allocatable :: name
+      !> 'film': of pads; 'linear': of coefficients.
+      character(len=:), allocatable :: kind
       !> The station of an elastic rotor that is in it, and how far it stands from the line of the others, y and z, m.
       integer :: station = 0
       real(wp) :: offset(2) = 0
@@ -182,6 +185,43 @@ module case_groups
       type(support_type), allocatable :: support
       !> Not allocated: none damps its housing.
       type(damper_type), allocatable :: damper
+   contains
+      procedure :: label
+      procedure :: title
+      procedure :: suffix
+   end type mount_type
+
+   !> A linear element between a station and the ground, another station or the housing of a bearing: a seal, an
+   !> impeller, a spring. Coefficients yy, yz, zy, zz, N/m, N s/m and kg: its force is -K u - C u' - M u''.
+   type :: station_element_type
+      integer :: station = 0, to_station = 0
+      !> The bearing whose housing is its other end; empty: none is.
+      character(len=:), allocatable :: housing
+      !> What results call it; where its force vanishes, y and z, m. No variables of the input.
+      character(len=:), allocatable :: label
+      real(wp) :: origin(2) = 0
+      real(wp), dimension(4) :: stiffness = 0, damping = 0, mass = 0
+      !> Beside the stiffness, N/m: what whirls forward is driven by this times its displacement, across it.
+      real(wp) :: cross_stiffness = 0
+      !> Whether it acts at the equilibrium, too, or in motion about it alone.
+      logical :: static = .true.
+      !> Instead of the coefficients: CSV file of them; at which frequency they are taken, 'own' of a mode or
+      !> 'synchronous'.
+      character(len=:), allocatable :: file, frequency
+      !> What was read: rising speeds and whirl frequencies, rad/s (none: they do not depend on it), and the 12
+      !> coefficients of stiffness, damping and mass, (coefficient, frequency, speed).
+      real(wp), allocatable :: speeds(:), whirls(:), table(:, :, :)
+   contains
+      procedure :: begin => begin_element
+   end type station_element_type
+
+   !> A bearing by coefficients over its journal's displacement in it: of balls, rollers or magnets.
+   type, extends(mount_type) :: linear_bearing_type
+      type(station_element_type) :: of
+   end type linear_bearing_type
+
+   !> A bearing of pads: its group &bearing, and its other groups.
+   type, extends(mount_type) :: bearing_type
       real(wp) :: journal_radius = 49.9e-3_wp
       !> One value a pad. The preload, 1 - assembled over pad clearance, is given instead of the latter; unset in a
       !> complete case.
@@ -205,9 +245,6 @@ module case_groups
       procedure :: changes_shape
       procedure :: tilting
       procedure :: tilting_radial
-      procedure :: label
-      procedure :: title
-      procedure :: suffix
    end type bearing_type
 
    !> The paper's.
@@ -324,27 +361,6 @@ module case_groups
       real(wp) :: force(2) = 0
    end type load_type
 
-   !> A linear element between a station and the ground, another station or the housing of a bearing: a seal, an
-   !> impeller, a spring. Coefficients yy, yz, zy, zz, N/m, N s/m and kg: its force is -K u - C u' - M u''.
-   type :: station_element_type
-      integer :: station = 0, to_station = 0
-      !> The bearing whose housing is its other end; empty: none is.
-      character(len=:), allocatable :: housing
-      !> What results call it; no variable of the input.
-      character(len=:), allocatable :: label
-      real(wp), dimension(4) :: stiffness = 0, damping = 0, mass = 0
-      !> Beside the stiffness, N/m: what whirls forward is driven by this times its displacement, across it.
-      real(wp) :: cross_stiffness = 0
-      !> Whether it acts at the equilibrium, too, or in motion about it alone.
-      logical :: static = .true.
-      !> Instead of the coefficients: CSV file of them; at which frequency they are taken, 'own' of a mode or
-      !> 'synchronous'.
-      character(len=:), allocatable :: file, frequency
-      !> What was read: rising speeds and whirl frequencies, rad/s (none: they do not depend on it), and the 12
-      !> coefficients of stiffness, damping and mass, (coefficient, frequency, speed).
-      real(wp), allocatable :: speeds(:), whirls(:), table(:, :, :)
-   end type station_element_type
-
    !> Up to which frequency, Hz, the shaft's modes on fixed bearings are kept (unset: by themselves); modes above a
    !> frequency, Hz, are damped with a damping ratio.
    type :: reduction_type
@@ -361,6 +377,8 @@ module case_groups
       type(unbalance_type), allocatable :: unbalances(:)
       type(load_type), allocatable :: loads(:)
       type(station_element_type), allocatable :: elements(:)
+      !> Bearings by coefficients, beside those of pads.
+      type(linear_bearing_type), allocatable :: linear(:)
       type(reduction_type) :: reduction
    contains
       procedure :: begin
@@ -404,6 +422,7 @@ contains
 
    pure type(bearing_type) function new_bearing() result(bearing)
       bearing%name = ''
+      bearing%kind = 'film'
       bearing%machined_clearance = [100e-6_wp, 100e-6_wp]
       bearing%assembled_clearance = [80e-6_wp, 80e-6_wp]
       bearing%preload = [unset, unset]
@@ -519,7 +538,7 @@ contains
 
    !> "bearing 'drive_end'", and what follows it; empty for one without name.
    pure function label(self, ending) result(text)
-      class(bearing_type), intent(in) :: self
+      class(mount_type), intent(in) :: self
       character(len=*), intent(in), optional :: ending
       character(len=:), allocatable :: text
       text = ''
@@ -530,14 +549,14 @@ contains
 
    !> "bearing 'drive_end' at station 2: "; empty for one without name.
    pure function title(self) result(text)
-      class(bearing_type), intent(in) :: self
+      class(mount_type), intent(in) :: self
       character(len=:), allocatable :: text
       text = self%label(' at station '//to_text(self%station)//': ')
    end function title
 
    !> What stands behind the names of its groups: ":drive_end"; nothing for one without name.
    pure function suffix(self) result(text)
-      class(bearing_type), intent(in) :: self
+      class(mount_type), intent(in) :: self
       character(len=:), allocatable :: text
       text = ''
       if (self%name /= '') text = ':'//self%name
@@ -555,15 +574,21 @@ contains
       if (present(elements)) n = elements
       allocate (self%discs(discs), self%unbalances(unbalances), self%loads(loads), self%elements(n))
       do i = 1, n
-         self%elements(i)%housing = ''
-         self%elements(i)%file = ''
-         self%elements(i)%frequency = 'own'
+         call self%elements(i)%begin()
       end do
+      allocate (self%linear(0))
       self%rotor_file = ''
       self%shaft%length = [unset]
       self%shaft%diameter = [unset]
       self%shaft%bore = [0.0_wp]
    end subroutine begin
+
+   pure subroutine begin_element(self)
+      class(station_element_type), intent(inout) :: self
+      self%housing = ''
+      self%file = ''
+      self%frequency = 'own'
+   end subroutine begin_element
 
    !> Mass of the shaft and its discs, kg; there must be a shaft.
    pure real(wp) function mass(self)

@@ -4,11 +4,11 @@ module case_inputs
    use text, only: to_text
    use case_groups, only: about_type, operation_type, bearing_type, thermal_type, start_type, held_type, &
       & integration_type, output_type, coefficients_type, periodic_type, branch_type, is_set, rotor_type, &
-      & station_element_type
+      & mount_type, station_element_type
    use excitations, only: excitation_type
    implicit none (type, external)
    private
-   public :: case_type
+   public :: case_type, longest_label
 
    !> Longest name of an element in results.
    integer, parameter :: longest_label = 50
@@ -32,6 +32,7 @@ module case_inputs
       type(bearing_type), allocatable :: bearings(:)
    contains
       procedure :: alone
+      procedure :: mounts
       procedure :: station_elements
       procedure :: dampers
       procedure :: element_labels
@@ -147,45 +148,78 @@ contains
       inputs%bearings(1)%name = ''
    end function alone
 
+   !> What holds the rotor: bearings of pads, then those by coefficients.
+   pure function mounts(self)
+      class(case_type), intent(in) :: self
+      type(mount_type), allocatable :: mounts(:)
+      integer :: b, n
+      n = 0
+      if (.not. self%rotor%is_rigid()) n = size(self%rotor%elastic%linear)
+      allocate (mounts(size(self%bearings) + n))
+      do b = 1, size(self%bearings)
+         mounts(b) = self%bearings(b)%mount_type
+      end do
+      do b = 1, n
+         mounts(size(self%bearings) + b) = self%rotor%elastic%linear(b)%mount_type
+      end do
+   end function mounts
+
    ! What acts on a machine beside its films: linear elements, which its matrices know, then dampers.
 
-   !> The elements of a machine: those of its groups and, for the task coefficients, the cross-coupled stiffness at each
-   !> of its journals.
+   !> The elements of a machine: those of its groups, its bearings by coefficients, and for the task coefficients the
+   !> cross-coupled stiffness at each of its journals.
    pure function station_elements(self) result(elements)
       class(case_type), intent(in) :: self
       type(station_element_type), allocatable :: elements(:)
-      integer :: b, n
+      type(mount_type), allocatable :: mounts(:)
+      integer :: b, n, m
       if (self%rotor%is_rigid()) then
          allocate (elements(0))
          return
       end if
-      associate (given => self%rotor%elastic%elements, q => self%coefficients%cross_stiffness)
+      mounts = self%mounts()
+      associate (given => self%rotor%elastic%elements, q => self%coefficients%cross_stiffness, &
+         & linear => self%rotor%elastic%linear)
          n = size(given)
-         allocate (elements(n + merge(size(self%bearings), 0, self%about%task == 'coefficients' .and. abs(q) > 0)))
+         m = n + size(linear)
+         allocate (elements(m + merge(size(mounts), 0, self%about%task == 'coefficients' .and. abs(q) > 0)))
          do b = 1, n
             elements(b) = given(b)
             elements(b)%label = 'element('//to_text(b)//')'
          end do
-         do b = n + 1, size(elements)
-            associate (bearing => self%bearings(b - n))
-               elements(b)%station = bearing%station
-               elements(b)%housing = ''
-               if (allocated(bearing%support)) elements(b)%housing = bearing%name
-               elements(b)%cross_stiffness = q
-               elements(b)%static = .false.
-               elements(b)%label = 'cross_stiffness'//bearing%suffix()
-            end associate
+         do b = 1, size(linear)
+            elements(n + b) = linear(b)%of
+            elements(n + b)%origin = linear(b)%offset
+            call stand_at(elements(n + b), linear(b)%mount_type, 'bearing')
+         end do
+         do b = m + 1, size(elements)
+            call elements(b)%begin()
+            elements(b)%cross_stiffness = q
+            elements(b)%static = .false.
+            call stand_at(elements(b), mounts(b - m), 'cross_stiffness')
          end do
       end associate
+   contains
+      !> An element between the journal of a bearing and what this stands on.
+      pure subroutine stand_at(element, mount, what)
+         type(station_element_type), intent(inout) :: element
+         type(mount_type), intent(in) :: mount
+         character(len=*), intent(in) :: what
+         element%station = mount%station
+         if (allocated(mount%support)) element%housing = mount%name
+         element%label = what//mount%suffix()
+      end subroutine stand_at
    end function station_elements
 
-   !> The bearings whose housings have squeeze film dampers.
+   !> Which of what holds the rotor has a squeeze film damper at its housing.
    pure function dampers(self) result(bearings)
       class(case_type), intent(in) :: self
       integer, allocatable :: bearings(:)
+      type(mount_type), allocatable :: mounts(:)
       integer :: b
-      bearings = pack([(b, b=1, size(self%bearings))], [(allocated(self%bearings(b)%damper), b=1, &
-         & size(self%bearings))] .and. .not. self%rotor%is_rigid())
+      mounts = self%mounts()
+      bearings = pack([(b, b=1, size(mounts))], [(allocated(mounts(b)%damper), b=1, size(mounts))] &
+         & .and. .not. self%rotor%is_rigid())
    end function dampers
 
    !> What results call the elements and the dampers: as input does, 'element(1)', 'damper:left'.
@@ -193,8 +227,10 @@ contains
       class(case_type), intent(in) :: self
       character(len=longest_label), allocatable :: labels(:)
       type(station_element_type), allocatable :: elements(:)
+      type(mount_type), allocatable :: mounts(:)
       integer, allocatable :: of(:)
       integer :: i
+      mounts = self%mounts()
       elements = self%station_elements()
       of = self%dampers()
       allocate (labels(size(elements) + size(of)))
@@ -202,7 +238,7 @@ contains
          labels(i) = elements(i)%label
       end do
       do i = 1, size(of)
-         labels(size(elements) + i) = 'damper'//self%bearings(of(i))%suffix()
+         labels(size(elements) + i) = 'damper'//mounts(of(i))%suffix()
       end do
    end function element_labels
 

@@ -4,7 +4,7 @@ module machine_checks
    use kinds, only: wp, rpm
    use text, only: to_text
    use errors, only: error_type, require, refuse
-   use case_groups, only: bearing_type, damper_type, in_range, is_set, elastic_type, most_stations, &
+   use case_groups, only: mount_type, damper_type, in_range, is_set, elastic_type, most_stations, &
       & station_element_type
    use case_inputs, only: case_type
    implicit none (type, external)
@@ -20,15 +20,22 @@ contains
    subroutine check_machine(inputs, error)
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
+      type(mount_type), allocatable :: mounts(:)
       integer :: b
+      mounts = inputs%mounts()
       call check_shaft(inputs%rotor%elastic)
       call check_parts(inputs%rotor%station_count())
       do b = 1, size(inputs%rotor%elastic%elements)
          call check_element(b, inputs%rotor%elastic%elements(b), inputs%rotor%station_count())
       end do
-      do b = 1, size(inputs%bearings)
-         if (allocated(inputs%bearings(b)%damper)) call check_damper('damper'//inputs%bearings(b)%suffix()//'%', &
-            & inputs%bearings(b)%damper, allocated(inputs%bearings(b)%support))
+      do b = 1, size(mounts)
+         if (allocated(mounts(b)%damper)) call check_damper('damper'//mounts(b)%suffix()//'%', mounts(b)%damper, &
+            & allocated(mounts(b)%support))
+      end do
+      do b = 1, size(inputs%rotor%elastic%linear)
+         associate (bearing => inputs%rotor%elastic%linear(b))
+            call check_source('bearing'//bearing%suffix(), bearing%of)
+         end associate
       end do
    contains
       !> A shaft or a rotor from a file, and every section a tube.
@@ -58,7 +65,7 @@ contains
       subroutine check_parts(stations)
          integer, intent(in) :: stations
          integer :: i, c
-         associate (elastic => inputs%rotor%elastic, bearings => inputs%bearings)
+         associate (elastic => inputs%rotor%elastic, bearings => mounts)
             if (size(bearings) < 2) call refuse('a machine needs two or more groups &bearing, each with a name; ' &
                & //'there '//trim(merge('are none', 'is one  ', size(bearings) == 0)), error)
             do i = 1, size(bearings)
@@ -104,7 +111,7 @@ contains
          integer, intent(in) :: i, stations
          type(station_element_type), intent(in) :: element
          character(len=:), allocatable :: name
-         logical :: supported(size(inputs%bearings))
+         logical :: supported(size(mounts))
          integer :: b
          name = 'element('//to_text(i)//')'
          call check_station(name, element%station, stations)
@@ -113,19 +120,26 @@ contains
             & //'station; an element has two ends', [real(element%to_station, wp)], error)
          call require(element%to_station == 0 .or. element%housing == '', name//'%housing = '''//element%housing &
             & //''': to_station is given too; give one of them', error)
-         supported = [(allocated(inputs%bearings(b)%support), b=1, size(supported))]
-         call require(element%housing == '' .or. any([(supported(b) .and. inputs%bearings(b)%name == element%housing, &
+         supported = [(allocated(mounts(b)%support), b=1, size(supported))]
+         call require(element%housing == '' .or. any([(supported(b) .and. mounts(b)%name == element%housing, &
             & b=1, size(supported))]), name//'%housing = '''//element%housing//''': must be the name of a bearing ' &
             & //'with a group &support', error)
-         call require(element%file == '' .or. all(abs([element%stiffness, element%damping, element%mass]) <= 0), name &
-            & //'%file = '''//element%file//''': stiffness, damping or mass is given too; give one of them', error)
-         call require(element%file /= '' .or. element%frequency == 'own', name//'%frequency = '''//element%frequency &
-            & //''': has no effect without a file', error)
+         call check_source(name, element)
          call require(element%static .or. inputs%start%from == 'equilibrium', name//'%static = .false.: needs ' &
             & //'start%from = ''equilibrium'', about which it acts', error)
          call require(element%static .or. inputs%about%task /= 'branch' .or. inputs%followed() == 'equilibrium', name &
             & //'%static = .false.: is not for a branch of periodic orbits, whose equilibria are not found', error)
       end subroutine check_element
+
+      !> Coefficients come from a file or not.
+      subroutine check_source(name, element)
+         character(len=*), intent(in) :: name
+         type(station_element_type), intent(in) :: element
+         call require(element%file == '' .or. all(abs([element%stiffness, element%damping, element%mass]) <= 0), name &
+            & //'%file = '''//element%file//''': stiffness, damping or mass is given too; give one of them', error)
+         call require(element%file /= '' .or. element%frequency == 'own', name//'%frequency = '''//element%frequency &
+            & //''': has no effect without a file', error)
+      end subroutine check_source
 
       !> Refuses a station that is left out or that the shaft, of this number of stations, does not have.
       subroutine check_station(group, station, stations, name)
@@ -169,30 +183,32 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       real(wp), allocatable :: speeds(:)
+      type(station_element_type), allocatable :: elements(:)
       integer :: i
       if (inputs%rotor%is_rigid()) return
       associate (o => inputs%operation, task => inputs%about%task, up_to => inputs%coefficients%threshold_up_to_rpm)
          speeds = [o%speed_rpm, o%final_speed_rpm]
          if (task == 'coefficients' .and. up_to > 0) speeds = [speeds, up_to]
          if (task == 'branch') speeds = [speeds, inputs%branch%speeds()]
-         do i = 1, size(inputs%rotor%elastic%elements)
-            associate (e => inputs%rotor%elastic%elements(i))
+         elements = inputs%station_elements()
+         do i = 1, size(elements)
+            associate (e => elements(i))
                if (.not. allocated(e%table) .or. allocated(error)) cycle
                call check_range('speed_rpm', e%speeds/rpm)
                if (size(e%whirls) == 0) then
-                  call require(e%frequency == 'own', name_of(i)//'%frequency = '''//e%frequency//''': has no effect, ' &
+                  call require(e%frequency == 'own', e%label//'%frequency = '''//e%frequency//''': has no effect, ' &
                      & //'as '//e%file//' has no column frequency_hz', error)
                else if (e%frequency == 'synchronous') then
                   call check_range('frequency_hz', e%whirls/rpm)
                else
-                  call require((task == 'coefficients' .and. up_to <= 0) .or. task == 'equilibrium', name_of(i) &
+                  call require((task == 'coefficients' .and. up_to <= 0) .or. task == 'equilibrium', e%label &
                      & //'%frequency = ''own'': '//e%file//' has coefficients over the frequency, which only ' &
                      & //'modes take at their own; frequency = ''synchronous'' serves motions, branches and ' &
                      & //'thresholds', error)
                end if
                associate (masses => e%table(9:, :, :))
                   call require(inputs%is_steady() .or. .not. any(abs(masses - spread(spread(masses(:, 1, 1), 2, &
-                     & size(masses, 2)), 3, size(masses, 3))) > 0), name_of(i)//'%file = '''//e%file//''': m_yy to ' &
+                     & size(masses, 2)), 3, size(masses, 3))) > 0), e%label//'%file = '''//e%file//''': m_yy to ' &
                      & //'m_zz must be constant where the speed changes', error)
                end associate
             end associate
@@ -206,15 +222,9 @@ contains
          do k = 1, size(speeds)
             ! rpm to rad/s and back, rounding
             call require(in_range(speeds(k), [covered(1)*(1 - small), covered(size(covered))*(1 + small)]), &
-               & name_of(i)//'%file = '''//inputs%rotor%elastic%elements(i)%file//''': its '//column//' goes from {} ' &
+               & elements(i)%label//'%file = '''//elements(i)%file//''': its '//column//' goes from {} ' &
                & //'to {} rpm, and the run has {} rpm', [covered(1), covered(size(covered)), speeds(k)], error)
          end do
       end subroutine check_range
-
-      pure function name_of(i) result(name)
-         integer, intent(in) :: i
-         character(len=:), allocatable :: name
-         name = 'element('//to_text(i)//')'
-      end function name_of
    end subroutine check_element_tables
 end module machine_checks

@@ -150,7 +150,7 @@ contains
       subroutine guess_loads()
          real(wp) :: matrix(size(loads), size(loads)), springs(size(loads)), share
          integer :: i
-         share = norm2([sum(rotor%borne(1::2)), sum(rotor%borne(2::2))])/size(model%bearings)
+         share = norm2([sum(rotor%borne(1::2)), sum(rotor%borne(2::2))])/max(1, size(model%bearings))
          matrix = rotor%stiffness
          do i = 1, size(loads)
             springs(i) = share/(first_yield*model%bearings((i + 1)/2)%clearance)
@@ -205,6 +205,7 @@ contains
          real(wp), allocatable :: y(:)
          real(wp) :: journals(2*size(shares)), ignored(model%rotor%positions, model%rotor%positions)
          character(len=:), allocatable :: refusal
+         logical :: warm
          integer :: b
          allocate (pads(0))
          found%search = ''
@@ -222,7 +223,9 @@ contains
             call raise(error, input_error, 'at the equilibrium '//refusal)
             return
          end if
-         if (.not. present(known) .and. allocated(shares(1)%found%films)) then
+         warm = .false.
+         if (.not. present(known) .and. size(shares) > 0) warm = allocated(shares(1)%found%films)
+         if (warm) then
             allocate (films(size(shares)))
             do b = 1, size(shares)
                films(b) = shares(b)%found%films(1)
@@ -386,7 +389,7 @@ contains
       type(machine_model) :: static
       real(wp), allocatable :: y(:)
       logical :: by_heat
-      if (size(model%bearings) > 1) then
+      if (.not. model%inputs%rotor%is_rigid()) then
          call make_static(model, model%point%cavitation, static)
          call share_loads(static, found, error)
       else
@@ -412,7 +415,7 @@ contains
       type(equilibrium_type), intent(inout) :: found
       real(wp), allocatable, intent(out) :: y(:)
       type(error_type), allocatable, intent(out) :: error
-      if (size(model%bearings) > 1) then
+      if (.not. model%inputs%rotor%is_rigid()) then
          call share_loads(model, found, error, known=.true.)
          if (.not. allocated(error)) y = model%static_state(found%rotor, found%pads)
       else

@@ -4,9 +4,11 @@
 module case_fields
    use kinds, only: wp
    use variable_table, only: variable_table_type
-   use machine_fields, only: list_parts, list_support, list_damper, list_reduction, list_station, list_excitations
+   use machine_fields, only: list_parts, list_linear, list_kind, list_support, list_damper, &
+      & list_reduction, list_excitations
    use case_groups, only: bearing_type, damper_type, oil_type, pads_type, pivot_type, friction_type, film_type, &
-      & most_ratios, max_pads, mass_range, inertia_range, centre_range, temperature_range, viscosity_range
+      & station_element_type, most_ratios, max_pads, mass_range, inertia_range, centre_range, temperature_range, &
+      & viscosity_range
    use case_inputs, only: case_type
    use excitations, only: make_excitations
    implicit none (type, external)
@@ -104,6 +106,9 @@ contains
             call list_contacts(own)
             call list_film(own%film)
          end associate
+      end do
+      do b = 1, merge(0, size(inputs%rotor%elastic%linear), all)
+         call list_linear(v, inputs%rotor%elastic%linear(b))
       end do
    contains
       subroutine group(name, meaning)
@@ -271,6 +276,8 @@ contains
       !> and its oil.
       subroutine list_bearing(own)
          type(bearing_type), intent(inout) :: own
+         type(station_element_type) :: of
+         call of%begin()
          call group('bearing', 'Geometry, oil and boundary pressures')
          call v%number(own%journal_radius, 'journal_radius', 1e-4_wp, 10.0_wp, 'm', 'radius R_J of the journal')
          call v%each(own%machined_clearance, 'pads', 'machined_clearance', 1e-9_wp, 0.1_wp, 'm', &
@@ -297,9 +304,8 @@ contains
          call v%number(own%cavitation_pressure, 'cavitation_pressure', -1e9_wp, 1e9_wp, 'Pa', &
             & 'pressure at which the film cavitates')
          if (machine) then
-            call list_station(v, own%station)
-            call v%numbers(own%offset, 'offset', -0.1_wp, 0.1_wp, 'm', &
-               & 'of a machine: how far the bearing stands from the line of the others, along y and z')
+            if (all) call list_kind(v, own%mount_type, of)
+            if (.not. all) call list_kind(v, own%mount_type)
          end if
          if (allocated(own%support) .and. .not. all) call list_support(v, own%support, ending)
          if (allocated(own%damper) .and. .not. all) call list_damper(v, own%damper, ending)

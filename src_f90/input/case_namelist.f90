@@ -4,7 +4,7 @@ module case_namelist
    use kinds, only: wp
    use text, only: newline, to_text, lower_case, shortened, replaced, whole_number, is_utf8, did_you_mean
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: bearing_type, damper_type, max_pads, unset, most_sections, most_bearings
+   use case_groups, only: bearing_type, mount_type, damper_type, max_pads, unset, most_sections, most_bearings
    use case_inputs, only: case_type
    use excitations, only: make_excitations
    use case_checks, only: check_case
@@ -89,7 +89,7 @@ contains
       if (inputs%rotor%is_rigid()) then
          of_each = parsed
       else
-         call give_to_bearings(parsed, inputs%bearings, of_each)
+         call give_to_bearings(parsed, inputs%mounts(), of_each)
       end if
       call fill_variables(of_each, inputs, error)
       if (present(given)) given = of_each
@@ -151,7 +151,7 @@ contains
       integer, intent(out) :: at(:)
       type(error_type), allocatable, intent(out) :: error
       logical :: elastic
-      integer :: i
+      integer :: i, k
       elastic = .not. inputs%rotor%is_rigid()
       do i = 1, size(parsed%groups)
          if (elastic .and. may_have_bearing(parsed%groups(i)%group)) cycle
@@ -161,6 +161,9 @@ contains
          associate (a => parsed%assignments(i))
             at(i) = table%find(a%group, a%name)
             if (at(i) > 0 .or. allocated(error)) cycle
+            ! what is said of all bearings holds for those that it is of
+            if (allocated(a%named) .and. any([(kind_of(table%variables(k)%group) == kind_of(a%group) .and. &
+               & table%variables(k)%name == a%name, k=1, table%count)])) cycle
             call refuse_other_rotor(a)
             call refuse_unknown_group(a, '')
             if (.not. allocated(error)) call refuse(a%origin//': unknown variable '//variable_text(a) &
@@ -188,6 +191,7 @@ contains
             case default
                instead = 'is for a rigid journal in one bearing; a shaft in several starts from its equilibrium'
             end select
+            if (may_have_bearing(kind_of(a%group))) instead = 'has no effect on a bearing of this kind (bearing%kind)'
          end if
          call refuse(a%origin//': '//assignment_text(a)//': '//instead, error)
       end subroutine refuse_other_rotor
@@ -411,30 +415,67 @@ contains
       type(namelist_type), intent(in) :: parsed
       type(case_type), intent(inout) :: inputs
       type(error_type), allocatable, intent(inout) :: error
+      type(mount_type), allocatable :: mounts(:)
       integer :: i, b
       allocate (inputs%rotor%elastic)
       call inputs%rotor%elastic%begin(count_of(parsed, 'disc('), count_of(parsed, 'unbalance('), &
          & count_of(parsed, 'load('), count_of(parsed, 'element('))
       deallocate (inputs%bearings)
-      allocate (inputs%bearings(count_of(parsed, 'bearing:')))
-      associate (groups => parsed%groups, bearings => inputs%bearings)
-         call require(size(bearings) <= most_bearings, parsed%file//': '//to_text(size(bearings))//' groups &bearing ' &
+      allocate (mounts(count_of(parsed, 'bearing:')))
+      associate (groups => parsed%groups)
+         call require(size(mounts) <= most_bearings, parsed%file//': '//to_text(size(mounts))//' groups &bearing ' &
             & //'with names; a machine has at most '//to_text(most_bearings)//' bearings', error)
          b = 0
          do i = 1, size(groups)
             if (index(groups(i)%group, 'bearing:') /= 1) cycle
             b = b + 1
-            bearings(b) = bearing_type()
-            bearings(b)%name = bearing_of(groups(i)%group)
-            if (has('support', bearings(b))) allocate (bearings(b)%support)
-            if (has('damper', bearings(b))) bearings(b)%damper = damper_type(film='pi')
+            mounts(b)%name = bearing_of(groups(i)%group)
+            mounts(b)%kind = kind_given(mounts(b))
+            if (has('support', mounts(b))) allocate (mounts(b)%support)
+            if (has('damper', mounts(b))) mounts(b)%damper = damper_type(film='pi')
+         end do
+      end associate
+      associate (linear => [(mounts(b)%kind == 'linear', b=1, size(mounts))])
+         allocate (inputs%bearings(count(.not. linear)))
+         deallocate (inputs%rotor%elastic%linear)
+         allocate (inputs%rotor%elastic%linear(count(linear)))
+         do b = 1, size(mounts)
+            if (linear(b)) then
+               associate (of => inputs%rotor%elastic%linear(count(linear(:b))))
+                  of%mount_type = mounts(b)
+                  call of%of%begin()
+               end associate
+            else
+               associate (of => inputs%bearings(count(.not. linear(:b))))
+                  of = bearing_type()
+                  of%mount_type = mounts(b)
+               end associate
+            end if
          end do
       end associate
    contains
+      !> What the case says of the kind of a bearing: what is said of all bearings in the file comes first.
+      function kind_given(bearing) result(kind)
+         type(mount_type), intent(in) :: bearing
+         character(len=:), allocatable :: kind
+         integer :: k, pass
+         kind = 'film'
+         do pass = 1, 2
+            do k = 1, size(parsed%assignments)
+               associate (a => parsed%assignments(k))
+                  if (a%name /= 'kind' .or. all(a%group /= [character(len=50) :: 'bearing', 'bearing' &
+                     & //bearing%suffix()])) cycle
+                  if ((a%group == 'bearing' .and. .not. a%overrides) .eqv. pass == 1) kind = lower_case(trim(adjustl( &
+                     & a%values(1)%text)))
+               end associate
+            end do
+         end do
+      end function kind_given
+
       !> Whether a bearing has such a group; without a name it is that of all bearings.
       pure logical function has(kind, bearing)
          character(len=*), intent(in) :: kind
-         type(bearing_type), intent(in) :: bearing
+         type(mount_type), intent(in) :: bearing
          integer :: k
          has = any([(parsed%groups(k)%group == kind .or. parsed%groups(k)%group == kind//bearing%suffix(), k=1, &
             & size(parsed%groups))])
@@ -447,14 +488,16 @@ contains
       type(case_type), intent(in) :: inputs
       type(error_type), allocatable, intent(inout) :: error
       character(len=:), allocatable :: kind, name, names
+      type(mount_type), allocatable :: bearings(:)
       integer :: b
+      bearings = inputs%mounts()
       kind = kind_of(a%group)
       name = bearing_of(a%group)
       if (kind == 'excitation') call look_at_number(size(inputs%excitations))
       if (inputs%rotor%is_rigid() .or. allocated(error)) return
       call require(kind /= 'held', a%origin//': &held holds the rigid journal of one bearing, not a shaft; run ' &
          & //'each bearing alone, where &held takes the places that the machine gives its journal', error)
-      associate (elastic => inputs%rotor%elastic, bearings => inputs%bearings)
+      associate (elastic => inputs%rotor%elastic)
          if (kind == 'disc') call look_at_number(size(elastic%discs))
          if (kind == 'unbalance') call look_at_number(size(elastic%unbalances))
          if (kind == 'load') call look_at_number(size(elastic%loads))
@@ -483,7 +526,7 @@ contains
    contains
       !> Whether this kind is of a group that a bearing has not.
       pure logical function lacks(bearing)
-         type(bearing_type), intent(in) :: bearing
+         type(mount_type), intent(in) :: bearing
          lacks = kind == 'support' .and. .not. allocated(bearing%support) .or. kind == 'damper' .and. .not. &
             & allocated(bearing%damper)
       end function lacks
@@ -506,7 +549,7 @@ contains
    !> bearings' own, which take their place, those of --set in the order in which they are given.
    subroutine give_to_bearings(parsed, bearings, given)
       type(namelist_type), intent(in) :: parsed
-      type(bearing_type), intent(in) :: bearings(:)
+      type(mount_type), intent(in) :: bearings(:)
       type(namelist_type), intent(out) :: given
       type(assignment_type), allocatable :: longer(:)
       type(assignment_type) :: own

@@ -3,13 +3,13 @@
 module machine_fields
    use kinds, only: wp
    use variable_table, only: variable_table_type
-   use case_groups, only: elastic_type, support_type, damper_type, reduction_type, station_element_type, &
-      & most_sections, most_stations, viscosity_range, unset, is_set
+   use case_groups, only: elastic_type, support_type, damper_type, mount_type, linear_bearing_type, reduction_type, &
+      & station_element_type, most_sections, most_stations, viscosity_range, unset, is_set
    use excitations, only: excitation_type
    use assignments, only: counted
    implicit none (type, external)
    private
-   public :: list_parts, list_support, list_damper, list_reduction, list_station, list_excitations
+   public :: list_parts, list_linear, list_kind, list_support, list_damper, list_reduction, list_excitations
 
    character(len=*), parameter :: of_element = 'yy, yz, zy, zz of the force on the station against displacement, ' &
       & //'velocity and acceleration towards it from the other end'
@@ -94,6 +94,36 @@ contains
       call v%flag(element%static, 'static', 'whether it acts at the equilibrium, too; .false.: only in ' &
          & //'motion about it')
    end subroutine list_element
+
+   !> A bearing by coefficients, and what it stands on.
+   subroutine list_linear(v, bearing)
+      type(variable_table_type), intent(inout) :: v
+      type(linear_bearing_type), intent(inout) :: bearing
+      call v%group('bearing'//bearing%suffix(), '')
+      call list_kind(v, bearing%mount_type, bearing%of)
+      if (allocated(bearing%support)) call list_support(v, bearing%support, bearing%suffix())
+      if (allocated(bearing%damper)) call list_damper(v, bearing%damper, bearing%suffix())
+   end subroutine list_linear
+
+   !> Where a bearing of a machine is, and its coefficients, if it has some.
+   subroutine list_kind(v, bearing, of)
+      type(variable_table_type), intent(inout) :: v
+      type(mount_type), intent(inout) :: bearing
+      type(station_element_type), intent(inout), optional :: of
+      call v%word(bearing%kind, 'kind', 'film linear', 'of a machine: film, tilting or fixed pads; linear: by ' &
+         & //'stiffness and damping, as of balls, rollers or magnets; nothing else of this group and no group of ' &
+         & //'pads, oil and so on then has an effect')
+      call list_station(v, bearing%station)
+      call v%numbers(bearing%offset, 'offset', -0.1_wp, 0.1_wp, 'm', &
+         & 'of a machine: how far the bearing stands from the line of the others, along y and z')
+      if (.not. present(of)) return
+      call v%numbers(of%stiffness, 'stiffness', -1e15_wp, 1e15_wp, 'N/m', 'kind = ''linear'': yy, yz, zy, zz of the ' &
+         & //'force on the journal against its displacement')
+      call v%numbers(of%damping, 'damping', -1e12_wp, 1e12_wp, 'N s/m', 'kind = ''linear'': the same against its ' &
+         & //'velocity')
+      call v%word(of%file, 'file', '', 'kind = ''linear'': instead of these, the CSV file of them, as of elements')
+      call v%word(of%frequency, 'frequency', 'own synchronous', 'of a file with frequency_hz, as of elements')
+   end subroutine list_kind
 
    subroutine list_support(v, support, ending)
       type(variable_table_type), intent(inout) :: v

@@ -121,7 +121,7 @@ contains
       pivots%file = parsed%file
       pivots%groups = parsed%groups
       pivots%assignments = pack(parsed%assignments, [(any(kind_of(parsed%assignments(i)%group)//'%' &
-         & //parsed%assignments(i)%name == [counting_variables, 'rotor%file          ']), i=1, &
+         & //parsed%assignments(i)%name == [counting_variables, 'rotor%file          ', 'bearing%kind        ']), i=1, &
          & size(parsed%assignments))])
       call fill_case(pivots, default, error)
       if (.not. allocated(error)) call complete_case(default, error)

@@ -10,7 +10,7 @@ module read_files
    use text, only: to_text, lower_case, shortened, filled, checksum, newline
    use errors, only: error_type, raise, require, refuse, add_context, system_error
    use files, only: is_regular
-   use case_groups, only: pivot_type, in_range
+   use case_groups, only: pivot_type, station_element_type, in_range
    use case_inputs, only: case_type
    use machine_checks, only: check_element_tables
    use other_units, only: in_other_units
@@ -321,31 +321,41 @@ contains
 
       !> Reads the coefficients of elements over the speed, and over the frequency: every speed has the same ones.
       subroutine read_elements()
+         integer :: i
+         if (inputs%rotor%is_rigid()) return
+         associate (elements => inputs%rotor%elastic%elements, linear => inputs%rotor%elastic%linear)
+            do i = 1, size(elements)
+               if (.not. allocated(error)) call read_element('element('//to_text(i)//')', elements(i))
+            end do
+            do i = 1, size(linear)
+               if (.not. allocated(error)) call read_element('bearing'//linear(i)%suffix(), linear(i)%of)
+            end do
+         end associate
+         if (.not. allocated(error)) call check_element_tables(inputs, error)
+      end subroutine read_elements
+
+      subroutine read_element(name, e)
+         character(len=*), intent(in) :: name
+         type(station_element_type), intent(inout) :: e
          real(wp), allocatable :: numbers(:, :)
          logical :: given(size(of_elements))
-         integer :: i, n
-         if (inputs%rotor%is_rigid()) return
-         do i = 1, size(inputs%rotor%elastic%elements)
-            associate (e => inputs%rotor%elastic%elements(i))
-               if (e%file == '' .or. allocated(e%table)) cycle
-               call read_columns(e%file, of_elements, numbers, error, given)
-               if (.not. allocated(error) .and. any(given(11:) .neqv. given(11))) call refuse(e%file//' line 1: must ' &
-                  & //'have all of m_yy, m_yz, m_zy, m_zz or none', error)
-               if (.not. allocated(error)) then
-                  n = 1
-                  if (given(2)) n = count(numbers(1, :) <= numbers(1, 1))
-                  call check_grid(e%file, numbers(:2, :), n)
-               end if
-               call add_context(error, 'element('//to_text(i)//')%file')
-               if (allocated(error)) return
-               e%speeds = numbers(1, ::n)*rpm
-               allocate (e%whirls(0))
-               if (given(2)) e%whirls = numbers(2, :n)*2*pi
-               e%table = reshape(numbers(3:, :), [12, n, size(e%speeds)])
-            end associate
-         end do
-         call check_element_tables(inputs, error)
-      end subroutine read_elements
+         integer :: n
+         if (e%file == '' .or. allocated(e%table)) return
+         call read_columns(e%file, of_elements, numbers, error, given)
+         if (.not. allocated(error) .and. any(given(11:) .neqv. given(11))) call refuse(e%file//' line 1: must ' &
+            & //'have all of m_yy, m_yz, m_zy, m_zz or none', error)
+         if (.not. allocated(error)) then
+            n = 1
+            if (given(2)) n = count(numbers(1, :) <= numbers(1, 1))
+            call check_grid(e%file, numbers(:2, :), n)
+         end if
+         call add_context(error, name//'%file')
+         if (allocated(error)) return
+         e%speeds = numbers(1, ::n)*rpm
+         allocate (e%whirls(0))
+         if (given(2)) e%whirls = numbers(2, :n)*2*pi
+         e%table = reshape(numbers(3:, :), [12, n, size(e%speeds)])
+      end subroutine read_element
 
       !> Speeds and frequencies, (2, row), rise, and the n frequencies of the first speed are those of every other.
       subroutine check_grid(file, rows, n)
@@ -487,6 +497,7 @@ contains
    pure function file_marks(inputs) result(lines)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
+      type(station_element_type), allocatable :: elements(:)
       integer :: i
       lines = ''
       do i = 1, size(inputs%bearings)
@@ -496,10 +507,10 @@ contains
          end associate
       end do
       if (.not. inputs%rotor%is_rigid()) then
-         do i = 1, size(inputs%rotor%elastic%elements)
-            associate (e => inputs%rotor%elastic%elements(i))
-               if (allocated(e%table)) lines = lines//'element('//to_text(i)//')%file '//mark([e%speeds, e%whirls, &
-                  & e%table])//newline
+         elements = inputs%station_elements()
+         do i = 1, size(elements)
+            associate (e => elements(i))
+               if (allocated(e%table)) lines = lines//e%label//'%file '//mark([e%speeds, e%whirls, e%table])//newline
             end associate
          end do
          if (allocated(inputs%rotor%elastic%given)) then

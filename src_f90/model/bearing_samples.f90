@@ -1,6 +1,7 @@
 !> What is sampled of bearings and other elements in a motion.
 module bearing_samples
    use kinds, only: wp
+   use case_groups, only: mount_type
    use case_inputs, only: case_type
    use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, of_journal
@@ -83,8 +84,10 @@ contains
       real(wp), intent(in) :: positions(:, :)
       real(wp) :: ratios(size(positions, 2))
       integer :: i
+      type(mount_type), allocatable :: mounts(:)
+      mounts = inputs%mounts()
       associate (dampers => inputs%dampers())
-         ratios = [(norm2(positions(:, i))/inputs%bearings(dampers(i))%damper%clearance, i=1, size(dampers))]
+         ratios = [(norm2(positions(:, i))/mounts(dampers(i))%damper%clearance, i=1, size(dampers))]
       end associate
    end function eccentricities
 end module bearing_samples

@@ -3,6 +3,7 @@
 module equations_of_motion
    use kinds, only: wp
    use errors, only: asked_to_stop
+   use case_groups, only: mount_type
    use case_inputs, only: case_type
    use operating_point, only: operating_point_type
    use oil_properties, only: reference_viscosity
@@ -56,8 +57,12 @@ module equations_of_motion
       procedure :: static_state
       procedure :: positions
       procedure :: own_lengths
+      procedure :: least_clearance
       procedure :: elements
    end type machine_model
+
+   !> m
+   real(wp), parameter :: usual_vibration = 1e-4_wp
 
 contains
 
@@ -111,8 +116,8 @@ contains
       self%n = self%layout%n
       self%outputs = pad_outputs*sum(layouts(:size(self%bearings))%pads)
       self%scale = state_scales(self%inputs%highest_speed(), self%point, self%rotor, elements, &
-         & self%bearings%clearance, self%layout)
-      self%newton = new_newton_system(self%layout, max(self%rotor%journals, maxval(pairs)))
+         & [self%bearings%clearance, self%least_clearance()], self%layout)
+      self%newton = new_newton_system(self%layout, maxval([self%rotor%journals, pairs]))
    end subroutine lay_out
 
    !> All elements: bearings, then others.
@@ -202,6 +207,21 @@ contains
       positions = y(chosen)/self%scale(chosen)
    end function positions
 
+   !> The least clearance, m, of the films; without any that of dampers, or what machines without films vibrate by.
+   pure real(wp) function least_clearance(self)
+      class(machine_model), intent(in) :: self
+      type(mount_type), allocatable :: mounts(:)
+      integer :: i
+      if (size(self%bearings) > 0) then
+         least_clearance = minval(self%bearings%clearance)
+      else
+         mounts = self%inputs%mounts()
+         associate (dampers => self%inputs%dampers())
+            least_clearance = minval([usual_vibration, (mounts(dampers(i))%damper%clearance, i=1, size(dampers))])
+         end associate
+      end if
+   end function least_clearance
+
    !> What stands for a unit of each displacement of the elements, in the order of layout%positions(), m.
    function own_lengths(self) result(lengths)
       class(machine_model), intent(in), target :: self
@@ -232,6 +252,7 @@ contains
       !> Not allocated: all.
       logical, allocatable :: chosen_here(:)
       integer :: e
+      ok = .true.
       elements = self%elements()
       if (self%oil_history%runs()) call self%oil_history%at(t, self%oil%viscosity)
       do e = 1, size(elements)
@@ -351,7 +372,7 @@ contains
       class(machine_model), intent(in) :: self
       integer, intent(out) :: number, states
       associate (bearings => self%layout%elements(:size(self%bearings)))
-         states = bearings(1)%per_pad
+         states = maxval([0, bearings%per_pad])
          number = merge(sum(bearings%pads), 0, states > 0 .and. all(bearings%per_pad == states) &
             & .and. self%n == self%rotor%states + states*sum(bearings%pads))
       end associate

@@ -97,7 +97,7 @@ contains
       real(wp), allocatable :: lengths(:)
       allocate (lengths(model%layout%n_positions()), source=1.0_wp)
       associate (n => 2*model%rotor%journals, m => model%rotor%positions)
-         lengths(n + 1:m) = minval(model%bearings%clearance)/model%scale(n + 1:m)
+         lengths(n + 1:m) = model%least_clearance()/model%scale(n + 1:m)
       end associate
       lengths(model%rotor%positions + 1:) = model%own_lengths()
    end function position_lengths

@@ -5,7 +5,7 @@ module last_state
    use text, only: to_text
    use errors, only: error_type, raise, system_error
    use growing_file, only: growing_file_type
-   use case_groups, only: bearing_type
+   use case_groups, only: bearing_type, mount_type
    use case_inputs, only: case_type
    use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, element_layout_type
@@ -78,22 +78,28 @@ contains
       character(len=*), intent(in) :: path
       type(case_type), intent(in) :: there, here
       type(error_type), allocatable, intent(out) :: error
+      type(mount_type), allocatable :: mounts(:), others(:)
       integer :: b
       if (there%operation%rotation /= here%operation%rotation) then
          call raise(error, system_error, path//': its shaft turns '//there%operation%rotation &
             & //', and that of this case '//here%operation%rotation//'; no start for it')
          return
       end if
-      if (size(there%bearings) /= size(here%bearings)) then
+      mounts = here%mounts()
+      others = there%mounts()
+      if (size(others) /= size(mounts)) then
          call raise(error, system_error, path//': has '//rotor_text(there)//', and this case '//rotor_text(here) &
             & //'; no start for it')
          return
       end if
-      do b = 1, size(here%bearings)
-         associate (one => there%bearings(b), own => here%bearings(b))
+      do b = 1, size(mounts)
+         associate (one => others(b), own => mounts(b))
             if (one%name /= own%name) then
                call raise(error, system_error, path//': has the bearing '//one%name//' where this case has '//own%name &
                   & //'; no start for it')
+            else if (one%kind /= own%kind) then
+               call raise(error, system_error, path//': the bearing '//one%name//' has kind = '''//one%kind//''' ' &
+                  & //'there and '''//own%kind//''' in this case; no start for it')
             else if (allocated(one%support) .neqv. allocated(own%support)) then
                call raise(error, system_error, path//': the bearing '//own%name//' stands on a support there or in ' &
                   & //'this case, not in both; no start for it')
@@ -107,7 +113,7 @@ contains
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: text
       text = 'a rigid journal in one bearing'
-      if (size(inputs%bearings) > 1) text = 'a shaft in '//to_text(size(inputs%bearings))//' bearings'
+      if (.not. inputs%rotor%is_rigid()) text = 'a shaft in '//to_text(size(inputs%mounts()))//' bearings'
    end function rotor_text
 
    !> Refuses the result of a bearing whose pads have other states.

@@ -4,7 +4,7 @@ module machine_results
    use kinds, only: wp, i8, degree
    use record, only: record_type
    use case_inputs, only: case_type
-   use case_groups, only: bearing_type, shaft_type
+   use case_groups, only: bearing_type, mount_type, shaft_type
    use rigid_rotor, only: rotor_type
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
@@ -135,24 +135,30 @@ contains
       class(record_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: names(:)
+      type(mount_type), allocatable :: mounts(:)
       integer :: b, longest
       associate (bearings => inputs%bearings)
-         longest = maxval([(len(bearings(b)%name), b=1, size(bearings))])
+         longest = maxval([0, (len(bearings(b)%name), b=1, size(bearings))])
          allocate (character(len=longest) :: names(size(bearings)))
          do b = 1, size(names)
             names(b) = bearings(b)%name
          end do
-         call file%put('bearing', names, 'name of the bearing')
-         call file%put(group//'bearing_station', real(bearings%station, wp), '1', 'station of the bearing', 'bearing')
-         call file%put(group//'bearing_offset_y', bearings%offset(1), 'm', 'offset of the bearing, vertical', 'bearing')
-         call file%put(group//'bearing_offset_z', bearings%offset(2), 'm', 'offset of the bearing, horizontal', &
-            & 'bearing')
+         if (size(names) > 0) then
+            call file%put('bearing', names, 'name of the bearing')
+            call file%put(group//'bearing_station', real(bearings%station, wp), '1', 'station of the bearing', &
+               & 'bearing')
+            call file%put(group//'bearing_offset_y', bearings%offset(1), 'm', 'offset of the bearing, vertical', &
+               & 'bearing')
+            call file%put(group//'bearing_offset_z', bearings%offset(2), 'm', 'offset of the bearing, horizontal', &
+               & 'bearing')
+         end if
       end associate
+      mounts = inputs%mounts()
       associate (elements => inputs%station_elements(), dampers => inputs%dampers(), labels => inputs%element_labels())
          if (size(labels) > 0) then
             call file%put_scale('element', size(labels), 'element number')
             call file%put(group//'element_name', labels, 'name of the element')
-            call file%put(group//'element_station', real([elements%station, inputs%bearings(dampers)%station], wp), &
+            call file%put(group//'element_station', real([elements%station, mounts(dampers)%station], wp), &
                & '1', 'station of the element; of a damper that of its bearing', 'element')
          end if
          if (size(dampers) > 0) call file%put_scale('damper', size(dampers), &
@@ -200,6 +206,7 @@ contains
       call file%put('equilibrium/station_z', stations(2, :), 'm', 'shaft displacement, horizontal', 'station')
       call file%put('equilibrium/station_slope_y', slopes(1, :), 'rad', 'shaft slope, vertical', 'station')
       call file%put('equilibrium/station_slope_z', slopes(2, :), 'rad', 'shaft slope, horizontal', 'station')
+      if (size(loads) == 0) return
       call file%put('equilibrium/bearing_load_y', loads(1, :), 'N', 'load of the rotor on the bearing, vertical', &
          & 'bearing')
       call file%put('equilibrium/bearing_load_z', loads(2, :), 'N', &

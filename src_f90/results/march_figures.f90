@@ -5,7 +5,7 @@ module march_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi, degree
    use rising_numbers, only: number_up_to
-   use case_groups, only: bearing_type, pivot_type
+   use case_groups, only: bearing_type, mount_type, pivot_type
    use case_inputs, only: case_type
    use loops, only: path_integral, harmonic, slow_share, integral_over_way
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
@@ -441,7 +441,9 @@ contains
       class(run_file_type), intent(inout) :: file
       type(case_type), intent(in) :: inputs
       real(wp), allocatable, dimension(:, :) :: y, z
+      type(mount_type), allocatable :: mounts(:)
       integer :: n, k, i
+      mounts = inputs%mounts()
       n = file%last_revolutions(whole_turns(file, inputs))
       call put_whirls(file, n, 'station', 'shaft')
       if (size(inputs%element_labels()) == 0) return
@@ -452,7 +454,7 @@ contains
          call file%hdf5%last_samples('element_z', n, z)
          k = size(y, 1) - size(dampers)
          call put_figure(file, 'damper_eccentricity', [(maxval(hypot(y(k + i, :), z(k + i, :))) &
-            & /inputs%bearings(dampers(i))%damper%clearance, i=1, size(dampers))], '1', &
+            & /mounts(dampers(i))%damper%clearance, i=1, size(dampers))], '1', &
             & 'largest displacement of the damper''s ring over its clearance', 'damper')
       end associate
    end subroutine put_machine_figures

@@ -1,6 +1,7 @@
 !> What the file of a run says of its march or periodic orbit, samples and spectra: names, dimensions and units as
 !> docs/results.md lists them.
 module march_results
+   use operating_point, only: operating_point_type
    use kinds, only: wp, i8, pi
    use errors, only: error_type
    use case_inputs, only: case_type
@@ -24,11 +25,13 @@ module march_results
 
 contains
 
-   !> Adds a sample of all bearings, in the files of these, of where the stations of a shaft are, (2, station), m, and
-   !> of the forces of the excitations, (2, excitation), N, and of forces and displacements of other elements, (2,
-   !> element, both), N and m.
-   subroutine add_sample(file, bearings, samples, stations, excitations, elements, error)
+   !> Adds a sample at time t, s, of all bearings, in the files of these, of where the stations of a shaft are,
+   !> (2, station), m, of the forces of the excitations, (2, excitation), N, and of forces and displacements of other
+   !> elements, (2, element, both), N and m.
+   subroutine add_sample(file, point, t, bearings, samples, stations, excitations, elements, error)
       type(run_file_type), intent(inout) :: file
+      type(operating_point_type), intent(in) :: point
+      real(wp), intent(in) :: t
       type(bearing_file_type), intent(in) :: bearings(:)
       type(bearing_sample), intent(in) :: samples(:)
       real(wp), intent(in), contiguous :: stations(:, :), excitations(:, :), elements(:, :, :)
@@ -37,7 +40,7 @@ contains
       integer :: n, b
       if (.not. file%hdf5%declared) call declare_samples(file, bearings, samples, size(stations, 2), &
          & size(excitations, 2), size(elements, 2))
-      values(:of_shaft) = [samples(1)%time, samples(1)%shaft_angle, samples(1)%speed]
+      values(:of_shaft) = [t, point%shaft_angle(t), point%speed(t)]
       n = of_shaft
       do b = 1, size(samples)
          call take_bearing(samples(b), values, n)

@@ -91,7 +91,7 @@ contains
       character(len=:), allocatable :: remark
       remark = ''
       if (.not. file%has('rotor/total_mass')) return
-      if (size(inputs%rotor%elastic%unbalances) == 0) return
+      if (size(inputs%rotor%elastic%unbalances) == 0 .or. size(inputs%bearings) == 0) return
       remark = remark_on_unbalance(maxval(inputs%rotor%elastic%unbalances%moment), &
          & file%get_real('rotor/total_mass'), minval(inputs%bearings%clearance()))
    end function on_unbalances

@@ -38,16 +38,19 @@ module elastic_rotor
       procedure :: whirl_changes
    end type elastic_rotor_type
 
+   !> The smallest stiffness, over the largest, that is not rounding.
+   real(wp), parameter :: least_stiffness = 1e-14_wp
+
 contains
 
-   !> The rotor of these matrices, whose unbalances have this sum of moments, kg m. `ok` is false where masses or
-   !> stiffness are singular.
-   subroutine new_elastic_rotor(matrices, unbalance, rotor, ok)
+   !> The rotor of these matrices, whose unbalances have this sum of moments, kg m, and which turns at first with this
+   !> speed, rad/s. `ok` is false where its masses are singular, or its stiffness while its films hold it.
+   subroutine new_elastic_rotor(matrices, unbalance, speed, rotor, ok)
       type(rotor_matrices_type), intent(in) :: matrices
-      real(wp), intent(in) :: unbalance
+      real(wp), intent(in) :: unbalance, speed
       type(elastic_rotor_type), intent(out) :: rotor
       logical, intent(out) :: ok
-      real(wp), allocatable :: bent(:)
+      real(wp), allocatable :: bent(:, :), k(:, :), ignored(:, :)
       rotor%matrices = matrices
       rotor%unbalance = unbalance
       rotor%journals = matrices%journals
@@ -58,10 +61,19 @@ contains
       rotor%per_mass = identity(rotor%positions)
       call solve(rotor%positions, rotor%positions, matrices%mass, rotor%per_mass, ok)
       if (.not. ok) return
-      associate (n => 2*rotor%journals, f => matrices%load, k => matrices%stiffness)
-         bent = f(n + 1:)
-         call solve(size(bent), 1, k(n + 1:, n + 1:), bent, ok)
-         if (ok) rotor%borne = reshape(f(:n) - matmul(k(:n, n + 1:), bent), [2, rotor%journals])
+      k = matrices%stiffness
+      if (rotor%elements > 0) then
+         allocate (ignored, mold=k)
+         call rotor%force_derivatives(speed, k, ignored, at_rest=.true.)
+         k = -k
+      end if
+      associate (n => 2*rotor%journals, f => matrices%load, inner => rotor%positions - 2*rotor%journals)
+         bent = reshape(f(n + 1:), [inner, 1])
+         ! flexibility tells how near the stiffness is to a singular one
+         if (rotor%elements > 0) bent = reshape([f(n + 1:), identity(inner)], [inner, inner + 1])
+         call solve(inner, size(bent, 2), k(n + 1:, n + 1:), bent, ok)
+         if (ok .and. rotor%elements > 0) ok = least_stiffness*norm2(k(n + 1:, n + 1:))*norm2(bent(:, 2:)) < 1
+         if (ok) rotor%borne = reshape(f(:n) - matmul(k(:n, n + 1:), bent(:, 1)), [2, rotor%journals])
       end associate
    end subroutine new_elastic_rotor
 

@@ -6,7 +6,7 @@ module linear_element
    use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, of_journal
    use abstract_element, only: element_type
-   use case_groups, only: bearing_type, support_type
+   use case_groups, only: mount_type, support_type
    implicit none (type, external)
    private
    public :: linear_element_type, relative_displacements, housing_pair, add_supports, &
@@ -57,7 +57,7 @@ contains
    !> x: those of the journals in their bearings, those of the housings, the amplitudes. A journal in space is displaced
    !> as in its bearing, and as its housing.
    pure function relative_displacements(bearings, n) result(into)
-      type(bearing_type), intent(in) :: bearings(:)
+      type(mount_type), intent(in) :: bearings(:)
       integer, intent(in) :: n
       real(wp), allocatable :: into(:, :)
       integer :: journals, b, i, p
@@ -78,7 +78,7 @@ contains
 
    !> Which pair of the displacements x those of the housing of bearing b are, which has a support.
    pure integer function housing_pair(bearings, b) result(pair)
-      type(bearing_type), intent(in) :: bearings(:)
+      type(mount_type), intent(in) :: bearings(:)
       integer, intent(in) :: b
       integer :: i
       pair = size(bearings) + count([(allocated(bearings(i)%support), i=1, b)])
@@ -97,7 +97,7 @@ contains
 
    !> Adds supports and the weights of their housings to matrices in the displacements x.
    pure subroutine add_supports(bearings, gravity, mass, damping, stiffness, load)
-      type(bearing_type), intent(in) :: bearings(:)
+      type(mount_type), intent(in) :: bearings(:)
       !> m/s^2
       real(wp), intent(in) :: gravity
       real(wp), intent(inout) :: mass(:, :), damping(:, :), stiffness(:, :), load(:)

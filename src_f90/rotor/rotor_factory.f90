@@ -7,7 +7,7 @@ module rotor_factory
    use case_inputs, only: case_type
    use rigid_rotor, only: rotor_type, new_rigid_rotor
    use elastic_rotor, only: elastic_rotor_type, new_elastic_rotor
-   use case_groups, only: bearing_type, given_rotor_type
+   use case_groups, only: mount_type, given_rotor_type
    use sparse_matrix, only: sparse_matrix_type
    use rotor_component, only: rotor_component_type, shaft_component, given_component
    use fixed_interface, only: fixed_interface_type, find_fixed_interface
@@ -52,9 +52,9 @@ contains
          refusal = error%message
          return
       end if
-      call new_elastic_rotor(matrices, inputs%unbalance(), elastic, ok)
+      call new_elastic_rotor(matrices, inputs%unbalance(), inputs%operation%speed_rpm*rpm, elastic, ok)
       if (.not. ok) then
-         refusal = 'the equations of the shaft are singular'
+         refusal = 'machine: nothing holds its shaft: stiffness of bearings and elements leave it free in a direction'
       else if (any(inputs%excitations%station > elastic%stations)) then
          refusal = 'excitation: station = '//to_text(maxval(inputs%excitations%station))//': the rotor has '// &
             & to_text(elastic%stations)//' stations'
@@ -86,6 +86,7 @@ contains
       type(rotor_component_type) :: component
       type(fixed_interface_type) :: fixed
       type(mode_selection_type) :: selection
+      type(mount_type), allocatable :: mounts(:)
       integer, allocatable :: border(:)
       logical :: held
       associate (rotor => inputs%rotor%elastic)
@@ -102,10 +103,11 @@ contains
       end associate
       if (allocated(error)) return
       call component%turn_in(inputs%sense())
-      border = journal_displacements(inputs%bearings, component)
+      mounts = inputs%mounts()
+      border = journal_displacements(mounts, component)
       call find_fixed_interface(component, border, fixed, held)
       if (.not. held) call raise(error, input_error, 'machine: its bearings (at the stations ' &
-         & //list_text(real(inputs%bearings%station, wp))//') do not hold the shaft: it needs two at different ' &
+         & //list_text(real(mounts%station, wp))//') do not hold the shaft: it needs two at different ' &
          & //'stations, and sections with stiffness between them')
       if (allocated(error)) return
       if (present(modes)) then
@@ -123,7 +125,7 @@ contains
 
    !> Displacements y and z of each journal among those of the rotor.
    pure function journal_displacements(bearings, component) result(border)
-      type(bearing_type), intent(in) :: bearings(:)
+      type(mount_type), intent(in) :: bearings(:)
       type(rotor_component_type), intent(in) :: component
       integer :: border(2*size(bearings)), b, p
       do b = 1, size(bearings)
@@ -218,9 +220,11 @@ contains
       type(rotor_component_type), intent(in) :: component
       character(len=*), intent(in) :: file
       type(error_type), allocatable, intent(inout) :: error
+      type(mount_type), allocatable :: mounts(:)
       integer :: stations, highest, b, row
+      mounts = inputs%mounts()
       stations = component%station%rows/2
-      highest = max(maxval(inputs%bearings%station), 0)
+      highest = max(maxval(mounts%station), 0)
       associate (rotor => inputs%rotor%elastic)
          if (size(rotor%unbalances) > 0) highest = max(highest, maxval(rotor%unbalances%station))
          if (size(rotor%loads) > 0) highest = max(highest, maxval(rotor%loads%station))
@@ -232,8 +236,8 @@ contains
       call require(size(inputs%rotor%elastic%discs) == 0, file//'a group disc has no effect: its matrices contain ' &
          & //'the discs', error)
       if (allocated(error)) return
-      do b = 1, size(inputs%bearings)
-         do row = 2*inputs%bearings(b)%station - 1, 2*inputs%bearings(b)%station
+      do b = 1, size(mounts)
+         do row = 2*mounts(b)%station - 1, 2*mounts(b)%station
             associate (first => component%station%first(row:row + 1))
                associate (elements => component%station%value(first(1):first(2) - 1))
                   call require(size(elements) == 1 .and. all(abs(elements - 1) <= 0), file//'station: row ' &

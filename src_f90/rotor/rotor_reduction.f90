@@ -4,7 +4,7 @@ module rotor_reduction
    use kinds, only: wp, pi, rpm
    use linear_algebra, only: zgbsv, solve_complex
    use sparse_matrix, only: sparse_matrix_type
-   use case_groups, only: is_set, reduction_type
+   use case_groups, only: is_set, reduction_type, mount_type
    use case_inputs, only: case_type
    use rotor_component, only: rotor_component_type, static_forces, unbalance_moments
    use fixed_interface, only: fixed_interface_type
@@ -157,8 +157,10 @@ contains
       type(vibration_type) :: vibration
       type(projection_type) :: static
       real(wp), allocatable :: moments(:, :)
+      type(mount_type), allocatable :: mounts(:)
       integer, allocatable :: rows(:)
       integer :: i
+      mounts = inputs%mounts()
       vibration%speed = speed
       vibration%rate = speed*cmplx(growth, 1.0_wp, wp)
       vibration%journals = border
@@ -170,7 +172,7 @@ contains
          allocate (vibration%loads(station%columns, 2))
          vibration%loads(:, 1) = component%weighed
          vibration%loads(:, 2) = station%transposed_times(moments(1, :))
-         rows = [inputs%bearings%station, inputs%rotor%elastic%discs%station]
+         rows = [mounts%station, inputs%rotor%elastic%discs%station]
          rows = [2*rows - 1, 2*rows]
          vibration%observed = station%part(rows)
       end associate
@@ -264,7 +266,10 @@ contains
       type(mode_selection_type), intent(in) :: selection
       type(rotor_matrices_type) :: r
       real(wp), allocatable :: basis(:, :), into(:, :), offset(:), force(:), deflection(:)
-      integer :: i, modes
+      type(mount_type), allocatable :: mounts(:)
+      integer :: i, modes, held
+      mounts = inputs%mounts()
+      held = 2*size(mounts)
       r%mode_selection_type = selection
       modes = selection%modes
       if (modes < size(fixed%frequency)) r%left_out_frequency = fixed%frequency(modes + 1)/(2*pi)
@@ -276,12 +281,12 @@ contains
       r%modes = modes
       r%journals = size(inputs%bearings)
       basis = fixed%basis(modes)
-      into = relative_displacements(inputs%bearings, size(basis, 2))
-      offset = [(inputs%bearings(i)%offset, i=1, r%journals)]
-      call reduce_matrices(component, basis, into, 2*r%journals, r)
+      into = relative_displacements(mounts, size(basis, 2))
+      offset = [(mounts(i)%offset, i=1, size(mounts))]
+      call reduce_matrices(component, basis, into, held, r)
       force = component%station%transposed_times(static_forces(inputs%rotor%elastic%loads, component%station%rows)) &
          & - inputs%rotor%gravity*component%weighed
-      deflection = matmul(basis(:, :2*r%journals), offset)
+      deflection = matmul(basis(:, :held), offset)
       r%load = matmul(matmul(force - component%stiffness%times(deflection), basis), into)
       deflection = deflection + fixed%residual_deflection(force, modes)
       basis = matmul(basis, into)
@@ -299,8 +304,8 @@ contains
       do i = 1, size(r%load)
          r%damping(i, i) = r%damping(i, i) + r%high_damping(i)
       end do
-      call add_supports(inputs%bearings, inputs%rotor%gravity, r%mass, r%damping, r%stiffness, r%load)
-      call add_elements(inputs, r)
+      call add_supports(mounts, inputs%rotor%gravity, r%mass, r%damping, r%stiffness, r%load)
+      call add_elements(inputs, mounts, r)
    end function reduced_rotor
 
    !> Forces of 1 N at stations, each once, on all displacements: of one plane where both are alike.
@@ -325,8 +330,9 @@ contains
    end function forces_at
 
    !> Adds the elements: what is constant and acts at rest is part of the matrices, and masses are.
-   pure subroutine add_elements(inputs, r)
+   pure subroutine add_elements(inputs, mounts, r)
       type(case_type), intent(in) :: inputs
+      type(mount_type), intent(in) :: mounts(:)
       type(rotor_matrices_type), intent(inout) :: r
       real(wp) :: c(2, 2, 3)
       integer :: i, b, at
@@ -337,16 +343,16 @@ contains
             r%elements(i) = new_acting_element(from(i), inputs%sense())
             associate (e => r%elements(i), here => [2*from(i)%station - 1, 2*from(i)%station])
                e%ends = r%station(here, :)
-               e%offset = r%station_offset(here)
+               e%offset = r%station_offset(here) - from(i)%origin
                if (from(i)%to_station > 0) then
                   associate (there => [2*from(i)%to_station - 1, 2*from(i)%to_station])
                      e%ends = e%ends - r%station(there, :)
                      e%offset = e%offset - r%station_offset(there)
                   end associate
                end if
-               do b = 1, merge(0, size(inputs%bearings), from(i)%housing == '')
-                  if (inputs%bearings(b)%name /= from(i)%housing) cycle
-                  at = 2*housing_pair(inputs%bearings, b)
+               do b = 1, merge(0, size(mounts), from(i)%housing == '')
+                  if (mounts(b)%name /= from(i)%housing) cycle
+                  at = 2*housing_pair(mounts, b)
                   e%ends(1, at - 1) = e%ends(1, at - 1) - 1
                   e%ends(2, at) = e%ends(2, at) - 1
                end do

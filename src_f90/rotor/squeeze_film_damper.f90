@@ -41,7 +41,7 @@ contains
       type(element_slot), allocatable :: slots(:)
       type(squeeze_film_damper_type) :: damper
       integer :: i
-      associate (of => inputs%dampers(), bearings => inputs%bearings)
+      associate (of => inputs%dampers(), bearings => inputs%mounts())
          allocate (slots(size(of)))
          do i = 1, size(of)
             damper%of = bearings(of(i))%damper

@@ -190,7 +190,7 @@ contains
       if (.not. ok) call raise(error, numerics_error, model%refusal//' at the start')
       if (.not. ok) return
       force = unbalanced(model, y, free)
-      residual = force/reference_force(model)
+      residual = force/max(tiny(force), reference_force(model))
       iterations = 0
       do while (.not. residual <= residual_limit)
          if (iterations == limit .or. stuck) then
@@ -207,7 +207,7 @@ contains
          stuck = move < shortest_move .and. next > 0.5_wp*force
          time_step = next_time_step(time_step, force, next)
          force = next
-         residual = force/reference_force(model)
+         residual = force/max(tiny(force), reference_force(model))
       end do
 
    contains
@@ -272,10 +272,19 @@ contains
       end associate
    end function shown
 
-   !> Largest load of a bearing, N.
+   !> Largest load of a bearing, N; without films all forces on the rotor.
    pure real(wp) function largest_load(model)
       type(machine_model), intent(in) :: model
-      largest_load = maxval(norm2(model%rotor%loads(model%point), dim=1))
+      real(wp) :: still(model%rotor%states)
+      if (size(model%bearings) > 0) then
+         largest_load = maxval(norm2(model%rotor%loads(model%point), dim=1))
+      else
+         still = 0
+         associate (n => model%rotor%positions)
+            largest_load = norm2(model%rotor%force(still, model%point%static(), 0.0_wp)*model%scale(:n)) &
+               & /model%least_clearance()
+         end associate
+      end if
    end function largest_load
 
    !> The time step after one that took the unbalanced force from `last` to `now`: longer as it falls.
@@ -359,7 +368,7 @@ contains
       force(model%rotor%positions + 1:) = force(model%rotor%positions + 1:)/model%own_lengths()
       if (present(free)) force = merge(force, 0.0_wp, free)
       associate (rotor => model%rotor%positions)
-         force(:rotor) = force(:rotor)*(model%scale(:rotor)/minval(model%bearings%clearance))
+         force(:rotor) = force(:rotor)*(model%scale(:rotor)/model%least_clearance())
          unbalanced = max(norm2(force(:rotor)), maxval(abs(force(rotor + 1:))))
       end associate
    end function unbalanced

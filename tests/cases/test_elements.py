@@ -5,6 +5,8 @@ all degrees of freedom): its eigenvalues have rounding errors of 1e-9 with linea
 by 1e-6 of the coefficients.
 """
 
+from pathlib import Path
+
 import h5py
 import numpy as np
 import pytest
@@ -377,3 +379,105 @@ def test_a_damper_is_refused(run, override):
 def test_a_damper_needs_a_spring(run):
     case = IN_DAMPERS.replace("&support mass=40, stiffness=2*3e7 /", "")
     assert "damper:left%clearance = 1.2e-4: needs a group &support" in run(case, status=1).stderr
+
+
+#: Machines without films: seals and bearings by coefficients over the speed, rpm, each with stiffness and
+#: damping yy, yz, zy, zz; at 10000 rpm, between two of these speeds, eigenvalues, and station 10 at rest and
+#: station 7 in the whirl under the unbalances.
+SPEEDS = (4000, 8000, 12000, 16000)
+LINEAR = {
+    "ball": (
+        (60e6, 3e6, -2e6, 46e6, 90e3, 2e3, 2e3, 80e3),
+        (70e6, 4e6, -2.5e6, 56e6, 70e3, 1.5e3, 1.5e3, 60e3),
+        (76e6, 5e6, -3e6, 62e6, 56e3, 1e3, 1e3, 50e3),
+        (80e6, 6e6, -3.5e6, 68e6, 48e3, 800, 800, 42e3),
+    ),
+    "seal": (
+        (2e6, 3e6, -3e6, 2e6, 12e3, 1e3, -1e3, 12e3, 6, 0, 0, 6),
+        (5e6, 6e6, -6e6, 5e6, 15e3, 2e3, -2e3, 15e3, 6, 0, 0, 6),
+        (9e6, 10e6, -10e6, 9e6, 18e3, 3e3, -3e3, 18e3, 6, 0, 0, 6),
+        (14e6, 15e6, -15e6, 14e6, 20e3, 4e3, -4e3, 20e3, 6, 0, 0, 6),
+    ),
+}
+LINEAR_MODES = (
+    -57.38886956962306 + 513.7281150844277j,
+    -112.38272889983293 + 507.6337109044071j,
+    -450.8458470838027 + 929.8867566924532j,
+)
+STATION_10 = (-3.5603708395329014e-05, -5.266071453999416e-06)
+WHIRL_7 = (
+    (-6.487613712005249e-07 - 2.6733345169635783e-07j),
+    (-2.7532114712168013e-07 + 6.381980634913152e-07j),
+)
+NO_FILMS = f"""{SHAFT}
+&case task='coefficients' /
+&operation speed_rpm=10000 /
+&unbalance station=7, moment=1e-4 /
+&unbalance station=16, moment=3e-5, angle_deg=120 /
+&bearing kind='linear', file='ball.csv' /
+&bearing name='left', station=2 /
+&bearing name='right', station=14 /
+&element station=10, file='seal.csv' /
+"""
+
+
+@pytest.fixture
+def tables(tmp_path):
+    masses = ",m_yy,m_yz,m_zy,m_zz"
+    for name, rows in LINEAR.items():
+        lines = [f"{speed},{','.join(map(str, row))}" for speed, row in zip(SPEEDS, rows, strict=True)]
+        head = f"speed_rpm,{COLUMNS}{masses if name == 'seal' else ''}"
+        (tmp_path / f"{name}.csv").write_text("\n".join([head, *lines, ""]))
+
+
+def test_bearings_by_coefficients(result, tables):
+    """A machine without films: statics, modes, whirl; what elements add to the decrements is all of these."""
+    with result(NO_FILMS + WHOLE) as file:
+        expect_eigenvalues(file, LINEAR_MODES, 1e-8)
+        station = [file[f"equilibrium/station_{axis}"][9] for axis in "yz"]
+        np.testing.assert_allclose(station, STATION_10, rtol=1e-8)
+        whirl = [file[f"response/{a}_real"][0, 6] + 1j * file[f"response/{a}_imag"][0, 6] for a in "yz"]
+        np.testing.assert_allclose(whirl, WHIRL_7, rtol=1e-7)
+        decrement = file["modes/log_decrement"][0]
+        of_elements = file["modes/element_decrement"][0].sum(1)
+        vibrates = np.isfinite(decrement)
+        np.testing.assert_allclose(of_elements[vibrates], decrement[vibrates], rtol=1e-6, atol=1e-9)
+        names = [name.decode() for name in file["rotor/element_name"]]
+        assert names == ["element(1)", "bearing:left", "bearing:right"]
+        force = sum(file["equilibrium/element_force_y"])
+        assert abs(force - 9.81 * file["rotor/total_mass"][()]) < 1e-6 * force
+
+
+#: An aero rotor on ball bearings in dampers: where orbits turn back over the speed, rpm, and the eccentricity
+#: ratios there, of a rotor whose weight leaves the rings in the middle.
+AERO = (Path(__file__).parents[2] / "input/examples/aero.nml").read_text()
+FOLDS = ((7410.150307313705, (0.80338446, 0.79169291)), (7000.218256125207, (0.63238641, 0.62228512)))
+
+
+def test_a_jump_between_orbits(result):
+    """The branch of orbits turns back twice: between, two orbits are stable and one is not."""
+    with result(AERO, "branch%last=8000", "rotor%gravity=0", "damper%offset=0,0") as file:
+        assert file["bifurcations/kind"][()].tolist() == [b"fold", b"fold"]
+        places = file["bifurcations/point"][()].astype(int) - 1
+        for place, (speed, ratios) in zip(places, FOLDS, strict=True):
+            assert abs(file["parameter"][place] - speed) < 1e-4 * speed
+            np.testing.assert_allclose(file["damper_eccentricity"][place], ratios, atol=2e-4)
+        assert not file["stable"][places[0] + 1 : places[1]].any()
+        assert file["stable"][0] == file["stable"][-1] == 1
+
+
+#: What is changed in the aero rotor, and what the line says.
+LINEAR_REFUSED = {
+    "bearing%stiffness=4*0": "nothing holds its shaft",
+    "bearing%stiffness=1.5e8,3*0": "nothing holds its shaft",
+    "bearing:front%viscosity=0.02": "bearing:front%viscosity = 0.02: has no effect on a bearing of this kind",
+    "pads:front%arc_deg=60": "pads:front%arc_deg = 60: has no effect on a bearing of this kind",
+    "bearing:front%frequency=synchronous": "%frequency = 'synchronous': has no effect without a file",
+    "bearing:front%file=x.csv": "bearing:front%file = 'x.csv': stiffness, damping or mass is given too",
+    "bearing:front%kind=ball": "bearing:front%kind = ball: must be one of 'film', 'linear'",
+}
+
+
+@pytest.mark.parametrize("override", LINEAR_REFUSED)
+def test_a_bearing_by_coefficients_is_refused(run, override):
+    assert LINEAR_REFUSED[override] in run(AERO, override, status=1).stderr
