@@ -11,8 +11,7 @@ module case_groups
       & held_type, &
       & integration_type, output_type, coefficients_type, periodic_type, branch_type, bearing_type, oil_type, &
       & pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, damper_type, mount_type, &
-      & linear_bearing_type, rotor_type, &
-      & elastic_type, &
+      & linear_bearing_type, rotor_type, elastic_type, &
       & shaft_type, disc_type, unbalance_type, load_type, reduction_type, most_bearings, most_sections, &
       & most_stations, given_rotor_type, station_element_type
 
@@ -161,8 +160,7 @@ module case_groups
       real(wp) :: mass = 0, stiffness(2) = unset, damping(2) = 0
    end type support_type
 
-   !> A squeeze film damper between the housing of a bearing and the ground, beside the spring of its support: radius,
-   !> length of a land and radial clearance, m; the oil's viscosity, Pa s.
+   !> A squeeze film damper under a housing: radius, length of a land, radial clearance, m; the oil's viscosity, Pa s.
    type :: damper_type
       real(wp) :: radius = unset, length = unset, clearance = unset, viscosity = unset
       !> 'pi': the film ruptures where it is pulled; 'full': nowhere; 'sealed': nowhere, and no oil leaves at the ends.
@@ -174,10 +172,8 @@ module case_groups
 
    !> What holds a rotor at a station, whatever it is made of.
    type :: mount_type
-      !> Empty where it is the only one, with a rigid journal.
-      character(len=:), allocatable :: name
-      !> 'film': of pads; 'linear': of coefficients.
-      character(len=:), allocatable :: kind
+      !> Empty where it is the only one, with a rigid journal; 'film': of pads, 'linear': of coefficients.
+      character(len=:), allocatable :: name, kind
       !> The station of an elastic rotor that is in it, and how far it stands from the line of the others, y and z, m.
       integer :: station = 0
       real(wp) :: offset(2) = 0
@@ -205,8 +201,7 @@ module case_groups
       real(wp) :: cross_stiffness = 0
       !> Whether it acts at the equilibrium, too, or in motion about it alone.
       logical :: static = .true.
-      !> Instead of the coefficients: CSV file of them; at which frequency they are taken, 'own' of a mode or
-      !> 'synchronous'.
+      !> Instead of the coefficients: CSV file of them, taken at which frequency, 'own' of a mode or 'synchronous'.
       character(len=:), allocatable :: file, frequency
       !> What was read: rising speeds and whirl frequencies, rad/s (none: they do not depend on it), and the 12
       !> coefficients of stiffness, damping and mass, (coefficient, frequency, speed).
@@ -561,8 +556,6 @@ contains
       text = ''
       if (self%name /= '') text = ':'//self%name
    end function suffix
-
-   ! What follows from the groups of a rotor.
 
    !> One with this number of parts, of which nothing is given yet.
    subroutine begin(self, discs, unbalances, loads, elements)

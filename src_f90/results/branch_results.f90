@@ -93,10 +93,7 @@ contains
       end if
       call put_whirls('station_', figures%stations, 'displacement of the station', 'vibration of the station', &
          & 'station')
-      call put_whirls('element_', figures%elements, 'displacement of the element''s station from its other end', &
-         & 'vibration of the element', 'element')
-      call each('damper_eccentricity', figures%eccentricities, '1', 'largest displacement of the damper''s ring over ' &
-         & //'its clearance', 'damper')
+      call put_elements()
       do b = 1, size(figures%bearings)
          part = new_bearing_file(file, model%inputs%bearings(b))
          call put_bearing(figures%bearings(b), model%layout%elements(b)%has(tilt))
@@ -129,6 +126,13 @@ contains
                & //'the shaft')
          end if
       end subroutine put_curve
+
+      subroutine put_elements()
+         call put_whirls('element_', figures%elements, 'displacement of the element''s station from its other end', &
+            & 'vibration of the element', 'element')
+         call each('damper_eccentricity', figures%eccentricities, '1', 'largest displacement of the damper''s ring ' &
+            & //'over its clearance', 'damper')
+      end subroutine put_elements
 
       subroutine put_cycle()
          call one('whirl_ratio', 1/figures%revolutions, '1', 'frequency of the limit cycle over that of the shaft')
