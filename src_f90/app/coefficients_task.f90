@@ -11,8 +11,9 @@ module coefficients_task
       & vibration_modes_type, rotor_response_type, find_rotor_response
    use stability_threshold, only: find_thresholds
    use threshold_cycle, only: threshold_cycle_type, follow_cycles
+   use stability_levels, only: stability_levels_type, find_stability_levels
    use coefficient_results, only: put_coefficients, put_one_sided, put_modes, put_shapes, put_thresholds, &
-      & put_births, put_rotor_response
+      & put_births, put_rotor_response, put_stability_levels
    use bearing_file, only: bearing_file_type
    use stop_signals, only: stop_reason
    use case_run, only: case_run_type
@@ -106,6 +107,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(bearing_file_type) :: part
       type(rotor_response_type) :: response
+      type(stability_levels_type) :: levels
       integer :: b
       do b = 1, size(fine%bearings)
          part = run%bearing(b)
@@ -119,6 +121,11 @@ contains
          call find_rotor_response(fine, found, response, error)
          if (allocated(error)) return
          call put_rotor_response(run%file, found, response, run%inputs%sense())
+         if (size(run%inputs%rotor%elastic%impellers) > 0) then
+            call find_stability_levels(fine, found, levels, error)
+            if (allocated(error)) return
+            call put_stability_levels(run%file, levels)
+         end if
       end if
       if (.not. allocated(response%of_reduction)) allocate (response%of_reduction(2*size(found%bearings(1)%moves), &
          & size(found%modes)), source=0.0_wp)
@@ -127,6 +134,7 @@ contains
       if (run%quiet) return
       call print_coefficients(found, run%inputs, response%of_reduction > mostly)
       if (allocated(response%unbalance)) call print_response(found, response, run%inputs)
+      if (allocated(levels%zero)) call print_levels(found, levels, run%inputs)
    end subroutine write_coefficients
 
    subroutine print_coefficients(found, inputs, of_reduction)
@@ -230,6 +238,27 @@ contains
             & //fixed_text(modes%log_decrement(i), 3)//': '//text(3:)
       end do
    end subroutine print_of_elements
+
+   !> What the cross-coupled stiffness that API 617 anticipates makes of the first forward mode.
+   subroutine print_levels(found, levels, inputs)
+      type(bearing_coefficients_type), intent(in) :: found
+      type(stability_levels_type), intent(in) :: levels
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: zero
+      integer :: i, at
+      at = minloc(abs(levels%cross_stiffness - levels%anticipated), dim=1)
+      do i = 1, size(found%bearings)
+         zero = ', 0 above ten times that'
+         if (.not. ieee_is_nan(levels%zero(1, i))) zero = filled(', 0 at {.3} times that', &
+            & [levels%zero(1, i)/levels%anticipated])
+         if (levels%zero(1, i) <= 0) zero = ', below 0 without it'
+         associate (mode => levels%eigenvalue(at, :, i))
+            print '(a)', pivots_of(found, i, inputs)//filled(': with the anticipated cross-coupled stiffness of {.4} ' &
+               & //'MN/m the first forward mode has a logarithmic decrement of {.4} ({.4} with synchronously reduced ' &
+               & //'coefficients)', [1e-6_wp*levels%anticipated, -2*pi*mode%re/mode%im])//zero
+         end associate
+      end do
+   end subroutine print_levels
 
    !> Modes of the rotor whose logarithmic decrement on synchronously reduced coefficients has another sign than with
    !> the pads' own equations, or differs by more than a tenth: "mode 1 (shaft, backward) 1.0345 and not 1.1234, ...". A

@@ -9,6 +9,7 @@ module case_checks
    use excitations, only: excitation_type
    use branch_checks, only: check_branch
    use machine_checks, only: check_machine, check_element_tables
+   use lateral_checks, only: check_lateral
    implicit none (type, external)
    private
    public :: check_case
@@ -62,6 +63,7 @@ contains
       call check_branch(inputs, error)
       call check_held()
       call check_excitations()
+      call check_lateral(inputs, error)
       call check_element_tables(inputs, error)
    contains
       !> Solver of the films, and sizes of a bearing.

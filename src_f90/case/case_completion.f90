@@ -4,7 +4,7 @@ module case_completion
    use kinds, only: wp, degree, rpm, pi
    use text, only: to_text, list_text, filled
    use errors, only: error_type, require, refuse, add_context
-   use case_groups, only: bearing_type, oil_type, rotor_type, friction_type, unset, is_set, mass_range, &
+   use case_groups, only: bearing_type, oil_type, rotor_type, elastic_type, friction_type, unset, is_set, mass_range, &
       & inertia_range, centre_range, clearance_range, temperature_range, viscosity_range, in_range
    use case_inputs, only: case_type
    use excitations, only: excitation_type
@@ -109,6 +109,7 @@ contains
          if (allocated(error)) return
       end do
       call complete_excitations()
+      if (.not. inputs%rotor%is_rigid()) call complete_lateral(inputs%rotor%elastic, inputs%operation%speed_rpm)
    contains
       !> As given, the paper's, or none where a grade is given.
       subroutine set_unbalance(r)
@@ -240,6 +241,16 @@ contains
          end do
       end subroutine complete_excitations
    end subroutine complete_case
+
+   !> Speeds of a lateral analysis.
+   pure subroutine complete_lateral(elastic, speed_rpm)
+      type(elastic_type), intent(inout) :: elastic
+      real(wp), intent(in) :: speed_rpm
+      if (.not. allocated(elastic%lateral)) return
+      call fill(elastic%lateral%lowest_rpm, speed_rpm)
+      call fill(elastic%lateral%first_rpm, 0.2_wp*speed_rpm)
+      call fill(elastic%lateral%last_rpm, 1.25_wp*speed_rpm)
+   end subroutine complete_lateral
 
    !> The size of a pad, clearances apart.
    pure function size_of(b, i)

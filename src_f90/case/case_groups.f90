@@ -13,7 +13,7 @@ module case_groups
       & pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, damper_type, mount_type, &
       & linear_bearing_type, rotor_type, elastic_type, &
       & shaft_type, disc_type, unbalance_type, load_type, reduction_type, most_bearings, most_sections, &
-      & most_stations, given_rotor_type, station_element_type
+      & most_stations, given_rotor_type, station_element_type, impeller_type, lateral_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
@@ -203,6 +203,8 @@ module case_groups
       logical :: static = .true.
       !> Instead of the coefficients: CSV file of them, taken at which frequency, 'own' of a mode or 'synchronous'.
       character(len=:), allocatable :: file, frequency
+      !> The level of a stability analysis from which on it is there: 1, as a coupling, or 2, as a seal.
+      integer :: level = 2
       !> What was read: rising speeds and whirl frequencies, rad/s (none: they do not depend on it), and the 12
       !> coefficients of stiffness, damping and mass, (coefficient, frequency, speed).
       real(wp), allocatable :: speeds(:), whirls(:), table(:, :, :)
@@ -356,6 +358,27 @@ module case_groups
       real(wp) :: force(2) = 0
    end type load_type
 
+   !> A stage of a compressor or turbine, whose cross-coupled stiffness API 617 anticipates: W, m, kg/m^3.
+   type :: impeller_type
+      integer :: station = 0
+      !> 'centrifugal' or 'axial'.
+      character(len=:), allocatable :: kind
+      !> Width of the discharge, or height of the blades.
+      real(wp) :: power = unset, diameter = unset, width = unset
+      real(wp) :: suction_density = unset, discharge_density = unset
+   end type impeller_type
+
+   !> What a lateral analysis needs beside the machine: speeds, rpm (the highest operating speed is that of the case);
+   !> what the assembled clearances have more at their minimum and maximum, m; places whose vibration counts.
+   type :: lateral_type
+      real(wp) :: lowest_rpm = unset, first_rpm = unset, last_rpm = unset, clearance_change(2) = 0
+      !> Directions of the probes from +y towards +z; radial clearances, m.
+      real(wp) :: probe_direction_deg(2) = [-45.0_wp, 45.0_wp]
+      real(wp), allocatable :: probe_station(:), close_station(:), close_clearance(:)
+      !> Where the cross-coupled stiffness acts; 0: in the middle of the bearings, or at overhung impellers.
+      integer :: cross_station = 0
+   end type lateral_type
+
    !> Up to which frequency, Hz, the shaft's modes on fixed bearings are kept (unset: by themselves); modes above a
    !> frequency, Hz, are damped with a damping ratio.
    type :: reduction_type
@@ -374,6 +397,9 @@ module case_groups
       type(station_element_type), allocatable :: elements(:)
       !> Bearings by coefficients, beside those of pads.
       type(linear_bearing_type), allocatable :: linear(:)
+      type(impeller_type), allocatable :: impellers(:)
+      !> Not allocated: none is asked for.
+      type(lateral_type), allocatable :: lateral
       type(reduction_type) :: reduction
    contains
       procedure :: begin
@@ -558,16 +584,28 @@ contains
    end function suffix
 
    !> One with this number of parts, of which nothing is given yet.
-   subroutine begin(self, discs, unbalances, loads, elements)
+   subroutine begin(self, discs, unbalances, loads, elements, impellers, lateral)
       class(elastic_type), intent(out) :: self
       integer, intent(in) :: discs, unbalances, loads
-      integer, intent(in), optional :: elements
+      integer, intent(in), optional :: elements, impellers
+      logical, intent(in), optional :: lateral
       integer :: i, n
       n = 0
       if (present(elements)) n = elements
       allocate (self%discs(discs), self%unbalances(unbalances), self%loads(loads), self%elements(n))
       do i = 1, n
          call self%elements(i)%begin()
+      end do
+      n = 0
+      if (present(impellers)) n = impellers
+      allocate (self%impellers(n))
+      do i = 1, n
+         self%impellers(i)%kind = 'centrifugal'
+      end do
+      if (present(lateral)) then
+         if (lateral) self%lateral = lateral_type(probe_station=[unset], close_station=[unset], &
+            & close_clearance=[unset])
+      end if
       end do
       allocate (self%linear(0))
       self%rotor_file = ''

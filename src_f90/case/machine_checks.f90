@@ -190,6 +190,8 @@ contains
          speeds = [o%speed_rpm, o%final_speed_rpm]
          if (task == 'coefficients' .and. up_to > 0) speeds = [speeds, up_to]
          if (task == 'branch') speeds = [speeds, inputs%branch%speeds()]
+         if (allocated(inputs%rotor%elastic%lateral)) speeds = [speeds, inputs%rotor%elastic%lateral%first_rpm, &
+            & inputs%rotor%elastic%lateral%last_rpm]
          elements = inputs%station_elements()
          do i = 1, size(elements)
             associate (e => elements(i))

@@ -33,6 +33,7 @@ module other_units
       & usual_type('W/(m K)', 'oil%', 1e-3_wp, 10.0_wp, told=.true.), &
       & usual_type('J/(kg K)', '', 1e3_wp, 5e3_wp), &
       & usual_type('kg/m^3', 'oil%', 500.0_wp, 2e3_wp), &
+      & usual_type('kg/m^3', 'impeller%', 0.05_wp, 600.0_wp), &
       & usual_type('kg/m^3', '', 1e3_wp, 2.5e4_wp, told=.true.), &
       & usual_type('N', '', 1.0_wp, 1e8_wp), &
       & usual_type('rpm', '', 10.0_wp, 2e5_wp), &

@@ -27,7 +27,8 @@ module case_namelist
    !> Longest text in a case, bytes.
    integer, parameter :: longest_text = 1000
    !> Groups that only a machine has.
-   character(len=*), parameter :: of_machine = ' shaft disc unbalance load element support damper reduction '
+   character(len=*), parameter :: of_machine = ' shaft disc unbalance load element impeller lateral support damper ' &
+      & //'reduction '
    !> What they are refused without.
    character(len=*), parameter :: needs_shaft = &
       & 'needs a shaft (&shaft) in bearings that have names (&bearing name = ...)'
@@ -419,7 +420,8 @@ contains
       integer :: i, b
       allocate (inputs%rotor%elastic)
       call inputs%rotor%elastic%begin(count_of(parsed, 'disc('), count_of(parsed, 'unbalance('), &
-         & count_of(parsed, 'load('), count_of(parsed, 'element('))
+         & count_of(parsed, 'load('), count_of(parsed, 'element('), count_of(parsed, 'impeller('), &
+         & count_of(parsed, 'lateral') > 0)
       deallocate (inputs%bearings)
       allocate (mounts(count_of(parsed, 'bearing:')))
       associate (groups => parsed%groups)
@@ -502,6 +504,9 @@ contains
          if (kind == 'unbalance') call look_at_number(size(elastic%unbalances))
          if (kind == 'load') call look_at_number(size(elastic%loads))
          if (kind == 'element') call look_at_number(size(elastic%elements))
+         if (kind == 'impeller') call look_at_number(size(elastic%impellers))
+         call require(kind /= 'lateral' .or. allocated(elastic%lateral), place_of(a)//': the case has no group ' &
+            & //'&lateral', error)
          if (name == '' .and. size(bearings) > 0 .and. .not. any([(.not. lacks(bearings(b)), b=1, &
             & size(bearings))])) call refuse(place_of(a)//': the case has no group &'//kind, error)
          if (a%group == 'bearing' .and. a%name == 'station') call refuse(place_of(a)//': must be in a group &bearing ' &

@@ -4,7 +4,7 @@ module machine_fields
    use kinds, only: wp
    use variable_table, only: variable_table_type
    use case_groups, only: elastic_type, support_type, damper_type, mount_type, linear_bearing_type, reduction_type, &
-      & station_element_type, most_sections, most_stations, viscosity_range, unset, is_set
+      & station_element_type, impeller_type, lateral_type, most_sections, most_stations, viscosity_range, unset, is_set
    use excitations, only: excitation_type
    use assignments, only: counted
    implicit none (type, external)
@@ -68,6 +68,10 @@ contains
          do i = 1, size(rotor%elements)
             call list_element(v, i, all, rotor%elements(i))
          end do
+         do i = 1, size(rotor%impellers)
+            call list_impeller(v, i, all, rotor%impellers(i))
+         end do
+         if (allocated(rotor%lateral)) call list_lateral(v, rotor%lateral)
       end associate
    end subroutine list_parts
 
@@ -93,6 +97,8 @@ contains
          & //'the coefficients at their own frequency; synchronous: all take them at that of the speed')
       call v%flag(element%static, 'static', 'whether it acts at the equilibrium, too; .false.: only in ' &
          & //'motion about it')
+      call v%whole(element%level, 'level', 1.0_wp, 2.0_wp, 'of the lateral report: the level of stability analysis ' &
+         & //'from which on it is there; 1: a coupling, 2: a seal')
    end subroutine list_element
 
    !> A bearing by coefficients, and what it stands on.
@@ -124,6 +130,58 @@ contains
       call v%word(of%file, 'file', '', 'kind = ''linear'': instead of these, the CSV file of them, as of elements')
       call v%word(of%frequency, 'frequency', 'own synchronous', 'of a file with frequency_hz, as of elements')
    end subroutine list_kind
+
+   subroutine list_impeller(v, i, all, impeller)
+      type(variable_table_type), intent(inout) :: v
+      integer, intent(in) :: i
+      logical, intent(in) :: all
+      type(impeller_type), intent(inout) :: impeller
+      real(wp), parameter :: lightest = 1e-6_wp, heaviest = 1e5_wp
+      call group_of(v, i, all, 'impeller', 'A machine: a stage that drives whirl, for the stability levels of API ' &
+         & //'617 in the task coefficients; one group for each; *Lateral analysis* above')
+      call list_station(v, impeller%station)
+      call v%word(impeller%kind, 'kind', 'centrifugal axial', 'which formula holds')
+      call v%number(impeller%power, 'power', 1e-3_wp, 1e10_wp, 'W', 'rated power of the stage')
+      call v%number(impeller%diameter, 'diameter', 1e-3_wp, 100.0_wp, 'm', 'of the impeller, or mean one of the blades')
+      call v%number(impeller%width, 'width', 1e-6_wp, 10.0_wp, 'm', 'narrowest width of impeller or diffuser at ' &
+         & //'the discharge, or height of the blades')
+      call v%number(impeller%suction_density, 'suction_density', lightest, heaviest, 'kg/m^3', &
+         & 'centrifugal: of the gas')
+      call v%number(impeller%discharge_density, 'discharge_density', lightest, heaviest, 'kg/m^3', &
+         & 'centrifugal: of the gas')
+   end subroutine list_impeller
+
+   subroutine list_lateral(v, l)
+      type(variable_table_type), intent(inout) :: v
+      type(lateral_type), intent(inout) :: l
+      call v%group('lateral', 'A machine: what tiltpad-report --lateral needs; the highest operating speed is ' &
+         & //'operation%speed_rpm; *Lateral analysis* above')
+      call v%number(l%lowest_rpm, 'lowest_rpm', 1e-3_wp, 1e6_wp, 'rpm', 'lowest operating speed; if left out, ' &
+         & //'operation%speed_rpm')
+      call v%number(l%first_rpm, 'first_rpm', 1e-3_wp, 1e6_wp, 'rpm', 'lowest speed of diagrams; if left out, a ' &
+         & //'fifth of operation%speed_rpm')
+      call v%number(l%last_rpm, 'last_rpm', 1e-3_wp, 1e6_wp, 'rpm', 'highest speed of diagrams; if left out, 1.25 ' &
+         & //'times operation%speed_rpm')
+      call v%numbers(l%clearance_change, 'clearance_change', -0.1_wp, 0.1_wp, 'm', 'what the assembled clearances of ' &
+         & //'all bearings have more at their minimum (below 0) and at their maximum; pad clearances stay')
+      call list_places(l%probe_station, 'probe_station', 1.0_wp, real(most_stations, wp), '1', &
+         & 'stations of the vibration probes; if left out, those of the bearings')
+      call v%numbers(l%probe_direction_deg, 'probe_direction_deg', -360.0_wp, 360.0_wp, 'deg', 'directions of the ' &
+         & //'two probes at each, from +y towards +z')
+      call list_places(l%close_station, 'close_station', 1.0_wp, real(most_stations, wp), '1', &
+         & 'stations with close clearances, as of seals')
+      call list_places(l%close_clearance, 'close_clearance', 1e-9_wp, 0.1_wp, 'm', 'radial running clearance at each')
+      call list_station(v, l%cross_station, 'cross_station', 'where the anticipated cross-coupled stiffness acts; if ' &
+         & //'left out, nearest to the middle between the outer bearings, or at impellers that overhang')
+   contains
+      subroutine list_places(values, name, low, high, unit, meaning)
+         real(wp), allocatable, intent(inout) :: values(:)
+         character(len=*), intent(in) :: name, unit, meaning
+         real(wp), intent(in) :: low, high
+         call v%list(values, most_sections, name, low, high, unit, meaning)
+         v%variables(v%at)%whole = unit == '1'
+      end subroutine list_places
+   end subroutine list_lateral
 
    subroutine list_support(v, support, ending)
       type(variable_table_type), intent(inout) :: v

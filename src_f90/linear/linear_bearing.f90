@@ -16,8 +16,9 @@ module linear_bearing
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
    private
-   public :: linear_bearing_of, pivot_name, vibration_modes_type, rotor_eigenvalues, bearing_coefficients_type, &
-      & find_coefficients, cross_stiffness_of, begin_to_carry, rotor_response_type, find_rotor_response
+   public :: linear_bearing_type, linear_bearing_of, pivot_name, vibration_modes_type, rotor_eigenvalues, &
+      & bearing_coefficients_type, find_coefficients, cross_stiffness_of, begin_to_carry, rotor_response_type, &
+      & find_rotor_response, find_modes, follow_mode, synchronous_rotor
 
    !> Length of the names of pivots.
    integer, parameter :: pivot_name = 6
@@ -408,6 +409,7 @@ contains
       type(bearing_coefficients_type), intent(in) :: coefficients
       type(rotor_response_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
+      type(linear_bearing_type) :: synchronous
       logical :: ok
       integer :: i, k, modes
       associate (pivots => size(coefficients%modes), stations => model%rotor%stations)
@@ -420,7 +422,9 @@ contains
          found%of_reduction = 0
          do i = 1, pivots
             call whirl(coefficients%with_rotor(i), found%unbalance(:, :, i))
-            if (ok) call reduce(coefficients%bearings(i), found%synchronous(i))
+            if (ok) call synchronous_rotor(model, coefficients%bearings(i), synchronous, ok)
+            if (ok) call find_modes(synchronous, 0.0_wp, spread(1.0_wp, 1, model%rotor%positions), &
+               & found%synchronous(i), ok)
             if (.not. ok) then
                call raise(error, numerics_error, 'the linear equations of the rotor with ' &
                   & //trim(coefficients%with_rotor(i)%pivot)//' pivots are singular')
@@ -470,36 +474,38 @@ contains
          positions(kept) = x
          stations = at_stations(model, positions)
       end subroutine whirl
-
-      !> The modes of the rotor on the stiffness and damping of bearings at the synchronous frequency.
-      subroutine reduce(bearings, modes)
-         type(linear_bearing_type), intent(in) :: bearings
-         type(vibration_modes_type), intent(out) :: modes
-         type(linear_bearing_type) :: linear
-         real(wp) :: stiffness(2, 2), damping(2, 2)
-         real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: of_others, rates_of_others
-         integer :: b, n
-         n = model%rotor%positions
-         linear%pivot = bearings%pivot
-         linear%mass = model%rotor%masses()
-         allocate (linear%stiffness(n, n), linear%damping(n, n))
-         allocate (linear%moves(n), source=.true.)
-         call model%rotor%force_derivatives(model%point%speed(0.0_wp), linear%stiffness, linear%damping)
-         call other_derivatives(model, of_others, rates_of_others)
-         linear%stiffness = -linear%stiffness - of_others(:n, :n)
-         linear%damping = -linear%damping - rates_of_others(:n, :n)
-         call take_high_damping(model, linear%damping)
-         do b = 1, size(model%bearings)
-            associate (of => model%layout%elements(b), at => model%layout%elements(b)%journal)
-               call bearings%condense(of%all_positions(), 1.0_wp, model%point%speed(0.0_wp), stiffness, damping, ok)
-               if (.not. ok) return
-               linear%stiffness(at, at) = linear%stiffness(at, at) + stiffness
-               linear%damping(at, at) = linear%damping(at, at) + damping
-            end associate
-         end do
-         call find_modes(linear, 0.0_wp, spread(1.0_wp, 1, n), modes, ok)
-      end subroutine reduce
    end subroutine find_rotor_response
+
+   !> The rotor on the stiffness and damping of bearings at the synchronous frequency. `ok` is false where there are
+   !> none.
+   subroutine synchronous_rotor(model, bearings, linear, ok)
+      type(machine_model), intent(in) :: model
+      type(linear_bearing_type), intent(in) :: bearings
+      type(linear_bearing_type), intent(out) :: linear
+      logical, intent(out) :: ok
+      real(wp) :: stiffness(2, 2), damping(2, 2)
+      real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: of_others, rates_of_others
+      integer :: b, n
+      ok = .true.
+      n = model%rotor%positions
+      linear%pivot = bearings%pivot
+      linear%mass = model%rotor%masses()
+      allocate (linear%stiffness(n, n), linear%damping(n, n))
+      allocate (linear%moves(n), source=.true.)
+      call model%rotor%force_derivatives(model%point%speed(0.0_wp), linear%stiffness, linear%damping)
+      call other_derivatives(model, of_others, rates_of_others)
+      linear%stiffness = -linear%stiffness - of_others(:n, :n)
+      linear%damping = -linear%damping - rates_of_others(:n, :n)
+      call take_high_damping(model, linear%damping)
+      do b = 1, size(model%bearings)
+         associate (of => model%layout%elements(b), at => model%layout%elements(b)%journal)
+            call bearings%condense(of%all_positions(), 1.0_wp, model%point%speed(0.0_wp), stiffness, damping, ok)
+            if (.not. ok) return
+            linear%stiffness(at, at) = linear%stiffness(at, at) + stiffness
+            linear%damping(at, at) = linear%damping(at, at) + damping
+         end associate
+      end do
+   end subroutine synchronous_rotor
 
    !> What each element, and then each other thing that acts on the rotor, adds to the logarithmic decrement of a mode
    !> that vibrates. The real part of shape^H (lambda M + C + K/lambda) shape = 0 is a sum of what each matrix adds to

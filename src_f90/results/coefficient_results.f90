@@ -1,16 +1,18 @@
 !> What the file of a run says of coefficients and modes: names, dimensions and units as docs/results.md lists them.
 module coefficient_results
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use kinds, only: wp, pi
+   use kinds, only: wp, pi, rpm
    use record, only: record_type
    use summary_group, only: put_figure
    use force_balance, only: mode_name_length, is_of_rotor
    use state_layout, only: element_layout_type
    use threshold_cycle, only: threshold_cycle_type
    use linear_bearing, only: bearing_coefficients_type, vibration_modes_type, rotor_response_type
+   use stability_levels, only: stability_levels_type, matrices
    implicit none (type, external)
    private
-   public :: put_coefficients, put_one_sided, put_modes, put_shapes, put_thresholds, put_births, put_rotor_response
+   public :: put_coefficients, put_one_sided, put_modes, put_shapes, put_thresholds, put_births, put_rotor_response, &
+      & put_stability_levels
 
    character(len=*), parameter :: of_journal = 'pivot frequency_ratio row column'
    character(len=*), parameter :: of_positions = 'position_row position_column', of_modes = 'pivot mode'
@@ -290,4 +292,36 @@ contains
       call file%put('modes/whirl', sense*(forward - backward)/max(forward + backward, tiny(1.0_wp)), '1', &
          & 'sense of the whirl of the stations: 1 forward, -1 backward', 'pivot mode')
    end subroutine put_station_shapes
+
+   !> Writes the stability under cross-coupled stiffness of a rotor whose response was written.
+   subroutine put_stability_levels(file, found)
+      class(record_type), intent(inout) :: file
+      type(stability_levels_type), intent(in) :: found
+      character(len=*), parameter :: group = 'stability/', over = 'pivot '//group//'matrices '//group//'cross_stiffness'
+      character(len=*), parameter :: of_mode = 'of the first forward mode'
+      call file%put(group//'matrices', matrices, 'how bearings act in the mode')
+      call file%put(group//'cross_stiffness', found%cross_stiffness, 'N/m', 'cross-coupled stiffness Q', &
+         & group//'cross_stiffness')
+      call file%put(group//'eigenvalue_real', real(found%eigenvalue, wp), '1/s', 'growth '//of_mode, over)
+      call file%put(group//'eigenvalue_imag', aimag(found%eigenvalue), '1/s', 'angular frequency '//of_mode, &
+         & over)
+      call file%put(group//'log_decrement', -2*pi*real(found%eigenvalue, wp)/aimag(found%eigenvalue), '1', &
+         & 'logarithmic decrement '//of_mode, over)
+      call file%put(group//'zero_cross_stiffness', found%zero, 'N/m', 'Q_0, where the logarithmic decrement '//of_mode &
+         & //' is 0', 'pivot '//group//'matrices')
+      call file%put_scale(group//'impeller', size(found%impellers), 'impeller number')
+      call file%put(group//'impeller_cross_stiffness', found%impellers, 'N/m', 'anticipated of the impeller', &
+         & group//'impeller')
+      call file%put(group//'anticipated_cross_stiffness', found%anticipated, 'N/m', 'Q_A, their sum')
+      call file%put(group//'cross_station', real(found%station, wp), '1', 'station where Q acts; 0: at the impellers')
+      call file%put(group//'mean_density', found%density, 'kg/m^3', 'mean density of the gas')
+      if (size(found%rigid) == 0) return
+      call file%put_scale(group//'critical_speed', size(found%rigid), 'number of the critical speed')
+      call file%put(group//'bearing_stiffness', found%bearing_stiffness, 'N/m', 'stiffness of each bearing', &
+         & group//'bearing_stiffness')
+      call file%put(group//'undamped_rpm', found%critical/rpm, 'rpm', 'undamped forward critical speed', &
+         & group//'bearing_stiffness '//group//'critical_speed')
+      call file%put(group//'rigid_rpm', found%rigid/rpm, 'rpm', 'undamped forward critical speed on rigid bearings', &
+         & group//'critical_speed')
+   end subroutine put_stability_levels
 end module coefficient_results

@@ -286,6 +286,7 @@ contains
       stiffness = 0
       damping = 0
       mass = 0
+      if (.not. self%has_own_frequencies()) return
       do i = 1, size(self%matrices%elements)
          associate (e => self%matrices%elements(i))
             if (.not. e%own_frequency) cycle

@@ -44,6 +44,12 @@ def draw(dice: Random) -> Case:
             f"stiffness={_numbers(dice, 4, -1e7, 1e7)}, damping={_numbers(dice, 4, 0, 1e4)}, mass=1, 2*0, 1, "
             f"cross_stiffness={dice.uniform(-1e7, 1e7)!r}, static={dice.choice(('.true.', '.false.'))} /"
         )
+    if dice.random() < 0.2:
+        groups.append(
+            f"&impeller station={dice.randint(1, stations)}, power={dice.uniform(1, 1e6)!r}, diameter=0.3, "
+            f"width=0.02, {dice.choice(('suction_density=9, discharge_density=12.5', 'kind=axial'))} /"
+        )
+        groups += dice.choice(([], ["&lateral probe_station=1, 2, clearance_change=-1e-6, 2e-6 /"]))
     if dice.random() < 0.3:
         groups.append(f"&reduction frequency={dice.uniform(1, 1e4)!r}, damp_above=1e3 /")
     names: set[str] = set()

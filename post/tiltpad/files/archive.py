@@ -92,6 +92,7 @@ class Archive:
         "rotor",
         "response",
         "synchronous",
+        "stability",
         "shape",
     )
     #: Kinds of numpy's types that its datasets may have.

@@ -27,7 +27,7 @@ TURBULENT = ("largest_reynolds_number", "turbulent_share")
 #: Groups of a file, and the tasks that write them.
 TASKS = {"coefficients": "coefficients", "modes": "coefficients", "periodic": "periodic"}
 #: How names begin that are of a machine as a whole, and what a result of one bearing has not.
-OF_MACHINES = ("station", "bearing", "rotor", "response", "synchronous")
+OF_MACHINES = ("station", "bearing", "rotor", "response", "synchronous", "stability")
 #: What a run of one bearing has as attributes.
 OF_EACH = ("pads", "clearance")
 #: Variables of the input that bending and expansion change, and that the group `shape` has in operation.
