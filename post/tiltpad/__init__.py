@@ -68,6 +68,7 @@ from tiltpad.files.processes import MissingProgramError
 from tiltpad.files.read import IncompleteRunWarning, Run, of_run, read
 from tiltpad.files.study import Study, read_study
 from tiltpad.fitting import Fit, fit
+from tiltpad.lateral_runs import lateral
 from tiltpad.running import run
 from tiltpad.sampling import sample
 from tiltpad.up_and_down import brute_force
@@ -120,6 +121,7 @@ __all__ = [
     "hysteresis",
     "impedance",
     "last_revolutions",
+    "lateral",
     "loop_area",
     "losses",
     "modes",

@@ -136,8 +136,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def report(arguments: Sequence[str] | None = None) -> int:
     """tiltpad-report: writes the page about a run; gives the exit status."""
     options = report_parser().parse_args(arguments)
-    output = Path(options.output or f"{Path(options.file).stem}.html")
-    return finished("tiltpad-report", output, lambda: write_report(options.file, output, options.operating))
+    ending = "-lateral.html" if options.lateral else ".html"
+    output = Path(options.output or f"{Path(options.file).stem}{ending}")
+    if not options.lateral:
+        return finished(
+            "tiltpad-report", output, lambda: write_report(options.file, output, options.operating)
+        )
+    if options.operating is not None:
+        wrong = "--operating: not with --lateral; the case has the operating speeds"
+        return complain("tiltpad-report", wrong, INPUT_ERROR)
+    return finished("tiltpad-report", output, lambda: write_lateral_report(options.file, output))
 
 
 def collect(arguments: Sequence[str] | None = None) -> int:
@@ -373,6 +381,19 @@ def write_report(path: str, output: Path, operating: tuple[float, float] | None 
         tell_remarks([found])
 
 
+def write_lateral_report(case: str, output: Path) -> None:
+    """Runs the lateral analysis of a case and writes the page about it, and each of its tables beside it."""
+    needs_suffix(output, ("html", "htm"))
+    matplotlib_for_files()
+    from tiltpad.draw.lateral_report import lateral_report
+    from tiltpad.lateral_runs import lateral
+
+    page, tables = lateral_report(lateral(case))
+    for each in tables:
+        writing.write_csv(output.with_name(f"{output.stem}-{each.name}.csv"), [each.head, *each.rows])
+    writing.write(output, page)
+
+
 def needs_suffix(output: Path, allowed: Sequence[str]) -> str:
     """The suffix of a file's name in small letters, if it is allowed and the folder is there."""
     if not output.parent.is_dir():
@@ -413,11 +434,16 @@ def parser_of(command: str, description: str, wrong: str, output: tuple[str, str
 def report_parser() -> Parser:
     parser = parser_of(
         "tiltpad-report",
-        "Writes one HTML page about a result or study of tiltpad: key figures, pictures, input.",
-        "",
-        ("HTML", "default: FILE's name with .html, in this folder"),
+        "Writes one HTML page about a result or study of tiltpad: key figures, pictures, input; or runs the "
+        "lateral analysis of a machine after API 617 and writes its report, with each table as .csv, too.",
+        ", or a wrong case",
+        ("HTML", "default: FILE's name with .html (--lateral: -lateral.html), in this folder"),
     )
-    parser.add_argument("file", metavar="FILE", help="result file or study (.h5)")
+    parser.add_argument(
+        "file", metavar="FILE", help="result file or study (.h5); with --lateral a case (.nml)"
+    )
+    lateral = "the lateral analysis of a case with groups &impeller and &lateral"
+    parser.add_argument("--lateral", action="store_true", help=lateral)
     parser.add_argument("--operating", type=speeds, metavar="RPM", help=OPERATING)
     return parser
 

@@ -54,13 +54,17 @@ FLAG = "1 where "
 
 def page(of: Archive, parts: Iterable[str]) -> str:
     """The whole page about a file; the first of the parts tells its origin, empty ones are left out."""
-    title = of.title or Path(of.path).stem
     origin, *others = parts
+    return whole_page(of.title or Path(of.path).stem, f"{Path(of.path).name}: {origin}", others)
+
+
+def whole_page(title: str, origin: str, parts: Iterable[str]) -> str:
+    """A page with this title and a line below it; empty parts are left out."""
     style = files("tiltpad.draw").joinpath("report.css").read_text(encoding="utf-8")
     narrow = '<meta name="viewport" content="width=device-width, initial-scale=1">'
     head = f'<meta charset="utf-8">{narrow}<title>{escape(title)}</title><style>{style}</style>'
-    start = f"<h1>{escape(title)}</h1>\n<p class=origin>{escape(f'{Path(of.path).name}: {origin}')}</p>"
-    body = "\n".join(part for part in (start, *others) if part)
+    start = f"<h1>{escape(title)}</h1>\n<p class=origin>{escape(origin)}</p>"
+    body = "\n".join(part for part in (start, *parts) if part)
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{body}\n</body></html>\n'
 
 
