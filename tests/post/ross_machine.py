@@ -91,7 +91,7 @@ def linear(program, folder, rotor, unbalance, speed):
     return values[np.isfinite(values)], np.transpose(moved), matrices
 
 
-def by_ross(ross, discs, unbalance, speed, matrices):
+def by_ross(ross, discs, unbalance, speed, matrices, seal=""):
     """ROSS's rotor on the same matrices. Its nodes count from 0; +y is a quarter turn ahead of its x."""
     return ross(
         machine={
@@ -101,6 +101,7 @@ def by_ross(ross, discs, unbalance, speed, matrices):
             "nodes": [1, 11],
             "speed": speed * np.pi / 30,
             "unbalance": [unbalance - 1, 0.02, np.pi / 2],
+            "seal": str(seal),
             **{name: [in_ross(each).tolist() for each in values] for name, values in matrices.items()},
         }
     )

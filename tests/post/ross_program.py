@@ -72,11 +72,11 @@ def described(rotor: ross.Rotor) -> dict:
 
 def machine(
     length: list, diameter: list, discs: list, nodes: list, stiffness: list, damping: list, speed: float,
-    unbalance: list,
+    unbalance: list, seal: str = "",
 ) -> dict:  # fmt: skip
     """A shaft of steel with discs (node, mass, diametral and polar inertia) in bearings, each with matrices
     at a speed: ROSS's matrices, its eigenvalues without those of torsion and axial vibration, and its whirl,
-    x and y of each node, under an unbalance (node, moment, phase).
+    x and y of each node, under an unbalance (node, moment, phase). A seal is read from a file.
     """
     steel = ross.Material("steel", rho=7850, E=2.1e11, Poisson=0.3)
     shaft = [
@@ -94,6 +94,8 @@ def machine(
         )
         for n, k, c in zip(nodes, stiffness, damping, strict=True)
     ]
+    if seal:
+        bearings.append(ross.SealElement.load(seal))
     rotor = ross.Rotor(shaft, disks, bearings)
     # bending is coupled with neither torsion nor axial vibration
     places = described(rotor)["places"]

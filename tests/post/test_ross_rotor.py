@@ -75,3 +75,60 @@ def test_point_masses_are_refused(rotor, tmp_path):
     rotor.point_mass_elements = [None]
     with pytest.raises(ValueError, match="point masses"):
         tiltpad.from_ross(rotor, tmp_path / "rotor.h5")
+
+
+class SealElement(SimpleNamespace):
+    """What from_ross looks at in a seal of ROSS."""
+
+
+AXES = ("xx", "xy", "yx", "yy")
+
+
+def seal(node, link=None, speed=None, frequency=None, shape=(), **more):
+    """One with other coefficients in every place."""
+    count = int(np.prod(shape))
+    own = {
+        f"{letter}{axes}": 10.0**power * (1 + i + 0.1 * np.arange(count).reshape(shape))
+        for letter, power in (("k", 6), ("c", 3), ("m", 0))
+        for i, axes in enumerate(AXES)
+    }
+    return SealElement(n=node, n_link=link, speed=speed, frequency=frequency, **own | more)
+
+
+SPEEDS, WHIRLS = np.array([100.0, 300.0, 900.0]), np.array([50.0, 400.0])
+SEALS = (
+    seal(1),
+    seal(2, link=4, speed=SPEEDS, shape=(3,)),
+    seal(3, frequency=WHIRLS, shape=(2,)),
+    seal(4, speed=SPEEDS, frequency=WHIRLS, shape=(3, 2), mxx=0.0, mxy=0.0, myx=0.0, myy=0.0),
+)
+
+
+def test_seals_come_and_go(rotor, tmp_path):
+    """What from_ross takes to_ross gives back; over the frequency alone at two speeds."""
+    rotor.bearing_elements = [SimpleNamespace(n=0), *SEALS]
+    bearings = [{"name": "left", "station": 1}, {"name": "right", "station": 6}]
+    groups = tiltpad.from_ross(rotor, tmp_path / "rotor.h5")
+    case = {"bearing": bearings, "operation": {"speed_rpm": 3000}, "film": {"cavitation": "none"}}
+    with tiltpad.run(groups | case, case={"task": "coefficients"}) as run:
+        for number, element in enumerate(SEALS, 1):
+            found = tiltpad.to_ross(run, element=number)
+            assert run.input["element"][number - 1]["station"] == element.n + 1
+            for name in (letter + axes for letter in "kcm" for axes in AXES):
+                expected = np.asarray(getattr(element, name), dtype=float)
+                np.testing.assert_allclose(
+                    found[name], np.broadcast_to(expected, found[name].shape), rtol=1e-12
+                )
+            if element.speed is not None:
+                np.testing.assert_allclose(found["speed"], SPEEDS, rtol=1e-12)
+            if element.frequency is not None:
+                np.testing.assert_allclose(found["frequency"], WHIRLS, rtol=1e-12)
+        assert run.input["element"][1]["to_station"] == 5
+        assert not run.input["element"][0]["static"]
+        with pytest.raises(ValueError, match="element 5: it has 4 of them"):
+            tiltpad.to_ross(run, element=5)
+
+
+def test_an_end_beside_the_shaft_is_refused(rotor, tmp_path):
+    with pytest.raises(ValueError, match="n_link = 9: is no node of the shaft"):
+        tiltpad.from_ross(rotor, tmp_path / "rotor.h5", [seal(1, link=9)])

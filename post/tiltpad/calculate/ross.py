@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from tiltpad.calculate.coefficients import Series, at_frequencies, series
+from tiltpad.calculate.rotation import sense as sense_of
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
 from tiltpad.files.study import Study
@@ -38,6 +39,7 @@ def to_ross(
     pivot: str | None = None,
     where: Mapping[str, Any] | None = None,
     node: int = 0,
+    element: int | None = None,
 ) -> dict[str, Any]:
     """Keywords for ROSS's bearing: `ross.BearingElement(n=2, **tiltpad.to_ross(study))`.
 
@@ -49,7 +51,13 @@ def to_ross(
     `where` choose as in `coefficients`. Runs of a study without equilibrium are left out.
 
     With `path` (.toml) a file is written, too, for `ross.BearingElement.load(path)`, for the node `node`.
+
+    `element` (1, 2, ...) is a group &element of a machine's run in place of a bearing, with its coefficients
+    as they are given: `ross.SealElement(n=9, **tiltpad.to_ross(run, element=1))`, or the file for
+    `ross.SealElement.load(path)`.
     """
+    if element is not None:
+        return of_element(source, path, element, node)
     found = at_rest(source, series(source, "coefficients", pivot, where))
     ratios = np.unique(source["frequency_ratio"])
     if over is None:
@@ -70,6 +78,41 @@ def to_ross(
     keywords |= {"frequency": whirl[0]} if over != "speed" else {}
     if path is not None:
         write_element(Path(path), keywords, node)
+    return keywords
+
+
+def of_element(
+    source: Run | Study, path: str | os.PathLike | None, number: int, node: int
+) -> dict[str, np.ndarray]:
+    """ROSS's keywords of an element of a machine; tables are read again, linear between their rows."""
+    groups: dict[str, Any] = source.input if isinstance(source, Run) else {}
+    if not 1 <= number <= len(groups.get("element", [])):
+        raise ValueError(f"{source.path}: element {number}: it has {len(groups.get('element', []))} of them")
+    own, sense = groups["element"][number - 1], sense_of(groups)
+    keywords: dict[str, np.ndarray] = {}
+    if own.get("file"):
+        rows = np.genfromtxt(own["file"], delimiter=",", names=True, ndmin=1)
+        names = rows.dtype.names or ()
+        speed = np.unique(rows["speed_rpm"])
+        shape: tuple[int, ...] = (len(speed),)
+        keywords["speed"] = speed * np.pi / 30
+        if "frequency_hz" in names:
+            keywords["frequency"] = 2 * np.pi * rows["frequency_hz"][: len(rows) // len(speed)]
+            shape = (len(speed), len(keywords["frequency"]))
+        values = {name: rows[name].reshape(shape) for name in names if name[1:2] == "_"}
+    else:
+        given = zip("kcm", ("stiffness", "damping", "mass"), strict=True)
+        pairs = [(letter, np.asarray(own[name], dtype=float)) for letter, name in given]
+        axes = ("yy", "yz", "zy", "zz")
+        values = {f"{letter}_{each}": v[i] for letter, v in pairs for i, each in enumerate(axes)}
+    cross = sense * own.get("cross_stiffness", 0.0)
+    values |= {"k_yz": values["k_yz"] + cross, "k_zy": values["k_zy"] - cross}
+    for letter in "kcm":
+        for name, (row, column, crossed) in ELEMENTS.items():
+            if (here := f"{letter}_{'yz'[row]}{'yz'[column]}") in values:
+                keywords[letter + name] = np.asarray((-sense if crossed else 1) * values[here])
+    if path is not None:
+        write_element(Path(path), keywords, node or int(own["station"]) - 1, "SealElement")
     return keywords
 
 
@@ -112,11 +155,13 @@ def check(source: Run | Study, over: str, frequency: Sequence[float] | None, fou
         raise ValueError(f"{twice_at}, which differ in {others}: choose by where")
 
 
-def write_element(path: Path, keywords: Mapping[str, np.ndarray], node: int) -> None:
+def write_element(
+    path: Path, keywords: Mapping[str, np.ndarray], node: int, kind: str = "BearingElement"
+) -> None:
     """The file that ROSS loads an element from."""
     if path.suffix != ".toml":
         raise ValueError(f"{path}: the name must end in .toml")
     lines = ["# Written by tiltpad; axes and sense of rotation are those of ROSS. SI units."]
-    lines += ["[BearingElement_tiltpad]", f"n = {node}", 'tag = "tiltpad"']
+    lines += [f"[{kind}_tiltpad]", f"n = {node}", 'tag = "tiltpad"']
     lines += [f"{name} = {values.tolist()}" for name, values in keywords.items()]
     write(path, "\n".join(lines) + "\n")
