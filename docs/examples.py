@@ -126,6 +126,16 @@ def machines(folder: Path) -> Iterator[str]:
         order = run["bearings/front/summary/whirl_order"][()]
         yield f"a limit cycle of {size:.0f} um at {order:.2f} of the shaft speed"
         yield f"that is {order * 7600 / 60:.0f} Hz"
+    with h5py.File(folder / "compressor.h5") as run:
+        levels = run["stability"]
+        yield f"of the ten stages is {1e-6 * levels['anticipated_cross_stiffness'][()]:.2f} MN/m"
+        with_seals = levels["log_decrement"][0, :, 0]
+        yield "With all seals its decrement is {:.2f}, and {:.2f} with synchronously".format(*with_seals)
+    with h5py.File(folder / "compressor_bare.h5") as run:
+        full, reduced = run["stability/log_decrement"][0, :, 4]
+        zero = run["stability/zero_cross_stiffness"][0] / run["stability/anticipated_cross_stiffness"][()]
+        yield f"the decrement with Q_A is {full:.3f}, and 0 at {zero[0]:.2f} times Q_A"
+        yield f"Synchronously reduced coefficients say {reduced:.2f} and {zero[1]:.2f}"
     with h5py.File(folder / "overhung.h5") as run:
         small, large = sorted(-run["equilibrium/bearing_load_y"][:])
         yield f"The bearing at the impeller bears {large:.0f} N and the other one {small:.0f} N"

@@ -24,7 +24,7 @@ contains
       inputs%operation%final_speed_rpm = speed_rpm
       allocate (inputs%rotor%elastic)
       associate (elastic => inputs%rotor%elastic, shaft => inputs%rotor%elastic%shaft)
-         call elastic%begin(discs=1, unbalances=1, loads=0)
+         call elastic%begin(discs=1, unbalances=1, loads=0, elements=0, impellers=0, lateral=.false.)
          shaft%length = [0.05_wp, 0.05_wp, spread(0.2_wp, 1, 8), 0.05_wp, 0.05_wp]
          shaft%diameter = [spread(0.0998_wp, 1, 2), spread(0.34_wp, 1, 8), spread(0.0998_wp, 1, 2)]
          shaft%bore = spread(0.0_wp, 1, 12)

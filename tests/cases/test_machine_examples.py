@@ -2,6 +2,7 @@
 those of docs/examples.md, their figures and what the page claims."""
 
 import importlib.util
+import subprocess
 import re
 
 import h5py
@@ -145,6 +146,8 @@ def examples(tiltpad, root, page_of_examples, tmp_path_factory):
         program, *words = line.split()
         if program == "tiltpad":
             tiltpad(*words, "--quiet", cwd=folder, status=0)
+        elif program == "sed":
+            subprocess.run(["sh", "-c", line], cwd=folder, check=True)
     return folder
 
 
