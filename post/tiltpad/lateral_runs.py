@@ -34,7 +34,7 @@ def lateral(case: str | os.PathLike, /, *, speeds: int = SPEEDS) -> Lateral:
         needed = "with its speeds, probes and close clearances, and groups &impeller"
         raise ValueError(f"{case}: has no group &lateral; a lateral report needs one, {needed}")
     low, high = groups["lateral"]["clearance_change"]
-    named = {"minimum clearance": low, "maximum clearance": high} if high > low else {"clearance": low}
+    named = {"minimum clearance": low, "maximum clearance": high} if high > low else {"given clearance": low}
     columns: list[Column] = []
     placed: list[Placed] = []
     with tempfile.TemporaryDirectory(prefix="tiltpad-") as folder:

@@ -2,8 +2,8 @@
 those of docs/examples.md, their figures and what the page claims."""
 
 import importlib.util
-import subprocess
 import re
+import subprocess
 
 import h5py
 import numpy as np

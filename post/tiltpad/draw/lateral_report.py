@@ -260,9 +260,8 @@ def undamped(found: Found) -> Parts:
         for k, own in zip(stiffness[::5], speeds[::5], strict=True)
     ]
     rows.append(("rigid", *(f"{rigid[i]:.0f}" for i in shown)))
-    yield Table(
-        "undamped", ("bearing stiffness (MN/m)", *(f"critical speed {i + 1} (rpm)" for i in shown)), rows
-    )
+    heads = (f"critical speed {i + 1} (rpm)" for i in shown)
+    yield Table("undamped", ("bearing stiffness (MN/m)", *heads), rows)
 
 
 def speed_map(found: Found) -> Figure:
@@ -279,7 +278,7 @@ def speed_map(found: Found) -> Figure:
             at = coefficients(own)
             for i, dashes in ((0, "-"), (1, "--")):
                 ax.plot(1e-6 * at.stiffness[:, 0, i, i], at.speed_rpm, dashes, color=color, linewidth=1)
-        short = column.name.replace("clearance", "").strip() or "given"
+        short = column.name.partition(" ")[0]
         marks.append((f"bearings, {short} clearance: yy", {"color": color}))
         marks.append((f"{short}: zz", {"color": color, "linestyle": "--"}))
     ax.axhspan(*found.lateral.speeds, color="C2", alpha=0.15, linewidth=0)
@@ -302,9 +301,8 @@ def damped(found: Found) -> Parts:
     yield Table("crossings", head, rows)
     high = found.lateral.speeds[1]
     for column in found.lateral.columns:
-        yield picture(
-            "shapes", partial(shapes, [column.level_2], None), f"Mode shapes at {high:g} rpm, {column.name}."
-        )
+        words = f"Mode shapes at {high:g} rpm, {column.name}."
+        yield picture("shapes", partial(shapes, [column.level_2], None), words)
 
 
 def crossing_rows(column: Column) -> Iterator[Sequence[str]]:
@@ -321,18 +319,8 @@ def crossing_rows(column: Column) -> Iterator[Sequence[str]]:
             for each in (own.speed_rpm, own.log_decrement[:, mode])
         )
         factor = np.sqrt(4 * np.pi**2 + decrement**2) / (2 * decrement)
-        rows.append(
-            (
-                speed,
-                (
-                    column.name,
-                    str(own.name[run, mode]),
-                    f"{speed:.0f}",
-                    digits(decrement, 3),
-                    digits(factor, 3),
-                ),
-            )
-        )
+        numbers = (f"{speed:.0f}", digits(decrement, 3), digits(factor, 3))
+        rows.append((speed, (column.name, str(own.name[run, mode]), *numbers)))
     yield from (each for _, each in sorted(rows))
 
 
