@@ -4,12 +4,13 @@
 module case_groups
    use kinds, only: wp, pi
    use text, only: to_text, newline
+   use task_groups, only: unset, is_set, about_type, operation_type, thermal_type, start_type, held_type, &
+      & integration_type, output_type, coefficients_type, periodic_type, branch_type
    implicit none (type, external)
    private
    public :: max_pads, most_ratios, unset, is_set, in_range, mass_range, inertia_range, centre_range, &
       & temperature_range, viscosity_range, clearance_range, about_type, operation_type, thermal_type, start_type, &
-      & held_type, &
-      & integration_type, output_type, coefficients_type, periodic_type, branch_type, bearing_type, oil_type, &
+      & held_type, integration_type, output_type, coefficients_type, periodic_type, branch_type, bearing_type, oil_type, &
       & pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, damper_type, mount_type, &
       & linear_bearing_type, rotor_type, elastic_type, &
       & shaft_type, disc_type, unbalance_type, load_type, reduction_type, most_bearings, most_sections, &
@@ -19,8 +20,6 @@ module case_groups
    integer, parameter :: max_pads = 24
    !> Most whirl frequencies of an analysis.
    integer, parameter :: most_ratios = 1000
-   !> A number that is not set: what it stands for follows from others, or there is none of it.
-   real(wp), parameter :: unset = -huge(1.0_wp)
    !> What the input allows of the pads, kg, kg m^2 and m: their masses may follow from other variables.
    real(wp), parameter :: mass_range(2) = [1e-9_wp, 1e9_wp], inertia_range(2) = [1e-15_wp, 1e12_wp]
    real(wp), parameter :: centre_range(2) = [-100.0_wp, 100.0_wp]
@@ -28,18 +27,6 @@ module case_groups
    real(wp), parameter :: clearance_range(2) = [1e-5_wp, 0.05_wp]
    !> What it allows of temperatures, C, and of the oil's viscosity, Pa s.
    real(wp), parameter :: temperature_range(2) = [-100.0_wp, 500.0_wp], viscosity_range(2) = [1e-6_wp, 10.0_wp]
-
-   type :: about_type
-      character(len=:), allocatable :: title, task
-      !> What a case of another bearing than the paper's leaves to this, with values; no variable of the input.
-      character(len=:), allocatable :: of_paper
-   end type about_type
-
-   type :: operation_type
-      !> Speed at the start and at the end (linear in between; set in a complete case), and how long, s.
-      real(wp) :: speed_rpm = 6500, final_speed_rpm = unset, duration = 2
-      character(len=:), allocatable :: rotation
-   end type operation_type
 
    !> The oil; temperatures in C.
    type :: oil_type
@@ -65,13 +52,6 @@ module case_groups
       !> Film coefficient at back and ends of the pads, W/(m^2 K); temperature there (unset: that of the supply).
       real(wp) :: back_coefficient = 100, back_temperature = unset
    end type oil_type
-
-   !> The heat balance.
-   type :: thermal_type
-      character(len=:), allocatable :: model, march
-      !> Stations along the arc, and layers across the film, of its temperatures.
-      integer :: stations = 40, layers = 12
-   end type thermal_type
 
    !> One value a pad.
    type :: pads_type
@@ -130,15 +110,6 @@ module case_groups
       real(wp) :: roughness = 0.5e-6_wp, elastic_modulus = 4.7e10_wp, factor = 3e-3_wp
       real(wp) :: friction_coefficient = 0.1_wp
    end type asperity_type
-
-   type :: start_type
-      character(len=:), allocatable :: from
-      !> The result that a start from a file continues.
-      character(len=:), allocatable :: file
-      !> What is added: journal, m, m/s; per pad tilt, rad, pivot deflection, m, and their rates.
-      real(wp) :: journal(2) = 0, journal_velocity(2) = 0
-      real(wp), allocatable :: pad_tilt(:), pad_tilt_rate(:), pivot_deflection(:), pivot_deflection_rate(:)
-   end type start_type
 
    type :: film_type
       character(len=:), allocatable :: solver, cavitation
@@ -248,69 +219,6 @@ module case_groups
    interface bearing_type
       module procedure new_bearing
    end interface bearing_type
-
-   !> Where the journal is held: at an eccentricity over the bearing clearance, and an attitude from the load (unset:
-   !> where the load keeps its direction), or at a position, m. Unset: it is not held.
-   type :: held_type
-      real(wp) :: eccentricity_ratio = unset, attitude_deg = unset, position(2) = unset
-   contains
-      procedure :: is_wanted
-   end type held_type
-
-   type :: integration_type
-      real(wp) :: relative_tolerance = 1e-5_wp, tolerance_scale = 1
-      !> 0: no limit.
-      real(wp) :: max_step = 0
-      integer :: max_steps = 100000000
-      !> > 0: the march ends once journal and tilts repeat within this part of the clearance.
-      real(wp) :: stop_when_periodic = 0
-   end type integration_type
-
-   type :: output_type
-      integer :: samples_per_revolution = 360
-      real(wp) :: start_time = 0
-      !> Revolutions at the end of the run that the spectra are taken over.
-      integer :: spectrum_revolutions = 50
-      !> Wall time between checkpoints, s; 0: only when a signal asks for the end.
-      real(wp) :: checkpoint_seconds = 300
-      !> Which samples stay in the results.
-      character(len=:), allocatable :: keep
-   end type output_type
-
-   type :: coefficients_type
-      !> Whirl frequencies over the speed of the shaft.
-      real(wp), allocatable :: frequency_ratio(:)
-      !> > 0: up to where the threshold speed of stability is sought.
-      real(wp) :: threshold_up_to_rpm = 0
-      !> Whether the limit cycles are followed that begin there.
-      logical :: threshold_born = .false.
-      !> Q at the journal, N/m: what whirls forward is driven by Q times its displacement, across it.
-      real(wp) :: cross_stiffness = 0
-   end type coefficients_type
-
-   type :: periodic_type
-      !> Turns of the shaft in a period.
-      integer :: revolutions = 1
-      !> How far from the orbit Newton's method may end, over the characteristic scale of each state; most rounds.
-      real(wp) :: tolerance = 1e-8_wp
-      integer :: max_iterations = 30
-   end type periodic_type
-
-   type :: branch_type
-      character(len=:), allocatable :: of, parameter
-      !> Its value at the end; its first change; its largest change in a step, 0: ten times the first. Unset where they
-      !> are left out.
-      real(wp) :: last = unset, step = unset, max_step = 0
-      !> Of a curve: what its points are, the other number, and its value at the end, unset where it is left out.
-      character(len=:), allocatable :: point, second_parameter
-      real(wp) :: second_last = unset
-      !> Most points of a branch.
-      integer :: max_points = 500
-      !> Whether the branch of double period is followed where one begins.
-      logical :: switch = .true.
-   contains
-      procedure :: speeds
-   end type branch_type
 
    ! Groups of a rotor: rigid, a shaft, or the matrices of another program. Stations count from 1, between the sections
    ! of the shaft and at its ends.
@@ -422,18 +330,6 @@ module case_groups
    end type rotor_type
 
 contains
-
-   !> Whether the journal is held.
-   elemental logical function is_wanted(self)
-      class(held_type), intent(in) :: self
-      is_wanted = is_set(max(self%eccentricity_ratio, self%attitude_deg, maxval(self%position)))
-   end function is_wanted
-
-   !> False for a number that is left out.
-   elemental logical function is_set(x)
-      real(wp), intent(in) :: x
-      is_set = x > unset
-   end function is_set
 
    !> Whether a number lies from the first of two others to the second.
    pure logical function in_range(x, range)
@@ -548,15 +444,6 @@ contains
       tilting_radial = self%pads%motion == 'tilting_radial'
    end function tilting_radial
 
-   !> Last values of the speed, rpm, if a branch is over it.
-   pure function speeds(self)
-      class(branch_type), intent(in) :: self
-      real(wp), allocatable :: speeds(:)
-      speeds = [real(wp) ::]
-      if (self%parameter == 'operation%speed_rpm' .and. is_set(self%last)) speeds = [self%last]
-      if (self%second_parameter == 'operation%speed_rpm' .and. is_set(self%second_last)) speeds = [self%second_last]
-   end function speeds
-
    !> "bearing 'drive_end'", and what follows it; empty for one without name.
    pure function label(self, ending) result(text)
       class(mount_type), intent(in) :: self
@@ -606,7 +493,6 @@ contains
          if (lateral) self%lateral = lateral_type(probe_station=[unset], close_station=[unset], &
             & close_clearance=[unset])
       end if
-      end do
       allocate (self%linear(0))
       self%rotor_file = ''
       self%shaft%length = [unset]
