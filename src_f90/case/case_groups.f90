@@ -10,11 +10,11 @@ module case_groups
    private
    public :: max_pads, most_ratios, unset, is_set, in_range, mass_range, inertia_range, centre_range, &
       & temperature_range, viscosity_range, clearance_range, about_type, operation_type, thermal_type, start_type, &
-      & held_type, integration_type, output_type, coefficients_type, periodic_type, branch_type, bearing_type, oil_type, &
-      & pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, damper_type, mount_type, &
-      & linear_bearing_type, rotor_type, elastic_type, &
-      & shaft_type, disc_type, unbalance_type, load_type, reduction_type, most_bearings, most_sections, &
-      & most_stations, given_rotor_type, station_element_type, impeller_type, lateral_type
+      & held_type, integration_type, output_type, coefficients_type, periodic_type, branch_type, bearing_type, &
+      & oil_type, pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, damper_type, &
+      & mount_type, linear_bearing_type, rotor_type, elastic_type, shaft_type, disc_type, unbalance_type, load_type, &
+      & reduction_type, most_bearings, most_sections, most_stations, given_rotor_type, station_element_type, &
+      & impeller_type, lateral_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
