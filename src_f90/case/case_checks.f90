@@ -1,6 +1,6 @@
 !> Checks of a case: what no single value can tell. A message names the variables, their values and what is allowed.
 module case_checks
-   use kinds, only: wp, degree, rpm
+   use kinds, only: wp, degree
    use text, only: to_text, filled, list_text
    use errors, only: error_type, require, refuse, add_context
    use case_groups, only: bearing_type, clearance_range, in_range, is_set

@@ -134,7 +134,7 @@ module case_groups
    !> A squeeze film damper under a housing: radius, length of a land, radial clearance, m; the oil's viscosity, Pa s.
    type :: damper_type
       real(wp) :: radius = unset, length = unset, clearance = unset, viscosity = unset
-      !> 'pi': the film ruptures where it is pulled; 'full': nowhere; 'sealed': nowhere, and no oil leaves at the ends.
+      !> 'pi': the film cavitates where it is pulled; 'full': nowhere; 'sealed': nowhere, and no oil leaves at the ends.
       character(len=:), allocatable :: film
       integer :: lands = 1
       !> Where its ring is in the clearance while the spring of the support is unloaded, y and z, m.

@@ -206,8 +206,8 @@ contains
       call v%number(damper%length, 'length', 1e-5_wp, 10.0_wp, 'm', 'axial length of its film; with lands of each')
       call v%number(damper%clearance, 'clearance', 1e-6_wp, 0.1_wp, 'm', 'radial clearance')
       call v%number(damper%viscosity, 'viscosity', viscosity_range(1), viscosity_range(2), 'Pa s', 'of its oil')
-      call v%word(damper%film, 'film', 'pi full sealed', 'open ends, short film: pi, it ruptures where it is ' &
-         & //'pulled; full, it does not; sealed: no oil leaves at the ends, and it does not rupture')
+      call v%word(damper%film, 'film', 'pi full sealed', 'open ends, short film: pi, it cavitates where it is ' &
+         & //'pulled; full, it does not; sealed: no oil leaves at the ends, and it does not cavitate')
       lands = damper%lands
       call v%number(lands, 'lands', 1.0_wp, 10.0_wp, '1', 'number of such films side by side, with grooves between', &
          & whole=.true.)

@@ -1,8 +1,8 @@
-!> Squeeze film dampers between the housings of bearings and the ground: short films with open ends, which rupture where
+!> Squeeze film dampers between the housings of bearings and the ground: short films with open ends, which cavitate where
 !> they are pulled or are whole, and long ones with sealed ends, in closed form.
 !>
 !> The film is h = c - u.n thick in the direction n for a ring at u that moves with v. With open ends its force is
-!> -mu R L^3 times the integral of n (n.v)/h^3 over the angle, where n.v > 0 in a film that ruptures. Sommerfeld's
+!> -mu R L^3 times the integral of n (n.v)/h^3 over the angle, where n.v > 0 in a cavitated film. Sommerfeld's
 !> substitution makes polynomials in sine and cosine of the integrand, and of those of the derivatives, n n (n.v)/h^4.
 module squeeze_film_damper
    use kinds, only: wp, pi
@@ -107,7 +107,7 @@ contains
    end function sampled_position
 
    !> The force of a film on its ring at u, m, that moves with v, m/s, and its derivatives over both. A ring at rest in
-   !> a film that ruptures has half of the damping of a whole one, as it has in vanishing vibrations.
+   !> a cavitated film has half of the damping of a full one, as it has in vanishing vibrations.
    pure subroutine answer(d, u, v, force, over_positions, over_rates)
       type(damper_type), intent(in) :: d
       real(wp), intent(in) :: u(2), v(2)
@@ -136,18 +136,18 @@ contains
    end subroutine answer
 
    !> The integrals of n n/(1 - e cos)^3, and of 3 n n (n.w)/(1 - e cos)^4, with 1 - e^2 = root^2.
-   pure subroutine integrate(ruptures, e, root, w, second, third)
-      logical, intent(in) :: ruptures
+   pure subroutine integrate(cavitates, e, root, w, second, third)
+      logical, intent(in) :: cavitates
       real(wp), intent(in) :: e, root, w(2)
       real(wp), intent(out) :: second(2, 2), third(2, 2)
       real(wp) :: i(7), middle, reach, part
       middle = 0
       reach = pi
       part = 1
-      if (ruptures .and. norm2(w) > 0) then
+      if (cavitates .and. norm2(w) > 0) then
          middle = atan2(w(2), w(1))
          reach = pi/2
-      else if (ruptures) then
+      else if (cavitates) then
          part = 0.5_wp
       end if
       ! of cos^2, cos sin, sin^2 and of cos^3, cos^2 sin, cos sin^2, sin^3

@@ -453,7 +453,7 @@ contains
    subroutine damper_forces()
       real(wp), parameter :: places(2, 3) = reshape([30e-6_wp, 20e-6_wp, 80e-6_wp, -40e-6_wp, 0.0_wp, 0.0_wp], [2, 3])
       real(wp), parameter :: rates(2, 3) = reshape([0.01_wp, -0.004_wp, -0.02_wp, 0.03_wp, 0.01_wp, 0.02_wp], [2, 3])
-      real(wp), parameter :: ruptured(2, 3) = reshape([-382.86843104397116_wp, 6.727497360354518_wp, &
+      real(wp), parameter :: cavitated(2, 3) = reshape([-382.86843104397116_wp, 6.727497360354518_wp, &
          & -8.202464700321075_wp, -196.9820160525287_wp, -156.89365039439716_wp, -313.78730078879414_wp], [2, 3])
       real(wp), parameter :: whole(2, 3) = reshape([-474.688253062607_wp, 96.00436578794306_wp, &
          & 124893.65283710542_wp, -69463.32376895189_wp, -313.78730078879397_wp, -627.5746015775883_wp], [2, 3])
@@ -461,8 +461,8 @@ contains
       type(squeeze_film_damper_type) :: damper
       integer :: i
       do i = 1, 3
-         call expect_close(norm2(force_of('pi', places(:, i), rates(:, i)) - ruptured(:, i)), 0.0_wp, &
-            & 1e-12_wp*norm2(ruptured(:, i)), 'it ruptures, state '//to_text(i))
+         call expect_close(norm2(force_of('pi', places(:, i), rates(:, i)) - cavitated(:, i)), 0.0_wp, &
+            & 1e-12_wp*norm2(cavitated(:, i)), 'it cavitates, state '//to_text(i))
          call expect_close(norm2(force_of('full', places(:, i), rates(:, i)) - whole(:, i)), 0.0_wp, &
             & 1e-12_wp*norm2(whole(:, i)), 'whole, state '//to_text(i))
       end do
@@ -473,8 +473,8 @@ contains
       end associate
    end subroutine damper_forces
 
-   !> Those that Newton's method has are those of the forces, by central differences; at rest a film that ruptures has
-   !> half of the damping of a whole one.
+   !> Those that Newton's method has are those of the forces, by central differences; at rest a cavitated film has
+   !> half of the damping of a full one.
    subroutine damper_derivatives()
       character(len=*), parameter :: films(*) = [character(len=6) :: 'pi', 'full', 'sealed']
       real(wp), dimension(2, 2) :: over_positions, over_rates, half, ignored
