@@ -136,6 +136,16 @@ def machines(folder: Path) -> Iterator[str]:
         zero = run["stability/zero_cross_stiffness"][0] / run["stability/anticipated_cross_stiffness"][()]
         yield f"the decrement with Q_A is {full:.3f}, and 0 at {zero[0]:.2f} times Q_A"
         yield f"Synchronously reduced coefficients say {reduced:.2f} and {zero[1]:.2f}"
+    with h5py.File(folder / "aero.h5") as run:
+        assert run["bifurcations/kind"].asstr()[:].tolist() == ["fold", "fold"]
+        up, down = run["bifurcations/point"][:].astype(int) - 1
+        high, low = run["bifurcations/parameter"][:]
+        ratio = run["damper_eccentricity"][:, 0]
+        yield f"turns back at {high:.0f} rpm, where the front ring goes to {ratio[up]:.2f} of its clearance"
+        yield f"again at {low:.0f} rpm, at {ratio[down]:.2f}"
+    with h5py.File(folder / "aero_modes.h5") as run:
+        parts, modes = run["modes/element_decrement"][0], run["modes/log_decrement"][0]
+        yield f"{parts[0, 2:].sum():.2f} of the decrement of {modes[0]:.2f}"
     with h5py.File(folder / "overhung.h5") as run:
         small, large = sorted(-run["equilibrium/bearing_load_y"][:])
         yield f"The bearing at the impeller bears {large:.0f} N and the other one {small:.0f} N"

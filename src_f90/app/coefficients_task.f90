@@ -8,7 +8,8 @@ module coefficients_task
    use equations_of_motion, only: machine_model
    use force_balance, only: is_of_rotor, position_names
    use linear_bearing, only: bearing_coefficients_type, find_coefficients, begin_to_carry, &
-      & vibration_modes_type, rotor_response_type, find_rotor_response
+      & vibration_modes_type
+   use rotor_response, only: rotor_response_type, find_rotor_response
    use stability_threshold, only: find_thresholds
    use threshold_cycle, only: threshold_cycle_type, follow_cycles
    use stability_levels, only: stability_levels_type, find_stability_levels
@@ -205,7 +206,8 @@ contains
       integer :: i
       do i = 1, size(found%modes)
          pivots = pivots_of(found, i, inputs)//': '
-         others = other_decrements(found%modes(i), response%synchronous(i), response%of_reduction(:, i) > mostly)
+         others = other_decrements(found%modes(i), response%synchronous(i), response%counterpart(:, i), &
+            & response%of_reduction(:, i) > mostly)
          if (others /= '') print '(a)', pivots//'synchronously reduced coefficients would give other logarithmic ' &
             & //'decrements: '//others
          call print_of_elements(found%modes(i), response%of_elements(:, :, i), inputs%element_labels(), &
@@ -261,31 +263,29 @@ contains
    end subroutine print_levels
 
    !> Modes of the rotor whose logarithmic decrement on synchronously reduced coefficients has another sign than with
-   !> the pads' own equations, or differs by more than a tenth: "mode 1 (shaft, backward) 1.0345 and not 1.1234, ...". A
-   !> mode is compared with the one of the nearest eigenvalue that no mode before it has; where even that is further
-   !> from its own eigenvalue than the origin is, it has no counterpart, which is said as "none".
-   function other_decrements(exact, reduced, of_reduction) result(text)
+   !> the pads' own equations, or differs by more than a tenth: "mode 1 (shaft, backward) 1.0345 and not 1.1234, ..."; of
+   !> a mode that has no counterpart "none".
+   function other_decrements(exact, reduced, counterpart, of_reduction) result(text)
       type(vibration_modes_type), intent(in) :: exact, reduced
+      integer, intent(in) :: counterpart(:)
       logical, intent(in) :: of_reduction(:)
       character(len=:), allocatable :: text, there
       real(wp), parameter :: differs = 0.1_wp
-      logical :: waiting(size(reduced%eigenvalue))
       integer :: i, k, others
       text = ''
       others = 0
-      waiting = reduced%eigenvalue%im > 0
       do i = 1, size(exact%eigenvalue)
          if (.not. (exact%eigenvalue(i)%im > 0 .and. is_of_rotor(exact%name(i)))) cycle
-         k = minloc(abs(reduced%eigenvalue - exact%eigenvalue(i)), dim=1, mask=waiting)
-         if (k == 0) exit
-         waiting(k) = .false.
-         ! a decrement of another sign differs by more than itself
-         if (of_reduction(i) .or. abs(reduced%log_decrement(k) - exact%log_decrement(i)) &
-            & <= differs*abs(exact%log_decrement(i))) cycle
+         if (of_reduction(i)) cycle
+         k = counterpart(i)
+         there = 'none'
+         if (k > 0) then
+            ! a decrement of another sign differs by more than itself
+            if (abs(reduced%log_decrement(k) - exact%log_decrement(i)) <= differs*abs(exact%log_decrement(i))) cycle
+            there = fixed_text(reduced%log_decrement(k), 4)
+         end if
          others = others + 1
          if (others > most) cycle
-         there = fixed_text(reduced%log_decrement(k), 4)
-         if (abs(reduced%eigenvalue(k) - exact%eigenvalue(i)) > abs(exact%eigenvalue(i))) there = 'none'
          if (others > 1) text = text//', '
          text = text//'mode '//to_text(i)//' ('//trim(exact%name(i))//') '//there//' and not ' &
             & //fixed_text(exact%log_decrement(i), 4)

@@ -51,7 +51,7 @@ contains
       inputs%output%keep = 'all'
       inputs%rotor%unbalance = 0
       inputs%rotor%balance_grade = unset
-      if (.not. inputs%rotor%is_rigid()) inputs%rotor%elastic%unbalances%moment = 0
+      if (.not. inputs%rotor%is_rigid()) call inputs%rotor%elastic%balance()
       call complete_branch(inputs)
       moving = new_machine_model(inputs, march_films, fine%others, fine%rotor)
       moving%oil = fine%oil

@@ -36,7 +36,7 @@ contains
                   & //'''period_doubling'', ''neimark_sacker'', ''cycle_fold''', error)
                call require(b%second_parameter /= '', 'branch%of = ''curve'': needs branch%second_parameter, another ' &
                   & //'number of the input, such as ''rotor%mass''', error)
-               call require(inputs%unbalance() > 0 .or. all(b%point /= ['period_doubling', 'neimark_sacker ']), &
+               call require(inputs%is_driven() .or. all(b%point /= ['period_doubling', 'neimark_sacker ']), &
                   & 'branch%point = '''//b%point//''': needs an unbalance, about whose orbits it is ' &
                   & //'(rotor%unbalance); without one ''hopf'' has the points where vibrations begin', error)
             else
@@ -57,6 +57,8 @@ contains
          call require(.not. inputs%unbalance() > 0, given//': must be without unbalance ({} kg m; rotor%unbalance = ' &
             & //'0), which would drive the motion; '//what//' are those of a motion that nothing drives', &
             & [inputs%unbalance()], error)
+         call require(.not. inputs%is_driven(), given//': must be without groups &bow and disc%skew, which would ' &
+            & //'drive the motion', error)
          call check_pivots(inputs, given, error)
       end subroutine check_free
    end subroutine check_branch

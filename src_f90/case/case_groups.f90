@@ -14,7 +14,7 @@ module case_groups
       & oil_type, pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, damper_type, &
       & mount_type, linear_bearing_type, rotor_type, elastic_type, shaft_type, disc_type, unbalance_type, load_type, &
       & reduction_type, most_bearings, most_sections, most_stations, given_rotor_type, station_element_type, &
-      & impeller_type, lateral_type
+      & impeller_type, lateral_type, bow_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
@@ -158,12 +158,14 @@ module case_groups
       procedure :: suffix
    end type mount_type
 
-   !> A linear element between a station and the ground, another station or the housing of a bearing: a seal, an
-   !> impeller, a spring. Coefficients yy, yz, zy, zz, N/m, N s/m and kg: its force is -K u - C u' - M u''.
+   !> A linear element between a station and the ground, another station or the housing of a bearing, or between a
+   !> housing and the ground: a seal, an impeller, a spring. Coefficients yy, yz, zy, zz, N/m, N s/m and kg: its force is -K u - C u' - M u''.
    type :: station_element_type
       integer :: station = 0, to_station = 0
       !> The bearing whose housing is its other end; empty: none is.
       character(len=:), allocatable :: housing
+      !> Whether it stands between that and the ground; its station is then that of the bearing. No variable.
+      logical :: under_housing = .false.
       !> What results call it; where its force vanishes, y and z, m. No variables of the input.
       character(len=:), allocatable :: label
       real(wp) :: origin(2) = 0
@@ -243,15 +245,18 @@ module case_groups
    type :: shaft_type
       real(wp), allocatable :: length(:), diameter(:), bore(:)
       real(wp) :: young_modulus = 2.1e11_wp, poisson_ratio = 0.3_wp, density = 7850
+      !> Viscous damping of its bending in the turning frame over its stiffness, s.
+      real(wp) :: internal_damping = 0
    contains
       procedure :: is_given
       procedure :: mass => shaft_mass
    end type shaft_type
 
-   !> A rigid disc: kg, kg m^2.
+   !> A rigid disc: kg, kg m^2; how far its axis is off that of the shaft, rad, and where, as of an unbalance.
    type :: disc_type
       integer :: station = 0
       real(wp) :: mass = 0, polar_inertia = 0, diametral_inertia = 0
+      real(wp) :: skew = 0, skew_angle_deg = 0
    end type disc_type
 
    !> Mass times eccentricity, kg m, and its angle from that of the shaft, in the sense of rotation.
@@ -259,6 +264,12 @@ module case_groups
       integer :: station = 0
       real(wp) :: moment = 0, angle_deg = 0
    end type unbalance_type
+
+   !> How far the shaft is bent without any load, m, from the line of its bearings, and where, as of an unbalance.
+   type :: bow_type
+      integer :: station = 0
+      real(wp) :: displacement = 0, angle_deg = 0
+   end type bow_type
 
    !> A static force along y and z, N, beside the weight.
    type :: load_type
@@ -301,6 +312,7 @@ module case_groups
       type(given_rotor_type), allocatable :: given
       type(disc_type), allocatable :: discs(:)
       type(unbalance_type), allocatable :: unbalances(:)
+      type(bow_type), allocatable :: bows(:)
       type(load_type), allocatable :: loads(:)
       type(station_element_type), allocatable :: elements(:)
       !> Bearings by coefficients, beside those of pads.
@@ -312,6 +324,8 @@ module case_groups
    contains
       procedure :: begin
       procedure :: mass
+      procedure :: is_balanced
+      procedure :: balance
    end type elastic_type
 
    type :: rotor_type
@@ -471,10 +485,10 @@ contains
    end function suffix
 
    !> One with this number of parts, of which nothing is given yet.
-   subroutine begin(self, discs, unbalances, loads, elements, impellers, lateral)
+   subroutine begin(self, discs, unbalances, loads, elements, impellers, bows, lateral)
       class(elastic_type), intent(out) :: self
       integer, intent(in) :: discs, unbalances, loads
-      integer, intent(in), optional :: elements, impellers
+      integer, intent(in), optional :: elements, impellers, bows
       logical, intent(in), optional :: lateral
       integer :: i, n
       n = 0
@@ -489,6 +503,9 @@ contains
       do i = 1, n
          self%impellers(i)%kind = 'centrifugal'
       end do
+      n = 0
+      if (present(bows)) n = bows
+      allocate (self%bows(n))
       if (present(lateral)) then
          if (lateral) self%lateral = lateral_type(probe_station=[unset], close_station=[unset], &
             & close_clearance=[unset])
@@ -512,6 +529,21 @@ contains
       class(elastic_type), intent(in) :: self
       mass = self%shaft%mass() + sum(self%discs%mass)
    end function mass
+
+   !> Whether nothing that turns with the shaft bends it.
+   pure logical function is_balanced(self)
+      class(elastic_type), intent(in) :: self
+      is_balanced = .not. (any(abs(self%unbalances%moment) > 0) .or. any(abs(self%bows%displacement) > 0) .or. &
+         & any(abs(self%discs%skew) > 0))
+   end function is_balanced
+
+   !> Takes that away.
+   pure subroutine balance(self)
+      class(elastic_type), intent(inout) :: self
+      self%unbalances%moment = 0
+      self%bows%displacement = 0
+      self%discs%skew = 0
+   end subroutine balance
 
    elemental logical function is_rigid(self)
       class(rotor_type), intent(in) :: self

@@ -41,6 +41,7 @@ module case_inputs
       procedure :: followed
       procedure :: highest_speed
       procedure :: unbalance
+      procedure :: is_driven
       procedure :: sense
       procedure :: is_steady
       procedure :: is_disturbed
@@ -130,7 +131,7 @@ contains
       case ('cycle_fold')
          followed = 'limit_cycle'
       case ('fold')
-         followed = trim(merge('periodic   ', 'equilibrium', self%unbalance() > 0))
+         followed = trim(merge('periodic   ', 'equilibrium', self%is_driven()))
       case default
          followed = 'periodic'
       end select
@@ -181,17 +182,20 @@ contains
       associate (given => self%rotor%elastic%elements, q => self%coefficients%cross_stiffness, &
          & linear => self%rotor%elastic%linear)
          n = size(given)
-         m = n + size(linear)
-         allocate (elements(m + merge(size(mounts), 0, self%about%task == 'coefficients' .and. abs(q) > 0)))
+         allocate (elements(n + size(linear) + merge(size(mounts), 0, self%about%task == 'coefficients' .and. abs(q) > 0)))
          do b = 1, n
             elements(b) = given(b)
             elements(b)%label = 'element('//to_text(b)//')'
+            if (given(b)%station > 0) cycle
+            elements(b)%under_housing = .true.
+            elements(b)%station = sum(pack(mounts%station, [(mounts(m)%name == given(b)%housing, m=1, size(mounts))]))
          end do
          do b = 1, size(linear)
             elements(n + b) = linear(b)%of
             elements(n + b)%origin = linear(b)%offset
             call stand_at(elements(n + b), linear(b)%mount_type, 'bearing')
          end do
+         m = n + size(linear)
          do b = m + 1, size(elements)
             call elements(b)%begin()
             elements(b)%cross_stiffness = q
@@ -247,6 +251,13 @@ contains
       class(case_type), intent(in) :: self
       highest_speed = max(self%operation%speed_rpm, self%operation%final_speed_rpm)*rpm
    end function highest_speed
+
+   !> Whether what turns with the rotor moves it: an unbalance, or a bow or skew discs of its shaft.
+   pure logical function is_driven(self)
+      class(case_type), intent(in) :: self
+      is_driven = self%unbalance() > 0
+      if (.not. self%rotor%is_rigid()) is_driven = .not. self%rotor%elastic%is_balanced()
+   end function is_driven
 
    !> Unbalance, kg m: of an elastic rotor the sum of its moments, whatever their angles; else as given, or by
    !> ISO 21940-11, eq (26): m G / Omega with G in m/s.

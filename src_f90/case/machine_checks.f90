@@ -88,6 +88,12 @@ contains
             do i = 1, size(elastic%unbalances)
                call check_station('unbalance('//to_text(i)//')', elastic%unbalances(i)%station, stations)
             end do
+            do i = 1, size(elastic%bows)
+               call check_station('bow('//to_text(i)//')', elastic%bows(i)%station, stations)
+            end do
+            call require(size(elastic%bows) == 0 .or. elastic%rotor_file == '', 'bow(1)%station = {}: bends a shaft ' &
+               & //'of &shaft, not one of rotor%file', [(real(elastic%bows(i)%station, wp), i=1, min(1, &
+               & size(elastic%bows)))], error)
             do i = 1, size(elastic%loads)
                call check_station('load('//to_text(i)//')', elastic%loads(i)%station, stations)
             end do
@@ -114,10 +120,11 @@ contains
          logical :: supported(size(mounts))
          integer :: b
          name = 'element('//to_text(i)//')'
-         call check_station(name, element%station, stations)
+         if (element%housing == '' .or. element%to_station /= 0 .or. element%station /= 0) call check_station(name, &
+            & element%station, stations)
          if (element%to_station > 0) call check_station(name, element%to_station, stations, 'to_station')
-         call require(element%to_station /= element%station .or. allocated(error), name//'%to_station = {}: is its ' &
-            & //'station; an element has two ends', [real(element%to_station, wp)], error)
+         call require(element%to_station /= element%station .or. element%station == 0 .or. allocated(error), name &
+            & //'%to_station = {}: is its station; an element has two ends', [real(element%to_station, wp)], error)
          call require(element%to_station == 0 .or. element%housing == '', name//'%housing = '''//element%housing &
             & //''': to_station is given too; give one of them', error)
          supported = [(allocated(mounts(b)%support), b=1, size(supported))]
@@ -128,7 +135,8 @@ contains
          call require(element%static .or. inputs%start%from == 'equilibrium', name//'%static = .false.: needs ' &
             & //'start%from = ''equilibrium'', about which it acts', error)
          call require(element%static .or. inputs%about%task /= 'branch' .or. inputs%followed() == 'equilibrium', name &
-            & //'%static = .false.: is not for a branch of periodic orbits, whose equilibria are not found', error)
+            & //'%static = .false.: is not for a branch of periodic orbits, whose equilibria are ' &
+            & //'not found; a study (&sweep) of the task periodic finds each orbit about its own', error)
       end subroutine check_element
 
       !> Coefficients come from a file or not.

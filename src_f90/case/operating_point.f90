@@ -23,6 +23,8 @@ module operating_point
       logical :: friction = .true., cavitation = .true.
       !> False: at rest in equilibrium, without what acts in motion about it alone.
       logical :: moves = .true.
+      !> False: what is bent or skew of a shaft does not turn with it.
+      logical :: turns = .true.
    contains
       procedure :: speed
       procedure :: shaft_angle
@@ -118,13 +120,14 @@ contains
       end do
    end subroutine next_switch
 
-   !> The same load at the initial speed, kept, without unbalance, excitations and friction.
+   !> The same load at the initial speed, kept, without unbalance, bow and skew, excitations and friction.
    pure function static(self)
       class(operating_point_type), intent(in) :: self
       type(operating_point_type) :: static
       static = self
       static%acceleration = 0
       static%unbalance = 0
+      static%turns = .false.
       if (allocated(static%excitations)) deallocate (static%excitations)
       static%friction = .false.
       static%moves = .false.

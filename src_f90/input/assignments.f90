@@ -12,7 +12,7 @@ module assignments
       & identifier_of, is_name, is_spelled, longest_bearing
 
    !> Groups of what there may be several of on a rotor, and of each bearing.
-   character(len=*), parameter :: several = ' disc unbalance load element impeller excitation '
+   character(len=*), parameter :: several = ' disc unbalance bow load element impeller excitation '
    character(len=*), parameter :: of_bearings = ' bearing support damper oil pads pivot friction asperity film '
    character(len=*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
    !> Longest name of a bearing.

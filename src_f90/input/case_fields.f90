@@ -66,7 +66,7 @@ contains
       allocate (copy%rotor%elastic, copy%bearings(1)%support)
       copy%bearings(1)%damper = damper_type(film='pi')
       call copy%rotor%elastic%begin(discs=1, unbalances=1, loads=1, elements=1, impellers=1, &
-         & lateral=.true.)
+         & bows=1, lateral=.true.)
       call make_excitations(1, copy%excitations)
       call go_along(copy, table, all=.true.)
    end subroutine list_all_variables

@@ -421,7 +421,7 @@ contains
       allocate (inputs%rotor%elastic)
       call inputs%rotor%elastic%begin(count_of(parsed, 'disc('), count_of(parsed, 'unbalance('), &
          & count_of(parsed, 'load('), count_of(parsed, 'element('), count_of(parsed, 'impeller('), &
-         & count_of(parsed, 'lateral') > 0)
+         & count_of(parsed, 'bow('), count_of(parsed, 'lateral') > 0)
       deallocate (inputs%bearings)
       allocate (mounts(count_of(parsed, 'bearing:')))
       associate (groups => parsed%groups)
@@ -502,6 +502,7 @@ contains
       associate (elastic => inputs%rotor%elastic)
          if (kind == 'disc') call look_at_number(size(elastic%discs))
          if (kind == 'unbalance') call look_at_number(size(elastic%unbalances))
+         if (kind == 'bow') call look_at_number(size(elastic%bows))
          if (kind == 'load') call look_at_number(size(elastic%loads))
          if (kind == 'element') call look_at_number(size(elastic%elements))
          if (kind == 'impeller') call look_at_number(size(elastic%impellers))

@@ -43,6 +43,8 @@ contains
          call v%number(shaft%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'of its material')
          call v%number(shaft%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'of its material')
          call v%number(shaft%density, 'density', 1.0_wp, 1e5_wp, 'kg/m^3', 'of its material')
+         call v%number(shaft%internal_damping, 'internal_damping', 0.0_wp, 1.0_wp, 's', 'viscous damping of its bending ' &
+            & //'in the turning frame, over its stiffness')
          do i = 1, size(rotor%discs)
             call group_of(v, i, all, 'disc', 'A machine: a rigid disc on its shaft; one group for each')
             call list_station(v, rotor%discs(i)%station)
@@ -51,6 +53,10 @@ contains
                & 'moment of inertia about the axis of the shaft')
             call v%number(rotor%discs(i)%diametral_inertia, 'diametral_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
                & 'moment of inertia about a diameter')
+            call v%number(rotor%discs(i)%skew, 'skew', 0.0_wp, 0.1_wp, 'rad', 'angle between its axis and that of the ' &
+               & //'shaft')
+            call v%number(rotor%discs(i)%skew_angle_deg, 'skew_angle_deg', -360.0_wp, 360.0_wp, 'deg', &
+               & 'the direction in which the axis leans, as of unbalances')
          end do
          do i = 1, size(rotor%unbalances)
             call group_of(v, i, all, 'unbalance', 'A machine: an unbalance; one group for each')
@@ -58,6 +64,15 @@ contains
             call v%number(rotor%unbalances(i)%moment, 'moment', 0.0_wp, 1e6_wp, 'kg m', 'mass times eccentricity')
             call v%number(rotor%unbalances(i)%angle_deg, 'angle_deg', -360.0_wp, 360.0_wp, 'deg', &
                & 'its angle on the shaft, in the sense of rotation')
+         end do
+         do i = 1, size(rotor%bows)
+            call group_of(v, i, all, 'bow', 'A machine: where its shaft is bent without any load; one group for each ' &
+               & //'station; *Bent shafts* above')
+            call list_station(v, rotor%bows(i)%station)
+            call v%number(rotor%bows(i)%displacement, 'displacement', 0.0_wp, 0.1_wp, 'm', 'from the line through ' &
+               & //'the stations of bearings')
+            call v%number(rotor%bows(i)%angle_deg, 'angle_deg', -360.0_wp, 360.0_wp, 'deg', 'its direction on the ' &
+               & //'shaft, as of unbalances')
          end do
          do i = 1, size(rotor%loads)
             call group_of(v, i, all, 'load', 'A machine: a steady force on its shaft, beside the weight; one group ' &
@@ -85,7 +100,8 @@ contains
       call list_station(v, element%station)
       call list_station(v, element%to_station, 'to_station', 'the station that is its other end; if this and ' &
          & //'housing are left out, the ground is')
-      call v%word(element%housing, 'housing', '', 'the bearing with a group support whose housing is its other end')
+      call v%word(element%housing, 'housing', '', 'the bearing with a group support whose housing is its other end; ' &
+         & //'without a station: it stands between this and the ground')
       call v%numbers(element%stiffness, 'stiffness', -1e15_wp, 1e15_wp, 'N/m', of_element)
       call v%numbers(element%damping, 'damping', -1e12_wp, 1e12_wp, 'N s/m', of_element)
       call v%numbers(element%mass, 'mass', -1e9_wp, 1e9_wp, 'kg', of_element//'; it has no weight')

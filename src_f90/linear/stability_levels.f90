@@ -12,7 +12,8 @@ module stability_levels
    use elastic_rotor, only: elastic_rotor_type
    use force_balance, only: mode_name, position_lengths
    use linear_bearing, only: linear_bearing_type, bearing_coefficients_type, vibration_modes_type, find_modes, &
-      & follow_mode, synchronous_rotor
+      & follow_mode
+   use rotor_response, only: synchronous_rotor
    implicit none (type, external)
    private
    public :: stability_levels_type, find_stability_levels, matrices

@@ -7,7 +7,8 @@ module coefficient_results
    use force_balance, only: mode_name_length, is_of_rotor
    use state_layout, only: element_layout_type
    use threshold_cycle, only: threshold_cycle_type
-   use linear_bearing, only: bearing_coefficients_type, vibration_modes_type, rotor_response_type
+   use linear_bearing, only: bearing_coefficients_type, vibration_modes_type
+   use rotor_response, only: rotor_response_type
    use stability_levels, only: stability_levels_type, matrices
    implicit none (type, external)
    private

@@ -62,7 +62,7 @@ contains
       call solve(rotor%positions, rotor%positions, matrices%mass, rotor%per_mass, ok)
       if (.not. ok) return
       k = matrices%stiffness
-      if (rotor%elements > 0) then
+      if (rotor%elements > 0 .or. allocated(matrices%circulatory)) then
          allocate (ignored, mold=k)
          call rotor%force_derivatives(speed, k, ignored, at_rest=.true.)
          k = -k
@@ -157,6 +157,14 @@ contains
             & + point%acceleration*(m%unbalance(:, 1)*sin(phase) - m%unbalance(:, 2)*cos(phase)))
       end associate
       if (allocated(point%excitations)) force = force + from_stations(self, point, point%excitation_forces(t))
+      if (allocated(self%matrices%circulatory)) force = force - speed*matmul(self%matrices%circulatory, &
+         & states(:self%positions))
+      if (allocated(self%matrices%bow) .and. point%turns) then
+         associate (m => self%matrices)
+            force = force + (m%bow(:, 1) + speed**2*m%skew(:, 1) - point%acceleration*m%skew(:, 2))*cos(phase) &
+               & + (m%bow(:, 2) + speed**2*m%skew(:, 2) + point%acceleration*m%skew(:, 1))*sin(phase)
+         end associate
+      end if
       if (allocated(self%matrices%elements)) call add_elements(self, states, point, speed, force)
    end function force
 
@@ -175,7 +183,7 @@ contains
       end associate
    end subroutine add_elements
 
-   !> The unbalance turns, and excitations change.
+   !> Unbalance, bow and skew turn, and excitations change.
    pure function turn(self, point, t)
       class(elastic_rotor_type), intent(in) :: self
       type(operating_point_type), intent(in) :: point
@@ -185,6 +193,12 @@ contains
       associate (u => self%matrices%unbalance)
          turn = share(self, point)*point%speed(t)**3*(u(:, 2)*cos(phase) - u(:, 1)*sin(phase))
       end associate
+      if (allocated(self%matrices%bow) .and. point%turns) then
+         associate (m => self%matrices, speed => point%speed(t))
+            turn = turn + speed*(m%bow(:, 2)*cos(phase) - m%bow(:, 1)*sin(phase)) &
+               & + speed**3*(m%skew(:, 2)*cos(phase) - m%skew(:, 1)*sin(phase))
+         end associate
+      end if
       if (allocated(point%excitations)) turn = turn + from_stations(self, point, point%excitation_rates(t))
    end function turn
 
@@ -252,6 +266,7 @@ contains
       integer :: i
       over_positions = -self%matrices%stiffness
       over_rates = -(self%matrices%damping + speed*self%matrices%gyroscopic)
+      if (allocated(self%matrices%circulatory)) over_positions = over_positions - speed*self%matrices%circulatory
       if (.not. allocated(self%matrices%elements)) return
       moves = .true.
       if (present(at_rest)) moves = .not. at_rest
@@ -314,6 +329,7 @@ contains
       integer :: i
       associate (m => self%matrices)
          matrix = m%mass + gamma*(m%damping + speed*m%gyroscopic) + gamma**2*m%stiffness
+         if (allocated(m%circulatory)) matrix = matrix + gamma**2*speed*m%circulatory
          if (.not. allocated(m%elements)) return
          do i = 1, size(m%elements)
             associate (e => m%elements(i))
@@ -332,6 +348,7 @@ contains
       real(wp) :: c(2, 2, 3)
       integer :: i
       u = matmul(self%matrices%mass, u) - gamma*matmul(self%matrices%stiffness, x)
+      if (allocated(self%matrices%circulatory)) u = u - gamma*speed*matmul(self%matrices%circulatory, x)
       if (.not. allocated(self%matrices%elements)) return
       do i = 1, size(self%matrices%elements)
          associate (e => self%matrices%elements(i))

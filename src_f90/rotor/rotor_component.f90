@@ -32,6 +32,8 @@ module rotor_component
    type :: rotor_component_type
       !> (n, n), SI units.
       type(sparse_matrix_type) :: mass, damping, gyroscopic, stiffness
+      !> What internal damping adds to the stiffness, over the speed; not allocated where there is none.
+      type(sparse_matrix_type), allocatable :: circulatory
       !> station%times(q) is y and z of station 1, y and z of station 2, ..., m; slope%times(q) are the slopes dy/dx and
       !> dz/dx there: (2*stations, n).
       type(sparse_matrix_type) :: station, slope
@@ -146,6 +148,7 @@ contains
       class(rotor_component_type), intent(inout) :: self
       real(wp), intent(in) :: sense
       self%gyroscopic%value = sense*self%sense*self%gyroscopic%value
+      if (allocated(self%circulatory)) self%circulatory%value = sense*self%sense*self%circulatory%value
       self%sense = sense
    end subroutine turn_in
 
@@ -164,10 +167,18 @@ contains
          associate (rows => [2*row - 1, 2*row], columns => [2*column - 1, 2*column])
             component%mass = sparse_of_elements(n, n, rows, columns, [shaft%mass, shaft%mass])
             component%stiffness = sparse_of_elements(n, n, rows, columns, [shaft%stiffness, shaft%stiffness])
-            component%damping = sparse_of_elements(n, n, rows(:0), columns(:0), shaft%mass(:0))
+            ! of a spring's force -k x a damping b k has -b k (x' - Omega cross x)
+            associate (internal => rotor%shaft%internal_damping, none => merge(0, size(rows), &
+               & rotor%shaft%internal_damping <= 0))
+               component%damping = sparse_of_elements(n, n, rows(:none), columns(:none), &
+                  & internal*[shaft%stiffness, shaft%stiffness])
+            end associate
          end associate
-         component%gyroscopic = sparse_of_elements(n, n, [2*row - 1, 2*row], [2*column, 2*column - 1], &
-            & [shaft%gyroscopic, -shaft%gyroscopic])
+         associate (rows => [2*row - 1, 2*row], columns => [2*column, 2*column - 1])
+            component%gyroscopic = sparse_of_elements(n, n, rows, columns, [shaft%gyroscopic, -shaft%gyroscopic])
+            if (rotor%shaft%internal_damping > 0) component%circulatory = sparse_of_elements(n, n, rows, columns, &
+               & rotor%shaft%internal_damping*[shaft%stiffness, -shaft%stiffness])
+         end associate
       end associate
       associate (rows => [(i, i=1, 2*stations)], one => [(1.0_wp, i=1, 2*stations)])
          ! y and z of station i are displacements 4*i - 3 and 4*i - 2

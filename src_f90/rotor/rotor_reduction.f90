@@ -9,6 +9,7 @@ module rotor_reduction
    use rotor_component, only: rotor_component_type, static_forces, unbalance_moments
    use fixed_interface, only: fixed_interface_type
    use linear_element, only: relative_displacements, add_supports, housing_pair
+   use bent_shaft, only: bow_forces, skew_moments
    use acting_element, only: acting_element_type, new_acting_element
    implicit none (type, external)
    private
@@ -39,7 +40,7 @@ module rotor_reduction
 
    !> Matrices of a rotor in few displacements.
    type :: projection_type
-      real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness
+      real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness, circulatory
    end type projection_type
 
    !> Modes kept in a plane, and errors of amplitudes at the highest speed, relative to the largest one: of leaving out
@@ -59,13 +60,15 @@ module rotor_reduction
    real(wp), parameter :: growth = 0.05_wp
 
 
-   !> M x'' + (C + Omega G) x' + K x = load + forces of the bearings + unbalance. Displacements x: first those of the
+   !> M x'' + (C + Omega G) x' + (K + Omega N) x = load + forces of the bearings + unbalance. Displacements x: first those of the
    !> journals relative to their bearings, y and z of each; then those of the housings that have supports, y and z of
    !> each, m, 0 where the spring is not loaded; then the amplitudes of the modes with the journals held, in y and z of
    !> each (kg^1/2 m), whose mass is 1. The weight of a housing acts on its support.
    type, extends(mode_selection_type) :: rotor_matrices_type
       integer :: journals = 0
       real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness
+      !> N, of internal damping; not allocated where there is none.
+      real(wp), allocatable :: circulatory(:, :)
       !> Damping of the displacements that the reduction adds, as they are modes above reduction%damp_above, 1/s.
       real(wp), allocatable :: high_damping(:)
       !> Weight (along -y), static loads, and what the offsets of the bearings bend.
@@ -73,6 +76,9 @@ module rotor_reduction
       !> (n, 2): the force of the unbalances at the shaft angle phi is Omega**2*(unbalance(:, 1)*cos(phi)
       !> + unbalance(:, 2)*sin(phi)) + Omega'*(unbalance(:, 1)*sin(phi) - unbalance(:, 2)*cos(phi)).
       real(wp), allocatable :: unbalance(:, :)
+      !> The same of skew discs; the force of a bow is bow(:, 1)*cos(phi) + bow(:, 2)*sin(phi). Not allocated where
+      !> there is neither.
+      real(wp), allocatable :: skew(:, :), bow(:, :)
       !> Where the shaft is at its stations, m: y and z of station 1, y and z of station 2, ... are
       !> matmul(station, x) + station_offset. The offset has what the bearings' offsets and the modes that are left out
       !> have of the static deflection, which is exact so. The same of the slopes dy/dx and dz/dx.
@@ -169,9 +175,9 @@ contains
          & + abs(vibration%rate)**2*static%mass(i, i)), i=1, size(border))]
       associate (station => component%station)
          moments = unbalance_moments(inputs%rotor%elastic%unbalances, station%rows, component%sense)
-         allocate (vibration%loads(station%columns, 2))
-         vibration%loads(:, 1) = component%weighed
-         vibration%loads(:, 2) = station%transposed_times(moments(1, :))
+         vibration%loads = reshape([component%weighed, station%transposed_times(moments(1, :))], [station%columns, 2])
+         if (size(inputs%rotor%elastic%bows) > 0) vibration%loads = reshape([vibration%loads, bow_forces( &
+            & inputs%rotor%elastic, mounts%station, component)], [station%columns, 4])
          rows = [mounts%station, inputs%rotor%elastic%discs%station]
          rows = [2*rows - 1, 2*rows]
          vibration%observed = station%part(rows)
@@ -207,6 +213,7 @@ contains
          allocate (matrix(3*k + 1, n), source=(0.0_wp, 0.0_wp))
          matrix(k + 1:, :) = rate**2*c%mass%band(k, k) + rate*(c%damping%band(k, k) + self%speed &
             & *c%gyroscopic%band(k, k)) + c%stiffness%band(k, k)
+         if (allocated(c%circulatory)) matrix(k + 1:, :) = matrix(k + 1:, :) + self%speed*c%circulatory%band(k, k)
       end associate
       do i = 1, size(self%journals)
          associate (element => matrix(2*k + 1, self%journals(i)))
@@ -228,6 +235,7 @@ contains
       integer :: i
       p = projected_matrices(component, basis)
       problem%stiffness = self%rate**2*p%mass + self%rate*(p%damping + self%speed*p%gyroscopic) + p%stiffness
+      if (allocated(p%circulatory)) problem%stiffness = problem%stiffness + self%speed*p%circulatory
       do i = 1, size(self%bearings)
          problem%stiffness(i, i) = problem%stiffness(i, i) + self%bearings(i)
       end do
@@ -273,10 +281,9 @@ contains
       r%mode_selection_type = selection
       modes = selection%modes
       if (modes < size(fixed%frequency)) r%left_out_frequency = fixed%frequency(modes + 1)/(2*pi)
-      associate (elements => inputs%station_elements())
-         if (size(elements) > 0) call fixed%add_residual_modes(forces_at(component, [elements%station, &
-            & pack(elements%to_station, elements%to_station > 0)]), modes, r%residual_modes)
-      end associate
+      force = unit_loads(inputs, component)
+      if (size(force) > 0) call fixed%add_residual_modes(reshape(force, [component%station%columns/component%planes, &
+         & size(force)*component%planes/component%station%columns]), modes, r%residual_modes)
       modes = modes + r%residual_modes
       r%modes = modes
       r%journals = size(inputs%bearings)
@@ -296,6 +303,10 @@ contains
       r%slope_offset = component%slope%times(deflection)
       r%unbalance = transpose(matmul(unbalance_moments(inputs%rotor%elastic%unbalances, component%station%rows, &
          & component%sense), r%station))
+      if (any(inputs%rotor%elastic%discs%skew > 0) .or. size(inputs%rotor%elastic%bows) > 0) then
+         r%skew = transpose(matmul(skew_moments(inputs%rotor%elastic, component%slope%rows, component%sense), r%slope))
+         r%bow = matmul(transpose(basis), bow_forces(inputs%rotor%elastic, mounts%station, component))
+      end if
       r%total_mass = component%total_mass
       r%mode_frequency = fixed%frequency(:modes)/(2*pi)
       ! the last displacements are the modes
@@ -308,9 +319,29 @@ contains
       call add_elements(inputs, mounts, r)
    end function reduced_rotor
 
-   !> Forces of 1 N at stations, each once, on all displacements: of one plane where both are alike.
-   pure function forces_at(component, stations) result(forces)
+   !> Loads, one after the other as forces_at has them, of which no deflection is left out: those of elements, and the
+   !> moments of skew discs.
+   pure function unit_loads(inputs, component) result(loads)
+      type(case_type), intent(in) :: inputs
       type(rotor_component_type), intent(in) :: component
+      real(wp), allocatable :: loads(:), forces(:, :)
+      integer, allocatable :: stations(:)
+      associate (elements => inputs%station_elements(), discs => inputs%rotor%elastic%discs)
+         stations = [elements%station, pack(elements%to_station, elements%to_station > 0)]
+         forces = forces_at(component, component%station, stations)
+         loads = reshape(forces, [size(forces)])
+         stations = pack(discs%station, discs%skew > 0)
+         forces = forces_at(component, component%slope, stations)
+         loads = [loads, reshape(forces, [size(forces)])]
+      end associate
+   end function unit_loads
+
+   !> Forces of 1 N at stations, or moments of 1 N m over the slopes there, each once, on all displacements: of one
+   !> plane where both are alike.
+   pure function forces_at(component, over, stations) result(forces)
+      type(rotor_component_type), intent(in) :: component
+      !> component%station or component%slope.
+      type(sparse_matrix_type), intent(in) :: over
       integer, intent(in) :: stations(:)
       real(wp), allocatable :: forces(:, :)
       real(wp) :: one(component%station%rows)
@@ -322,7 +353,7 @@ contains
             one = 0
             one(2*stations(i) - 2 + p) = 1
             n = n + 1
-            associate (whole => component%station%transposed_times(one))
+            associate (whole => over%transposed_times(one))
                forces(:, n) = whole(::component%planes)
             end associate
          end do
@@ -335,7 +366,7 @@ contains
       type(mount_type), intent(in) :: mounts(:)
       type(rotor_matrices_type), intent(inout) :: r
       real(wp) :: c(2, 2, 3)
-      integer :: i, b, at
+      integer :: i, b, at, own
       associate (from => inputs%station_elements())
          if (size(from) == 0) return
          allocate (r%elements(size(from)))
@@ -344,6 +375,10 @@ contains
             associate (e => r%elements(i), here => [2*from(i)%station - 1, 2*from(i)%station])
                e%ends = r%station(here, :)
                e%offset = r%station_offset(here) - from(i)%origin
+               if (from(i)%under_housing) then
+                  e%ends = 0
+                  e%offset = 0
+               end if
                if (from(i)%to_station > 0) then
                   associate (there => [2*from(i)%to_station - 1, 2*from(i)%to_station])
                      e%ends = e%ends - r%station(there, :)
@@ -353,8 +388,9 @@ contains
                do b = 1, merge(0, size(mounts), from(i)%housing == '')
                   if (mounts(b)%name /= from(i)%housing) cycle
                   at = 2*housing_pair(mounts, b)
-                  e%ends(1, at - 1) = e%ends(1, at - 1) - 1
-                  e%ends(2, at) = e%ends(2, at) - 1
+                  own = merge(1, -1, from(i)%under_housing)
+                  e%ends(1, at - 1) = e%ends(1, at - 1) + own
+                  e%ends(2, at) = e%ends(2, at) + own
                end do
                associate (speed => inputs%operation%speed_rpm*rpm)
                   c = e%coefficients(speed)
@@ -392,6 +428,7 @@ contains
       r%stiffness = projected(p%stiffness, into)
       r%damping = projected(p%damping, into)
       r%gyroscopic = projected(p%gyroscopic, into)
+      if (allocated(p%circulatory)) r%circulatory = projected(p%circulatory, into)
    end subroutine reduce_matrices
 
    !> The matrices of a rotor in displacements x with q = matmul(basis, x).
@@ -403,6 +440,7 @@ contains
       p%damping = matmul(transpose(basis), component%damping%times(basis))
       p%gyroscopic = matmul(transpose(basis), component%gyroscopic%times(basis))
       p%stiffness = matmul(transpose(basis), component%stiffness%times(basis))
+      if (allocated(component%circulatory)) p%circulatory = matmul(transpose(basis), component%circulatory%times(basis))
    end function projected_matrices
 
    pure function projected(matrix, basis)

@@ -466,6 +466,27 @@ def test_a_jump_between_orbits(result):
         assert file["stable"][0] == file["stable"][-1] == 1
 
 
+#: Largest eccentricity ratios of both rings, and station 4, mean and first harmonic of y, in orbits that sink by
+#: their weight, by speed, rpm.
+SUNK = {
+    6000: ((0.7534296152508352, 0.7338602521595208), -2.0330865088572626e-05,
+           5.7940808304876866e-05 - 7.615622773581539e-05j),
+    9000: ((0.4447661374411313, 0.463078591705312), None, None),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("speed", SUNK)
+def test_orbits_off_the_middle_of_dampers(result, speed):
+    ratios, mean, first = SUNK[speed]
+    eccentric = AERO.replace("0.7e-3", "0.5e-3").replace("0.35e-3", "0.25e-3")
+    with result(eccentric, "case%task=periodic", f"operation%speed_rpm={speed}", "damper%offset=0,0") as file:
+        np.testing.assert_allclose(file["summary/damper_eccentricity"], ratios, atol=1e-4)
+        if mean is not None:
+            turn = file["station_y"][:-1, 3]
+            assert abs(turn.mean() - mean) < 1e-8
+            assert abs(2 * abs(np.fft.rfft(turn)[1]) / turn.size - abs(first)) < 1e-8
+
+
 #: What is changed in the aero rotor, and what the line says.
 LINEAR_REFUSED = {
     "bearing%stiffness=4*0": "nothing holds its shaft",

@@ -7,7 +7,7 @@ GROUP = re.compile(r"^## &(\w+)$", re.M)
 ROW = re.compile(r"^\| `(\w+)` \| (.*?) \| .*? \| (.*?) \| (.*?) \|$", re.M)
 MOST_PADS = 24
 #: What only machines have, and excitations: groups, and variables of other groups. They are not resolved.
-ON_SHAFTS = ("shaft", "disc", "unbalance", "load", "element", "impeller")
+ON_SHAFTS = ("shaft", "disc", "unbalance", "bow", "load", "element", "impeller")
 OF_MACHINES = (*ON_SHAFTS, "lateral", "support", "damper", "reduction", "excitation")
 OF_MACHINES_TOO = ("rotor%file", "bearing%station", "bearing%offset")
 

@@ -13,7 +13,7 @@ from spelling import BOM, cased
 
 NAME = re.compile(rb"(\w+)(\([0-9]+\)|:[a-z]\w{0,29})?%(\w+)(?:\(([0-9]{1,9})\))?", re.ASCII)
 #: Groups of which a machine has several, and those of its bearings.
-COUNTED = b"disc unbalance load element impeller excitation".split()
+COUNTED = b"disc unbalance bow load element impeller excitation".split()
 OF_BEARINGS = b"bearing support damper oil pads pivot friction asperity film".split()
 CELL = re.compile(rb'[ \t]*+(?:"((?:[^"]|"")*+)"|((?!")[^,]*?))[ \t]*(?:,|\Z)')
 NUMBER = re.compile(rb"[-+.0-9eEdD]*")

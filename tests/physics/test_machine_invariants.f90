@@ -10,7 +10,8 @@ program test_machine_invariants
    use equations_of_motion, only: machine_model
    use equilibrium_record, only: equilibrium_type
    use equilibrium, only: bearing_loads
-   use linear_bearing, only: bearing_coefficients_type, rotor_response_type, find_rotor_response
+   use linear_bearing, only: bearing_coefficients_type
+   use rotor_response, only: rotor_response_type, find_rotor_response
    use linear_analysis, only: analyse
    use periodic_orbit, only: periodic_orbit_type
    use machine_cases, only: symmetric_rotor, disc_station

@@ -10,7 +10,8 @@ program test_machines
    use static_model, only: make_static
    use equilibrium, only: bearing_loads
    use force_balance, only: forces
-   use linear_bearing, only: bearing_coefficients_type, rotor_response_type, find_rotor_response
+   use linear_bearing, only: bearing_coefficients_type
+   use rotor_response, only: rotor_response_type, find_rotor_response
    use linear_analysis, only: analyse
    use periodic_orbit, only: periodic_orbit_type
    use machine_cases, only: symmetric_rotor, add_bearing, disc_station

@@ -29,7 +29,7 @@ LONGEST = 1 << 20
 VARIABLE = re.compile(r"[a-z]\w*(:\w+|\(\d+\))?%[a-z]\w*(\(\d+\))?", re.ASCII | re.IGNORECASE)
 #: Groups that a machine has several times: those of its bearings, and what stands on its shaft.
 OF_BEARINGS = ("bearing", "oil", "pads", "pivot", "friction", "asperity", "film")
-ON_SHAFTS = ("disc", "unbalance", "load", "element", "impeller", "support", "damper", "excitation")
+ON_SHAFTS = ("disc", "unbalance", "bow", "load", "element", "impeller", "support", "damper", "excitation")
 SEVERAL = (*OF_BEARINGS, *ON_SHAFTS)
 #: Groups and variables of a machine that a case of one bearing has not.
 OF_MACHINES = ("shaft", "reduction", "rotor", "lateral", *ON_SHAFTS)
