@@ -8,6 +8,7 @@ module branch_task
    use equilibrium_record, only: equilibrium_type
    use equilibrium, only: settle_equilibrium
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
+   use marching, only: march_options
    use march_settings, only: march_settings_of
    use marched_cycle, only: find_marched_cycle
    use newton_method, only: branch_point_type
@@ -121,6 +122,7 @@ contains
       type(branch_progress_type), intent(inout), target :: b
       type(error_type), allocatable, intent(out) :: error
       type(periodic_orbit_type) :: found
+      type(march_options) :: march
       real(wp), allocatable :: y(:), equilibrium_state(:)
       call make_start(run, y, error, equilibrium_state)
       if (allocated(error)) return
@@ -130,14 +132,13 @@ contains
          if (allocated(error)) return
          call b%begin_oil(run%model, equilibrium_state)
       end if
-      associate (march => march_settings_of(run%model, run%earlier_steps()))
-         if (b%of_cycles) then
-            call find_marched_cycle(run%model, march, y, found%orbit, run%counts, error)
-         else
-            call find_periodic_orbit(run%model, march, y, found, error)
-            run%counts = found%counts()
-         end if
-      end associate
+      march = march_settings_of(run%model, run%earlier_steps())
+      if (b%of_cycles) then
+         call find_marched_cycle(run%model, march, y, found%orbit, run%counts, error)
+      else
+         call find_periodic_orbit(run%model, march, y, found, error)
+         run%counts = found%counts()
+      end if
       if (.not. allocated(error)) call b%begin_with_orbit(found%orbit, run%inputs%periodic%revolutions)
    end subroutine first_orbit
 
