@@ -145,7 +145,9 @@ def machines(folder: Path) -> Iterator[str]:
         yield f"again at {low:.0f} rpm, at {ratio[down]:.2f}"
     with h5py.File(folder / "aero_modes.h5") as run:
         parts, modes = run["modes/element_decrement"][0], run["modes/log_decrement"][0]
-        yield f"{parts[0, 2:].sum():.2f} of the decrement of {modes[0]:.2f}"
+        lowest = run["modes/frequency"][0][: len(modes)].argsort()
+        first = next(k for k in lowest if modes[k] > 0)
+        yield f"{parts[first, 2:].sum():.2f} of the decrement of {modes[first]:.2f}"
     with h5py.File(folder / "overhung.h5") as run:
         small, large = sorted(-run["equilibrium/bearing_load_y"][:])
         yield f"The bearing at the impeller bears {large:.0f} N and the other one {small:.0f} N"

@@ -41,6 +41,8 @@ contains
       moving = model
       ! at other speeds this would not be allowed
       moving%inputs%coefficients%threshold_up_to_rpm = 0
+      ! its rotor is made anew, without the damping of high modes, which marches alone need
+      if (.not. moving%inputs%rotor%is_rigid()) moving%inputs%rotor%elastic%reduction%damping_ratio = 0
       call find_parameter(moving%inputs, 'operation%speed_rpm', speed, error)
       associate (first => model%point%speed_rpm, given => model%inputs%coefficients)
          call begin_equilibria(problem, varied_bearing_type(moving, speed), y, first, first, films)

@@ -1,7 +1,7 @@
 !> Machines: an elastic rotor on several bearings against the values of an independent program
 !> (docs/theory/machines.md), against a rigid journal, and against itself described in another way.
 program test_machines
-   use kinds, only: wp, pi
+   use kinds, only: wp, pi, rpm
    use text, only: to_text
    use errors, only: error_type
    use case_inputs, only: case_type
@@ -9,7 +9,7 @@ program test_machines
    use equilibrium_record, only: equilibrium_type
    use static_model, only: make_static
    use equilibrium, only: bearing_loads
-   use force_balance, only: forces
+   use force_balance, only: forces, at_stations
    use linear_bearing, only: bearing_coefficients_type
    use rotor_response, only: rotor_response_type, find_rotor_response
    use linear_analysis, only: analyse
@@ -94,8 +94,34 @@ contains
          if (i /= 2) cycle
          call expect_close(minval(abs(response%synchronous(1)%eigenvalue - (-67.842_wp, 413.382_wp))), 0.0_wp, &
             & linear_error*413, 'eigenvalue with synchronously reduced coefficients')
+         call counterparts(fine, found%modes(1)%eigenvalue, response)
       end do
    end subroutine synchronous
+
+   !> Modes below twice the speed, and the synchronous modes that are the same vibrations: no other is as much alike,
+   !> and forward and backward whirls of one shape have one each.
+   subroutine counterparts(model, eigenvalue, response)
+      type(machine_model), intent(in) :: model
+      complex(wp), intent(in) :: eigenvalue(:)
+      type(rotor_response_type), intent(in) :: response
+      real(wp) :: alike(size(response%synchronous(1)%eigenvalue))
+      integer :: i, k, compared
+      compared = 0
+      do i = 1, size(eigenvalue)
+         associate (own => response%counterpart(i, 1), shape => response%shapes(:, :, i, 1))
+            if (.not. (eigenvalue(i)%im > 0 .and. eigenvalue(i)%im < 2*4100*rpm) .or. own == 0) cycle
+            do k = 1, size(alike)
+               associate (other => at_stations(model, response%synchronous(1)%shape(:, k)))
+                  alike(k) = abs(sum(conjg(shape)*other))**2/(sum(abs(shape)**2)*sum(abs(other)**2))
+               end associate
+            end do
+            call expect(own == maxloc(alike, dim=1, mask=response%synchronous(1)%eigenvalue%im > 0), 'mode ' &
+               & //to_text(i)//' is compared with the one that is most like it')
+            compared = compared + 1
+         end associate
+      end do
+      call expect(compared >= 2, 'modes are compared')
+   end subroutine counterparts
 
    !> The Jacobian against central differences, with bearings that differ in pads, pivots and friction.
    subroutine jacobian()
