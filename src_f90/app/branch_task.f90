@@ -9,6 +9,7 @@ module branch_task
    use equilibrium, only: settle_equilibrium
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
    use march_settings, only: march_settings_of
+   use marching, only: march_options
    use marched_cycle, only: find_marched_cycle
    use newton_method, only: branch_point_type
    use continuation, only: bifurcation_type
@@ -121,6 +122,7 @@ contains
       type(branch_progress_type), intent(inout), target :: b
       type(error_type), allocatable, intent(out) :: error
       type(periodic_orbit_type) :: found
+      type(march_options) :: march
       real(wp), allocatable :: y(:), equilibrium_state(:)
       call make_start(run, y, error, equilibrium_state)
       if (allocated(error)) return
@@ -130,14 +132,14 @@ contains
          if (allocated(error)) return
          call b%begin_oil(run%model, equilibrium_state)
       end if
-      associate (march => march_settings_of(run%model, run%earlier_steps()))
-         if (b%of_cycles) then
-            call find_marched_cycle(run%model, march, y, found%orbit, run%counts, error)
-         else
-            call find_periodic_orbit(run%model, march, y, found, error)
-            run%counts = found%counts()
-         end if
-      end associate
+      ! gfortran 12 frees what an associate name of this function never had
+      march = march_settings_of(run%model, run%earlier_steps())
+      if (b%of_cycles) then
+         call find_marched_cycle(run%model, march, y, found%orbit, run%counts, error)
+      else
+         call find_periodic_orbit(run%model, march, y, found, error)
+         run%counts = found%counts()
+      end if
       if (.not. allocated(error)) call b%begin_with_orbit(found%orbit, run%inputs%periodic%revolutions)
    end subroutine first_orbit
 
@@ -369,11 +371,11 @@ contains
    subroutine print_curve(file, given)
       type(run_file_type), intent(inout) :: file
       type(branch_type), intent(in) :: given
-      real(wp), allocatable, dimension(:, :) :: first, second, side, stable, frequency, ratio
+      real(wp), allocatable, dimension(:, :) :: first, second, side, stable, frequency, ratio, born
       character(len=32) :: vibration
-      character(len=5) :: at
+      character(len=:), allocatable :: sides
       integer :: n, k
-      logical :: vibrates
+      logical :: vibrates, begins
       n = int(file%hdf5%samples)
       call file%hdf5%last_samples('parameter', n, first)
       call file%hdf5%last_samples('second_parameter', n, second)
@@ -386,14 +388,25 @@ contains
          call file%hdf5%last_samples('frequency_ratio', n, ratio)
          vibration = 'Hz, over that of the shaft'
       end if
-      print '(2(1x,a),1x,a)', given%second_parameter, given%parameter, trim(vibration)//' '//trim(merge( &
-         & 'solutions  ', 'stable side', index(given%point, 'fold') > 0))
+      begins = file%hdf5%has_series('born_side')
+      if (begins) call file%hdf5%last_samples('born_side', n, born)
+      sides = trim(merge('solutions  ', 'stable side', index(given%point, 'fold') > 0))
+      if (begins) sides = sides//', cycles born'
+      print '(2(1x,a),1x,a)', given%second_parameter, given%parameter, trim(vibration)//' '//sides
       do k = 1, n
-         at = merge('above', 'below', side(1, k) > 0)
-         if (.not. stable(1, k) > 0 .and. index(given%point, 'fold') == 0) at = 'none'
+         sides = at(side(1, k))
+         if (.not. stable(1, k) > 0 .and. index(given%point, 'fold') == 0) sides = 'none'
+         if (begins) sides = sides//', '//at(born(1, k))
          if (vibrates) write (vibration, '(f12.3,f9.5)') frequency(1, k), ratio(1, k)
-         print '(2(1x,a15),a,2x,a)', precise(second(1, k)), precise(first(1, k)), trim(vibration), trim(at)
+         print '(2(1x,a15),a,2x,a)', precise(second(1, k)), precise(first(1, k)), trim(vibration), sides
       end do
+   contains
+      pure function at(side) result(word)
+         real(wp), intent(in) :: side
+         character(len=:), allocatable :: word
+         word = trim(merge('above', 'below', side > 0))
+         if (.not. abs(side) > 0) word = 'not known'
+      end function at
    end subroutine print_curve
 
    !> To which side limit cycles are born, and how far unstable ones reach: a kick beyond them leads away from an
