@@ -1,5 +1,7 @@
 """Curves of bifurcation points over two inputs: an independent program, branches over one, and refusals."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -157,6 +159,13 @@ THIN = """&case  task = 'branch' /
 &branch  of = 'curve', point = 'fold', parameter = 'rotor%mass', last = 9000, max_step = 1000
          second_parameter = 'oil%supply_temperature', second_last = 43 /
 """
+#: A rotor in squeeze film dampers, whose orbits jump.
+JUMPS = (Path(__file__).parents[2] / "input/examples/aero.nml").read_text()
+JUMPS = "&reduction damp_above = 2000 /" + JUMPS.replace("&reduction damp_above = 2000 /", "").replace(
+    "last = 9000",
+    """of = 'curve', point = 'fold', last = 7500, step = 1000, max_step = 1000
+         second_parameter = 'bearing:front%damping(1)', second_last = 1000""",
+)
 #: Case, the branch over one parameter, its kind of points, how closely both agree (multipliers of cavitated
 #: films depend on the mesh), stable side.
 ALONE = {
@@ -165,6 +174,7 @@ ALONE = {
     ),
     "period_doubling": (DOUBLED, "periodic", b"period_doubling", 1e-3, 1),
     "fold": (THIN, "equilibrium", b"fold", 2e-7, -1),
+    "fold of orbits": (JUMPS, "periodic", b"fold", 1e-6, -1),
 }  # fmt: skip
 
 
@@ -172,15 +182,16 @@ ALONE = {
 def test_points_are_those_of_branches(follow, name):
     """At the last value of the second parameter, a branch over the first finds the same point."""
     text, of, kind, closely, side = ALONE[name]
+    point = name.partition(" ")[0]
     file, printed = follow(text)
     with file:
         second, value, parameter = (
             file.attrs["branch_second_parameter"], float(file["second_parameter"][-1]), file["parameter"][-1],
         )  # fmt: skip
         assert (file["stable_side"][:] == side).all()
-        assert ("frequency" in file) == (name != "fold")
+        assert ("frequency" in file) == (point != "fold")
         assert ("above", "below")[side < 0] in printed
-    alone = text[: text.index("second_parameter")].replace(f", point = '{name}'", "") + "/"
+    alone = text[: text.index("second_parameter")].replace(f", point = '{point}'", "") + "/"
     one, _ = follow(alone, f"branch%of='{of}'", f"{second}={value!r}", name="one")
     with one:
         kinds = list(one["bifurcations/kind"])
