@@ -166,12 +166,17 @@ JUMPS = "&reduction damp_above = 2000 /" + JUMPS.replace("&reduction damp_above 
     """of = 'curve', point = 'fold', last = 7500, step = 1000, max_step = 1000
          second_parameter = 'bearing:front%damping(1)', second_last = 1000""",
 )
+#: Temperatures along and across films.
+WARM = "&oil grade = 32, supply_temperature = 40 /\n&thermal model = 'film' /\n" + PADS.format(
+    second=MASS, second_last=210, **FREE | {"first": 16500, "last": 18500}
+).replace("point = 'hopf'", "point = 'hopf', max_step = 2000")
 #: Case, the branch over one parameter, its kind of points, how closely both agree (multipliers of cavitated
 #: films depend on the mesh), stable side.
 ALONE = {
     "hopf": (
         PADS.format(second=CLEARANCE, second_last=9e-5, **FREE), "equilibrium", b"hopf", 2e-7, -1,
     ),
+    "hopf with warm films": (WARM, "equilibrium", b"hopf", 2e-6, -1),
     "period_doubling": (DOUBLED, "periodic", b"period_doubling", 1e-3, 1),
     "fold": (THIN, "equilibrium", b"fold", 2e-7, -1),
     "fold of orbits": (JUMPS, "periodic", b"fold", 1e-6, -1),
