@@ -203,6 +203,28 @@ def test_points_are_those_of_branches(follow, name):
         assert one["bifurcations/parameter"][kinds.index(kind)] == pytest.approx(parameter, rel=closely)
 
 
+def test_five_pads(follow):
+    """Both period doublings of a branch lie on one curve, which turns; that of tori ends at 1:2."""
+    text = (Path(__file__).parents[2] / "input/examples/five_pads_unbalanced.nml").read_text()
+    over = ("branch%of='curve'", "branch%second_parameter='operation%speed_rpm'", "branch%second_last=6000")
+    over = (*over, "branch%max_step=0.004")
+    branch, _ = follow(text, "branch%switch=.false.", "branch%last=0.032", name="one")
+    with branch:
+        kinds = list(branch["bifurcations/kind"])
+        assert kinds == [b"period_doubling", b"period_doubling", b"neimark_sacker"]
+        places = branch["bifurcations/parameter"][:]
+    curve, _ = follow(text, *over, "branch%point='period_doubling'", name="doubled")
+    with curve:
+        np.testing.assert_allclose(curve["parameter"][[0, -1]], places[:2], rtol=1e-3)
+        assert curve["second_parameter"][:].min() < 8900
+    curve, printed = follow(text, *over, "branch%point='neimark_sacker'", name="torus")
+    assert "its frequency comes to half of that of the orbit" in printed
+    with curve:
+        assert curve["parameter"][0] == pytest.approx(places[2], rel=1e-3)
+        assert list(curve["bifurcations/kind"]) == [b"resonance_1_2"]
+        assert curve["rotation_number"][-1] == pytest.approx(0.5, abs=0.01)
+
+
 def test_stuck_pads_depend_on_their_bristles(follow):
     """The same program, with the damping of bristles of eq (28) at 1e6 throughout: 12353 rpm at 1e5, 8828 at
     4e6; and not on the coefficient of friction, which a remark says.
