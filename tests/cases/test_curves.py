@@ -124,7 +124,7 @@ def test_short_bearing(follow):
 
 
 def test_where_cycles_change_their_side(follow):
-    """The same bearing: above this capacity number cycles are born below the threshold."""
+    """The same bearing: above this capacity number cycles are born below the threshold speed."""
     file, printed = follow(SHORT.format(viscosity=2.5 * VISCOSITY, last=4 * VISCOSITY))
     assert "generalised_hopf at operation%speed_rpm" in printed
     with file:
