@@ -183,7 +183,7 @@ venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
 .PHONY: help run build deps python again wheel test test-slurm test-debian13 stress realistic fuzz faults \
-        bench speed paper site site-if-mkdocs unit test-programs debug-programs lint format docs install uninstall clean
+        bench speed whirl paper site site-if-mkdocs unit test-programs debug-programs lint format docs install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
 
@@ -200,6 +200,7 @@ help:
 	@echo 'make faults   injects faults from outside into all commands, 20 minutes; writes docs/faults.md (FAULTS=1500 SEED=1)'
 	@echo 'make bench    measures run time against error, and other programs, a quarter of an hour; writes docs/benchmarks.md'
 	@echo 'make speed OLD=COMMIT   compares the speed with that of an older commit, in pairs of runs, twenty minutes'
+	@echo 'make whirl    runs the commands of docs/whirl.md and draws its pictures, some minutes'
 	@echo 'make paper    makes the figures and checks the claims of the paper, a minute or two; writes docs/paper'
 	@echo 'make build    builds build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     installs missing packages (as root or with sudo; otherwise prints the list and stops)'
@@ -285,6 +286,10 @@ speed: build python
 # counterparts of the paper's figures, and its claims checked
 paper: build python
 	PYTHONPATH=post $(venv_python) -m paper $(B)/bin/tiltpad
+
+# what docs/whirl.md tells, from its own commands
+whirl: build python
+	PYTHONPATH=post $(venv_python) docs/whirl.py $(B)/bin/tiltpad build/whirl
 
 # ---- set-up ------------------------------------------------------------------------------------
 deps: build/deps-checked

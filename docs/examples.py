@@ -147,7 +147,7 @@ def machines(folder: Path) -> Iterator[str]:
         parts, modes = run["modes/element_decrement"][0], run["modes/log_decrement"][0]
         lowest = run["modes/frequency"][0][: len(modes)].argsort()
         first = next(k for k in lowest if modes[k] > 0)
-        yield f"{parts[first, 2:].sum():.2f} of the decrement of {modes[first]:.2f}"
+        yield f"{parts[first, 2:].sum():.3f} of the decrement of {modes[first]:.3f}"
     with h5py.File(folder / "overhung.h5") as run:
         small, large = sorted(-run["equilibrium/bearing_load_y"][:])
         yield f"The bearing at the impeller bears {large:.0f} N and the other one {small:.0f} N"

@@ -132,6 +132,7 @@ contains
          if (allocated(error)) return
          call b%begin_oil(run%model, equilibrium_state)
       end if
+      ! gfortran 12 frees what an associate name of this function never had
       march = march_settings_of(run%model, run%earlier_steps())
       if (b%of_cycles) then
          call find_marched_cycle(run%model, march, y, found%orbit, run%counts, error)

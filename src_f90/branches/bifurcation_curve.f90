@@ -279,7 +279,7 @@ contains
          if (left <= accuracy .and. left*norm2(move_along(way, s, next)) <= closeness) then
             next%along = norm2(to)
             next%arc_length = here%arc_length + next%along
-            call note(curve, here, way, s, slope, next)
+            call note(curve, problem, here, way, s, slope, next)
             return
          end if
          s_before = s
@@ -303,8 +303,9 @@ contains
    end function move_along
 
    !> Notes what a point at `s` of a way is on its curve, and where this leads.
-   subroutine note(curve, here, way, s, slope, next)
+   subroutine note(curve, problem, here, way, s, slope, next)
       type(curve_type), intent(in) :: curve
+      class(branch_problem_type), intent(inout) :: problem
       type(branch_point_type), intent(in) :: here
       type(way_type), intent(in) :: way
       real(wp), intent(in) :: s, slope
@@ -344,6 +345,7 @@ contains
          if (curve%kind == 'fold') side = sign(1.0_wp, bend)*way%line
          own%stable_side = sign(1.0_wp, dot_product(side, normal)*normal(1))
          own%tests = tests_of(curve, next, k, bend)
+         if (curve%kind == 'hopf') own%tests(5) = problem%birth(own%value)
          own%others_stable = .not. own%tests(4) > 0
       end associate
    end subroutine note
@@ -386,7 +388,7 @@ contains
       type(branch_point_type), intent(in) :: point
       integer, intent(in) :: k(2)
       real(wp), intent(in) :: bend
-      real(wp) :: tests(4)
+      real(wp) :: tests(5)
       integer :: i
       tests = 0
       associate (pair => point%values(k))
@@ -418,6 +420,8 @@ contains
             kind = 'resonance_1_2'
          case (3)
             kind = 'cusp'
+         case (5)
+            kind = 'generalised_hopf'
          case default
             if (curve%kind == 'hopf') kind = merge('double_hopf', 'fold_hopf  ', vibrates)
             if (curve%kind == 'fold' .and. .not. curve%of_multipliers) then

@@ -29,10 +29,10 @@ module continuation
    real(wp), parameter :: farthest = 0.35_wp
 
    !> Length of the names of kinds, and all names.
-   integer, parameter :: kind_length = 15
+   integer, parameter :: kind_length = 16
    character(len=kind_length), parameter :: kinds_of_points(*) = [character(len=kind_length) :: 'fold', &
       & 'period_doubling', 'neimark_sacker', 'hopf', 'branch_point', 'divergence', 'double_hopf', 'fold_hopf', &
-      & 'bogdanov_takens', 'cusp', 'resonance_1_1', 'resonance_1_2']
+      & 'bogdanov_takens', 'cusp', 'resonance_1_1', 'resonance_1_2', 'generalised_hopf']
 
    type :: bifurcation_type
       character(len=kind_length) :: kind = ''

@@ -21,6 +21,7 @@ module equilibrium_branch
    use heat_balance_equations, only: state_balance_type, has_warm_oil, find_residual, find_residual_slopes, &
       & find_force_slopes, find_temperatures, check_heat
    use varied_bearing, only: varied_bearing_type
+   use first_lyapunov, only: first_lyapunov_coefficient
    implicit none (type, external)
    private
    public :: equilibrium_problem_type, begin_equilibria
@@ -57,6 +58,7 @@ module equilibrium_branch
       procedure :: solve
       procedure :: spectrum
       procedure :: kind => kind_of
+      procedure :: birth
       procedure :: get_place
       procedure :: go_to
       procedure :: state
@@ -334,6 +336,24 @@ contains
          kind = trim(merge('divergence', 'fold      ', size(self%viscosity) > 0 .or. self%has_fields))
       end if
    end function kind_of
+
+   !> Pivots that stick slide in a vibration of any size, of which no derivative tells.
+   real(wp) function birth(self, value)
+      class(equilibrium_problem_type), intent(inout) :: self
+      complex(wp), intent(in) :: value
+      type(error_type), allocatable :: refusal
+      real(wp) :: imbalance(self%n)
+      birth = 0
+      if (self%pivot /= 'free') return
+      call self%bearing%set_value(self%parameter, .false., refusal)
+      if (.not. allocated(refusal)) call self%find_imbalance(.false., imbalance, refusal)
+      if (allocated(refusal)) return
+      associate (model => self%bearing%model)
+         birth = first_lyapunov_coefficient(model, self%state(), model%scale, value)
+      end associate
+      ! the model is asked for what it knows of the state
+      call self%find_imbalance(.false., imbalance, refusal)
+   end function birth
 
    pure subroutine get_place(self, place)
       class(equilibrium_problem_type), intent(in) :: self

@@ -40,6 +40,7 @@ module newton_method
       procedure(take_place), deferred :: get_place
       procedure(put_place), deferred :: go_to
       procedure :: fits
+      procedure :: birth
    end type branch_problem_type
 
    abstract interface
@@ -104,7 +105,7 @@ module newton_method
       !> The value that has come to the border of stability; what is 0 at points of codimension two; 1 or -1: larger or
       !> smaller values of the first parameter are stable, or have the solutions that meet in a fold.
       complex(wp) :: value = 0
-      real(wp) :: tests(4) = 0, stable_side = 0
+      real(wp) :: tests(5) = 0, stable_side = 0
       !> Whether all other values are stable.
       logical :: others_stable = .true.
    end type curve_place_type
@@ -153,6 +154,14 @@ contains
       call self%get_place(here)
       fits = all([(size(place(k)%values) == size(here(k)%values), k=1, size(here))])
    end function fits
+
+   !> Above 0 where small cycles that begin where this value crosses lie where what was stable still is, below 0 where
+   !> it is not any longer; 0 where that is not known.
+   real(wp) function birth(self, value)
+      class(branch_problem_type), intent(inout) :: self
+      complex(wp), intent(in) :: value
+      birth = 0*self%unit*value%re
+   end function birth
 
    !> Whether a point that comes from elsewhere can be one of a problem's branches.
    pure logical function can_be_of(problem, point) result(can)

@@ -118,6 +118,8 @@ contains
             rotation = merge(1.0_wp, atan2(abs(at%value%im), at%value%re)/(2*pi), figures%is_cycle)
             frequency = rotation/figures%period
          end if
+         if (curve%kind == 'hopf') call one('born_side', born_side(at), '1', '1: the small limit cycles that begin ' &
+            & //'there are at larger values of the parameter, -1: at smaller ones; 0: not known')
          if (curve%kind == 'neimark_sacker') call one('rotation_number', rotation, '1', 'angle of the multipliers ' &
             & //'over the full circle: turns of a disturbance in a period of the orbit, or whole ones more or less')
          if (curve%kind /= 'fold' .or. figures%is_cycle) then
@@ -126,6 +128,13 @@ contains
                & //'the shaft')
          end if
       end subroutine put_curve
+
+      !> Where cycles are of a Hopf point.
+      pure real(wp) function born_side(at)
+         type(curve_place_type), intent(in) :: at
+         born_side = 0
+         if (abs(at%tests(5)) > 0) born_side = at%stable_side*sign(1.0_wp, at%tests(5))
+      end function born_side
 
       subroutine put_elements()
          call put_whirls('element_', figures%elements, 'displacement of the element''s station from its other end', &
@@ -304,7 +313,7 @@ contains
          ok = ok .and. size(list) == k
          if (.not. (reading .and. ok)) return
          at = curve_place_type(list(1:2), list(3:4), list(5:6), list(7:8), list(9), list(10), cmplx(list(11), &
-            & list(12), wp), list(13:16))
+            & list(12), wp), list(13:17))
       end subroutine pass_curve
 
       subroutine number(name, value, units, long_name)

@@ -288,7 +288,7 @@ contains
                & 'upper_sideband_frequency')])
          else if (points < enough_points) then
             return
-         else if (difference > disagreement .or. growth > steady_ring) then
+         else if (growth > steady_ring .or. differs(rotation, difference)) then
             said = filled('the motion is not settled, or chaotic: the points once a revolution of the last {} ' &
                & //'revolutions change from one half to the other', [real(points, wp)])
          else if (ieee_is_nan(rotation)) then
@@ -302,6 +302,13 @@ contains
          end if
       end associate
       said = said//newline
+   contains
+      !> Whether there are rotation numbers of both halves, and they disagree.
+      pure logical function differs(rotation, difference)
+         real(wp), intent(in) :: rotation, difference
+         differs = .false.
+         if (.not. ieee_is_nan(rotation)) differs = difference > disagreement
+      end function differs
    end function on_repetition
 
    !> "carries next to no load (mean 12 N); it flutters at 0.48 of the shaft speed, ..."; empty for a pad like others.

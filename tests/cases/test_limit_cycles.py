@@ -294,6 +294,26 @@ def rotation_number(y, z, weighted=True):
     return np.average(turns, weights=np.exp(-1 / (at * (1 - at))) if weighted else None)
 
 
+#: Two frequencies beside that of the shaft: the points once a revolution fill an area.
+WILD = """&rotor  mass = 500, unbalance = 0 /
+&operation  speed_rpm = 6000, duration = 1.3 /
+&film  cavitation = 'none' /
+&asperity  model = 'none' /
+&output  samples_per_revolution = 12, spectrum_revolutions = 120 /
+&excitation  amplitude = 300, frequency_ratio = 0.381966011, rotating = 'forward' /
+&excitation  amplitude = 300, frequency_ratio = 0.7320508, rotating = 'backward' /
+"""
+
+
+def test_points_that_are_no_ring(follow):
+    """A number that is none is compared with nothing: the debug build would stop there."""
+    file, printed = follow(WILD)
+    with file:
+        assert np.isnan(file["summary/rotation_number"][()])
+        assert np.isnan(file["summary/rotation_difference"][()])
+    assert "the motion does not repeat, and has no rotation number" in printed
+
+
 def test_motions_that_are_no_torus(follow):
     """Too few revolutions, a march that has come to rest, and one that still grows."""
     _, printed = follow(TORUS, "output%spectrum_revolutions=150", "integration%relative_tolerance=1e-5")

@@ -138,8 +138,11 @@ def test_a_chart_has_bands_on_stable_sides(run, changed, opened, result, tmp_pat
     np.testing.assert_allclose(inwards, -places, atol=0.15)
     (ax,) = pictures.chart(turning).axes
     assert [each.is_dashed() for each in ax.get_lines()[:2]] == [False, True]
-    with pytest.raises(tiltpad.NotInRunError, match="no curve over two parameters in this run"):
+    with pytest.raises(tiltpad.NotInRunError, match="no curve over two parameters .*plot branch draws"):
         pictures.chart(run("branch"))
+    for draw in (pictures.branch, tiltpad.response):
+        with pytest.raises(tiltpad.NotInRunError, match="no branch over one parameter .*plot chart draws"):
+            draw(curve)
     output = tmp_path / "page.html"
     assert command.report([str(result("curve")), "-o", str(output)]) == 0
     page = output.read_text()

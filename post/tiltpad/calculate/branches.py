@@ -21,6 +21,7 @@ KINDS = {
     "cusp": ("CP", "cusp"),
     "resonance_1_1": ("R1", "1:1 resonance"),
     "resonance_1_2": ("R2", "1:2 resonance"),
+    "generalised_hopf": ("GH", "generalised Hopf"),
 }
 
 
@@ -112,6 +113,17 @@ def needs_branch(run: Run) -> None:
         raise not_in_run(run, "branch", f"its task is '{run.task}'")
 
 
+def needs_one_parameter(run: Run) -> None:
+    needs_branch(run)
+    if "stable_side" in run:
+        raise not_in_run(
+            run, "branch over one parameter", "it has a curve over two, which tiltpad-plot chart draws"
+        )
+
+
 def needs_curve(run: Run) -> None:
+    why = "branch%of = 'curve' follows one"
+    if run.is_branch:
+        why = "it has a branch over one, which tiltpad-plot branch draws"
     if not run.is_branch or "stable_side" not in run:
-        raise not_in_run(run, "curve over two parameters", "branch%of = 'curve' follows one")
+        raise not_in_run(run, "curve over two parameters", why)

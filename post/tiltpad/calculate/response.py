@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tiltpad.calculate.branches import needs_one_parameter
 from tiltpad.calculate.coefficients import place_of_pivot
 from tiltpad.calculate.rotation import senses
 from tiltpad.calculate.selection import SPEED, Where, axis_of, selected, varying
@@ -156,6 +157,7 @@ def curve(
         place = np.flatnonzero(chosen)
         place = place[np.argsort(source[over][place], kind="stable")]
         return over, source[over][place], place
+    needs_one_parameter(source)
     if f"{of}_y_phase" not in source:
         whose = "limit cycles" if f"{of}_y_amplitude" in source else "equilibria"
         raise not_in_run(source, "response", f"its branch is one of {whose}")

@@ -105,7 +105,7 @@ def branch(runs: Sequence[Run | Study], pad: int | None = None) -> Figure:
     if not found:
         raise NotInRunError(f"{runs[0].path}: no branch in this study: its marches are drawn below one")
     for run in found:
-        branches.needs_branch(run)
+        branches.needs_one_parameter(run)
     layout.shown_pads(found, pad)
     fig, panels = layout.stacked([("journal_y", None), ("pad_tilt", pad) if pad else ("journal_z", None)])
     fig.set_figheight(4.4)
