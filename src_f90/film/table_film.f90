@@ -21,6 +21,8 @@ module table_film
 
    !> The films of pads with half arcs above this, rad, do not follow from their thickness at the edges.
    real(wp), parameter :: largest_half_arc = 1.3_wp
+   !> Those of wide arcs have tables with Guembel's condition from this half arc on, rad: there they never vanish.
+   real(wp), parameter :: least_gumbel_half_arc = 3.05_wp
    !> Error of the full film over that of what cavitation changes.
    real(wp), parameter :: share_of_full = 0.3_wp
 
@@ -85,21 +87,25 @@ contains
       call add_wide_arcs(solver)
    end function new_table_film
 
-   !> The tables of pads of wide arcs: with the condition of Reynolds and the same pressure all around.
+   !> The tables of pads of wide arcs: with the same pressure all around, and with the condition of Reynolds or, of the
+   !> widest arcs, of Guembel.
    subroutine add_wide_arcs(self)
       type(table_film_type), intent(inout) :: self
+      logical :: gumbel
       integer :: i, k
+      gumbel = self%own_condition == cavitation_gumbel
       self%wide_arcs = [(new_wide_arc_pad(self%gaps(i)), i=1, size(self%gaps))]
       allocate (self%wide_shapes(0))
-      if (.not. self%in_tables .or. self%own_condition /= cavitation_reynolds) return
+      if (.not. (self%in_tables .and. (gumbel .or. self%own_condition == cavitation_reynolds))) return
       do i = 1, size(self%gaps)
          associate (pad => new_dimensionless_pad(self%gaps(i)), shapes => self%wide_shapes)
             if (self%tabulated(i)%shape > 0 .or. .not. self%tabulated(i)%even_pressure) cycle
+            if (gumbel .and. pad%half_arc < least_gumbel_half_arc) cycle
             do k = 1, size(shapes)
                if (same(self%wide_shapes(k)%pad, pad)) exit
             end do
-            if (k > size(shapes)) self%wide_shapes = [self%wide_shapes, new_wide_arc_table(pad, self%tolerance, &
-               & most_cavitated/size(self%gaps), self%filled)]
+            if (k > size(shapes)) self%wide_shapes = [self%wide_shapes, new_wide_arc_table(pad, gumbel, &
+               & self%tolerance, most_cavitated/size(self%gaps))]
             self%wide_arcs(i)%shape = k
          end associate
       end do

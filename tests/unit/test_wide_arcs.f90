@@ -5,7 +5,7 @@ program test_wide_arcs
    use pad_gap, only: pad_gap_type
    use film_solver, only: film_motion, film_response, film_counters, film_ok, reynolds => cavitation_reynolds
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
-   use strip_film, only: strip_film_type, find_strip, solve_strip, usual_steps
+   use strip_film, only: strip_film_type, find_strip, solve_strip, solve_clipped_strip, usual_steps
    use wide_arc_film, only: wide_arc_film_type, strip_force_type, new_wide_arc_film
    use wide_arc_table, only: wide_arc_table_type, new_wide_arc_table
    use direct_film, only: direct_film_type, new_direct_film
@@ -20,8 +20,11 @@ program test_wide_arcs
    if (runs('strip_slopes')) call strip_slopes()
    if (runs('narrow')) call narrow()
    if (runs('cells')) call cells()
-   if (runs('mirror')) call mirror()
-   if (runs('faces')) call faces()
+   if (runs('mirror')) call mirror(.false.)
+   if (runs('mirror_gumbel')) call mirror(.true.)
+   if (runs('faces')) call faces(.false.)
+   if (runs('faces_gumbel')) call faces(.true.)
+   if (runs('clipped')) call clipped()
    if (runs('ends')) call ends()
    if (runs('order_of_visits')) call order_of_visits()
    if (runs('films')) call films()
@@ -40,71 +43,93 @@ contains
       direction = [sin(angle), cos(angle)]
    end function direction
 
-   !> The strip's film in the frame of least film thickness.
-   pure type(strip_film_type) function strip(arc, length, e, angle, psi, steps)
+   !> The strip's film in the frame of least film thickness, with this number of steps; on the whole arc twice as many.
+   pure type(strip_film_type) function strip(arc, length, e, angle, psi, steps, gumbel)
       real(wp), intent(in) :: arc, length, e, angle, psi
       integer, intent(in) :: steps
-      strip = solve_strip(length, e, direction(psi - angle), steps, find_strip(arc/2, length, e, angle, psi, steps), &
-         & .true., .true.)
+      logical, intent(in) :: gumbel
+      if (gumbel) then
+         strip = solve_clipped_strip(length, e, [-arc, arc]/2 - angle, direction(psi - angle), 2*steps, .true., .true.)
+      else
+         strip = solve_strip(length, e, direction(psi - angle), steps, find_strip(arc/2, length, e, angle, psi, steps), &
+            & .true., .true.)
+      end if
    end function strip
 
-   !> Numerov's scheme is of fourth order; and with the usual steps force and highest pressure are close.
+   !> Numerov's scheme is of fourth order, 16 times closer with half the steps, but for a quarter by how the ends of
+   !> films lie between them; and with the usual steps force and highest pressure are close.
    subroutine strip_order()
-      type(strip_film_type) :: exact, film(3)
-      real(wp) :: arc, length, e, angle, psi, error(3)
+      integer, parameter :: n = 200
+      type(strip_film_type) :: exact, film
+      real(wp) :: arc, length, e, angle, psi, error(n, 3), ratio
       integer :: i, k
-      error = 0
-      do i = 1, 200
+      do i = 1, n
          arc = arcs(1 + mod(i, size(arcs)))
          length = between(0.6_wp, 2.4_wp)
          e = between(0.0_wp, 0.9_wp)
          angle = between(-pi, pi)
          psi = between(-1.0_wp, 1.0_wp)*(0.5_wp*(pi + arc) - 0.3_wp)
-         exact = strip(arc, length, e, angle, psi, 768)
+         exact = strip(arc, length, e, angle, psi, 768, .false.)
          do k = 1, 3
-            film(k) = strip(arc, length, e, angle, psi, 24*2**(k - 1))
-            error(k) = max(error(k), norm2(film(k)%force - exact%force)/norm2(exact%force))
+            film = strip(arc, length, e, angle, psi, 24*2**(k - 1), .false.)
+            error(i, k) = norm2(film%force - exact%force)/norm2(exact%force)
          end do
-         film(1) = strip(arc, length, e, angle, psi, usual_steps)
-         call expect(norm2(film(1)%force - exact%force) < 1e-3_wp*norm2(exact%force), 'force of the usual steps')
-         call expect(abs(film(1)%highest/exact%highest - 1) < 5e-3_wp, 'highest pressure of the usual steps')
+         film = strip(arc, length, e, angle, psi, usual_steps, .false.)
+         call expect(norm2(film%force - exact%force) < 1e-3_wp*norm2(exact%force), 'force of the usual steps')
+         call expect(abs(film%highest/exact%highest - 1) < 5e-3_wp, 'highest pressure of the usual steps')
       end do
-      call expect(all(error(:2)/error(2:) > 12), 'fourth order: '//to_text(error(1)/error(2))//' '// &
-         & to_text(error(2)/error(3)))
+      do k = 1, 2
+         ratio = exp(sum(log(error(:, k)/error(:, k + 1)))/n)
+         call expect(ratio > 12, 'fourth order: '//to_text(ratio))
+      end do
    end subroutine strip_order
 
-   !> Slopes are those of differences.
+   !> Slopes by adjoints are those of the film itself: those of differences, which see what the steps leave, approach
+   !> them as the steps become shorter.
    subroutine strip_slopes()
-      type(wide_arc_film_type) :: films
-      type(strip_force_type) :: film, ahead, behind
-      real(wp) :: position(2), w(2), step, psi
-      integer :: i, k
-      do i = 1, 40
-         films = new_wide_arc_film(pad(arcs(1 + mod(i, size(arcs))), between(0.6_wp, 2.4_wp)), 12)
-         position = between(0.05_wp, 0.9_wp)*direction(between(-pi, pi))
-         psi = between(-1.0_wp, 1.0_wp)*(films%last_psi - 0.3_wp)
-         film = films%strip(position, 1.0_wp, psi, .true., .false.)
-         step = 1e-5_wp*(1 - norm2(position))
-         do k = 1, 2
-            ahead = films%strip(position + step*unit(k), 1.0_wp, psi, .false., .false.)
-            behind = films%strip(position - step*unit(k), 1.0_wp, psi, .false., .false.)
-            call expect(abs((ahead%force - behind%force)/(2*step) - film%over_position(k)) &
-               & < 2e-3_wp*norm2(abs(film%over_position)), 'slope over the position')
+      integer, parameter :: n = 40
+      real(wp), parameter :: step = 1e-4_wp
+      type(strip_film_type) :: film
+      real(wp) :: arc, length, e, angle, psi, error(n, 2, 2)
+      integer :: i, k, m
+      logical :: gumbel
+      do m = 0, 1
+         gumbel = m == 1
+         do i = 1, n
+            arc = merge(arcs(4), arcs(1 + mod(i, size(arcs))), gumbel)
+            length = between(0.6_wp, 2.4_wp)
+            e = between(0.05_wp, 0.9_wp)
+            angle = between(-pi, pi)
+            psi = between(-1.0_wp, 1.0_wp)*(0.5_wp*(pi + arc) - 0.3_wp)
+            do k = 1, 2
+               film = strip(arc, length, e, angle, psi, usual_steps*k, gumbel)
+               associate (over_e => slope(arc, length, e, angle, psi, usual_steps*k, gumbel, step*(1 - e), 0.0_wp), &
+                  & over_psi => slope(arc, length, e, angle, psi, usual_steps*k, gumbel, 0.0_wp, step))
+                  error(i, k, 1) = norm2(over_psi - matmul(film%over_w, [cos(psi - angle), -sin(psi - angle)])) &
+                     & /norm2(film%over_w)
+                  error(i, k, 2) = norm2(over_e - film%over_position(:, 2))/norm2(film%over_position)
+               end associate
+            end do
          end do
-         ahead = films%strip(position, 1.0_wp, psi + 1e-5_wp, .false., .false.)
-         behind = films%strip(position, 1.0_wp, psi - 1e-5_wp, .false., .false.)
-         w = [cos(psi), -sin(psi)]
-         call expect(abs((ahead%force - behind%force)/2e-5_wp - sum(w*film%over_w)) &
-            & < 1e-3_wp*norm2(abs(film%over_w)), 'slope over psi')
+         do k = 1, 2
+            call expect(count(error(:, 1, k) < 2e-3_wp) > 0.8_wp*n, 'slopes: '//to_text(count(error(:, 1, k) < 2e-3_wp)))
+            call expect(sum(log(error(:, 1, k)/error(:, 2, k)))/n > log(5.0_wp), 'shorter steps are closer: ' &
+               & //to_text(exp(sum(log(error(:, 1, k)/error(:, 2, k)))/n)))
+         end do
       end do
    end subroutine strip_slopes
 
-   pure function unit(k)
-      integer, intent(in) :: k
-      real(wp) :: unit(2)
-      unit = 0
-      unit(k) = 1
-   end function unit
+   !> The slope of the strip's force over e or psi by differences of this half.
+   pure function slope(arc, length, e, angle, psi, steps, gumbel, of_e, of_psi)
+      real(wp), intent(in) :: arc, length, e, angle, psi, of_e, of_psi
+      integer, intent(in) :: steps
+      logical, intent(in) :: gumbel
+      real(wp) :: slope(2)
+      type(strip_film_type) :: ahead, behind
+      ahead = strip(arc, length, e + of_e, angle, psi + of_psi, steps, gumbel)
+      behind = strip(arc, length, e - of_e, angle, psi - of_psi, steps, gumbel)
+      slope = (ahead%force - behind%force)/(2*(of_e + of_psi))
+   end function slope
 
    !> As a pad becomes narrow its film becomes that of the strip.
    subroutine narrow()
@@ -114,7 +139,7 @@ contains
       integer :: k
       logical :: ok
       do k = 1, 2
-         films = new_wide_arc_film(pad(arcs(4), 2.4_wp/12**(k - 1)), 24)
+         films = new_wide_arc_film(pad(arcs(4), 2.4_wp/12**(k - 1)), .false., 24)
          call films%solve_film([0.3_wp, 0.2_wp], 2.0_wp, film, ok)
          one = films%strip([0.3_wp, 0.2_wp], 1.0_wp, 2.0_wp, .false., .false.)
          error(k) = abs(film%force/one%force - 1)
@@ -156,9 +181,9 @@ contains
          if (mod(i, n/4) == 1) then
             which = which + 1
             arc = arcs(which)
-            tables(1) = new_wide_arc_table(pad(arc, 1.0_wp), 4e-5_wp, 100000, .true.)
-            tables(2) = new_wide_arc_table(pad(arc, 1.0_wp), 2.5e-6_wp, 100000, .true.)
-            films = new_wide_arc_film(pad(arc, 1.0_wp), 40)
+            tables(1) = new_wide_arc_table(pad(arc, 1.0_wp), .false., 4e-5_wp, 100000)
+            tables(2) = new_wide_arc_table(pad(arc, 1.0_wp), .false., 2.5e-6_wp, 100000)
+            films = new_wide_arc_film(pad(arc, 1.0_wp), .false., 40)
          end if
          position = between(0.0_wp, 0.9_wp)*direction(between(-pi, pi))
          psi = between(-1.0_wp, 1.0_wp)*min(pi, 0.5_wp*(arc + pi) - 0.3_wp)
@@ -175,15 +200,44 @@ contains
       call expect(sum(log(error(:, 1)/error(:, 2)))/n > log(3.0_wp), 'short cells are closer')
    end subroutine cells
 
+   !> With Guembel's condition on the whole circle forces from cells meet those of modes, over what the same velocity
+   !> would give towards the least film thickness: that is what a journal is held by. Half of them within 1e-5.
+   subroutine clipped()
+      integer, parameter :: n = 60
+      type(wide_arc_table_type) :: table
+      type(wide_arc_film_type) :: films
+      type(film_counters) :: counters
+      type(strip_force_type) :: film, exact, most
+      real(wp) :: position(2), psi, angle, error(n)
+      integer :: i, last(2)
+      logical :: good
+      table = new_wide_arc_table(pad(arcs(4), 1.0_wp), .true., 1e-5_wp, 100000)
+      films = new_wide_arc_film(pad(arcs(4), 1.0_wp), .true., 12)
+      do i = 1, n
+         angle = between(-pi, pi)
+         psi = between(-pi, pi)
+         position = between(0.0_wp, 0.95_wp)*direction(angle)
+         last = 0
+         call table%film(position, direction(psi), .false., .false., last, counters, film, good)
+         call expect(good, 'found')
+         call films%solve_film(position, psi, exact, good)
+         call films%solve_film(position, angle, most, good)
+         error(i) = abs(film%force - exact%force)/abs(most%force)
+      end do
+      call expect(count(error < 1e-5_wp) > n/2, 'median')
+      call expect(maxval(error) < 2e-3_wp, 'largest: '//to_text(maxval(error)))
+   end subroutine clipped
+
    !> A film and its mirror.
-   subroutine mirror()
+   subroutine mirror(gumbel)
+      logical, intent(in) :: gumbel
       type(wide_arc_table_type) :: table
       type(film_counters) :: counters
       type(strip_force_type) :: film, seen
       real(wp) :: angle, psi, e
       integer :: i, last(2)
       logical :: good
-      table = new_wide_arc_table(pad(arcs(4), 1.0_wp), 4e-5_wp, 100000, .true.)
+      table = new_wide_arc_table(pad(arcs(4), 1.0_wp), gumbel, 4e-5_wp, 100000)
       last = 0
       do i = 1, 10
          e = between(0.0_wp, 0.9_wp)
@@ -198,7 +252,8 @@ contains
    end subroutine mirror
 
    !> Across the faces of cells and around the circle the force does not leap.
-   subroutine faces()
+   subroutine faces(gumbel)
+      logical, intent(in) :: gumbel
       real(wp), parameter :: step = 1e-9_wp
       type(wide_arc_table_type) :: table
       type(film_counters) :: counters
@@ -206,7 +261,7 @@ contains
       real(wp) :: place(3), moved(3)
       integer :: i, k, side, last(2)
       logical :: good
-      table = new_wide_arc_table(pad(arcs(4), 1.0_wp), 4e-5_wp, 100000, .true.)
+      table = new_wide_arc_table(pad(arcs(4), 1.0_wp), gumbel, 4e-5_wp, 100000)
       last = 0
       do i = 1, 9
          place = [between(0.2_wp, 2.5_wp), between(-3.0_wp, 3.0_wp), between(-3.0_wp, 3.0_wp)]
@@ -233,7 +288,7 @@ contains
       real(wp) :: psi(3)
       integer :: k, last(2)
       logical :: good
-      table = new_wide_arc_table(pad(arcs(2), 1.0_wp), 4e-5_wp, 100000, .true.)
+      table = new_wide_arc_table(pad(arcs(2), 1.0_wp), .false., 4e-5_wp, 100000)
       last = 0
       psi = 0.5_wp*(pi + arcs(2)) - [2e-2_wp, 1e-2_wp, -1e-2_wp]
       do k = 1, 3
@@ -258,7 +313,7 @@ contains
       integer :: k, last(2), i
       logical :: good
       do k = 1, 2
-         table = new_wide_arc_table(pad(arcs(4), 1.0_wp), 4e-5_wp, 100000, .true.)
+         table = new_wide_arc_table(pad(arcs(4), 1.0_wp), .false., 4e-5_wp, 100000)
          last = 0
          do i = 1, 4*(k - 1)
             call table%film(0.55_wp*direction(pi - 0.3_wp*i), direction(2 + 0.3_wp*i), .true., .false., last, &

@@ -44,10 +44,11 @@ module cavitated_film
       type(node_type), allocatable, private :: remembered(:)
       real(wp), allocatable, private :: remembered_at(:, :)
       integer, private :: remember_next = 0
+      !> What has been solved has cost this, over a full film by modes.
+      real(wp) :: cost = 0
    contains
       procedure :: look_up
       procedure :: solve
-      procedure :: node_cost
       procedure :: set_ratio
    end type cavitated_film_type
 
@@ -83,6 +84,8 @@ module cavitated_film
       !> Along t/w_1: half an octave at most.
       integer :: level_of_drive = 0
       type(cell_store_type) :: store
+      !> What all films would have cost without the table.
+      real(wp) :: cost_without = 0
       !> Whether it is to be closer than the solver that does without a table; whether all cells are built, as then.
       logical :: is_closer, filled = .false.
    contains
@@ -147,6 +150,7 @@ contains
       at = min(place(3), last_solved)
       room = 1 - at
       counters%nodes = counters%nodes + 1
+      self%cost = self%cost + cost_of_node(class_of(place(3)))*merge(rotation_cost, 1.0_wp, self%drive%acts)
       associate (edges => place(:2), w_2 => self%pad%tangent*(1 - 2*at), t => place(4))
          if (t < 0) then
             ! a mirror turns the rotation round
@@ -169,13 +173,6 @@ contains
       node%data(2, 2:) = aimag([slopes, over_t])
       node%data(3, 1) = log(ratio%pressure/room**pressure_power + self%floor)
    end subroutine solve
-
-   !> What solving a film costs, over a full film by modes.
-   pure real(wp) function node_cost(self, place)
-      class(cavitated_film_type), intent(in) :: self
-      real(wp), intent(in) :: place(axes)
-      node_cost = cost_of_node(class_of(place(3)))*merge(rotation_cost, 1.0_wp, self%drive%acts)
-   end function node_cost
 
    !> The force of a film over that of the film that is just full, its derivatives over the axes, and the same ratio of
    !> the highest pressures (where the rotation acts that film has t = 0), from what `look_up` found at a T.
@@ -226,11 +223,11 @@ contains
       type(film_counters), intent(inout) :: counters
       type(node_type), intent(out) :: node
       integer :: axis
-      self%store%cost_without = self%store%cost_without + film_cost(class_of(place(3)))
+      self%cost_without = self%cost_without + film_cost(class_of(place(3)))
       if (.not. self%store%holds(last, place)) call self%find_cell(place, counters, last)
       node%ok = last > 0
       if (.not. node%ok) then
-         self%store%cost = self%store%cost + film_cost(class_of(place(3)))
+         self%cost = self%cost + film_cost(class_of(place(3)))
          if (self%is_closer) call self%cavitated_film_type%look_up(place, want_slopes, last, counters, node)
          return
       end if
@@ -282,9 +279,9 @@ contains
       if (self%is_closer .or. self%filled) then
          pays = .true.
       else if (self%drive%acts) then
-         pays = self%store%cost < most_cost_alone*self%store%cost_without
+         pays = self%cost < most_cost_alone*self%cost_without
       else
-         pays = self%store%cost < first_cost + most_cost*self%store%cost_without
+         pays = self%cost < first_cost + most_cost*self%cost_without
       end if
    end function pays
 

@@ -1,6 +1,6 @@
-!> The cells of a table of cavitated films, and the account of what they cost: cubics from values and slopes at their
-!> corners, the nodes, which neighbours share, so that the functions are continuous across faces. A node is
-!> solved on its own; so a cell is the same, whatever came before.
+!> The cells of a table of cavitated films: cubics from values and slopes at their corners, the nodes, which neighbours
+!> share, so that the functions are continuous across faces. A node is solved on its own; so a cell is the same,
+!> whatever came before.
 module cell_store
    use kinds, only: wp
    use clock, only: wall_clock
@@ -26,7 +26,6 @@ module cell_store
    type, abstract :: node_solver_type
    contains
       procedure(solve_node), deferred :: solve
-      procedure(cost_of_node), deferred :: node_cost
    end type node_solver_type
 
    abstract interface
@@ -38,13 +37,6 @@ module cell_store
          type(film_counters), intent(inout) :: counters
          type(node_type), intent(out) :: node
       end subroutine solve_node
-
-      !> What it costs, in the unit of the account.
-      pure real(wp) function cost_of_node(self, place)
-         import :: node_solver_type, wp, axes
-         class(node_solver_type), intent(in) :: self
-         real(wp), intent(in) :: place(axes)
-      end function cost_of_node
    end interface
 
    type :: cell_type
@@ -64,8 +56,6 @@ module cell_store
       type(cell_type), allocatable :: cells(:)
       !> Corners of a cell.
       integer :: corner_count = corners
-      !> Cost so far, and that of all films without the table.
-      real(wp) :: cost = 0, cost_without = 0
       !> Most cells, and most nodes: when either are used up all are forgotten.
       integer, private :: most
       type(cell_index_type), private :: cell_index, node_index
@@ -216,7 +206,6 @@ contains
             call move_alloc(more, self%nodes)
          end if
          call solver%solve(place, counters, node)
-         self%cost = self%cost + solver%node_cost(place)
          self%nodes(number) = node
          call index%add(key, number)
       end associate

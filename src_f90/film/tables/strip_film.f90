@@ -6,12 +6,14 @@
 !> Sommerfeld's angle x, d(phi) = h/s dx, s^2 = 1 - e^2, makes (h P) smooth: nodes at equal steps of it, and Numerov's
 !> scheme, of fourth order. A film ends at an edge of the arc or where the oil diverges so far that the slope of the
 !> pressure is 0; these ends are found by Newton's iteration. As P meets a free end with its slope, force and
-!> derivatives need not know how the end moves.
+!> derivatives need not know how the end moves. With Guembel's condition the film lies on the whole arc, may pull, and
+!> counts where it does not: P >= 0 is no part of the equation.
 module strip_film
    use kinds, only: wp, pi
+   use clipped_quadrature, only: clipped_weights
    implicit none (type, external)
    private
-   public :: strip_film_type, strip_type, find_strip, solve_strip, usual_steps, angle_of
+   public :: strip_film_type, strip_type, find_strip, solve_strip, solve_clipped_strip, usual_steps, angle_of
 
    !> Steps from end to end, and at most; their ends are found with half as many.
    integer, parameter :: usual_steps = 32, most_steps = 768
@@ -191,25 +193,57 @@ contains
       type(strip_type), intent(in) :: strip
       logical, intent(in) :: with_slopes, with_pressure
       type(line_type) :: line
-      real(wp) :: u(0:steps, 2)
+      real(wp) :: u(0:steps, 2), weight(0:steps)
       call place(length, e, w, steps, strip%ends, line)
-      call solve(line, 1/(1 - e**2), u)
-      call set_force(length, e, line, u, w, with_slopes, film)
+      call solve(line, 1/(1 - e**2), line%sine, line%cosine, u)
+      weight = gregory(steps)
+      call set_force(length, e, line, u, weight, w, film)
+      if (with_slopes) call set_slopes(length, e, line, u, u, weight, w, film)
       if (with_pressure) film%highest = highest(line, 15*matmul(u, w)/line%h(:steps))
    end function solve_strip
 
-   !> h P that sines and cosines over s^2 for a source drive.
-   pure subroutine solve(line, unit, u)
+   !> The same with Guembel's condition, on an arc of these angles from the least film thickness. The adjoints of a film
+   !> that counts in part have their sources there.
+   pure type(strip_film_type) function solve_clipped_strip(length, e, arc, w, steps, with_slopes, with_pressure) &
+      & result(film)
+      real(wp), intent(in) :: length, e, arc(2), w(2)
+      integer, intent(in) :: steps
+      logical, intent(in) :: with_slopes, with_pressure
+      type(line_type) :: line
+      real(wp) :: u(0:steps, 2), adjoint(0:steps, 2), weight(0:steps), pressure(0:steps)
+      call place(length, e, w, steps, sommerfeld_angle(e, arc), line)
+      call solve(line, 1/(1 - e**2), line%sine, line%cosine, u)
+      pressure = 15*matmul(u, w)/line%h(:steps)
+      call clipped_weights(steps, pressure, weight)
+      call set_force(length, e, line, u, weight, w, film)
+      if (with_slopes) then
+         call solve(line, 1/(1 - e**2), weight*line%sine(:steps), weight*line%cosine(:steps), adjoint)
+         call set_slopes(length, e, line, u, adjoint, weight, w, film)
+      end if
+      if (with_pressure) film%highest = highest(line, pressure)
+   end function solve_clipped_strip
+
+   !> Weights of nodes by the rule of Gregory.
+   pure function gregory(steps) result(weight)
+      integer, intent(in) :: steps
+      real(wp) :: weight(0:steps)
+      weight = 1
+      weight([1, steps - 1]) = 7/6.0_wp
+      weight([2, steps - 2]) = 23/24.0_wp
+   end function gregory
+
+   !> h P for the sources `sine` and `cosine` at the nodes, over s^2.
+   pure subroutine solve(line, unit, sine, cosine, u)
       type(line_type), intent(in) :: line
-      real(wp), intent(in) :: unit
+      real(wp), intent(in) :: unit, sine(0:), cosine(0:)
       real(wp), intent(out) :: u(0:line%n, 2)
       real(wp) :: inverse(line%n), right(2, line%n), part
       integer :: i
-      associate (n => line%n, t => line%t, g => line%sine, f => line%cosine, scale => unit*line%step**2/12)
+      associate (n => line%n, t => line%t, scale => unit*line%step**2/12)
          !$omp simd
          do i = 1, n - 1
-            right(1, i) = scale*(g(i - 1) + 10*g(i) + g(i + 1))
-            right(2, i) = scale*(f(i - 1) + 10*f(i) + f(i + 1))
+            right(1, i) = scale*(sine(i - 1) + 10*sine(i) + sine(i + 1))
+            right(2, i) = scale*(cosine(i - 1) + 10*cosine(i) + cosine(i + 1))
          end do
          inverse(1) = 1/(2 + 10*t(1))
          do i = 2, n - 1
@@ -225,50 +259,51 @@ contains
       end associate
    end subroutine solve
 
-   !> The force of a film that w drives and its slopes, those over the position where they are wanted, by the rule of
-   !> Gregory.
-   pure subroutine set_force(length, e, line, u, w, with_slopes, film)
-      real(wp), intent(in) :: length, e, u(0:, :), w(2)
+   !> The force of a film that w drives and its slopes over w, from what sines and cosines drive and weights of nodes.
+   pure subroutine set_force(length, e, line, u, weight, w, film)
+      real(wp), intent(in) :: length, e, u(0:, :), weight(0:), w(2)
       type(line_type), intent(in) :: line
-      logical, intent(in) :: with_slopes
       type(strip_film_type), intent(inout) :: film
-      real(wp) :: m(3), k(2, 2), weight(line%n - 1), scale, slope, curve, y, s, over_h
+      real(wp) :: m(2, 2)
       integer :: i
-      associate (n => line%n)
-         weight = 1
-         weight([1, n - 1]) = 7/6.0_wp
-         weight([2, n - 2]) = 23/24.0_wp
-         scale = length*line%step/sqrt(1 - e**2)
-         m = 0
-         !$omp simd reduction(+:m)
-         do i = 1, n - 1
-            m(1) = m(1) + weight(i)*u(i, 1)*line%sine(i)
-            m(2) = m(2) + weight(i)*(u(i, 1)*line%cosine(i) + u(i, 2)*line%sine(i))
-            m(3) = m(3) + weight(i)*u(i, 2)*line%cosine(i)
-         end do
-         film%over_w = -10*scale*reshape([m(1), m(2)/2, m(2)/2, m(3)], [2, 2])
-         film%force = matmul(film%over_w, w)
-         if (.not. with_slopes) return
-         k = 0
-         !$omp simd private(slope, over_h, curve, y, s) reduction(+:k)
-         do i = 1, n - 1
-            over_h = 1/line%h(i)
-            slope = e*line%sine(i)
-            curve = slope**2*over_h + 1
-            y = w(1)*u(i, 1) + w(2)*u(i, 2)
-            s = (w(1)*line%sine(i) + w(2)*line%cosine(i))*over_h
-            associate (along => weight(i)*(slope*line%cosine(i) - curve*line%sine(i))*y, &
-               & outward => -weight(i)*(slope*line%sine(i) + curve*line%cosine(i))*y, v => weight(i)*y*over_h, &
-               & r => weight(i)*s)
-               k(1, 1) = k(1, 1) + along*u(i, 1) + line%sine(i)*(line%sine(i)*v + r*u(i, 1))
-               k(2, 1) = k(2, 1) + along*u(i, 2) + line%sine(i)*(line%cosine(i)*v + r*u(i, 2))
-               k(1, 2) = k(1, 2) + outward*u(i, 1) + line%cosine(i)*(line%sine(i)*v + r*u(i, 1))
-               k(2, 2) = k(2, 2) + outward*u(i, 2) + line%cosine(i)*(line%cosine(i)*v + r*u(i, 2))
-            end associate
-         end do
-         film%over_position = -15*scale*k
-      end associate
+      m = 0
+      !$omp simd reduction(+:m)
+      do i = 1, line%n - 1
+         m(1, 1) = m(1, 1) + weight(i)*u(i, 1)*line%sine(i)
+         m(2, 1) = m(2, 1) + weight(i)*u(i, 1)*line%cosine(i)
+         m(1, 2) = m(1, 2) + weight(i)*u(i, 2)*line%sine(i)
+         m(2, 2) = m(2, 2) + weight(i)*u(i, 2)*line%cosine(i)
+      end do
+      film%over_w = -10*length*line%step/sqrt(1 - e**2)*m
+      film%force = matmul(film%over_w, w)
    end subroutine set_force
+
+   !> The slopes over the position: `adjoint` is what sines and cosines drive where the film counts, as `weight` says.
+   pure subroutine set_slopes(length, e, line, u, adjoint, weight, w, film)
+      real(wp), intent(in) :: length, e, u(0:, :), adjoint(0:, :), weight(0:), w(2)
+      type(line_type), intent(in) :: line
+      type(strip_film_type), intent(inout) :: film
+      real(wp) :: k(2, 2), slope, curve, y, s, over_h, along, outward, whole(0:line%n)
+      integer :: i
+      k = 0
+      whole = gregory(line%n)
+      !$omp simd private(slope, over_h, curve, y, s, along, outward) reduction(+:k)
+      do i = 1, line%n - 1
+         over_h = 1/line%h(i)
+         slope = e*line%sine(i)
+         curve = slope**2*over_h + 1
+         y = w(1)*u(i, 1) + w(2)*u(i, 2)
+         s = (w(1)*line%sine(i) + w(2)*line%cosine(i))*over_h
+         along = whole(i)*((slope*line%cosine(i) - curve*line%sine(i))*y + line%sine(i)*s)
+         outward = -whole(i)*((slope*line%sine(i) + curve*line%cosine(i))*y - line%cosine(i)*s)
+         y = weight(i)*y*over_h
+         k(1, 1) = k(1, 1) + along*adjoint(i, 1) + line%sine(i)*line%sine(i)*y
+         k(2, 1) = k(2, 1) + along*adjoint(i, 2) + line%sine(i)*line%cosine(i)*y
+         k(1, 2) = k(1, 2) + outward*adjoint(i, 1) + line%cosine(i)*line%sine(i)*y
+         k(2, 2) = k(2, 2) + outward*adjoint(i, 2) + line%cosine(i)*line%cosine(i)*y
+      end do
+      film%over_position = -15*length*line%step/sqrt(1 - e**2)*k
+   end subroutine set_slopes
 
    !> Highest value at the nodes of a film, or of the parabola through the three around it.
    pure real(wp) function highest(line, pressure)

@@ -5,7 +5,7 @@
 !> Oil converges within a quarter of a circle from psi, and there the pad has one film. Beside the edges of a long arc
 !> it may have a second one, about psi less a turn; so psi may lie beyond half a turn, up to where the half circle
 !> leaves the arc. Films are solved on finite volumes, each from its own start and on grids of its own, of which two
-!> are extrapolated.
+!> are extrapolated. With Guembel's condition there is one film, of axial modes.
 module wide_arc_film
    use kinds, only: wp, pi
    use film_solver, only: film_motion, film_response, film_counters, film_ok
@@ -13,7 +13,8 @@ module wide_arc_film
    use dimensionless_pad, only: dimensionless_pad_type, unit_oil
    use film_grid, only: new_film_grid
    use elimination_film, only: elimination_film_type, new_elimination_film
-   use strip_film, only: strip_type, strip_film_type, usual_steps, find_strip, solve_strip, angle_of
+   use fourier_film, only: fourier_film_type, converged_film
+   use strip_film, only: strip_type, strip_film_type, usual_steps, find_strip, solve_strip, solve_clipped_strip, angle_of
    use cell_store, only: node_type, node_solver_type, axes
    implicit none (type, external)
    private
@@ -30,17 +31,21 @@ module wide_arc_film
    real(wp), parameter :: least_e = 1e-12_wp
    !> Columns of volumes for every row.
    integer, parameter :: columns_a_row = 8
+   !> Steps of the strip's film on the whole arc, and error of films by modes.
+   integer, parameter :: clipped_steps = 2*usual_steps
+   real(wp), parameter :: modes_error = 1e-6_wp
 
    type, extends(node_solver_type) :: wide_arc_film_type
       type(dimensionless_pad_type) :: pad
-      !> psi from which on no oil converges on the arc.
+      !> psi from which on no oil converges on the arc; with Guembel's condition half a turn.
       real(wp) :: last_psi = 0
+      logical :: gumbel = .false.
       integer, private :: rows = 0
-      !> The finer and the coarser grid, once they are needed: what the grids of all films have in common.
+      !> Once they are needed: the finer and the coarser grid, what the grids of all films have in common; or modes.
       type(elimination_film_type), allocatable, private :: grids(:)
+      type(fourier_film_type), allocatable, private :: modes
    contains
       procedure :: solve
-      procedure :: node_cost
       procedure :: strip
       procedure :: solve_film
    end type wide_arc_film_type
@@ -53,13 +58,15 @@ module wide_arc_film
 
 contains
 
-   !> The films of a pad, with this number of rows of volumes.
-   type(wide_arc_film_type) function new_wide_arc_film(pad, rows) result(self)
+   !> The films of a pad with the condition of Reynolds or of Guembel; with this number of rows of volumes.
+   type(wide_arc_film_type) function new_wide_arc_film(pad, gumbel, rows) result(self)
       type(dimensionless_pad_type), intent(in) :: pad
+      logical, intent(in) :: gumbel
       integer, intent(in) :: rows
       self%pad = pad
+      self%gumbel = gumbel
       self%rows = rows
-      self%last_psi = pad%half_arc + 0.5_wp*pi
+      self%last_psi = merge(pi, pad%half_arc + 0.5_wp*pi, gumbel)
    end function new_wide_arc_film
 
    !> The functions of a film.
@@ -75,7 +82,8 @@ contains
       e = 1 - exp(-place(1))
       outward = [sin(place(2)), cos(place(2))]
       across = [outward(2), -outward(1)]
-      psi = min(place(3), self%last_psi - least_converging)
+      psi = place(3)
+      if (.not. self%gumbel) psi = min(psi, self%last_psi - least_converging)
       ! at e = 0 the direction of the slopes is that of gamma
       call self%solve_film(max(e, least_e)*outward, psi, film, node%ok)
       if (.not. node%ok) return
@@ -96,14 +104,6 @@ contains
          over = sum(direction*(of_film/film%force - of_strip/strip%force))
       end function over
    end subroutine solve
-
-   !> What solving a film costs, over a full film by modes (2 us): where it may have two free ends all columns are
-   !> blocks.
-   pure real(wp) function node_cost(self, place)
-      class(wide_arc_film_type), intent(in) :: self
-      real(wp), intent(in) :: place(axes)
-      node_cost = (self%rows/12.0_wp)**3*merge(270, 60, self%pad%half_arc > 0.5_wp*pi)
-   end function node_cost
 
    !> What turns the frame of least film thickness into the mid-arc frame, for a position over the clearance.
    pure complex(wp) function frame_of(position)
@@ -128,10 +128,15 @@ contains
       real(wp), intent(in) :: position(2), size, psi
       logical, intent(in) :: with_slopes, with_pressure
       type(strip_film_type) :: film
-      associate (turn => frame_of(position))
-         film = solve_strip(self%pad%length, norm2(position), &
-            & size*vector_of(cmplx(sin(psi), cos(psi), wp)*conjg(turn)), usual_steps, strip_ends(self, position, psi), &
-            & with_slopes, with_pressure)
+      associate (turn => frame_of(position), e => norm2(position), &
+         & w => size*vector_of(cmplx(sin(psi), cos(psi), wp)*conjg(frame_of(position))))
+         if (self%gumbel) then
+            film = solve_clipped_strip(self%pad%length, e, [-1, 1]*self%pad%half_arc - atan2(position(1), position(2)), w, &
+               & clipped_steps, with_slopes, with_pressure)
+         else
+            film = solve_strip(self%pad%length, e, w, usual_steps, strip_ends(self, position, psi), with_slopes, &
+               & with_pressure)
+         end if
          found%force = turn*cmplx(film%force(1), film%force(2), wp)
          found%over_position = turned(cmplx(film%over_position(1, :), film%over_position(2, :), wp), turn)
          found%over_w = turned(cmplx(film%over_w(1, :), film%over_w(2, :), wp), turn)
@@ -161,6 +166,26 @@ contains
       type(strip_force_type), intent(out) :: film
       logical, intent(out) :: ok
       type(film_response) :: response
+      if (self%gumbel) then
+         if (.not. allocated(self%modes)) self%modes = converged_film(self%pad%gap(0.0_wp), .true., modes_error)
+         call self%modes%evaluate_pad(1, film_motion(position, [sin(psi), cos(psi)]), unit_oil, 0.0_wp, .true., response)
+      else
+         call solve_volumes(self, position, psi, response)
+      end if
+      ok = response%status == film_ok
+      film%force = cmplx(response%force(1), response%force(2), wp)
+      associate (d => response%derivatives)
+         film%over_position = cmplx(d(1, :2), d(2, :2), wp)
+         film%over_w = cmplx(d(1, 3:), d(2, 3:), wp)
+      end associate
+      film%highest = response%max_pressure
+   end subroutine solve_film
+
+   !> The same on finite volumes.
+   subroutine solve_volumes(self, position, psi, response)
+      class(wide_arc_film_type), intent(inout) :: self
+      real(wp), intent(in) :: position(2), psi
+      type(film_response), intent(out) :: response
       real(wp) :: room(2), ends(2)
       integer :: k, widened
       logical :: fits
@@ -177,17 +202,10 @@ contains
             ends = [max(s%edges(1), s%ends(1) - room(1)), min(s%edges(2), s%ends(2) + room(2))]
             call solve_between(self, position, [sin(psi), cos(psi)], ends, &
                & [ends(1) <= s%edges(1), ends(2) >= s%edges(2)], response, fits)
-            ok = response%status == film_ok
-            if (fits .or. .not. ok) exit
+            if (fits .or. response%status /= film_ok) exit
          end do
       end associate
-      film%force = cmplx(response%force(1), response%force(2), wp)
-      associate (d => response%derivatives)
-         film%over_position = cmplx(d(1, :2), d(2, :2), wp)
-         film%over_w = cmplx(d(1, 3:), d(2, 3:), wp)
-      end associate
-      film%highest = response%max_pressure
-   end subroutine solve_film
+   end subroutine solve_volumes
 
    !> The film between two of Sommerfeld's angles, extrapolated. It `fits` where it does not take the last column before
    !> an end that is no edge of the arc.

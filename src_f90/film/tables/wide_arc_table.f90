@@ -3,8 +3,9 @@
 !> gamma and psi (wide_arc_film). Cells are large; those of high eccentricities are half as long. Of places that are
 !> mirrors of each other there is one.
 !>
-!> The table answers where it pays, like that of shorter pads (cavitated_film); else, at eccentricities from 1 on, and
-!> where the journal hardly moves against the oil, it leaves a film to the solver that does without a table.
+!> A cell is built when a film is first asked for in it: all cells together take less time than users notice, and what
+!> is found does not depend on what came before. Films at eccentricities from 1 on, nearly, and where the journal
+!> hardly moves against the oil are left to the solver that does without a table.
 module wide_arc_table
    use kinds, only: wp, pi
    use film_solver, only: film_motion, film_law_type, film_response, film_counters
@@ -17,19 +18,18 @@ module wide_arc_table
    private
    public :: wide_arc_table_type, wide_arc_pad_type, new_wide_arc_table, new_wide_arc_pad
 
-   !> Length of cells along -ln(1 - e), rad along gamma and psi at most, for this tolerance and larger ones. For
-   !> smaller ones, from which on the error of the solver without a table would show, all cells are built; they are
-   !> halved where that is nearer, as the error falls with the fourth power of their length.
-   real(wp), parameter :: length(3) = [0.7_wp, pi/8, pi/12], base_tolerance = 4e-5_wp, as_close = 3.6e-5_wp
+   !> Length of cells along -ln(1 - e), rad along gamma and psi at most, for this tolerance (with the condition of
+   !> Reynolds, of Guembel) and larger ones. For smaller ones they are halved where that is nearer, as the error falls
+   !> with the fourth power of their length.
+   real(wp), parameter :: length(3) = [0.7_wp, pi/8, pi/12], base_tolerance(2) = [4e-5_wp, 1e-5_wp]
    integer, parameter :: most_halved = 1
+   !> Of pads up to half a circle the first cells along psi, this number, are half as long: there the end of a film passes
+   !> an edge, and there loaded pads are.
+   integer, parameter :: short_cells = 3
    !> Cells beyond this number along the first axis are half as long, and there are no more than these, both at first.
    integer, parameter :: long_cells = 4, most_cells = 14
    !> Rows of volumes for this tolerance; the error of what is extrapolated falls with their cubes.
    integer, parameter :: base_rows = 12, most_rows = 24
-   !> Cost of a film without the table, of arcs up to and above half a circle, and above 300 degrees, and of one with
-   !> it, over a full film by modes (2 us). The time of a table over that of the same films without it, beyond what its
-   !> first nodes may cost: some 10 ms.
-   real(wp), parameter :: film_cost(3) = [15, 80, 400], strip_cost = 2, most_cost = 1.2_wp, first_cost = 6000
    !> Where the oil converges on less than this, rad, there is no force.
    real(wp), parameter :: shortest = 1e-6_wp
    !> w over the speed of what turns with the journal below which the film is left to the other solver.
@@ -39,16 +39,15 @@ module wide_arc_table
       type(dimensionless_pad_type) :: pad
       type(wide_arc_film_type), private :: films
       type(cell_store_type), private :: store
-      !> Cells along gamma and psi, and how often cells are halved.
-      integer, private :: around = 0, across = 0, halved = 0
-      !> Cost of a film without the table; whether all cells are built.
-      real(wp), private :: cost_without = 0
-      logical, private :: filled = .false.
+      !> Cells along gamma and psi, of the latter those that count twice as they are half as long, and how often cells
+      !> are halved.
+      integer, private :: around = 0, across = 0, twice = 0, halved = 0
    contains
       procedure :: film
       procedure, private :: functions
       procedure, private :: cell_place
       procedure, private :: lower_x
+      procedure, private :: lower_psi
    end type wide_arc_table_type
 
    !> A pad: how it differs from its shape, and the cells it was in last.
@@ -69,22 +68,23 @@ module wide_arc_table
 
 contains
 
-   !> An empty table for a pad, to a tolerance over the force; `filled`, every cell is built.
-   function new_wide_arc_table(pad, tolerance, most, filled) result(table)
+   !> An empty table for a pad, with the condition of Reynolds or of Guembel, to a tolerance over the force.
+   function new_wide_arc_table(pad, gumbel, tolerance, most) result(table)
       type(dimensionless_pad_type), intent(in) :: pad
+      logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
-      logical, intent(in) :: filled
       type(wide_arc_table_type) :: table
+      real(wp) :: finer
+      finer = merge(base_tolerance(2), base_tolerance(1), gumbel)/tolerance
       table%pad = pad
-      table%films = new_wide_arc_film(pad, min(most_rows, max(base_rows, &
-         & 2*nint(0.5_wp*base_rows*(base_tolerance/tolerance)**(1.0_wp/3)))))
+      table%films = new_wide_arc_film(pad, gumbel, min(most_rows, max(base_rows, &
+         & 2*nint(0.5_wp*base_rows*finer**(1.0_wp/3)))))
       table%store = new_cell_store(3, most)
-      table%halved = max(0, min(most_halved, nint(0.25_wp*log(base_tolerance/tolerance)/log(2.0_wp))))
+      table%halved = max(0, min(most_halved, nint(0.25_wp*log(finer)/log(2.0_wp))))
       table%around = nint(2*pi/length(2))*2**table%halved
       table%across = ceiling(table%films%last_psi/length(3) - 1e-9_wp)*2**table%halved
-      table%cost_without = film_cost(1 + count(pad%half_arc > [pi/2, pi*5/6]))
-      table%filled = filled .or. tolerance < as_close
+      if (pad%half_arc <= 0.5_wp*pi) table%twice = short_cells*2**table%halved
    end function new_wide_arc_table
 
    !> The films at a position over the clearance, |e| < 1, and a w: their force with derivatives, or their highest
@@ -106,9 +106,9 @@ contains
       ! the film about psi, and the one beside the edges
       psi(2) = psi(1) - sign(2*pi, psi(1))
       good = .true.
-      self%store%cost_without = self%store%cost_without + self%cost_without
       do k = 1, 2
-         if (abs(psi(k)) >= self%films%last_psi - shortest) cycle
+         if (k == 2 .and. self%films%gumbel) exit
+         if (.not. self%films%gumbel .and. abs(psi(k)) >= self%films%last_psi - shortest) cycle
          call self%functions([-log(1 - e), atan2(position(1), position(2)), psi(k), 0.0_wp], with_slopes, last(k), &
             & counters, q, slopes, ratio, good)
          if (.not. good) exit
@@ -123,7 +123,6 @@ contains
             found%over_w = found%over_w + factor*(strip%over_w + strip%force*over_w)
          end associate
       end do
-      self%store%cost = self%store%cost + merge(strip_cost, self%cost_without, good)
    end subroutine film
 
    !> q and its slopes at a place, and the ratio of highest pressures, where there is a cell or one pays.
@@ -147,10 +146,7 @@ contains
          call self%cell_place(at, cell, lower, upper, good)
          if (good) then
             last = self%store%find(cell)
-            if (last == 0 .and. (self%filled .or. &
-               & self%store%cost < first_cost + most_cost*self%store%cost_without)) then
-               call self%store%build(self%films, cell, lower, upper, counters, last)
-            end if
+            if (last == 0) call self%store%build(self%films, cell, lower, upper, counters, last)
          end if
       end if
       good = last > 0
@@ -179,8 +175,9 @@ contains
       real(wp), intent(out) :: lower(axes), upper(axes)
       logical, intent(out) :: good
       integer :: i, side
-      real(wp) :: x
+      real(wp) :: x, y
       cell%level = self%halved
+      y = place(3)*self%across/self%films%last_psi
       x = place(1)/length(1)*2**self%halved
       i = int(x)
       associate (long => long_cells*2**self%halved)
@@ -188,7 +185,7 @@ contains
          good = i < most_cells*2**self%halved
       end associate
       cell%at(:3, 0) = [i, min(int((place(2) + pi)*self%around/(2*pi)), self%around - 1), &
-         & min(int(place(3)*self%across/self%films%last_psi), self%across - 1)]
+         & min(int(y + min(y, real(self%twice, wp))), self%across + self%twice - 1)]
       cell%at(:3, 1) = cell%at(:3, 0) + 1
       lower = ends(cell%at(:, 0))
       upper = ends(cell%at(:, 1))
@@ -202,7 +199,7 @@ contains
       pure function ends(at)
          integer, intent(in) :: at(axes)
          real(wp) :: ends(axes)
-         ends = [self%lower_x(at(1)), 2*pi*at(2)/self%around - pi, self%films%last_psi*at(3)/self%across, 0.0_wp]
+         ends = [self%lower_x(at(1)), 2*pi*at(2)/self%around - pi, self%lower_psi(at(3)), 0.0_wp]
       end function ends
    end subroutine cell_place
 
@@ -214,6 +211,13 @@ contains
          lower_x = length(1)/2**self%halved*(min(number, long) + 0.5_wp*max(0, number - long))
       end associate
    end function lower_x
+
+   !> The same along psi.
+   pure real(wp) function lower_psi(self, number)
+      class(wide_arc_table_type), intent(in) :: self
+      integer, intent(in) :: number
+      lower_psi = self%films%last_psi/self%across*max(0.5_wp*number, real(number - self%twice, wp))
+   end function lower_psi
 
    pure type(wide_arc_pad_type) function new_wide_arc_pad(gap) result(pad)
       type(pad_gap_type), intent(in) :: gap
