@@ -353,8 +353,8 @@ contains
 
    !> Marches from a little beside the equilibrium, 10 % below and above the threshold speed. Beside that from the
    !> equilibrium itself, at which the films of a march do not quite rest, the whirl dies away, or grows, as its
-   !> eigenvalue says, whose slopes are those of other films: growth over shaft speed is uncertain by 1e-3. Above the threshold speed it ends as an orbit of half the shaft's frequency
-   !> within the clearance.
+   !> eigenvalue says, whose slopes are those of other films: growth over shaft speed is uncertain by 1e-3. Above the
+   !> threshold speed it ends as an orbit of half the shaft's frequency within the clearance.
    subroutine whirl()
       real(wp), parameter :: beside = 1e-3_wp
       integer, parameter :: revolutions = 150, last = 40

@@ -14,7 +14,8 @@ module wide_arc_film
    use film_grid, only: new_film_grid
    use elimination_film, only: elimination_film_type, new_elimination_film
    use fourier_film, only: fourier_film_type, converged_film
-   use strip_film, only: strip_type, strip_film_type, usual_steps, find_strip, solve_strip, solve_clipped_strip, angle_of
+   use strip_film, only: strip_type, strip_film_type, usual_steps, find_strip, solve_strip, solve_clipped_strip, &
+      & angle_of
    use cell_store, only: node_type, node_solver_type, axes
    implicit none (type, external)
    private
@@ -131,8 +132,8 @@ contains
       associate (turn => frame_of(position), e => norm2(position), &
          & w => size*vector_of(cmplx(sin(psi), cos(psi), wp)*conjg(frame_of(position))))
          if (self%gumbel) then
-            film = solve_clipped_strip(self%pad%length, e, [-1, 1]*self%pad%half_arc - atan2(position(1), position(2)), w, &
-               & clipped_steps, with_slopes, with_pressure)
+            film = solve_clipped_strip(self%pad%length, e, [-1, 1]*self%pad%half_arc - atan2(position(1), position(2)), &
+               & w, clipped_steps, with_slopes, with_pressure)
          else
             film = solve_strip(self%pad%length, e, w, usual_steps, strip_ends(self, position, psi), with_slopes, &
                & with_pressure)
@@ -168,7 +169,8 @@ contains
       type(film_response) :: response
       if (self%gumbel) then
          if (.not. allocated(self%modes)) self%modes = converged_film(self%pad%gap(0.0_wp), .true., modes_error)
-         call self%modes%evaluate_pad(1, film_motion(position, [sin(psi), cos(psi)]), unit_oil, 0.0_wp, .true., response)
+         call self%modes%evaluate_pad(1, film_motion(position, [sin(psi), cos(psi)]), unit_oil, 0.0_wp, .true., &
+            & response)
       else
          call solve_volumes(self, position, psi, response)
       end if

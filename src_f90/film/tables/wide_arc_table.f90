@@ -23,8 +23,8 @@ module wide_arc_table
    !> with the fourth power of their length.
    real(wp), parameter :: length(3) = [0.7_wp, pi/8, pi/12], base_tolerance(2) = [4e-5_wp, 1e-5_wp]
    integer, parameter :: most_halved = 1
-   !> Of pads up to half a circle the first cells along psi, this number, are half as long: there the end of a film passes
-   !> an edge, and there loaded pads are.
+   !> Of pads up to half a circle the first cells along psi, this number, are half as long: there the end of a film
+   !> passes an edge, and there loaded pads are.
    integer, parameter :: short_cells = 3
    !> Cells beyond this number along the first axis are half as long, and there are no more than these, both at first.
    integer, parameter :: long_cells = 4, most_cells = 14
