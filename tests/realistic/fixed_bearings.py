@@ -1,8 +1,9 @@
 """Bearings of fixed pads; the same seed and number give the same one.
 
-Plain bearings with one groove, two axial grooves, lemon bores, offset halves and three lobes; L/D 0.3 to 1.2,
-preload 0 to 0.6 (of lobes), Sommerfeld numbers 0.05 to 2, laminar turbine and pump bearings of 60 to 300 mm. The rotor has the balance of ISO 21940-11, and turns at half to twice the speed at which a rotor of
-its weight begins to whirl in most plain bearings, w^2 c/g = 6: some are stable, others whirl.
+Plain bearings with one groove, two axial grooves, lemon bores, offset halves and three lobes of 60 to 300 mm;
+L/D 0.3 to 1.2, preload 0 to 0.6 (of lobes), Sommerfeld numbers 0.05 to 2. The rotor has the balance of ISO
+21940-11, and turns at half to twice the speed at which a rotor of its weight begins to whirl in most plain
+bearings, w^2 c/g = 6: some are stable, others whirl.
 """
 
 import math
