@@ -84,6 +84,19 @@ def test_films_of_the_whirl_come_from_tables(tiltpad, root, tmp_path):
             assert one == pytest.approx(two, rel=1e-3), name
 
 
+def test_the_whirl_is_close_to_converged(tiltpad, root, tmp_path):
+    """The example by default lies within 1e-3 of its orbit from a march and tables of 1e-8 and 2e-6, at each
+    instant; half of the way up to the limit cycle."""
+    example, end = root / "input/examples/two_groove.nml", "operation%duration=0.4"
+    close = [end, "integration%relative_tolerance=1e-8", "film%table_tolerance=2e-6"]
+    for name, settings in (("usual", [end]), ("close", close)):
+        tiltpad(example, "-q", "-o", f"{name}.h5", overrides=settings, cwd=tmp_path, status=0)
+    with h5py.File(tmp_path / "usual.h5") as usual, h5py.File(tmp_path / "close.h5") as exact:
+        for name in ("journal_y", "journal_z"):
+            error = np.abs(usual[name][-360:] - exact[name][-360:]).max()
+            assert error < 1e-3 * np.ptp(exact[name][-360:]), name
+
+
 def test_oil_whirl_of_the_example(tiltpad, root, tmp_path):
     """Above the threshold speed the journal whirls at nearly half the shaft speed; below it does not."""
     example = root / "input/examples/two_groove.nml"
