@@ -21,8 +21,8 @@ module march_settings
    !> Absolute tolerances of rigid pivots over those of pivots that yield: without their damping the errors of the steps
    !> live longer.
    real(wp), parameter :: rigid_tolerance = 0.3_wp
-   !> Tolerances of fixed pads over those of pads that move: the whirl of a plain bearing has no phase of its own, so that
-   !> in it the errors of all steps add up.
+   !> Tolerances of fixed pads over those of pads that move: the whirl of a plain bearing has no phase of its own, so
+   !> that in it the errors of all steps add up.
    real(wp), parameter :: fixed_tolerance = 0.3_wp
    !> And with friction over those without: what its moment errs by is above what the states do.
    real(wp), parameter :: friction_tolerance = 0.5_wp

@@ -64,8 +64,8 @@ module cavitated_film
    !> Time of a film without the table and of a node, where little of the film diverges and where more does than this T:
    !> over that of a full film by modes (2 us); a film without it starts from the one before. The time of a table over
    !> that of the same films without it, beyond what its first nodes may cost: some 10 ms.
-   real(wp), parameter :: film_cost(2) = [1, 5], cost_of_node(2) = [20, 60], little = 0.2_wp
-   real(wp), parameter :: most_cost = 1.2_wp, first_cost = 100*cost_of_node(2)
+   real(wp), parameter :: film_cost(2) = [1, 5], node_cost(2) = [20, 60], little = 0.2_wp
+   real(wp), parameter :: most_cost = 1.2_wp, first_cost = 100*node_cost(2)
    !> The same where the rotation acts, so that no other pad has the table: it may cost as much as all films would have
    !> cost without it, so that both together cost at most twice the cheaper of them (full_film_table).
    !> Its nodes have the full film without rotation, too.
@@ -150,7 +150,7 @@ contains
       at = min(place(3), last_solved)
       room = 1 - at
       counters%nodes = counters%nodes + 1
-      self%cost = self%cost + cost_of_node(class_of(place(3)))*merge(rotation_cost, 1.0_wp, self%drive%acts)
+      self%cost = self%cost + node_cost(class_of(place(3)))*merge(rotation_cost, 1.0_wp, self%drive%acts)
       associate (edges => place(:2), w_2 => self%pad%tangent*(1 - 2*at), t => place(4))
          if (t < 0) then
             ! a mirror turns the rotation round

@@ -132,8 +132,8 @@ contains
       associate (turn => frame_of(position), e => norm2(position), &
          & w => size*vector_of(cmplx(sin(psi), cos(psi), wp)*conjg(frame_of(position))))
          if (self%gumbel) then
-            film = solve_clipped_strip(self%pad%length, e, [-1, 1]*self%pad%half_arc - atan2(position(1), position(2)), &
-               & w, clipped_steps, with_slopes, with_pressure)
+            film = solve_clipped_strip(self%pad%length, e, [-1, 1]*self%pad%half_arc &
+               & - atan2(position(1), position(2)), w, clipped_steps, with_slopes, with_pressure)
          else
             film = solve_strip(self%pad%length, e, w, usual_steps, strip_ends(self, position, psi), with_slopes, &
                & with_pressure)

@@ -125,7 +125,7 @@ contains
       end do
    end subroutine film
 
-   !> q and its slopes at a place, and the ratio of highest pressures, where there is a cell or one pays.
+   !> q and its slopes at a place, and the ratio of highest pressures, where there are cells.
    subroutine functions(self, place, with_slopes, last, counters, q, slopes, ratio, good)
       class(wide_arc_table_type), intent(inout) :: self
       real(wp), intent(in) :: place(axes)
@@ -212,7 +212,7 @@ contains
       end associate
    end function lower_x
 
-   !> The same along psi.
+   !> The lower end of a cell along psi.
    pure real(wp) function lower_psi(self, number)
       class(wide_arc_table_type), intent(in) :: self
       integer, intent(in) :: number
