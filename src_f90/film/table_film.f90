@@ -1,11 +1,12 @@
 !> Films as tables, built where the motion goes (docs/theory/film.md, *The table*).
 !>
 !> The full film comes from one table; where it cavitates, another adds what cavitation changes. Pads of the same shape
-!> share their tables. What no table has, films that nearly close and those that may cavitate with different pressures
-!> around them, is left to the solver whose films are tabulated.
+!> share their tables. Pads of wide arcs have tables of another kind. What no table has, films that nearly close and
+!> those that may cavitate with different pressures around them, is left to the solver whose films are tabulated.
 module table_film
    use kinds, only: wp, i8
-   use film_solver, only: film_motion, film_law_type, film_response, film_ok, cavitation_gumbel
+   use film_solver, only: film_motion, film_law_type, film_response, film_ok, cavitation_gumbel, &
+      & cavitation_reynolds
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad, unit_oil
    use rotation_drive, only: new_rotation_drive
    use pad_gap, only: pad_gap_type
@@ -13,12 +14,15 @@ module table_film
    use full_film, only: new_full_film, new_full_film_table
    use cavitated_film, only: new_cavitated_film, new_cavitation_table
    use table_pad, only: table_pad_type, shape_tables, new_table_pad
+   use wide_arc_table, only: wide_arc_table_type, wide_arc_pad_type, new_wide_arc_pad, new_wide_arc_table
    implicit none (type, external)
    private
    public :: table_film_type, new_table_film, has_tables
 
-   !> Pads with half arcs above this, rad, have no table: their film does not follow from its thickness at the edges.
+   !> The films of pads with half arcs above this, rad, do not follow from their thickness at the edges.
    real(wp), parameter :: largest_half_arc = 1.3_wp
+   !> Those of wide arcs have tables with Guembel's condition from this half arc on, rad: there they never vanish.
+   real(wp), parameter :: least_gumbel_half_arc = 3.05_wp
    !> Error of the full film over that of what cavitation changes.
    real(wp), parameter :: share_of_full = 0.3_wp
 
@@ -31,6 +35,9 @@ module table_film
       type(table_pad_type), allocatable :: tabulated(:)
       !> Of pads of one shape whose law does not vary, and one for every pad with a law that does, which are the last.
       type(shape_tables), allocatable :: shapes(:)
+      !> The same for pads of wide arcs.
+      type(wide_arc_pad_type), allocatable :: wide_arcs(:)
+      type(wide_arc_table_type), allocatable :: wide_shapes(:)
       !> Whether films come from tables, and all of their cells are built; error of what cavitation changes and of
       !> full films, over the force.
       logical :: in_tables, filled
@@ -77,7 +84,32 @@ contains
          call set_tables(solver, unit_oil, solver%shapes(k))
       end do
       solver%shapes = [solver%shapes, [(shape_tables(), i=1, size(direct%gaps))]]
+      call add_wide_arcs(solver)
    end function new_table_film
+
+   !> The tables of pads of wide arcs: with the same pressure all around, and with the condition of Reynolds or, of the
+   !> widest arcs, of Guembel.
+   subroutine add_wide_arcs(self)
+      type(table_film_type), intent(inout) :: self
+      logical :: gumbel
+      integer :: i, k
+      gumbel = self%own_condition == cavitation_gumbel
+      self%wide_arcs = [(new_wide_arc_pad(self%gaps(i)), i=1, size(self%gaps))]
+      allocate (self%wide_shapes(0))
+      if (.not. (self%in_tables .and. (gumbel .or. self%own_condition == cavitation_reynolds))) return
+      do i = 1, size(self%gaps)
+         associate (pad => new_dimensionless_pad(self%gaps(i)), shapes => self%wide_shapes)
+            if (self%tabulated(i)%shape > 0 .or. .not. self%tabulated(i)%even_pressure) cycle
+            if (gumbel .and. pad%half_arc < least_gumbel_half_arc) cycle
+            do k = 1, size(shapes)
+               if (same(self%wide_shapes(k)%pad, pad)) exit
+            end do
+            if (k > size(shapes)) self%wide_shapes = [self%wide_shapes, new_wide_arc_table(pad, gumbel, &
+               & self%tolerance, most_cavitated/size(self%gaps))]
+            self%wide_arcs(i)%shape = k
+         end associate
+      end do
+   end subroutine add_wide_arcs
 
    !> Empty tables of a shape for an oil, or the films that stand in.
    subroutine set_tables(self, oil, shape)
@@ -142,6 +174,10 @@ contains
       type(film_response), intent(inout) :: response
       integer(i8) :: solved
       integer :: k
+      if (self%wide_arcs(i)%shape > 0) then
+         call solve_wide_arc(self, i, motion, oil, speed, want_derivatives, response)
+         return
+      end if
       solved = self%counters%fourier
       k = tables_of(self, i, oil)
       if (k > 0) call self%tabulated(i)%look_up(self%shapes(k), motion, oil, speed, self%cavitates(), &
@@ -154,6 +190,26 @@ contains
       end if
    end subroutine solve
 
+   !> The same for a pad of a wide arc.
+   subroutine solve_wide_arc(self, i, motion, oil, speed, want_derivatives, response)
+      class(table_film_type), intent(inout) :: self
+      integer, intent(in) :: i
+      type(film_motion), intent(in) :: motion
+      class(film_law_type), intent(in) :: oil
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: want_derivatives
+      type(film_response), intent(inout) :: response
+      associate (pad => self%wide_arcs(i), tables => self%wide_shapes(self%wide_arcs(i)%shape))
+         if (.not. oil%varies .and. self%condition == self%own_condition) call pad%look_up(tables, motion, oil, speed, &
+            & want_derivatives, self%counters, response)
+      end associate
+      if (response%from_tables) then
+         self%counters%looked_up = self%counters%looked_up + 1
+      else
+         call self%direct_film_type%solve(i, motion, oil, speed, want_derivatives, response)
+      end if
+   end subroutine solve_wide_arc
+
    !> The pressures of films from the tables.
    subroutine take_pressures(self, motion, oil, speed, response)
       class(table_film_type), intent(inout) :: self
@@ -164,9 +220,15 @@ contains
       integer :: i, k
       do i = 1, size(motion)
          if (.not. response(i)%lacks_pressures .or. response(i)%status /= film_ok) cycle
-         k = tables_of(self, i, oil(i))
-         call self%tabulated(i)%look_up_pressures(self%shapes(k), motion(i), oil(i), speed, self%cavitates(), &
-            & self%counters, response(i))
+         k = self%wide_arcs(i)%shape
+         if (k > 0) then
+            call self%wide_arcs(i)%look_up_pressures(self%wide_shapes(k), motion(i), oil(i), speed, self%counters, &
+               & response(i))
+         else
+            k = tables_of(self, i, oil(i))
+            call self%tabulated(i)%look_up_pressures(self%shapes(k), motion(i), oil(i), speed, self%cavitates(), &
+               & self%counters, response(i))
+         end if
          if (.not. response(i)%from_tables) call self%direct_film_type%solve(i, motion(i), oil(i), speed, .false., &
             & response(i))
       end do
@@ -181,7 +243,8 @@ contains
       real(wp), intent(in) :: speed, phi(:), z(:)
       real(wp), intent(out) :: pressure(:, :)
       associate (pad => self%tabulated(i))
-         call self%rebuild(i, pad%shape > 0 .and. pad%even_pressure, motion, oil, speed, phi, z, pressure)
+         call self%rebuild(i, max(pad%shape, self%wide_arcs(i)%shape) > 0 .and. pad%even_pressure, motion, oil, speed, &
+            & phi, z, pressure)
       end associate
    end subroutine field_of_pad
 end module table_film

@@ -3,7 +3,7 @@
 module march_settings
    use kinds, only: wp, i8, pi
    use marching, only: march_options
-   use state_layout, only: pivot_deflection
+   use state_layout, only: tilt, pivot_deflection
    use abstract_element, only: element_pointer
    use equations_of_motion, only: machine_model
    use text, only: to_text
@@ -21,6 +21,9 @@ module march_settings
    !> Absolute tolerances of rigid pivots over those of pivots that yield: without their damping the errors of the steps
    !> live longer.
    real(wp), parameter :: rigid_tolerance = 0.3_wp
+   !> Tolerances of fixed pads over those of pads that move: the whirl of a plain bearing has no phase of its own, so
+   !> that in it the errors of all steps add up.
+   real(wp), parameter :: fixed_tolerance = 0.3_wp
    !> And with friction over those without: what its moment errs by is above what the states do.
    real(wp), parameter :: friction_tolerance = 0.5_wp
    !> And of light vibrations above the speed, which elastic rotors have: there BDF of the orders 3 to 5 is unstable, so
@@ -57,7 +60,9 @@ contains
       integer :: e
       associate (integration => model%inputs%integration)
          options%relative_tolerance = integration%relative_tolerance
-         options%absolute_tolerance = integration%relative_tolerance*integration%tolerance_scale*model%scale
+         if (size(model%bearings) > 0 .and. .not. any([(model%layout%elements(e)%has(tilt), e=1, &
+            & size(model%bearings))])) options%relative_tolerance = fixed_tolerance*integration%relative_tolerance
+         options%absolute_tolerance = options%relative_tolerance*integration%tolerance_scale*model%scale
          options%max_step = integration%max_step
          options%max_steps = integration%max_steps - steps
          options%short_step = 2*pi/(model%inputs%highest_speed()*many_steps)

@@ -156,9 +156,14 @@ def test_a_signal_while_the_equilibrium_is_sought(start, case):
     assert [path.name for path in case.iterdir()] == ["case.nml"]
 
 
-def test_a_cavitated_film_is_resumed_to_the_bit(start, tiltpad, case):
+WIDE_ARCS = "pads%motion=fixed friction%model=none pads%pivot_angle_deg=-90,90 pads%arc_deg=160"
+
+
+@pytest.mark.parametrize("settings", ["", WIDE_ARCS], ids=["lugre", "wide arcs"])
+def test_a_cavitated_film_is_resumed_to_the_bit(start, tiltpad, case, settings):
     """From a checkpoint where a film is cavitated: the same bits, twice."""
-    process = start(case, "case.nml", "-q", *ENDLESS, "--set", "rotor%unbalance=0.03")
+    of_case = [word for each in settings.split() for word in ("--set", each)]
+    process = start(case, "case.nml", "-q", *ENDLESS, "--set", "rotor%unbalance=0.03", *of_case)
     wait_for_checkpoint(case / "case.h5", process)
     process.terminate()
     one_error(process, 4)

@@ -4,16 +4,20 @@ import sys
 from pathlib import Path
 
 import h5py
+import pytest
 
 TESTS = Path(__file__).parents[1]
 sys.path[:0] = [str(TESTS / "stress"), str(TESTS / "realistic")]
 import bearings  # noqa: E402
-from bearing_runs import CLOSEST, REVOLUTIONS, changed, march, time_of  # noqa: E402
+import fixed_bearings  # noqa: E402
+from bearing_runs import CLOSEST, REVOLUTIONS, Bearing, changed, compare, march, settle, time_of  # noqa: E402
 from march_errors import errors, period  # noqa: E402
 
 SEED = 1
 #: Fast bearings, of which the study has as many.
 FAST = range(bearings.FAST_ABOVE + 1, bearings.FAST_ABOVE + 21)
+#: Of fixed pads: all around, and two lobes.
+FIXED = (fixed_bearings.FIXED_ABOVE + 5, fixed_bearings.FIXED_ABOVE + 7)
 
 
 def test_a_designer_accepts_every_bearing():
@@ -40,6 +44,22 @@ def test_fast_bearings_are_turbulent(program, tmp_path):
         )
     assert ((share > 0) == (reynolds > 500)).all()
     assert share.max() > 0
+
+
+@pytest.mark.parametrize("number", FIXED)
+def test_fixed_pads_march_closely(program, tmp_path, number):
+    """A plain bearing and a lemon bore, by the figures of docs/realistic.md."""
+    case = fixed_bearings.draw(SEED, number)
+    assert case == fixed_bearings.draw(SEED, number)
+    bearing = Bearing(number, case)
+    settle(Path(program), bearing, tmp_path)
+    compare(Path(program), bearing, tmp_path, curve=False)
+    assert bearing.compared
+    assert bearing.runs["default"].errors["journal_clearance"] < 1e-3
+    assert "tilt_loaded" not in bearing.runs["default"].errors
+    with h5py.File(tmp_path / "default.h5") as file:
+        assert file["statistics/film_table"][()] > 0
+        assert file["statistics/film_volumes"][()] == 0
 
 
 def specific_load(case):

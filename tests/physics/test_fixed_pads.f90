@@ -246,12 +246,12 @@ contains
    end subroutine lobes
 
    !> `direct` and `sor` at their default resolution on arcs of 150 to 360 degrees, which all cavitation, against
-   !> film-adapted volumes, extrapolated; `auto` is `direct` on arcs as long as these. Errors are over the force
+   !> film-adapted volumes, extrapolated; and `auto`, whose tables are closer. Errors are over the force
    !> that the full film gives per velocity, times the velocity that drives it. Volumes are of second order: twice as
    !> many err a quarter, or half where cells that cavitate one by one make it rough.
    subroutine wide_films()
       character(len=*), parameter :: solvers(3) = [character(len=6) :: 'direct', 'sor', 'auto']
-      real(wp), parameter :: allowed(3) = [1e-3_wp, 5e-3_wp, 1e-3_wp]
+      real(wp), parameter :: allowed(3) = [1e-3_wp, 5e-3_wp, 2e-4_wp]
       type(case_type) :: inputs
       real(wp) :: worst(3), finer, place(2), drive(2)
       integer :: i, k
@@ -270,7 +270,7 @@ contains
          print '(2a, es9.1)', 'wide films, largest error of the force, ', solvers(k), worst(k)
          call expect(worst(k) < allowed(k), trim(solvers(k))//': '//to_text(worst(k)))
       end do
-      call expect_close(worst(3), worst(1), 1e-12_wp, 'auto is direct')
+      call expect(worst(3) < worst(1), 'tables are closer')
       call expect(finer < 0.5_wp*worst(1), 'twice as fine: '//to_text(finer)//' after '//to_text(worst(1)))
    end subroutine wide_films
 
@@ -351,31 +351,32 @@ contains
       end do
    end subroutine threshold
 
-   !> Marches from a little beside the equilibrium, 10 % below and above the threshold speed. The whirl dies away, or
-   !> grows, as its eigenvalue says: this comes from slopes that are rough by 1 % where films cavitate, so that growth
-   !> over shaft speed is uncertain by 1e-3. Above the threshold speed it ends as an orbit of half the shaft's frequency
-   !> within the clearance.
+   !> Marches from a little beside the equilibrium, 10 % below and above the threshold speed. Beside that from the
+   !> equilibrium itself, at which the films of a march do not quite rest, the whirl dies away, or grows, as its
+   !> eigenvalue says, whose slopes are those of other films: growth over shaft speed is uncertain by 1e-3. Above the
+   !> threshold speed it ends as an orbit of half the shaft's frequency within the clearance.
    subroutine whirl()
       real(wp), parameter :: beside = 1e-3_wp
       integer, parameter :: revolutions = 150, last = 40
       type(static_state_type) :: rest
       type(machine_model) :: model
       type(equilibrium_type) :: found
-      real(wp), allocatable :: places(:, :), size_of(:)
+      real(wp), allocatable :: places(:, :), still(:, :), size_of(:)
       real(wp) :: growth, order, amplitude
       integer :: i
       logical :: whirls
       do i = -1, 1, 2
          call rotor_at(2.1_wp*(1 + i*0.1_wp), rest, model, found)
+         call march_from(model, found, 0.0_wp, 20, still)
          call march_from(model, found, beside, 20, places)
-         size_of = sizes(model, found, places)
+         size_of = sizes(model, places - still)
          growth = log(size_of(20)/size_of(5))/15/(2*pi)
          call expect_close(growth, found%stability%eigenvalue%re/model%point%speed(0.0_wp), 1e-3_wp, &
             & 'growth in a radian')
          call expect(i*growth > 2e-3_wp, 'beyond doubt: '//to_text(growth))
       end do
       call march_from(model, found, beside, revolutions, places)
-      size_of = sizes(model, found, places)
+      size_of = sizes(model, places - spread(found%rotor, 2, size(places, 2)))
       associate (cycle => size_of(revolutions - last + 1:))
          call expect(minval(cycle) > 0.9_wp*maxval(cycle), 'a limit cycle: '//to_text(minval(cycle))//' to ' &
             & //to_text(maxval(cycle))//' clearances')
@@ -388,18 +389,15 @@ contains
       call expect(whirls .and. order > 0.4_wp .and. order < 0.52_wp, 'of half the frequency: '//to_text(order))
    end subroutine whirl
 
-   !> How far the journal is off its rest at most, in clearances, in each revolution.
-   pure function sizes(model, found, places)
+   !> Lengths of displacements at most, in clearances, in each revolution.
+   pure function sizes(model, displacements)
       type(machine_model), intent(in) :: model
-      type(equilibrium_type), intent(in) :: found
-      real(wp), intent(in) :: places(:, :)
-      real(wp) :: sizes(size(places, 2)/samples)
+      real(wp), intent(in) :: displacements(:, :)
+      real(wp) :: sizes(size(displacements, 2)/samples)
       integer :: i
       do i = 1, size(sizes)
-         associate (turn => places(:, (i - 1)*samples + 1:i*samples))
-            sizes(i) = sqrt(maxval((turn(1, :) - found%rotor(1))**2 + (turn(2, :) - found%rotor(2))**2)) &
-               & /model%inputs%bearings(1)%clearance()
-         end associate
+         sizes(i) = maxval(norm2(displacements(:, (i - 1)*samples + 1:i*samples), 1)) &
+            & /model%inputs%bearings(1)%clearance()
       end do
    end function sizes
 

@@ -8,6 +8,8 @@ from report import table
 
 #: CPU time, s, below which `direct` is not told from the start of the program.
 SHORT = 0.2
+#: Arc of a pad of the whole circle, degrees.
+WHOLE = 360.0
 
 
 def steps(bearings: list[Bearing]) -> str:
@@ -53,6 +55,17 @@ def share(bearing: Bearing) -> float:
 def ratio(bearing: Bearing) -> float:
     """Time with tables over that without."""
     return bearing.runs["default"].seconds / max(bearing.runs["direct"].seconds, SHORT)
+
+
+def microseconds(bearings: list[Bearing]) -> str:
+    """Distribution of the time of a step, over all pads and over those of the whole circle."""
+    own = [
+        (1e6 * run.seconds / run.steps, bearing)
+        for bearing in bearings
+        if (run := bearing.runs["long"]).steps
+    ]
+    whole = [each for each in own if each[1].case["pads"]["arc_deg"][0] == WHOLE]
+    return distribution([("all", own, ".1f"), ("of 360 degrees", whole, ".1f")])
 
 
 def times(bearings: list[Bearing]) -> str:

@@ -72,21 +72,29 @@ class Window:
 
 
 def errors(path: Path, reference: Path, case: Case) -> dict[str, float]:
-    """Errors of a march by quantity; nothing of unloaded pads where there are none."""
+    """Errors of a march by quantity; nothing of unloaded pads or of tilts where there are none."""
     run, true = Window(path), Window(reference)
     moved, size = journal(run, true)
     clearance = case["bearing"]["assembled_clearance"]
     found = {"journal": moved / max(size, STEADY * clearance), "journal_clearance": moved / clearance}
+    thickness, right = (each.values["min_film_thickness"].min(axis=0) for each in (run, true))
+    found["film"] = float(np.max(abs(thickness / right - 1)))
+    pressure, right = (each.values["max_pressure"].max(axis=0) for each in (run, true))
+    found["pressure"] = float(np.max(abs(pressure - right) / np.maximum(right, LARGEST * right.max())))
+    if "pad_tilt" in true.values:
+        found |= of_tilting(run, true, case)
+    return found
+
+
+def of_tilting(run: Window, true: Window, case: Case) -> dict[str, float]:
+    """Errors of tilts and forces at pivots."""
+    found = {}
     forces = true.values["pivot_load"]
     unloaded = forces.mean(axis=0) < UNLOADED * load(case)
     tilts = tilt(run, true, case)
     for name, pads in (("tilt_loaded", ~unloaded), ("tilt_unloaded", unloaded)):
         if pads.any():
             found[name] = float(tilts[pads].max())
-    thickness, right = (each.values["min_film_thickness"].min(axis=0) for each in (run, true))
-    found["film"] = float(np.max(abs(thickness / right - 1)))
-    pressure, right = (each.values["max_pressure"].max(axis=0) for each in (run, true))
-    found["pressure"] = float(np.max(abs(pressure - right) / np.maximum(right, LARGEST * right.max())))
     scale = np.maximum(forces.max(axis=0), LARGEST * forces.max())
     found["force"] = float(np.max(gap(run, true, "pivot_load") / scale))
     return found
@@ -133,6 +141,7 @@ def period(path: Path, case: Case, most: int = 4) -> int:
         moved = (
             np.max(abs(end.values[name][shift:] - end.values[name][:-shift])) / scale
             for name, scale in scales.items()
+            if name in end.values
         )
         if max(moved) < REPEATS:
             return revolutions

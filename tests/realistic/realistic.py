@@ -1,7 +1,7 @@
 """Realistic bearings: error, steps, time and refusals of the program's default settings.
 
-usage: realistic.py TILTPAD [--bearings N [--fast N] | --only N,N,..] [--seed S] [--jobs J] [--record FILE]
-                    [--report FILE] [--namelists FOLDER]
+usage: realistic.py TILTPAD [--bearings N [--fast N] [--fixed N] | --only N,N,..] [--seed S] [--jobs J]
+                    [--record FILE] [--report FILE] [--namelists FOLDER]
 
 With a record, a long study may be stopped at any time: the same command goes on where it ended.
 """
@@ -16,11 +16,14 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from pathlib import Path
 
+import bearings
+import fixed_bearings
 import realistic_picture
 from bearing_runs import Bearing, Run, study
-from bearings import FAST_ABOVE, draw
+from bearings import FAST_ABOVE
+from fixed_bearings import FIXED_ABOVE
 from realistic_page import line, page
-from stress_cases import text
+from stress_cases import Case, text
 
 #: One of eight bearings is marched with the tables of all tolerances.
 CURVE_EVERY = 8
@@ -32,6 +35,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("program", type=lambda word: Path(word).resolve())
     parser.add_argument("--bearings", type=int, default=200, help="how many")
     parser.add_argument("--fast", type=int, default=20, help="how many fast ones more")
+    parser.add_argument("--fixed", type=int, default=60, help="how many of fixed pads more")
     parser.add_argument("--only", type=lambda words: list(map(int, words.split(","))), help="these bearings")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
@@ -41,6 +45,11 @@ def arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
+def draw(seed: int, number: int) -> Case:
+    """Bearing `number` of a seed."""
+    return (fixed_bearings if number > FIXED_ABOVE else bearings).draw(seed, number)
+
+
 def run(options: argparse.Namespace, number: int, known: dict[int, Bearing]) -> Bearing:
     """Studies one bearing in a folder of its own, if it is not known."""
     if number in known:
@@ -48,7 +57,7 @@ def run(options: argparse.Namespace, number: int, known: dict[int, Bearing]) -> 
     bearing = Bearing(number, draw(options.seed, number))
     folder = Path(tempfile.mkdtemp(prefix="tiltpad-realistic-"))
     try:
-        study(options.program, bearing, folder, number % CURVE_EVERY == 0)
+        study(options.program, bearing, folder, number % CURVE_EVERY == 0 and number <= FAST_ABOVE)
     finally:
         shutil.rmtree(folder)
     if options.record:
@@ -77,7 +86,8 @@ def recorded(options: argparse.Namespace) -> dict[int, Bearing]:
 def main() -> None:
     options = arguments()
     fast = range(FAST_ABOVE + 1, FAST_ABOVE + 1 + options.fast)
-    numbers = options.only or [*range(1, options.bearings + 1), *fast]
+    fixed = range(FIXED_ABOVE + 1, FIXED_ABOVE + 1 + options.fixed)
+    numbers = options.only or [*range(1, options.bearings + 1), *fast, *fixed]
     if options.namelists:
         options.namelists.mkdir(parents=True, exist_ok=True)
         for number in numbers:
@@ -85,11 +95,11 @@ def main() -> None:
         return
     started, known = time.monotonic(), recorded(options)
     with ThreadPoolExecutor(options.jobs) as pool:
-        bearings = list(pool.map(lambda number: run(options, number, known), numbers))
-    summary = page(bearings, options.seed)
+        studied = list(pool.map(lambda number: run(options, number, known), numbers))
+    summary = page(studied, options.seed)
     if options.report:
         options.report.write_text(summary)
-        realistic_picture.draw(bearings, options.report.parent / "images/realistic.png")
+        realistic_picture.draw(studied, options.report.parent / "images/realistic.png")
     else:
         print(summary)
     print(f"{time.monotonic() - started:.0f} s")

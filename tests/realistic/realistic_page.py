@@ -4,7 +4,7 @@ from collections import Counter
 
 from bearing_runs import DISTURBANCE, LIMIT, REVOLUTIONS, ROTOR_TIME, SETTLED, Bearing
 from bearings import FAST_ABOVE, TURBULENT
-from cost_tables import SHORT, longest, most_steps, steps, times
+from cost_tables import SHORT, longest, microseconds, most_steps, steps, times
 from error_tables import (
     SENSITIVE,
     curve,
@@ -16,6 +16,7 @@ from error_tables import (
     unsensitive,
     worst,
 )
+from fixed_bearings import FIXED_ABOVE, KINDS
 from march_errors import LAST, POWER, REPEATS, UNLOADED
 from report import reason, table
 from stress_judge import cause_of
@@ -108,7 +109,7 @@ differs by less than {repeats:g} of the characteristic scales from that of one t
 {orbits}
 
 Refused though the march repeats after one revolution: {missed}.
-{fast}"""
+{fast}{fixed}"""
 
 FAST = """
 ## Turbulent films
@@ -130,16 +131,47 @@ Equilibria and marches that are refused or do not end within {limit} s of CPU ti
 {refusals}
 """
 
+FIXED = """
+## Fixed pads
+
+{count} more have fixed pads (`tests/realistic/fixed_bearings.py`): {kinds}
+in turn, with L/D of 0.3 to 1.2, preloads of lobes up to 0.6, Sommerfeld numbers of 0.05 to 2 and
+unbalance, at half to twice the speed at which rotors whirl in most of them: {numbers}.
+They are in no table above. Marches that do not repeat after a few revolutions, as the journal whirls:
+{whirling}.
+
+{outcomes}
+
+{compared} bearings that are not sensitive; sensitive are: {sensitive}.
+
+{errors}
+
+Accepted steps per revolution, the time of a step of the march from the equilibrium in microseconds, with
+all that builds tables and writes, and other times as above:
+
+{steps}
+
+{microseconds}
+
+{times}
+
+Equilibria and marches that are refused or do not end within {limit} s of CPU time:
+
+{refusals}
+"""
+
 
 def page(bearings: list[Bearing], seed: int) -> str:
     """The whole page."""
+    fixed = [bearing for bearing in bearings if bearing.number > FIXED_ABOVE]
+    bearings = [bearing for bearing in bearings if bearing.number <= FIXED_ABOVE]
     fast = [bearing for bearing in bearings if bearing.number > FAST_ABOVE]
     bearings = [bearing for bearing in bearings if bearing.number <= FAST_ABOVE]
     compared = [bearing for bearing in bearings if bearing.compared]
     left_out = [bearing for bearing in compared if sensitive(bearing)]
     kept = unsensitive(bearings)
     curve_bearings = [bearing for bearing in kept if on_curve(bearing)]
-    longs = [bearing for bearing in bearings if bearing.runs["long"].revolutions >= SETTLED]
+    longs = marched(bearings)
     return PAGE.format(
 count=len(bearings), repeats=REPEATS, seed=seed, revolutions=REVOLUTIONS, last=LAST, steady=STEADY,
         unloaded=UNLOADED, disturbance=DISTURBANCE, journal=SENSITIVE["journal"],
@@ -150,27 +182,45 @@ count=len(bearings), repeats=REPEATS, seed=seed, revolutions=REVOLUTIONS, last=L
         short=SHORT, times=times(longs), longest=longest(longs), limit=LIMIT, power=POWER,
         refusals=refusals(bearings),
         orbits=orbits(bearings), missed=numbers([bearing for bearing in bearings if missed_orbit(bearing)]),
-        fast=of_fast(fast) if fast else "",
+        fast=of_others(fast, FAST, low=TURBULENT[0], high=TURBULENT[1]) if fast else "",
+        fixed=of_fixed(fixed) if fixed else "",
     )  # fmt: skip
 
 
-def of_fast(bearings: list[Bearing]) -> str:
-    """The section on fast bearings."""
+def of_others(bearings: list[Bearing], section: str, **more) -> str:
+    """The section on bearings that are in no other table."""
     compared = [bearing for bearing in bearings if bearing.compared]
     kept = unsensitive(bearings)
-    return FAST.format(
+    return section.format(
         count=len(bearings),
-        low=TURBULENT[0],
-        high=TURBULENT[1],
         numbers=f"{bearings[0].number} to {bearings[-1].number}",
         outcomes=outcomes(bearings, compared),
         compared=len(kept),
         sensitive=numbers([bearing for bearing in compared if sensitive(bearing)]),
         errors=errors(kept),
-        times=times([bearing for bearing in bearings if bearing.runs["long"].revolutions >= SETTLED]),
+        times=times(marched(bearings)),
         limit=LIMIT,
         refusals=refusals(bearings),
+        **more,
     )
+
+
+def of_fixed(bearings: list[Bearing]) -> str:
+    """The section on fixed pads."""
+    longs = marched(bearings)
+    return of_others(
+        bearings,
+        FIXED,
+        kinds=", ".join(KINDS),
+        whirling=sum(not bearing.period for bearing in longs),
+        steps=steps(longs),
+        microseconds=microseconds(longs),
+    )
+
+
+def marched(bearings: list[Bearing]) -> list[Bearing]:
+    """Bearings whose long march came far enough."""
+    return [bearing for bearing in bearings if bearing.runs["long"].revolutions >= SETTLED]
 
 
 def missed_orbit(bearing: Bearing) -> bool:

@@ -4,9 +4,7 @@
 !> rotation drives the film besides w (rotation_drive) also of t/w_1.
 !>
 !> `cavitated_film_type` solves q where it is asked for. The table has cubics in equal cells over the logarithms of the
-!> thicknesses and over T; where the rotation acts also over t/w_1. Cells have a node at every corner, which neighbours
-!> share: across their faces the force is continuous. The film of a node is solved on its own; so a cell is the same,
-!> whatever came before.
+!> thicknesses and over T; where the rotation acts also over t/w_1 (cell_store).
 !>
 !> The table answers where it pays. A node costs as much as several films of the solver that does without a table. Cells
 !> are built while films without the table and nodes have cost less than 1.2 times what all films would have cost
@@ -14,14 +12,13 @@
 !> to be closer than that solver answers everywhere.
 module cavitated_film
    use kinds, only: wp
-   use clock, only: wall_clock
    use film_solver, only: film_counters
    use dimensionless_pad, only: dimensionless_pad_type
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver, least_tolerance
    use rotation_drive, only: rotation_drive_type, new_rotation_drive
-   use cell_index, only: cell_index_type, cell_key, interval, lower_end
-   use cell_polynomials, only: simd_width, terms, corner_data, corners, cubic_transform, evaluate_cubic, blend_of, &
-      & evaluate_blend
+   use cell_index, only: interval, lower_end
+   use cell_polynomials, only: evaluate_cubic, evaluate_blend
+   use cell_store, only: cell_store_type, cell_place_type, node_type, node_solver_type, new_cell_store, axes
    implicit none (type, external)
    private
    public :: cavitated_film_type, cavitation_table_type, node_type, new_cavitated_film, new_cavitation_table, axes
@@ -35,18 +32,8 @@ module cavitated_film
    !> Films that are remembered: of a state of all pads.
    integer, parameter :: memory = 24
 
-   !> Both thicknesses, T, and t/w_1, which is 0 where the rotation does not act.
-   integer, parameter :: axes = 4
-
-   !> Functions: real and imaginary part of q, the logarithm of the pressure ratio over (1 - T)^3, and 0. Their values,
-   !> and derivatives over the axes, (function, value or derivative).
-   type :: node_type
-      real(wp) :: data(simd_width, 1 + axes)
-      !> Whether the film is open and was solved.
-      logical :: ok = .false.
-   end type node_type
-
-   type :: cavitated_film_type
+   !> The axes are both thicknesses, T, and t/w_1, which is 0 where the rotation does not act.
+   type, extends(node_solver_type) :: cavitated_film_type
       type(dimensionless_pad_type) :: pad
       type(rotation_drive_type) :: drive
       type(force_ratio_solver), private :: ratios
@@ -57,6 +44,8 @@ module cavitated_film
       type(node_type), allocatable, private :: remembered(:)
       real(wp), allocatable, private :: remembered_at(:, :)
       integer, private :: remember_next = 0
+      !> What has been solved has cost this, over a full film by modes.
+      real(wp) :: cost = 0
    contains
       procedure :: look_up
       procedure :: solve
@@ -88,37 +77,21 @@ module cavitated_film
    !> the error of the solver without a table would show.
    real(wp), parameter :: as_close(2) = [3.6e-5_wp, 0.9e-5_wp]
 
-   type :: cell_type
-      real(wp) :: lower(axes), upper(axes), per_size(axes)
-      real(wp) :: coefficients(simd_width, terms)
-      !> Where the rotation acts, in four dimensions.
-      real(wp), allocatable :: blend(:, :)
-   end type cell_type
-
    type, extends(cavitated_film_type) :: cavitation_table_type
       private
       !> Cells in an octave of a thickness are 2^level; along T they have 1/parts, and half of it where pads are loaded.
       integer :: level = base_level, parts = base_parts
       !> Along t/w_1: half an octave at most.
       integer :: level_of_drive = 0
-      !> Terms of a cubic from the data at its corners, once it is needed.
-      real(wp), allocatable :: transform(:, :)
-      type(cell_index_type) :: cell_index, node_index
-      type(cell_type), allocatable :: cells(:)
-      type(node_type), allocatable :: nodes(:)
-      !> Most cells, and most nodes: when either are used up all are forgotten.
-      integer :: most
+      type(cell_store_type) :: store
+      !> What all films would have cost without the table.
+      real(wp) :: cost_without = 0
       !> Whether it is to be closer than the solver that does without a table; whether all cells are built, as then.
       logical :: is_closer, filled = .false.
-      !> Cost so far, and that of all films without the table.
-      real(wp) :: cost = 0, cost_without = 0
    contains
       procedure :: look_up => look_up_in_table
       procedure, private :: find_cell
       procedure, private :: pays
-      procedure, private :: corner_count
-      procedure, private :: build
-      procedure, private :: find_node
    end type cavitation_table_type
 
 contains
@@ -177,6 +150,7 @@ contains
       at = min(place(3), last_solved)
       room = 1 - at
       counters%nodes = counters%nodes + 1
+      self%cost = self%cost + node_cost(class_of(place(3)))*merge(rotation_cost, 1.0_wp, self%drive%acts)
       associate (edges => place(:2), w_2 => self%pad%tangent*(1 - 2*at), t => place(4))
          if (t < 0) then
             ! a mirror turns the rotation round
@@ -221,7 +195,7 @@ contains
    end subroutine set_ratio
 
    !> An empty table for a pad with its drive, with the condition of Reynolds or (without a D) Guembel, to a
-   !> tolerance over the force; `filled`, every cell is built. At least the corners of a cell must find room in it.
+   !> tolerance over the force; `filled`, every cell is built.
    function new_cavitation_table(pad, drive, gumbel, tolerance, most, filled) result(table)
       type(dimensionless_pad_type), intent(in) :: pad
       type(rotation_drive_type), intent(in) :: drive
@@ -236,10 +210,9 @@ contains
       table%level = base_level + finer
       table%parts = nint(base_parts*2.0_wp**finer)
       table%level_of_drive = 1 + max(0, finer)
-      table%most = max(most, table%corner_count())
+      table%store = new_cell_store(merge(4, 3, drive%acts), most)
       if (present(filled)) table%filled = filled
       table%is_closer = tolerance < merge(as_close(2), as_close(1), gumbel)
-      allocate (table%cells(32), table%nodes(128))
    end function new_cavitation_table
 
    subroutine look_up_in_table(self, place, want_slopes, last, counters, node)
@@ -251,14 +224,14 @@ contains
       type(node_type), intent(out) :: node
       integer :: axis
       self%cost_without = self%cost_without + film_cost(class_of(place(3)))
-      if (.not. holds(self, last, place)) call self%find_cell(place, counters, last)
+      if (.not. self%store%holds(last, place)) call self%find_cell(place, counters, last)
       node%ok = last > 0
       if (.not. node%ok) then
          self%cost = self%cost + film_cost(class_of(place(3)))
          if (self%is_closer) call self%cavitated_film_type%look_up(place, want_slopes, last, counters, node)
          return
       end if
-      associate (cell => self%cells(last), value => node%data(:, 1), slope => node%data(:, 2:))
+      associate (cell => self%store%cells(last), value => node%data(:, 1), slope => node%data(:, 2:))
          if (self%drive%acts) then
             call evaluate_blend(cell%blend, (place - cell%lower)*cell%per_size, want_slopes, value, slope)
             slope(:, 4) = slope(:, 4)*cell%per_size(4)
@@ -273,63 +246,31 @@ contains
       end associate
    end subroutine look_up_in_table
 
-   !> True where a cell of this number holds this place.
-   pure logical function holds(self, number, place)
-      class(cavitation_table_type), intent(in) :: self
-      integer, intent(in) :: number
-      real(wp), intent(in) :: place(axes)
-      holds = .false.
-      if (number == 0 .or. number > self%cell_index%count) return
-      associate (cell => self%cells(number))
-         holds = all(place >= cell%lower .and. place < cell%upper)
-      end associate
-   end function holds
-
    !> The cell that holds this place, built if that pays; 0: none.
    subroutine find_cell(self, place, counters, number)
       class(cavitation_table_type), intent(inout) :: self
       real(wp), intent(in) :: place(axes)
       type(film_counters), intent(inout) :: counters
       integer, intent(out) :: number
-      type(cell_type), allocatable :: more(:)
-      real(wp) :: started, lower(axes), upper(axes)
-      integer :: level, at(axes)
-      logical :: good
+      type(cell_place_type) :: cell
+      integer :: level
       number = 0
       if (self%drive%acts .and. .not. (abs(place(4)) >= drives(1) .and. abs(place(4)) < drives(2))) return
       do level = self%level, self%level + most_beside_closed
-         at = [interval(place(:2), level), interval_of_t(self, place(3)), interval_of_drive(self, place(4))]
-         lower = corner_place(self, level, at)
-         upper = corner_place(self, level, at + 1)
-         ! a film that nearly closes between the edges changes too much in a cell
-         if (self%pad%least_film(lower(:2)) >= least_in_cells*maxval(upper(:2) - lower(:2))) exit
+         cell%level = level
+         cell%at(:, 0) = [interval(place(:2), level), interval_of_t(self, place(3)), interval_of_drive(self, place(4))]
+         cell%at(:, 1) = cell%at(:, 0) + 1
+         cell%nodes(:, 0) = corner_place(self, level, cell%at(:, 0))
+         cell%nodes(:, 1) = corner_place(self, level, cell%at(:, 1))
+         associate (lower => cell%nodes(:2, 0), upper => cell%nodes(:2, 1))
+            ! a film that nearly closes between the edges changes too much in a cell
+            if (self%pad%least_film(lower) >= least_in_cells*maxval(upper - lower)) exit
+         end associate
       end do
       if (level > self%level + most_beside_closed) return
-      associate (key => cell_key(level, at(1), at(2), at(3), at(4)), index => self%cell_index)
-         number = index%find(key)
-         if (number > 0 .or. .not. self%pays()) return
-         started = wall_clock()
-         if (index%count == self%most .or. self%node_index%count > self%most - self%corner_count()) then
-            call index%clear()
-            call self%node_index%clear()
-         end if
-         number = index%count + 1
-         if (number > size(self%cells)) then
-            allocate (more(2*size(self%cells)))
-            more(:size(self%cells)) = self%cells
-            call move_alloc(more, self%cells)
-         end if
-         self%cells(number)%lower = lower
-         self%cells(number)%upper = upper
-         call self%build(level, at, counters, self%cells(number), good)
-         if (good) then
-            call index%add(key, number)
-            counters%cells = counters%cells + 1
-         else
-            number = 0
-         end if
-         counters%building = counters%building + wall_clock() - started
-      end associate
+      number = self%store%find(cell)
+      if (number > 0 .or. .not. self%pays()) return
+      call self%store%build(self%cavitated_film_type, cell, cell%nodes(:, 0), cell%nodes(:, 1), counters, number)
    end subroutine find_cell
 
    !> True where a cell is built.
@@ -397,80 +338,4 @@ contains
       real(wp) :: place(axes)
       place = [lower_end(at(:2), level), lower_t(self, at(3)), lower_drive(self, at(4))]
    end function corner_place
-
-   !> Corners of a cell.
-   pure integer function corner_count(self)
-      class(cavitation_table_type), intent(in) :: self
-      corner_count = merge(2*corners, corners, self%drive%acts)
-   end function corner_count
-
-   !> Fills the cell at a place of a level; `good` if there is a film at every corner.
-   subroutine build(self, level, at, counters, cell, good)
-      class(cavitation_table_type), intent(inout) :: self
-      integer, intent(in) :: level, at(axes)
-      type(film_counters), intent(inout) :: counters
-      type(cell_type), intent(inout) :: cell
-      logical, intent(out) :: good
-      type(node_type) :: node
-      real(wp) :: data(simd_width, 1 + axes, 0:corners - 1, 0:1), size_of(axes)
-      integer :: corner, side, i
-      good = .false.
-      size_of = cell%upper - cell%lower
-      cell%per_size = 1/size_of
-      if (.not. allocated(self%transform)) self%transform = cubic_transform()
-      do side = 0, self%corner_count()/corners - 1
-         do corner = 0, corners - 1
-            call self%find_node(level, at + [ibits(corner, [0, 1, 2], 1), side], counters, node)
-            if (.not. node%ok) return
-            data(:, :, corner, side) = node%data*spread([1.0_wp, size_of], 1, simd_width)
-         end do
-         ! the ratio of pressures is linear between corners
-         do corner = 0, corners - 1
-            do i = 1, 3
-               associate (other => ieor(corner, 2**(i - 1)))
-                  data(3, 1 + i, corner, side) = (data(3, 1, other, side) - data(3, 1, corner, side)) &
-                     & *sign(1, other - corner)
-               end associate
-            end do
-         end do
-      end do
-      good = .true.
-      if (.not. self%drive%acts) then
-         cell%coefficients = matmul(reshape(data(:, :corner_data, :, 0), [simd_width, terms]), &
-            & transpose(self%transform))
-         return
-      end if
-      data(3, 5, :, 0) = data(3, 1, :, 1) - data(3, 1, :, 0)
-      data(3, 5, :, 1) = data(3, 5, :, 0)
-      cell%blend = blend_of(self%transform, data)
-   end subroutine build
-
-   !> The node at a corner `at` of cells of a level.
-   subroutine find_node(self, level, at, counters, node)
-      class(cavitation_table_type), intent(inout) :: self
-      integer, intent(in) :: level, at(axes)
-      type(film_counters), intent(inout) :: counters
-      type(node_type), intent(out) :: node
-      type(node_type), allocatable :: more(:)
-      integer :: number
-      associate (key => cell_key(level, at(1), at(2), at(3), at(4)), index => self%node_index)
-         number = index%find(key)
-         if (number > 0) then
-            node = self%nodes(number)
-            return
-         end if
-         number = index%count + 1
-         if (number > size(self%nodes)) then
-            allocate (more(2*size(self%nodes)))
-            more(:size(self%nodes)) = self%nodes
-            call move_alloc(more, self%nodes)
-         end if
-         associate (place => corner_place(self, level, at))
-            call self%solve(place, counters, node)
-            self%cost = self%cost + node_cost(class_of(place(3)))*merge(rotation_cost, 1.0_wp, self%drive%acts)
-         end associate
-         self%nodes(number) = node
-         call index%add(key, number)
-      end associate
-   end subroutine find_node
 end module cavitated_film
