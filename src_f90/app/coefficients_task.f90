@@ -263,8 +263,8 @@ contains
    end subroutine print_levels
 
    !> Modes of the rotor whose logarithmic decrement on synchronously reduced coefficients has another sign than with
-   !> the pads' own equations, or differs by more than a tenth: "mode 1 (shaft, backward) 1.0345 and not 1.1234, ..."; of
-   !> a mode that has no counterpart "none".
+   !> the pads' own equations, or differs by more than a tenth: "mode 1 (shaft, backward) 1.0345 and not 1.1234, ...";
+   !> of a mode that has no counterpart "none".
    function other_decrements(exact, reduced, counterpart, of_reduction) result(text)
       type(vibration_modes_type), intent(in) :: exact, reduced
       integer, intent(in) :: counterpart(:)

@@ -14,7 +14,7 @@ module case_groups
       & oil_type, pads_type, pivot_type, friction_type, asperity_type, film_type, support_type, damper_type, &
       & mount_type, linear_bearing_type, rotor_type, elastic_type, shaft_type, disc_type, unbalance_type, load_type, &
       & reduction_type, most_bearings, most_sections, most_stations, given_rotor_type, station_element_type, &
-      & impeller_type, lateral_type, bow_type
+      & impeller_type, lateral_type
 
    !> Most pads of a bearing.
    integer, parameter :: max_pads = 24
@@ -159,7 +159,8 @@ module case_groups
    end type mount_type
 
    !> A linear element between a station and the ground, another station or the housing of a bearing, or between a
-   !> housing and the ground: a seal, an impeller, a spring. Coefficients yy, yz, zy, zz, N/m, N s/m and kg: its force is -K u - C u' - M u''.
+   !> housing and the ground: a seal, an impeller, a spring. Coefficients yy, yz, zy, zz, N/m, N s/m and kg: its force
+   !> is -K u - C u' - M u''.
    type :: station_element_type
       integer :: station = 0, to_station = 0
       !> The bearing whose housing is its other end; empty: none is.

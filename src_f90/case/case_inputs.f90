@@ -182,7 +182,8 @@ contains
       associate (given => self%rotor%elastic%elements, q => self%coefficients%cross_stiffness, &
          & linear => self%rotor%elastic%linear)
          n = size(given)
-         allocate (elements(n + size(linear) + merge(size(mounts), 0, self%about%task == 'coefficients' .and. abs(q) > 0)))
+         allocate (elements(n + size(linear) + merge(size(mounts), 0, self%about%task == 'coefficients' .and. &
+            & abs(q) > 0)))
          do b = 1, n
             elements(b) = given(b)
             elements(b)%label = 'element('//to_text(b)//')'

@@ -23,8 +23,8 @@ module operating_point
       logical :: friction = .true., cavitation = .true.
       !> False: at rest in equilibrium, without what acts in motion about it alone.
       logical :: moves = .true.
-      !> False: what is bent or skew of a shaft does not turn with it.
-      logical :: turns = .true.
+      !> False: bow and skew discs of a shaft do not act.
+      logical :: bent = .true.
    contains
       procedure :: speed
       procedure :: shaft_angle
@@ -127,7 +127,7 @@ contains
       static = self
       static%acceleration = 0
       static%unbalance = 0
-      static%turns = .false.
+      static%bent = .false.
       if (allocated(static%excitations)) deallocate (static%excitations)
       static%friction = .false.
       static%moves = .false.

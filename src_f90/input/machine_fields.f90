@@ -4,7 +4,8 @@ module machine_fields
    use kinds, only: wp
    use variable_table, only: variable_table_type
    use case_groups, only: elastic_type, support_type, damper_type, mount_type, linear_bearing_type, reduction_type, &
-      & station_element_type, impeller_type, lateral_type, most_sections, most_stations, viscosity_range, unset, is_set
+      & station_element_type, disc_type, impeller_type, lateral_type, most_sections, most_stations, &
+      & viscosity_range, unset, is_set
    use excitations, only: excitation_type
    use assignments, only: counted
    implicit none (type, external)
@@ -43,20 +44,10 @@ contains
          call v%number(shaft%young_modulus, 'young_modulus', 1e6_wp, 1e14_wp, 'Pa', 'of its material')
          call v%number(shaft%poisson_ratio, 'poisson_ratio', -0.99_wp, 0.5_wp, '1', 'of its material')
          call v%number(shaft%density, 'density', 1.0_wp, 1e5_wp, 'kg/m^3', 'of its material')
-         call v%number(shaft%internal_damping, 'internal_damping', 0.0_wp, 1.0_wp, 's', 'viscous damping of its bending ' &
-            & //'in the turning frame, over its stiffness')
+         call v%number(shaft%internal_damping, 'internal_damping', 0.0_wp, 1.0_wp, 's', 'viscous damping of its ' &
+            & //'bending in the turning frame, over its stiffness')
          do i = 1, size(rotor%discs)
-            call group_of(v, i, all, 'disc', 'A machine: a rigid disc on its shaft; one group for each')
-            call list_station(v, rotor%discs(i)%station)
-            call v%number(rotor%discs(i)%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', 'mass')
-            call v%number(rotor%discs(i)%polar_inertia, 'polar_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
-               & 'moment of inertia about the axis of the shaft')
-            call v%number(rotor%discs(i)%diametral_inertia, 'diametral_inertia', 0.0_wp, 1e12_wp, 'kg m^2', &
-               & 'moment of inertia about a diameter')
-            call v%number(rotor%discs(i)%skew, 'skew', 0.0_wp, 0.1_wp, 'rad', 'angle between its axis and that of the ' &
-               & //'shaft')
-            call v%number(rotor%discs(i)%skew_angle_deg, 'skew_angle_deg', -360.0_wp, 360.0_wp, 'deg', &
-               & 'the direction in which the axis leans, as of unbalances')
+            call list_disc(v, i, all, rotor%discs(i))
          end do
          do i = 1, size(rotor%unbalances)
             call group_of(v, i, all, 'unbalance', 'A machine: an unbalance; one group for each')
@@ -89,6 +80,23 @@ contains
          if (allocated(rotor%lateral)) call list_lateral(v, rotor%lateral)
       end associate
    end subroutine list_parts
+
+   subroutine list_disc(v, i, all, disc)
+      type(variable_table_type), intent(inout) :: v
+      integer, intent(in) :: i
+      logical, intent(in) :: all
+      type(disc_type), intent(inout) :: disc
+      call group_of(v, i, all, 'disc', 'A machine: a rigid disc on its shaft; one group for each')
+      call list_station(v, disc%station)
+      call v%number(disc%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', 'mass')
+      call v%number(disc%polar_inertia, 'polar_inertia', 0.0_wp, 1e12_wp, 'kg m^2', 'moment of inertia about the axis ' &
+         & //'of the shaft')
+      call v%number(disc%diametral_inertia, 'diametral_inertia', 0.0_wp, 1e12_wp, 'kg m^2', 'moment of inertia about ' &
+         & //'a diameter')
+      call v%number(disc%skew, 'skew', 0.0_wp, 0.1_wp, 'rad', 'angle between its axis and that of the shaft')
+      call v%number(disc%skew_angle_deg, 'skew_angle_deg', -360.0_wp, 360.0_wp, 'deg', 'the direction in which the ' &
+         & //'axis leans, as of unbalances')
+   end subroutine list_disc
 
    subroutine list_element(v, i, all, element)
       type(variable_table_type), intent(inout) :: v

@@ -114,8 +114,8 @@ contains
    end subroutine find_rotor_response
 
    !> Of modes with these eigenvalues and shapes, (2, station, mode), the one of others that is the same vibration: the
-   !> nearest eigenvalue that none before it has, among those whose shapes are more alike than not (by the modal
-   !> assurance criterion, Allemang and Brown, 1982). Forward and backward whirls of the same shape are not alike.
+   !> nearest eigenvalue that none before it has, among those whose shapes are more alike than not (by the
+   !> criterion of Allemang and Brown, 1982). Forward and backward whirls of the same shape are not alike.
    function counterparts(model, eigenvalue, shapes, others) result(found)
       type(machine_model), intent(in) :: model
       complex(wp), intent(in) :: eigenvalue(:), shapes(:, :, :)

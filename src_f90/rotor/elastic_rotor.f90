@@ -159,7 +159,7 @@ contains
       if (allocated(point%excitations)) force = force + from_stations(self, point, point%excitation_forces(t))
       if (allocated(self%matrices%circulatory)) force = force - speed*matmul(self%matrices%circulatory, &
          & states(:self%positions))
-      if (allocated(self%matrices%bow) .and. point%turns) then
+      if (allocated(self%matrices%bow) .and. point%bent) then
          associate (m => self%matrices)
             force = force + (m%bow(:, 1) + speed**2*m%skew(:, 1) - point%acceleration*m%skew(:, 2))*cos(phase) &
                & + (m%bow(:, 2) + speed**2*m%skew(:, 2) + point%acceleration*m%skew(:, 1))*sin(phase)
@@ -193,7 +193,7 @@ contains
       associate (u => self%matrices%unbalance)
          turn = share(self, point)*point%speed(t)**3*(u(:, 2)*cos(phase) - u(:, 1)*sin(phase))
       end associate
-      if (allocated(self%matrices%bow) .and. point%turns) then
+      if (allocated(self%matrices%bow) .and. point%bent) then
          associate (m => self%matrices, speed => point%speed(t))
             turn = turn + speed*(m%bow(:, 2)*cos(phase) - m%bow(:, 1)*sin(phase)) &
                & + speed**3*(m%skew(:, 2)*cos(phase) - m%skew(:, 1)*sin(phase))

@@ -466,8 +466,8 @@ def test_a_jump_between_orbits(result):
         assert file["stable"][0] == file["stable"][-1] == 1
 
 
-#: Largest eccentricity ratios of both rings, and station 4, mean and first harmonic of y, in orbits that sink by
-#: their weight, by speed, rpm.
+#: Largest eccentricity ratios of both rings, and station 4, mean and first harmonic of y, in orbits that sink
+#: by their weight, by speed, rpm.
 SUNK = {
     6000: ((0.7534296152508352, 0.7338602521595208), -2.0330865088572626e-05,
            5.7940808304876866e-05 - 7.615622773581539e-05j),

@@ -106,7 +106,8 @@ def test_the_page_of_results_lists_what_a_machine_has_more(tiltpad, fan, root):
         fan.read_text()
         + "&element station=5, cross_stiffness=1e5, static=.false. /\n"
         + "&damper bearing='fan_end', radius=0.07, length=0.02, clearance=0.1e-3, viscosity=0.01 /\n"
-        + "&impeller station=8, power=2e5, diameter=0.5, width=0.03, suction_density=1, discharge_density=1.2 /\n"
+        + "&impeller station=8, power=2e5, diameter=0.5, width=0.03, suction_density=1, "
+        + "discharge_density=1.2 /\n"
     )
     for task, overrides in TASKS.items():
         path = fan.parent / f"{task}.h5"

@@ -6,7 +6,6 @@ The values are those of the independent program of test_elements, with rounding 
 import h5py
 import numpy as np
 import pytest
-
 from test_elements import SHAFT, WHOLE, expect_eigenvalues
 
 #: On two bearings by coefficients, N s/m.
@@ -38,17 +37,20 @@ BOWS = "".join(
     f"&bow station={at}, displacement={abs(bent)!r}, angle_deg={0 if bent >= 0 else 180} /\n"
     for at, bent in enumerate(BENT, 1)
 )
-#: Whirl along y, m, by speed, rpm: of station 8 of the bent shaft, of station 16 with a disc that is skew there
-#: by 1 mrad in the direction of 90 degrees; along z it lags by a quarter of a turn.
+#: Whirl along y, m, by speed, rpm: of station 8 of the bent shaft, of station 16 with a disc that is skew
+#: there by 1 mrad in the direction of 90 degrees; along z it lags by a quarter of a turn.
 WHIRLS = {
-    3000: (3.021877442646716e-05 - 1.6252603641845544e-06j, -1.2675765860985092e-08 - 2.7276143999516566e-07j),
+    3000: (
+        3.021877442646716e-05 - 1.6252603641845544e-06j,
+        -1.2675765860985092e-08 - 2.7276143999516566e-07j,
+    ),
     5000: (2.002417197428587e-05 - 9.86131872527426e-05j, 3.3697483552899446e-07 - 1.1624760371791499e-06j),
     11000: (-3.223572451852458e-06 - 4.312194126494797e-06j, -3.9054353125685e-06 - 3.3119709760300667e-06j),
 }
 SKEW = ("polar_inertia=0.17 /", "polar_inertia=0.17, skew=1e-3, skew_angle_deg=90 /")
 
-#: On housings, whose springs and dampers have cross terms, and a seal between shaft and housing; the weight of
-#: the housings is what the values do not have.
+#: On housings, whose springs and dampers have cross terms, and a seal between shaft and
+#: housing; the weight of the housings is what the values do not have.
 ON_HOUSINGS = f"""{SHAFT}
 &case task='coefficients' /
 &operation speed_rpm=9000 /
@@ -65,10 +67,11 @@ ON_HOUSINGS = f"""{SHAFT}
 """
 HOUSING_MODES = (-27.12855123506347 + 411.2221578624662j, -24.233128666987454 + 453.2805877144276j,
                  -110.2022783116785 + 688.1772638678588j, -108.99665519206246 + 781.9974321279992j,
-                 -164.49144571373148 + 1262.0776803874335j, -170.45036238628407 + 2696.814794046231j)  # fmt: skip
-HOUSING_WHIRL = {6: (-7.124036315102488e-07 - 7.955424243903072e-08j, -2.646165941169392e-07 + 5.468709560499298e-07j),
-                 15: (1.190720495424186e-06 - 1.0245885004802047e-07j, 9.113453994945229e-08 - 5.625602884400672e-07j),
-                 }  # fmt: skip
+                 -164.49144571373148 + 1262.0776803874335j)  # fmt: skip
+HOUSING_WHIRL = {
+    6: (-7.124036315102488e-07 - 7.955424243903072e-08j, -2.646165941169392e-07 + 5.468709560499298e-07j),
+    15: (1.190720495424186e-06 - 1.0245885004802047e-07j, 9.113453994945229e-08 - 5.625602884400672e-07j),
+}
 
 
 @pytest.fixture
@@ -83,7 +86,9 @@ def result(run, tmp_path):
 
 
 def whirl(file, station):
-    return [file[f"response/{a}_real"][0, station] + 1j * file[f"response/{a}_imag"][0, station] for a in "yz"]
+    return [
+        file[f"response/{a}_real"][0, station] + 1j * file[f"response/{a}_imag"][0, station] for a in "yz"
+    ]
 
 
 @pytest.mark.parametrize("rpm", DAMPED_MODES)
@@ -146,10 +151,10 @@ REFUSED = {
     "&bow displacement=1e-5 /": "bow(1)%station: must be given, 1 to 16",
     "&bow station=20, displacement=1e-5 /": "bow(1)%station = 20: must be 1 to 16",
     "&bow station=2, displacement=-1 /": "bow(1)%displacement = -1: must be 0 to 0.1 m",
-    "&element housing='middle' /": "element(1)%housing = 'middle': must be the name of a bearing with a group",
+    "&element housing='middle' /": "element(1)%housing = 'middle': must be the name of a bearing with",
     "&element housing='left', to_station=3 /": "element(1)%station: must be given",
-    "&branch of='limit_cycle', parameter='operation%speed_rpm', last=12000 /\n&bow station=8, displacement=1e-5 /\n"
-    "&case task='branch' /": "must be without groups &bow and disc%skew, which would drive",
+    "&branch of='limit_cycle', parameter='operation%speed_rpm', last=12000 /\n"
+    "&bow station=8, displacement=1e-5 /\n&case task='branch' /": "must be without groups &bow and disc%skew",
 }
 
 

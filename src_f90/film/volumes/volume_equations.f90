@@ -44,7 +44,7 @@ module volume_equations
       !> How many cells of each column belong to the film, as eliminated last where it cavitates.
       real(wp), allocatable :: filled(:)
       !> Columns that cavitate touches: first to last; none: first = columns + 1.
-      integer :: first, last
+      integer :: first = 1, last = 0
       !> Reciprocal pivots outside them (mode, column); inverse blocks inside (row, row, column).
       real(wp), allocatable, private :: per_pivot(:, :), block(:, :, :)
    contains
