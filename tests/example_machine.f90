@@ -35,7 +35,7 @@ contains
       type(case_type) :: machine
       allocate (machine%rotor%elastic, machine%bearings(0))
       machine%about%task = 'march'
-      call machine%rotor%elastic%begin(0, 0, 0, 0, 0, .false.)
+      call machine%rotor%elastic%begin(0, 0, 0)
       associate (shaft => machine%rotor%elastic%shaft)
          shaft%length = lengths
          shaft%diameter = 0*lengths + diameter

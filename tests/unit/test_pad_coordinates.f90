@@ -410,7 +410,7 @@ contains
       type(error_type), allocatable :: error
       type(case_type) :: inputs
       real(wp), allocatable :: y(:), values(:, :)
-      real(wp) :: none(2, 0)
+      real(wp) :: none(2, 0), no_elements(2, 0, 2)
       character(len=:), allocatable :: path
       integer :: k
       logical :: ok
@@ -427,7 +427,8 @@ contains
       call file%begin_series('time', 2_i8)
       do k = 1, 2
          call take_sample(model, 1e-3_wp*k, k*y, model%output(0*y), 1, sample(1))
-         call add_sample(file, [new_bearing_file(file, inputs%bearings(1))], sample, none, none, none, error)
+         call add_sample(file, model%point, 1e-3_wp*k, [new_bearing_file(file, inputs%bearings(1))], sample, none, &
+            & none, no_elements, error)
          call expect_no_error(error, 'a sample, '//motion)
       end do
       associate (x => displaced(model))

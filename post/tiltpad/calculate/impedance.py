@@ -52,7 +52,7 @@ def impedance(runs: Sequence[Run]) -> Coefficients:
 
 def frequency_ratio(run: Run) -> float:
     """Frequency of the harmonic excitation of a run over the speed of the shaft."""
-    given: Any = [] if run.bearings else run.input.get("excitation", [])
+    given: Any = [] if run.is_machine else run.input.get("excitation", [])
     kinds = {each.get("kind") for each in given}
     if kinds != {"harmonic"} or "journal_y" not in run or "excitation_y" not in run:
         raise NotInRunError(f"{run.path}: no harmonic excitation of a journal in this run")

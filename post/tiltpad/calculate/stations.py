@@ -95,7 +95,12 @@ def named(groups: dict[str, Any]) -> Iterator[tuple[int, str]]:
             yield int(each["station"]), name if len(own) == 1 else f"{name} {number}"
 
 
+def bearings(run: Run) -> np.ndarray:
+    """Stations of the bearings of a machine, those by coefficients too, from 0."""
+    return np.array([each["station"] for each in run.input["bearing"]], int) - 1
+
+
 def needs_machine(run: Run) -> None:
     """Raises NotInRunError for the run of one bearing."""
-    if not run.bearings:
+    if not run.is_machine:
         raise not_in_run(run, "stations", "it is of one bearing and not of a machine")

@@ -89,7 +89,7 @@ def measured(path: Path, run: Run) -> StudyRun:
     # what is not a number anywhere is nothing that the run has
     found = {name: (path, over) for name, (path, over, numbers) in own.items() if not np.isnan(numbers).all()}
     values |= {name: own[name][2] for name in found}
-    if complete and status == DONE and "by_revolution" not in run and not run.bearings:
+    if complete and status == DONE and "by_revolution" not in run and not run.is_machine:
         # the file is of an earlier version
         with suppress(NotInRunError):
             points = signals.poincare(run, REVOLUTIONS, states=tuple(POINTS.values()))

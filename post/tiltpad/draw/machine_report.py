@@ -49,6 +49,8 @@ def rotor_figures(run: Run) -> str:
 def bearing_figures(run: Run) -> str:
     """Stations, loads and key figures of the bearings, a column for each."""
     names = list(run.bearings)
+    if not names:
+        return ""
     rows = []
     if "rotor/bearing_station" in run:
         rows.append(("station", *(f"{each:.0f}" for each in run["rotor/bearing_station"]), ""))

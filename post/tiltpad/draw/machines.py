@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon, Rectangle
+from matplotlib.patches import Circle, Polygon, Rectangle
 
 from tiltpad.calculate import stations as of_stations
 from tiltpad.draw import layout
@@ -53,7 +53,7 @@ def machine(case: Run | Mapping[str, Any]) -> Figure:
     reach = max(tallest, LOWEST / 2 * x[-1])
     supported = [each["bearing"] for each in groups.get("support", [])]
     for each in groups["bearing"]:
-        draw_bearing(ax, x, each, reach, each["name"] in supported)
+        draw_bearing(ax, x, radius, each, reach, each["name"] in supported)
     draw_forces(ax, x, radius, groups, reach)
     number_stations(ax, x, reach)
     ax.axhline(0, color="0.5", linewidth=0.6, linestyle=(0, (12, 3, 2, 3)), zorder=3)
@@ -109,14 +109,20 @@ def draw_disc(ax: Axes, x: np.ndarray, disc: Mapping[str, Any]) -> float:
     return float(radius)
 
 
-def draw_bearing(ax: Axes, x: np.ndarray, bearing: Mapping[str, Any], reach: float, support: bool) -> None:
-    """The pads above and below the journal, the name, and what it stands on: ground, or a spring."""
-    at, radius = station(x, bearing), float(bearing["journal_radius"])
-    length = float(np.max(bearing["axial_length"]))
-    thick = 0.09 * reach
+def draw_bearing(
+    ax: Axes, x: np.ndarray, radii: np.ndarray, bearing: Mapping[str, Any], reach: float, support: bool
+) -> None:
+    """Its pads or, by coefficients, a ball above and below the journal, the name, and what it stands on."""
+    at, thick = station(x, bearing), 0.09 * reach
+    film = bearing.get("kind", "film") == "film"
+    radius = float(bearing["journal_radius"] if film else radii[int(bearing["station"]) - 1])
+    length = float(np.max(bearing["axial_length"])) if film else thick
     for low in (radius, -radius - thick):
-        look = {"facecolor": "0.55", "edgecolor": "0.2", "linewidth": 0.7, "zorder": 4}
-        ax.add_patch(Rectangle((at - length / 2, low), length, thick, **look))
+        look = {"facecolor": "0.55" if film else "white", "edgecolor": "0.2", "linewidth": 0.7, "zorder": 4}
+        if film:
+            ax.add_patch(Rectangle((at - length / 2, low), length, thick, **look))
+        else:
+            ax.add_patch(Circle((at, low + thick / 2), thick / 2, **look))
     top, ground, half = -radius - thick, -1.1 * reach, max(length / 2, 0.018 * reach)
     if support:
         y = np.linspace(top, ground, 12)
@@ -200,8 +206,11 @@ def shaft(runs: Sequence[Run]) -> Figure:
             values = SHOWN["journal_y"].factor * run[f"equilibrium/station_{axis}"]
             color = layout.colors(runs)[i]
             ax.plot(x, values, color=color, marker="o", markersize=3)
-            at = run["rotor/bearing_station"].astype(int) - 1
+            at = of_stations.bearings(run)
             ax.plot(x[at], values[at], "^", color=color, markersize=8, markerfacecolor="white")
+            if "bearing" not in run:
+                continue
+            at = run["rotor/bearing_station"].astype(int) - 1
             both = [run[f"equilibrium/bearing_load_{each}"] for each in "yz"]
             loads = numbers(LOAD, np.ravel(both))["yz".index(axis) * len(at) :]
             for k, name in enumerate(run["bearing"] if len(runs) == 1 else []):
@@ -243,7 +252,7 @@ def shapes(runs: Sequence[Run], pivot: str | None = None) -> Figure:
     senses = [str(found.word[k]) for k in slow]
     for place, (k, sense) in enumerate(zip(slow, senses, strict=True), 1):
         ax = fig.add_subplot(rows, columns, place, projection="3d")
-        draw_shape(ax, x, found.shape[k], run["rotor/bearing_station"].astype(int) - 1, SENSE[sense])
+        draw_shape(ax, x, found.shape[k], of_stations.bearings(run), SENSE[sense])
         decrement = f"log. decrement {digits(found.log_decrement[k], 3)}"
         ax.set_title(f"{digits(found.frequency[k])} Hz, {sense}\n{decrement}", fontsize="small")
     marks = [(word, {"color": color}) for word, color in SENSE.items() if word in senses]

@@ -92,5 +92,5 @@ def bearings(runs: Sequence[Run]) -> list[list[int]]:
     found: dict[Any, list[int]] = {}
     for i, run in enumerate(runs):
         key = (of_pads(run.in_operation, name) for name in GEOMETRY)
-        found.setdefault((run.input["pads"]["motion"] == "fixed", *key), []).append(i)
+        found.setdefault((not run.tilts, *key), []).append(i)
     return list(found.values())

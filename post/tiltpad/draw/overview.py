@@ -43,7 +43,7 @@ def overview(run: Run) -> str:
     lines = "".join(paragraph(text, warning=warning) for text, warning in said)
     heaviest = by_weight(run.remarks)[:REMARKS]
     told = "".join(paragraph(sentence(each), warning=True) for each in heaviest)
-    facts = of_machine(run) if run.bearings else of_bearing(run)
+    facts = of_machine(run) if run.is_machine else of_bearing(run)
     return section("In short", f"<div class=short>{lines}{facts}{told}</div>")
 
 
@@ -81,13 +81,12 @@ def stability(run: Run) -> Iterator[tuple[str, bool]]:
 def of_modes(run: Run, pivot: str) -> Iterator[tuple[str, bool]]:
     """What the modes of these pivots tell of journal or shaft, and of the pads."""
     found = modes(run, pivot)
-    fixed = not run.bearings and run.input["pads"]["motion"] == "fixed"
-    pivots = "" if fixed else f" with pivots {pivot}"
+    pivots = f" with pivots {pivot}" if run.bearings or run.tilts else ""
     listed = (found.name != "") & ((found.frequency > 0) | (found.eigenvalue.real > 0)) & ~found.of_reduction
     journal, pads = listed & of_journal(found.name), listed & ~of_journal(found.name)
     if journal.any():
         state, told = least_damped(found, journal)
-        text = f"The {'shaft' if run.bearings else 'journal'} is {state}{pivots}: {told}."
+        text = f"The {'shaft' if run.is_machine else 'journal'} is {state}{pivots}: {told}."
         slow = journal & (found.frequency <= SLOW * rpm(run) / 60)
         if slow.any() and not slow[np.argmin(np.where(journal, found.damping_ratio, np.inf))]:
             text += f" Up to {SLOW:g} times the speed of the shaft: {least_damped(found, slow)[1]}."
@@ -236,7 +235,7 @@ def stiffness(run: Run) -> Iterator[Fact]:
     if "coefficients" not in run:
         return
     found = coefficients(run, str(run["pivot"][0]))
-    note = f"pivots {found.pivot}, " * (run.input["pads"]["motion"] != "fixed")
+    note = f"pivots {found.pivot}, " * run.tilts
     note += f"at {found.frequency_ratio[0]:g} of the shaft speed"
     for name, letter, both in (("stiffness", "K", found.stiffness[0]), ("damping", "C", found.damping[0])):
         for k, axis in enumerate("yz"):

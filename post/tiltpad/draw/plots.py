@@ -112,7 +112,7 @@ def clearance(run: Run, ax: Axes, marks: bool = True) -> Axes:
         factor * geometry.of_pads(run.in_operation, f"bearing%{name}_clearance")
         for name in ("assembled", "machined")
     )
-    tilting = run.input["pads"]["motion"] != "fixed"
+    tilting = run.tilts
     if tilting:
         ax.add_patch(Circle((0, 0), radius, fill=False, linewidth=0.8, color="0.3"))
     note = {"ha": "center", "fontsize": "small", "color": "0.3"}
@@ -439,7 +439,7 @@ def from_zero(ax: Axes) -> None:
 
 def all_tilt(runs: Sequence[Run]) -> bool:
     """False where a run has fixed pads."""
-    return all(run.input["pads"]["motion"] != "fixed" for run in runs)
+    return all(run.tilts for run in runs)
 
 
 def label_films(panels: Mapping[str, Axes]) -> None:

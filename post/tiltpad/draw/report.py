@@ -30,7 +30,7 @@ def report(run: Run) -> str:
         f"written by {by['program']} {by['version']} ({by['commit']}), {by['created']}",
         overview(run),
         folded("Further remarks", further_remarks(run)),
-        *(of_machine(run) if run.bearings else of_bearing(run)),
+        *(of_machine(run) if run.is_machine else of_bearing(run)),
         given("Input", run),
         folded("Cost", statistics(run)),
     ]
@@ -152,7 +152,7 @@ def mode_table(run: Run) -> str:
 
 def of_pivots(run: Run, pivot: str) -> str:
     """What the pivots do in coefficients and modes; fixed pads have none."""
-    return "none" if run.input["pads"]["motion"] == "fixed" else pivot
+    return pivot if run.tilts else "none"
 
 
 def pictures(run: Run) -> Iterable[str]:

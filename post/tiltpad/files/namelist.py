@@ -99,8 +99,8 @@ def is_machine(groups: Mapping[str, Any]) -> bool:
 
 
 def bearing_names(groups: Mapping[str, Any]) -> list[str]:
-    """Names of the bearings of a machine, in the order of its input."""
-    return [f"{each.get('name', '')}" for each in groups["bearing"]]
+    """Names of the bearings of pads of a machine, in the order of its input."""
+    return [f"{each.get('name', '')}" for each in groups["bearing"] if each.get("kind", "film") == "film"]
 
 
 def of_bearing(text: str, name: str, load: Sequence[float] = (0, 0)) -> str:

@@ -101,8 +101,9 @@ class Run(Archive):
         words = [self.task, "complete" if self.complete else f"incomplete{self.end()}"]
         if self.samples and self.complete:
             words.append(f"{self.values('time', -1):g} s")
-        if self.bearings:
-            words.append(f"{len(self.bearings)} bearings ({', '.join(self.bearings)})")
+        if self.is_machine:
+            names = [f"{each['name']}" for each in self.input["bearing"]]
+            words.append(f"{len(names)} bearings ({', '.join(names)})")
         else:
             pads, friction = self.input["pads"]["motion"], self.input["friction"]["model"]
             words.append(f"{self.pads} pad{'s' if self.pads > 1 else ''} ({pads})")
@@ -193,6 +194,16 @@ class Run(Archive):
         return Bearings(self)
 
     @property
+    def is_machine(self) -> bool:
+        """True for an elastic shaft in bearings, with films or without."""
+        return namelist.is_machine(self.input)
+
+    @property
+    def tilts(self) -> bool:
+        """Whether the pads of its bearing tilt; of a machine its bearings know."""
+        return not self.is_machine and self.input["pads"]["motion"] != "fixed"
+
+    @property
     def remarks(self) -> list[str]:
         """What is unusual, or leaves the range of the model; of a machine behind the name of the bearing."""
         return list(self["summary/remarks"]) if "summary/remarks" in self else []
@@ -226,7 +237,7 @@ class Run(Archive):
             raise StudyError(f"{self.path}: a study, not the result of one run: {see}")
         if "complete" not in self.attributes:
             raise damaged(self.path, "attribute 'complete'", "it is missing")
-        if namelist.is_machine(self.input):
+        if self.is_machine:
             self.check_bearings()
             return
         if "pad" in self and (there := self.length("pad")) != self.pads:
@@ -235,6 +246,8 @@ class Run(Archive):
     def check_bearings(self) -> None:
         """Refuses a machine whose input has other bearings than its datasets, or others of their pads."""
         names = namelist.bearing_names(self.input)
+        if not names:
+            return
         with reading(self.path, "bearings"):
             there = self.inside(self.own("bearings"), "bearings")
         if sorted(there) != sorted(names) or self.length("bearing") != len(names):
@@ -245,7 +258,7 @@ class Run(Archive):
 
     def needs_one_bearing(self, name: str) -> None:
         """Raises NotInRunError for an attribute that a machine has of each bearing."""
-        if self.bearings:
+        if self.is_machine:
             raise NotInRunError(self.without(name))
 
     def names(self, group: str = "") -> list[str]:
@@ -312,7 +325,7 @@ class Run(Archive):
 
     def why_not(self, name: str) -> str:
         """The reason why the run has no such dataset."""
-        if self.bearings:
+        if self.is_machine:
             return self.bearings.why_not(name)
         friction, motion = self.input["friction"]["model"], self.input["pads"]["motion"]
         start = self.input.get("start", {}).get("from")
@@ -357,15 +370,17 @@ class Bearings(dict[str, "Bearing"]):
         named = f"{shown(f'{name}')}{meant(f'{name}', self)}"
         raise NotInRunError(f"{self.machine.path}: no bearing {named}: {why}")
 
-    def whole(self) -> "Bearing":
-        """One of them, called as the machine, for what this has as a whole."""
+    def whole(self) -> Run:
+        """One of them, called as the machine, for what this has as a whole; without films the machine."""
+        if not self:
+            return self.machine
         own = Bearing(self.machine, next(iter(self)))
         own.attributes["title"] = self.machine.attributes["title"]
         return own
 
     def in_words(self) -> str:
         """Their names, in words."""
-        return f"its bearings are {', '.join(self)}"
+        return f"its bearings are {', '.join(self)}" if self else "none of its bearings has a film"
 
     def why_not(self, name: str) -> str:
         """The reason why the machine as a whole has no such dataset."""
@@ -377,7 +392,7 @@ class Bearings(dict[str, "Bearing"]):
             known = self.machine.names()
             task = f"its task is '{self.machine.task}'"
             return f"{task}, and there are {', '.join(known)}{meant(name, known)}"
-        return next(iter(self.values())).why_not(name)
+        return next(iter(self.values())).why_not(name) if self else self.in_words()
 
 
 class Bearing(Run):
