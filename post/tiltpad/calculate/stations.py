@@ -97,7 +97,8 @@ def named(groups: dict[str, Any]) -> Iterator[tuple[int, str]]:
 
 def bearings(run: Run) -> np.ndarray:
     """Stations of the bearings of a machine, those by coefficients too, from 0."""
-    return np.array([each["station"] for each in run.input["bearing"]], int) - 1
+    groups: dict[str, Any] = run.input
+    return np.array([int(each["station"]) - 1 for each in groups["bearing"]])
 
 
 def needs_machine(run: Run) -> None:

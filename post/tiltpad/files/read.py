@@ -102,7 +102,8 @@ class Run(Archive):
         if self.samples and self.complete:
             words.append(f"{self.values('time', -1):g} s")
         if self.is_machine:
-            names = [f"{each['name']}" for each in self.input["bearing"]]
+            groups: dict[str, Any] = self.input
+            names = [f"{each['name']}" for each in groups["bearing"]]
             words.append(f"{len(names)} bearings ({', '.join(names)})")
         else:
             pads, friction = self.input["pads"]["motion"], self.input["friction"]["model"]
