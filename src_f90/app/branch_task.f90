@@ -8,8 +8,8 @@ module branch_task
    use equilibrium_record, only: equilibrium_type
    use equilibrium, only: settle_equilibrium
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
-   use marching, only: march_options
    use march_settings, only: march_settings_of
+   use marching, only: march_options
    use marched_cycle, only: find_marched_cycle
    use newton_method, only: branch_point_type
    use continuation, only: bifurcation_type
@@ -371,11 +371,11 @@ contains
    subroutine print_curve(file, given)
       type(run_file_type), intent(inout) :: file
       type(branch_type), intent(in) :: given
-      real(wp), allocatable, dimension(:, :) :: first, second, side, stable, frequency, ratio
+      real(wp), allocatable, dimension(:, :) :: first, second, side, stable, frequency, ratio, born
       character(len=32) :: vibration
-      character(len=5) :: at
+      character(len=:), allocatable :: sides
       integer :: n, k
-      logical :: vibrates
+      logical :: vibrates, begins
       n = int(file%hdf5%samples)
       call file%hdf5%last_samples('parameter', n, first)
       call file%hdf5%last_samples('second_parameter', n, second)
@@ -388,14 +388,25 @@ contains
          call file%hdf5%last_samples('frequency_ratio', n, ratio)
          vibration = 'Hz, over that of the shaft'
       end if
-      print '(2(1x,a),1x,a)', given%second_parameter, given%parameter, trim(vibration)//' '//trim(merge( &
-         & 'solutions  ', 'stable side', index(given%point, 'fold') > 0))
+      begins = file%hdf5%has_series('born_side')
+      if (begins) call file%hdf5%last_samples('born_side', n, born)
+      sides = trim(merge('solutions  ', 'stable side', index(given%point, 'fold') > 0))
+      if (begins) sides = sides//', cycles born'
+      print '(2(1x,a),1x,a)', given%second_parameter, given%parameter, trim(vibration)//' '//sides
       do k = 1, n
-         at = merge('above', 'below', side(1, k) > 0)
-         if (.not. stable(1, k) > 0 .and. index(given%point, 'fold') == 0) at = 'none'
+         sides = at(side(1, k))
+         if (.not. stable(1, k) > 0 .and. index(given%point, 'fold') == 0) sides = 'none'
+         if (begins) sides = sides//', '//at(born(1, k))
          if (vibrates) write (vibration, '(f12.3,f9.5)') frequency(1, k), ratio(1, k)
-         print '(2(1x,a15),a,2x,a)', precise(second(1, k)), precise(first(1, k)), trim(vibration), trim(at)
+         print '(2(1x,a15),a,2x,a)', precise(second(1, k)), precise(first(1, k)), trim(vibration), sides
       end do
+   contains
+      pure function at(side) result(word)
+         real(wp), intent(in) :: side
+         character(len=:), allocatable :: word
+         word = trim(merge('above', 'below', side > 0))
+         if (.not. abs(side) > 0) word = 'not known'
+      end function at
    end subroutine print_curve
 
    !> To which side limit cycles are born, and how far unstable ones reach: a kick beyond them leads away from an

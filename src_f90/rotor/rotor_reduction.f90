@@ -4,7 +4,7 @@ module rotor_reduction
    use kinds, only: wp, pi, rpm
    use linear_algebra, only: zgbsv, solve_complex
    use sparse_matrix, only: sparse_matrix_type
-   use case_groups, only: is_set, reduction_type, mount_type
+   use case_groups, only: is_set, reduction_type, mount_type, station_element_type
    use case_inputs, only: case_type
    use rotor_component, only: rotor_component_type, static_forces, unbalance_moments
    use fixed_interface, only: fixed_interface_type
@@ -325,8 +325,10 @@ contains
       type(case_type), intent(in) :: inputs
       type(rotor_component_type), intent(in) :: component
       real(wp), allocatable :: loads(:), forces(:, :)
+      type(station_element_type), allocatable :: elements(:)
       integer, allocatable :: stations(:)
-      associate (elements => inputs%station_elements(), discs => inputs%rotor%elastic%discs)
+      elements = inputs%station_elements()
+      associate (discs => inputs%rotor%elastic%discs)
          stations = [elements%station, pack(elements%to_station, elements%to_station > 0)]
          forces = forces_at(component, component%station, stations)
          loads = reshape(forces, [size(forces)])
@@ -365,45 +367,45 @@ contains
       type(case_type), intent(in) :: inputs
       type(mount_type), intent(in) :: mounts(:)
       type(rotor_matrices_type), intent(inout) :: r
+      type(station_element_type), allocatable :: from(:)
       real(wp) :: c(2, 2, 3)
       integer :: i, b, at, own
-      associate (from => inputs%station_elements())
-         if (size(from) == 0) return
-         allocate (r%elements(size(from)))
-         do i = 1, size(from)
-            r%elements(i) = new_acting_element(from(i), inputs%sense())
-            associate (e => r%elements(i), here => [2*from(i)%station - 1, 2*from(i)%station])
-               e%ends = r%station(here, :)
-               e%offset = r%station_offset(here) - from(i)%origin
-               if (from(i)%under_housing) then
-                  e%ends = 0
-                  e%offset = 0
-               end if
-               if (from(i)%to_station > 0) then
-                  associate (there => [2*from(i)%to_station - 1, 2*from(i)%to_station])
-                     e%ends = e%ends - r%station(there, :)
-                     e%offset = e%offset - r%station_offset(there)
-                  end associate
-               end if
-               do b = 1, merge(0, size(mounts), from(i)%housing == '')
-                  if (mounts(b)%name /= from(i)%housing) cycle
-                  at = 2*housing_pair(mounts, b)
-                  own = merge(1, -1, from(i)%under_housing)
-                  e%ends(1, at - 1) = e%ends(1, at - 1) + own
-                  e%ends(2, at) = e%ends(2, at) + own
-               end do
-               associate (speed => inputs%operation%speed_rpm*rpm)
-                  c = e%coefficients(speed)
-                  r%mass = r%mass + e%onto_rotor(c(:, :, 3))
-                  e%in_matrices = e%static .and. e%is_constant()
-                  if (.not. e%in_matrices) cycle
-                  r%damping = r%damping + e%onto_rotor(c(:, :, 2))
-                  r%stiffness = r%stiffness + e%onto_rotor(c(:, :, 1))
-                  r%load = r%load - matmul(matmul(c(:, :, 1), e%offset), e%ends)
+      from = inputs%station_elements()
+      if (size(from) == 0) return
+      allocate (r%elements(size(from)))
+      do i = 1, size(from)
+         r%elements(i) = new_acting_element(from(i), inputs%sense())
+         associate (e => r%elements(i), here => [2*from(i)%station - 1, 2*from(i)%station])
+            e%ends = r%station(here, :)
+            e%offset = r%station_offset(here) - from(i)%origin
+            if (from(i)%under_housing) then
+               e%ends = 0
+               e%offset = 0
+            end if
+            if (from(i)%to_station > 0) then
+               associate (there => [2*from(i)%to_station - 1, 2*from(i)%to_station])
+                  e%ends = e%ends - r%station(there, :)
+                  e%offset = e%offset - r%station_offset(there)
                end associate
+            end if
+            do b = 1, merge(0, size(mounts), from(i)%housing == '')
+               if (mounts(b)%name /= from(i)%housing) cycle
+               at = 2*housing_pair(mounts, b)
+               own = merge(1, -1, from(i)%under_housing)
+               e%ends(1, at - 1) = e%ends(1, at - 1) + own
+               e%ends(2, at) = e%ends(2, at) + own
+            end do
+            associate (speed => inputs%operation%speed_rpm*rpm)
+               c = e%coefficients(speed)
+               r%mass = r%mass + e%onto_rotor(c(:, :, 3))
+               e%in_matrices = e%static .and. e%is_constant()
+               if (.not. e%in_matrices) cycle
+               r%damping = r%damping + e%onto_rotor(c(:, :, 2))
+               r%stiffness = r%stiffness + e%onto_rotor(c(:, :, 1))
+               r%load = r%load - matmul(matmul(c(:, :, 1), e%offset), e%ends)
             end associate
-         end do
-      end associate
+         end associate
+      end do
    end subroutine add_elements
 
    !> The matrices in the displacements x. The mass of the modes is 1 and no stiffness joins them, but for rounding.

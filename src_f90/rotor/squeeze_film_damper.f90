@@ -11,7 +11,7 @@ module squeeze_film_damper
    use state_layout, only: pad_state, of_journal
    use abstract_element, only: element_type, element_slot
    use film_oils, only: film_oil
-   use case_groups, only: damper_type
+   use case_groups, only: damper_type, mount_type
    use case_inputs, only: case_type
    use linear_element, only: housing_pair
    implicit none (type, external)
@@ -40,16 +40,18 @@ contains
       type(case_type), intent(in) :: inputs
       type(element_slot), allocatable :: slots(:)
       type(squeeze_film_damper_type) :: damper
+      type(mount_type), allocatable :: bearings(:)
+      integer, allocatable :: of(:)
       integer :: i
-      associate (of => inputs%dampers(), bearings => inputs%mounts())
-         allocate (slots(size(of)))
-         do i = 1, size(of)
-            damper%of = bearings(of(i))%damper
-            damper%title = 'the damper of '//bearings(of(i))%label()
-            allocate (slots(i)%of, source=damper)
-            slots(i)%pair = housing_pair(bearings, of(i))
-         end do
-      end associate
+      bearings = inputs%mounts()
+      of = inputs%dampers()
+      allocate (slots(size(of)))
+      do i = 1, size(of)
+         damper%of = bearings(of(i))%damper
+         damper%title = 'the damper of '//bearings(of(i))%label()
+         allocate (slots(i)%of, source=damper)
+         slots(i)%pair = housing_pair(bearings, of(i))
+      end do
    end function dampers_of
 
    !> Refuses a ring that touches.

@@ -9,7 +9,10 @@ MOST_PADS = 24
 #: What only machines have, and excitations: groups, and variables of other groups. They are not resolved.
 ON_SHAFTS = ("shaft", "disc", "unbalance", "bow", "load", "element", "impeller")
 OF_MACHINES = (*ON_SHAFTS, "lateral", "support", "damper", "reduction", "excitation")
-OF_MACHINES_TOO = ("rotor%file", "bearing%station", "bearing%offset")
+OF_MACHINES_TOO = (
+    "rotor%file",
+    *(f"bearing%{name}" for name in "kind station offset stiffness damping file frequency".split()),
+)
 
 
 @dataclass(frozen=True)

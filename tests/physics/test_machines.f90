@@ -98,7 +98,7 @@ contains
       end do
    end subroutine synchronous
 
-   !> Modes below twice the speed, and the synchronous modes that are the same vibrations: no other is as much alike,
+   !> Modes below twice the speed that vibrate, and the synchronous modes that are the same vibrations: no other is as much alike,
    !> and forward and backward whirls of one shape have one each.
    subroutine counterparts(model, eigenvalue, response)
       type(machine_model), intent(in) :: model
@@ -109,7 +109,9 @@ contains
       compared = 0
       do i = 1, size(eigenvalue)
          associate (own => response%counterpart(i, 1), shape => response%shapes(:, :, i, 1))
-            if (.not. (eigenvalue(i)%im > 0 .and. eigenvalue(i)%im < 2*4100*rpm) .or. own == 0) cycle
+            if (.not. (eigenvalue(i)%im > 3*abs(eigenvalue(i)%re) .and. eigenvalue(i)%im < 2*4100*rpm)) cycle
+            call expect(own > 0, 'mode '//to_text(i)//' has a counterpart')
+            if (own == 0) cycle
             do k = 1, size(alike)
                associate (other => at_stations(model, response%synchronous(1)%shape(:, k)))
                   alike(k) = abs(sum(conjg(shape)*other))**2/(sum(abs(shape)**2)*sum(abs(other)**2))

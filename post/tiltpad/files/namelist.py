@@ -33,7 +33,7 @@ ON_SHAFTS = ("disc", "unbalance", "bow", "load", "element", "impeller", "support
 SEVERAL = (*OF_BEARINGS, *ON_SHAFTS)
 #: Groups and variables of a machine that a case of one bearing has not.
 OF_MACHINES = ("shaft", "reduction", "rotor", "lateral", *ON_SHAFTS)
-OF_PLACES = ("name", "station", "offset")
+OF_PLACES = ("name", "kind", "station", "offset")
 #: The least mass, kg, that a rotor may have.
 LEAST_MASS = 1e-6
 
