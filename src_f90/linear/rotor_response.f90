@@ -113,31 +113,34 @@ contains
       end subroutine whirl
    end subroutine find_rotor_response
 
-   !> Of modes with these eigenvalues and shapes, (2, station, mode), the one of others that is the same vibration: the
-   !> nearest eigenvalue that none before it has, among those whose shapes are more alike than not (by the
-   !> criterion of Allemang and Brown, 1982). Forward and backward whirls of the same shape are not alike.
+   !> Of modes with these eigenvalues and shapes, (2, station, mode), the one of others that is the same vibration: of
+   !> all pairs whose shapes are more alike than not (by the criterion of Allemang and Brown, 1982) the nearest
+   !> eigenvalues first, and each once; 0: none is. Forward and backward whirls of the same shape are not alike.
    function counterparts(model, eigenvalue, shapes, others) result(found)
       type(machine_model), intent(in) :: model
       complex(wp), intent(in) :: eigenvalue(:), shapes(:, :, :)
       type(vibration_modes_type), intent(in) :: others
-      integer :: found(size(shapes, 3))
+      integer :: found(size(shapes, 3)), pair(2), i, k
       real(wp), parameter :: alike = 0.5_wp
-      complex(wp) :: theirs(2, size(shapes, 2), size(others%eigenvalue))
-      logical :: waiting(size(others%eigenvalue))
-      integer :: i, k
-      do k = 1, size(waiting)
-         theirs(:, :, k) = at_stations(model, others%shape(:, k))
+      real(wp) :: distance(size(eigenvalue), size(others%eigenvalue))
+      logical :: waiting(size(eigenvalue), size(others%eigenvalue))
+      complex(wp) :: theirs(2, size(shapes, 2))
+      do k = 1, size(distance, 2)
+         theirs = at_stations(model, others%shape(:, k))
+         distance(:, k) = abs(others%eigenvalue(k) - eigenvalue)
+         do i = 1, size(distance, 1)
+            associate (own => shapes(:, :, i))
+               waiting(i, k) = min(eigenvalue(i)%im, others%eigenvalue(k)%im) > 0 .and. abs(sum(conjg(own)*theirs))**2 &
+                  & > alike*sum(abs(own)**2)*sum(abs(theirs)**2)
+            end associate
+         end do
       end do
-      waiting = others%eigenvalue%im > 0
       found = 0
-      do i = 1, size(eigenvalue)
-         if (.not. eigenvalue(i)%im > 0) cycle
-         associate (own => shapes(:, :, i))
-            k = minloc(abs(others%eigenvalue - eigenvalue(i)), dim=1, mask=waiting .and. [(abs(sum(conjg(own) &
-               & *theirs(:, :, k)))**2 > alike*sum(abs(own)**2)*sum(abs(theirs(:, :, k))**2), k=1, size(waiting))])
-         end associate
-         found(i) = k
-         if (k > 0) waiting(k) = .false.
+      do while (any(waiting))
+         pair = minloc(distance, mask=waiting)
+         found(pair(1)) = pair(2)
+         waiting(pair(1), :) = .false.
+         waiting(:, pair(2)) = .false.
       end do
    end function counterparts
 
