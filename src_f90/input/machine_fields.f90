@@ -89,8 +89,8 @@ contains
       call group_of(v, i, all, 'disc', 'A machine: a rigid disc on its shaft; one group for each')
       call list_station(v, disc%station)
       call v%number(disc%mass, 'mass', 0.0_wp, 1e9_wp, 'kg', 'mass')
-      call v%number(disc%polar_inertia, 'polar_inertia', 0.0_wp, 1e12_wp, 'kg m^2', 'moment of inertia about the axis ' &
-         & //'of the shaft')
+      call v%number(disc%polar_inertia, 'polar_inertia', 0.0_wp, 1e12_wp, 'kg m^2', 'moment of inertia about ' &
+         & //'the axis of the shaft')
       call v%number(disc%diametral_inertia, 'diametral_inertia', 0.0_wp, 1e12_wp, 'kg m^2', 'moment of inertia about ' &
          & //'a diameter')
       call v%number(disc%skew, 'skew', 0.0_wp, 0.1_wp, 'rad', 'angle between its axis and that of the shaft')

@@ -12,7 +12,7 @@ module bent_shaft
 
 contains
 
-   !> Forces K q on all displacements, N, (n, 2): those at the shaft angle phi are bow(:, 1)*cos(phi) + bow(:, 2)*sin(phi).
+   !> Forces K q on all displacements, N, (n, 2): at the shaft angle phi bow(:, 1)*cos(phi) + bow(:, 2)*sin(phi).
    !> q is the shape of the least energy of bending through the displacements that are given and through the stations
    !> of bearings, where none is. There must be two of these.
    function bow_forces(rotor, bearings, component) result(force)

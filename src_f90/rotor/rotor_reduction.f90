@@ -59,11 +59,10 @@ module rotor_reduction
    !> Amplitudes are compared in a vibration that grows so fast, relative to its frequency: as with this damping ratio.
    real(wp), parameter :: growth = 0.05_wp
 
-
-   !> M x'' + (C + Omega G) x' + (K + Omega N) x = load + forces of the bearings + unbalance. Displacements x: first those of the
-   !> journals relative to their bearings, y and z of each; then those of the housings that have supports, y and z of
-   !> each, m, 0 where the spring is not loaded; then the amplitudes of the modes with the journals held, in y and z of
-   !> each (kg^1/2 m), whose mass is 1. The weight of a housing acts on its support.
+   !> M x'' + (C + Omega G) x' + (K + Omega N) x = load + forces of the bearings + unbalance. Displacements x: first
+   !> those of the journals relative to their bearings, y and z of each; then those of the housings that have supports,
+   !> y and z of each, m, 0 where the spring is not loaded; then the amplitudes of the modes with the journals held, in
+   !> y and z of each (kg^1/2 m), whose mass is 1. The weight of a housing acts on its support.
    type, extends(mode_selection_type) :: rotor_matrices_type
       integer :: journals = 0
       real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness

@@ -1,5 +1,5 @@
-!> Squeeze film dampers between the housings of bearings and the ground: short films with open ends, which cavitate where
-!> they are pulled or are whole, and long ones with sealed ends, in closed form.
+!> Squeeze film dampers between the housings of bearings and the ground: short films with open ends, which cavitate
+!> where they are pulled or are full, and long ones with sealed ends, in closed form.
 !>
 !> The film is h = c - u.n thick in the direction n for a ring at u that moves with v. With open ends its force is
 !> -mu R L^3 times the integral of n (n.v)/h^3 over the angle, where n.v > 0 in a cavitated film. Sommerfeld's

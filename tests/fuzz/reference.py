@@ -11,7 +11,10 @@ ON_SHAFTS = ("shaft", "disc", "unbalance", "bow", "load", "element", "impeller")
 OF_MACHINES = (*ON_SHAFTS, "lateral", "support", "damper", "reduction", "excitation")
 OF_MACHINES_TOO = (
     "rotor%file",
-    *(f"bearing%{name}" for name in "kind station offset stiffness damping file frequency".split()),
+    *(
+        f"bearing%{name}"
+        for name in ["kind", "station", "offset", "stiffness", "damping", "file", "frequency"]
+    ),
 )
 
 

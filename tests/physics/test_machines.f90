@@ -98,8 +98,8 @@ contains
       end do
    end subroutine synchronous
 
-   !> Modes below twice the speed that vibrate, and the synchronous modes that are the same vibrations: no other is as much alike,
-   !> and forward and backward whirls of one shape have one each.
+   !> Modes below twice the speed that vibrate, and the synchronous modes that are the same vibrations: no other is as
+   !> much alike.
    subroutine counterparts(model, eigenvalue, response)
       type(machine_model), intent(in) :: model
       complex(wp), intent(in) :: eigenvalue(:)

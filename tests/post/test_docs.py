@@ -52,7 +52,8 @@ def test_the_worked_examples(root, program, tmp_path):
                 for word in words
                 if "/" in word or "%" in word or word == "--set" or word.endswith(".nml")
             ]
-            done = subprocess.run([program, "--check", *checked], cwd=tmp_path, text=True, capture_output=True)
+            words = [program, "--check", *checked]
+            done = subprocess.run(words, cwd=tmp_path, text=True, capture_output=True)
             assert (done.returncode, done.stderr) == (0, ""), line
         elif name == "tiltpad-plot":
             options = command.plot_parser().parse_args(words)
