@@ -237,6 +237,17 @@ def run(tiltpad, tmp_path):
 
 
 @pytest.fixture
+def result(run, tmp_path):
+    """The file of a case."""
+
+    def make(case, *overrides):
+        run(case, *overrides, more=["--overwrite"])
+        return h5py.File(tmp_path / "case.h5")
+
+    return make
+
+
+@pytest.fixture
 def follow(tiltpad, tmp_path):
     """follow(text, *overrides): the file of a branch or a curve, and what the program printed."""
 

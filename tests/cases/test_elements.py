@@ -7,7 +7,6 @@ by 1e-6 of the coefficients.
 
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 
@@ -169,17 +168,6 @@ REFUSED = {
     "&element station=3, stiffness=1e6 /": "element(1)%stiffness = 1e6: takes 4 values",
     "&element station=3, static=.false. /\n&start from='file', file='x.h5' /": "needs start%from",
 }
-
-
-@pytest.fixture
-def result(run, tmp_path):
-    """The file of a case."""
-
-    def make(case, *overrides):
-        run(case, *overrides, more=["--overwrite"])
-        return h5py.File(tmp_path / "case.h5")
-
-    return make
 
 
 def eigenvalues(file):

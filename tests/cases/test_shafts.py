@@ -3,7 +3,6 @@
 The values are those of the independent program of test_elements, with rounding errors of 1e-9.
 """
 
-import h5py
 import numpy as np
 import pytest
 from test_elements import SHAFT, WHOLE, expect_eigenvalues
@@ -72,17 +71,6 @@ HOUSING_WHIRL = {
     6: (-7.124036315102488e-07 - 7.955424243903072e-08j, -2.646165941169392e-07 + 5.468709560499298e-07j),
     15: (1.190720495424186e-06 - 1.0245885004802047e-07j, 9.113453994945229e-08 - 5.625602884400672e-07j),
 }
-
-
-@pytest.fixture
-def result(run, tmp_path):
-    """The file of a case."""
-
-    def make(case, *overrides):
-        run(case, *overrides, more=["--overwrite"])
-        return h5py.File(tmp_path / "case.h5")
-
-    return make
 
 
 def whirl(file, station):
