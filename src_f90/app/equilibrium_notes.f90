@@ -3,7 +3,7 @@ module equilibrium_notes
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use kinds, only: wp, pi, degree
    use text, only: filled
-   use case_groups, only: bearing_type
+   use case_groups, only: bearing_type, station_element_type
    use case_inputs, only: case_type, longest_label
    use bearing_numbers, only: load, load_on_journal, specific_load, sommerfeld_number, of_supply
    use state_layout, only: tilt, pivot_deflection
@@ -73,28 +73,28 @@ contains
       type(machine_model) :: still
       real(wp), allocatable :: y(:), forces(:, :), positions(:, :), ratios(:)
       character(len=longest_label), allocatable :: labels(:)
+      type(station_element_type), allocatable :: elements(:)
       integer :: i, n
+      n = run%model%rotor%elements
+      if (n + size(run%model%others) == 0) return
       y = run%model%static_state(static%rotor, static%pads)
       still = run%model
       call still%set_point(run%model%point%static())
       forces = element_forces(still, 0.0_wp, y)
-      if (size(forces) == 0) return
       positions = element_positions(still, y)
       labels = run%inputs%element_labels()
-      n = run%model%rotor%elements
       ratios = eccentricities(run%inputs, positions(:, n + 1:))
       call put_elements(run%file, forces, positions, ratios)
       if (run%quiet) return
-      associate (elements => run%inputs%station_elements())
-         do i = 1, n
-            print '(a)', trim(labels(i))//filled(' at station {}: force on the shaft y {.1}, z {.1} N', &
-               & [real(wp) :: elements(i)%station, forces(:, i)])
-         end do
-         do i = 1, size(ratios)
-            print '(a)', trim(labels(n + i))//filled(': ring at y {u.2}, z {u.2} ' &
-               & //'um, eccentricity ratio {.4}', [positions(:, n + i), ratios(i)])
-         end do
-      end associate
+      elements = run%inputs%station_elements()
+      do i = 1, n
+         print '(a)', trim(labels(i))//filled(' at station {}: force on the shaft y {.1}, z {.1} N', &
+            & [real(wp) :: elements(i)%station, forces(:, i)])
+      end do
+      do i = 1, size(ratios)
+         print '(a)', trim(labels(n + i))//filled(': ring at y {u.2}, z {u.2} um, eccentricity ratio {.4}', &
+            & [positions(:, n + i), ratios(i)])
+      end do
    end subroutine note_elements
 
    !> The first bearing that is as bearing b and whose films, journal and shaft are in the same equilibrium, but for

@@ -90,10 +90,9 @@ contains
             end do
             do i = 1, size(elastic%bows)
                call check_station('bow('//to_text(i)//')', elastic%bows(i)%station, stations)
+               call require(elastic%rotor_file == '', 'bow({})%station = {}: bends a shaft of &shaft, not one of ' &
+                  & //'rotor%file', [real(i, wp), real(elastic%bows(i)%station, wp)], error)
             end do
-            call require(size(elastic%bows) == 0 .or. elastic%rotor_file == '', 'bow(1)%station = {}: bends a shaft ' &
-               & //'of &shaft, not one of rotor%file', [(real(elastic%bows(i)%station, wp), i=1, min(1, &
-               & size(elastic%bows)))], error)
             do i = 1, size(elastic%loads)
                call check_station('load('//to_text(i)//')', elastic%loads(i)%station, stations)
             end do

@@ -18,7 +18,7 @@ module rotor_response
 
    !> One element, or the last dimension, for each way that the pivots may behave.
    type :: rotor_response_type
-      !> Stations under the unbalance, m, (2, station, pivot): y and z are the real parts of these times
+      !> Stations under what turns with the shaft, m, (2, station, pivot): y and z are the real parts of these times
       !> exp(i shaft angle).
       complex(wp), allocatable :: unbalance(:, :, :)
       !> Stations in the modes, m, (2, station, mode, pivot); 0 of modes that there are not.
@@ -37,7 +37,7 @@ module rotor_response
 
 contains
 
-   !> Of a model whose coefficients were found. The unbalance is that of the model's case.
+   !> Of a model whose coefficients were found. Unbalance, bow and skew are those of the model's case.
    subroutine find_rotor_response(model, coefficients, found, error)
       type(machine_model), intent(in) :: model
       type(bearing_coefficients_type), intent(in) :: coefficients
@@ -79,7 +79,7 @@ contains
 
    contains
 
-      !> The steady whirl under the unbalance: (K + i Omega C - Omega^2 M) x = f.
+      !> The steady whirl under what turns with the shaft: (K + i Omega C - Omega^2 M) x = f.
       subroutine whirl(linear, stations)
          type(linear_bearing_type), intent(in) :: linear
          complex(wp), intent(out) :: stations(:, :)
@@ -124,15 +124,17 @@ contains
       real(wp), parameter :: alike = 0.5_wp
       real(wp) :: distance(size(eigenvalue), size(others%eigenvalue))
       logical :: waiting(size(eigenvalue), size(others%eigenvalue))
-      complex(wp) :: theirs(2, size(shapes, 2))
+      complex(wp) :: own(2*size(shapes, 2), size(eigenvalue)), theirs(2*size(shapes, 2))
+      do i = 1, size(eigenvalue)
+         own(:, i) = of_unit_length(shapes(:, :, i))
+      end do
+      waiting = .false.
       do k = 1, size(distance, 2)
-         theirs = at_stations(model, others%shape(:, k))
+         if (.not. others%eigenvalue(k)%im > 0) cycle
+         theirs = of_unit_length(at_stations(model, others%shape(:, k)))
          distance(:, k) = abs(others%eigenvalue(k) - eigenvalue)
          do i = 1, size(distance, 1)
-            associate (own => shapes(:, :, i))
-               waiting(i, k) = min(eigenvalue(i)%im, others%eigenvalue(k)%im) > 0 .and. abs(sum(conjg(own)*theirs))**2 &
-                  & > alike*sum(abs(own)**2)*sum(abs(theirs)**2)
-            end associate
+            if (eigenvalue(i)%im > 0) waiting(i, k) = abs(dot_product(own(:, i), theirs))**2 > alike
          end do
       end do
       found = 0
@@ -142,6 +144,14 @@ contains
          waiting(pair(1), :) = .false.
          waiting(:, pair(2)) = .false.
       end do
+   contains
+      !> A shape at the stations as a vector of this length; 0 stays 0.
+      pure function of_unit_length(shape) result(vector)
+         complex(wp), intent(in) :: shape(:, :)
+         complex(wp) :: vector(size(shape))
+         vector = reshape(shape, [size(shape)])
+         vector = vector/max(sqrt(sum(vector%re**2 + vector%im**2)), tiny(1.0_wp))
+      end function of_unit_length
    end function counterparts
 
    !> The rotor on the stiffness and damping of bearings at the synchronous frequency. `ok` is false where there are

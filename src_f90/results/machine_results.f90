@@ -3,8 +3,8 @@
 module machine_results
    use kinds, only: wp, i8, degree
    use record, only: record_type
-   use case_inputs, only: case_type
-   use case_groups, only: bearing_type, mount_type, shaft_type
+   use case_inputs, only: case_type, longest_label
+   use case_groups, only: bearing_type, mount_type, shaft_type, station_element_type
    use rigid_rotor, only: rotor_type
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
@@ -136,6 +136,9 @@ contains
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: names(:)
       type(mount_type), allocatable :: mounts(:)
+      type(station_element_type), allocatable :: elements(:)
+      character(len=longest_label), allocatable :: labels(:)
+      integer, allocatable :: dampers(:)
       integer :: b, longest
       associate (bearings => inputs%bearings)
          longest = maxval([0, (len(bearings(b)%name), b=1, size(bearings))])
@@ -154,16 +157,17 @@ contains
          end if
       end associate
       mounts = inputs%mounts()
-      associate (elements => inputs%station_elements(), dampers => inputs%dampers(), labels => inputs%element_labels())
-         if (size(labels) > 0) then
-            call file%put_scale('element', size(labels), 'element number')
-            call file%put(group//'element_name', labels, 'name of the element')
-            call file%put(group//'element_station', real([elements%station, mounts(dampers)%station], wp), &
-               & '1', 'station of the element; of a damper that of its bearing', 'element')
-         end if
-         if (size(dampers) > 0) call file%put_scale('damper', size(dampers), &
-            & 'damper number; dampers are the last elements')
-      end associate
+      elements = inputs%station_elements()
+      dampers = inputs%dampers()
+      labels = inputs%element_labels()
+      if (size(labels) > 0) then
+         call file%put_scale('element', size(labels), 'element number')
+         call file%put(group//'element_name', labels, 'name of the element')
+         call file%put(group//'element_station', real([elements%station, mounts(dampers)%station], wp), &
+            & '1', 'station of the element; of a damper that of its bearing', 'element')
+      end if
+      if (size(dampers) > 0) call file%put_scale('damper', size(dampers), &
+         & 'damper number; dampers are the last elements')
       associate (discs => inputs%rotor%elastic%discs, over => group//'disc')
          if (size(discs) == 0) return
          call file%put_scale(over, size(discs), 'disc number')
