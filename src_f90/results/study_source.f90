@@ -77,7 +77,7 @@ contains
          call there%close()
       end if
       if (allocated(error) .or. .not. is_regular(path)) return
-      call table%open(path, study, other, error)
+      call table%open(path, study, other, error, rows=present(log))
       if (.not. allocated(error)) then
          wanted = lacking(status, table%status)
          if (present(log)) call take_table(table, path, wanted, log, error)
@@ -99,7 +99,7 @@ contains
       integer :: c, k
       allocate (states(study%runs), source=0)
       if (.not. is_regular(path)) return
-      call table%open(path, study, other, error)
+      call table%open(path, study, other, error, rows=.true.)
       if (allocated(error)) return
       c = table%layout%find(states_figure)
       if (c > 0) then
@@ -182,13 +182,15 @@ contains
       call file%close()
    end function is_study
 
-   !> Opens a table for reading, once a child process has read all of it, and reads what it has.
-   subroutine open_table(self, path, study, other, error)
+   !> Opens a table for reading, once a child process has read it, and reads the status of its runs and, for its rows,
+   !> what else it has.
+   subroutine open_table(self, path, study, other, error, rows)
       class(open_table_type), intent(inout) :: self
       character(len=*), intent(in) :: path
       type(study_type), intent(in) :: study
       logical, intent(out) :: other
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(in) :: rows
       character(len=:), allocatable :: task, marks
       logical :: older
       integer :: runs
@@ -213,39 +215,56 @@ contains
       end if
       if (.not. allocated(error)) call check_marks(path, runs, marks, study, other, error)
       if (allocated(error)) return
-      call read_guarded(self, path, runs, error)
+      call read_guarded(self, path, runs, rows, error)
    end subroutine open_table
 
-   !> Reads the layout of a table, in a child process first, which reads its rows, too.
-   subroutine read_guarded(self, path, runs, error)
+   !> Reads the status of the runs of a table, or its layout, in a child process first, which then reads all texts, too.
+   subroutine read_guarded(self, path, runs, rows, error)
       class(open_table_type), intent(inout) :: self
       character(len=*), intent(in) :: path
       integer, intent(in) :: runs
+      logical, intent(in) :: rows
       type(error_type), allocatable, intent(out) :: error
-      character(len=:), allocatable :: marked
       integer :: child
       child = new_reader()
       if (child == 0) then
-         call read_layout(self, runs)
-         if (.not. allocated(self%file%failure)) call read_all_texts(self)
+         call read_part(self, runs, rows)
+         if (rows .and. .not. allocated(self%file%failure)) call read_all_texts(self)
          call end_child(merge(1, 0, allocated(self%file%failure)))
       else if (child < 0) then
          call raise(error, system_error, 'cannot read '//path//': no process could be started for it')
       else if (exit_status(child) /= 0) then
          call raise(error, system_error, path//': damaged: its rows cannot be read')
       else
-         call read_layout(self, runs)
-         marked = to_text(self%layout%mark())
-         ! earlier versions wrote none
-         if (self%file%has_attribute(columns_mark)) call self%file%get_text(columns_mark, marked)
-         if (allocated(self%file%failure)) then
-            call raise(error, system_error, path//': damaged: '//self%file%failure)
-         else if (marked /= to_text(self%layout%mark())) then
-            call raise(error, system_error, path//': its columns have other names, units or labels than the program '&
-               & //'gave them; something else has changed them')
-         end if
+         call read_part(self, runs, rows)
+         if (rows .and. .not. allocated(self%file%failure)) call check_columns(self, path, error)
+         if (allocated(self%file%failure)) call raise(error, system_error, path//': damaged: '//self%file%failure)
       end if
    end subroutine read_guarded
+
+   !> The layout for the rows of a table, or the status of its runs alone.
+   subroutine read_part(self, runs, rows)
+      class(open_table_type), intent(inout) :: self
+      integer, intent(in) :: runs
+      logical, intent(in) :: rows
+      if (rows) then
+         call read_layout(self, runs)
+      else
+         call read_status(self, runs)
+      end if
+   end subroutine read_part
+
+   subroutine check_columns(self, path, error)
+      class(open_table_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: marked
+      marked = to_text(self%layout%mark())
+      ! earlier versions wrote none
+      if (self%file%has_attribute(columns_mark)) call self%file%get_text(columns_mark, marked)
+      if (marked /= to_text(self%layout%mark())) call raise(error, system_error, path//': its columns have other ' &
+         & //'names, units or labels than the program gave them; something else has changed them')
+   end subroutine check_columns
 
    subroutine read_all_texts(self)
       class(open_table_type), intent(inout) :: self
@@ -266,7 +285,6 @@ contains
       integer, intent(in) :: runs
       type(item_type), allocatable :: found(:)
       type(hdf5_rows_type) :: column
-      real(wp), allocatable :: values(:, :)
       character(len=:), allocatable :: parameters, scales
       integer :: i, k
       call self%file%get_text('parameters', parameters)
@@ -281,27 +299,36 @@ contains
          if (index(' '//parameters//' ', ' '//found(i)%path//' ') > 0) cycle
          scales = scales_of(self%file, found(i), found)
          if (allocated(self%file%failure)) return
-         if (word(scales, 1) /= run_scale) cycle
+         if (word(scales, 1) /= run_scale .or. found(i)%path == 'status') cycle
          call column%open(self%file, found(i)%path)
          if (allocated(self%file%failure)) return
          if (column%rows /= runs) call self%file%check_read(-1, 'find as many rows as there are runs')
-         if (found(i)%path == 'status') then
-            call column%read(self%file, 1, runs, values)
-            call column%close(self%file)
-            call take_status(self, values(1, :))
-         else
-            self%columns = [self%columns, column]
-            self%layout%columns = [self%layout%columns, column_of(self%file, found(i)%path, self%layout, &
-               & [(self%layout%find_dimension(word(scales, k)), k=2, scale_count(scales))])]
-            if (allocated(self%file%failure)) return
-            if (any(column%extents /= self%layout%extents(size(self%columns)))) call self%file%check_read(-1, &
-               & 'find the labels of '//found(i)%path)
-         end if
+         self%columns = [self%columns, column]
+         self%layout%columns = [self%layout%columns, column_of(self%file, found(i)%path, self%layout, &
+            & [(self%layout%find_dimension(word(scales, k)), k=2, scale_count(scales))])]
+         if (allocated(self%file%failure)) return
+         if (any(column%extents /= self%layout%extents(size(self%columns)))) call self%file%check_read(-1, &
+            & 'find the labels of '//found(i)%path)
       end do
-      if (.not. allocated(self%status) .or. self%layout%find('complete') == 0) call self%file%check_read(-1, &
-         & 'find the columns of a study')
+      if (self%layout%find('complete') == 0) call self%file%check_read(-1, 'find the columns of a study')
       call self%layout%place()
+      call read_status(self, runs)
    end subroutine read_layout
+
+   !> Reads the status of each run.
+   subroutine read_status(self, runs)
+      class(open_table_type), intent(inout) :: self
+      integer, intent(in) :: runs
+      type(hdf5_rows_type) :: column
+      real(wp), allocatable :: values(:, :)
+      call column%open(self%file, 'status')
+      if (allocated(self%file%failure)) return
+      if (column%rows /= runs) call self%file%check_read(-1, 'find as many rows as there are runs')
+      if (allocated(self%file%failure)) return
+      call column%read(self%file, 1, runs, values)
+      call column%close(self%file)
+      if (.not. allocated(self%file%failure)) call take_status(self, values(1, :))
+   end subroutine read_status
 
    subroutine take_status(self, values)
       class(open_table_type), intent(inout) :: self
