@@ -459,14 +459,13 @@ contains
          return
       end if
       if (size(split) > 0 .and. self%points > 0) then
-         at_end = 'it comes back to the branch that it left'
-         if (self%branch == 1) at_end = 'it shrinks to an equilibrium, at a Hopf point'
          if (dot_product(split, half_apart(self%orbits)) < 0 .or. self%branch == 1 &
             & .and. norm2(half_apart(self%orbits)) < shrunk*sqrt(maxval(self%orbits%weight))) then
+            at_end = 'it comes back to the branch that it left'
+            if (self%branch == 1) at_end = 'it shrinks to an equilibrium, at a Hopf point'
             call forget_doublings()
             return
          end if
-         at_end = ''
       end if
       ! where a branch of double period begins a multiplier is 1
       if (self%points > 0) call find_bifurcations(self%problem, self%options, self%here, next, special, error)
