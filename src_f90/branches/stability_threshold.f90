@@ -34,7 +34,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Of each bearing, where films have temperatures along and across.
       type(warm_films_type), allocatable, intent(in), optional :: films(:)
-      !> The last equilibrium before the threshold of stuck pivots, or where none has friction of free or locked ones;
+      !> The last equilibrium before the instability of stuck pivots, or where none has friction of free or locked ones;
       !> not allocated where it was not found.
       type(place_part_type), allocatable, intent(out), optional :: before(:)
       type(machine_model), target :: moving
@@ -113,7 +113,7 @@ contains
          here = next
       end do
    contains
-      !> Notes where the step begins that has passed the threshold.
+      !> Notes where the step begins that has passed the first instability.
       subroutine note_place()
          if (allocated(before) .or. ieee_is_nan(thresholds(at_rest))) return
          call return_to(problem, here(1))
