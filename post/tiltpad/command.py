@@ -23,6 +23,7 @@ from tiltpad.collect.collect import collect as collected
 from tiltpad.files import writing
 from tiltpad.files.archive import NotInRunError, RunError, meant
 from tiltpad.files.read import IncompleteRunWarning, Run, read
+from tiltpad.files.station import Station
 from tiltpad.files.study import Study, read_either, read_study
 from tiltpad.running import resolved
 
@@ -51,6 +52,13 @@ MACHINE, STATIONS, SHAFT, SHAPES = "machine", "stations", "shaft", "shapes"
 OF_MACHINES = (MACHINE, STATIONS, SHAFT, SHAPES)
 #: Plots of what a machine has as a whole, which the result of any of its bearings has, too.
 OF_WHOLE = ("multipliers", "stability", CHART)
+#: Plots of a motion that stations of a shaft have as a journal has; of a machine without films these alone.
+OF_STATIONS = (BRANCH, "spectrum", "poincare", "size", "orders", "waterfall")
+#: Plots that need a film or a pad.
+OF_FILMS = (
+    *("orbit", "equilibrium", "waveform", "runup", "hysteresis", "friction", "sticking", "pressure", "film"),
+    *("turbulence", "temperatures", COEFFICIENTS, BASIN, BEARING, MOVIE),
+)
 #: Options of some plots alone.
 OWN_OPTIONS = {
     "time": ("pressure", "film"),
@@ -62,7 +70,7 @@ OWN_OPTIONS = {
     "over": (STUDY, *OF_EITHER),
     "where": (STUDY, *OF_EITHER, *SAMPLES),
     "pivot": (STUDY, *VIBRATIONS, RESPONSE, *SAMPLES, SHAPES),
-    "station": (STATIONS, RESPONSE),
+    "station": (STATIONS, RESPONSE, *OF_STATIONS),
     "operating": (RESPONSE,),
 }
 #: Plots without the options --last and --pad.
@@ -284,6 +292,8 @@ def picture(options: argparse.Namespace, stack: ExitStack) -> tuple[Any, list[Ru
     more = {name: getattr(options, name) for name in own if getattr(options, name) is not None}
     if options.plot in OWN_OPTIONS["where"]:
         more |= {"where": kept(options)}
+    if options.plot in OF_STATIONS:
+        more.pop("station", None)
     if options.plot == RESPONSE and options.station is not None:
         if len(options.station) > 1:
             raise ValueError("--station: the response is that of one station")
@@ -300,6 +310,11 @@ def bearings_of(source: Run | Study, options: argparse.Namespace) -> list[Run | 
             known = ", ".join(source.bearings) or "it is a study of one bearing"
             raise ValueError(f"{source.path}: no bearing {options.bearing}: {known}")
         return [source.bearings[options.bearing]]
+    if isinstance(source, Run) and source.is_machine:
+        if options.plot in OF_STATIONS and options.station is not None:
+            return [Station(source, number) for number in options.station]
+        if not source.bearings:
+            check_without_films(source, options.plot)
     of_station = options.plot == RESPONSE and options.station is not None
     if isinstance(source, Study) or not source.bearings or options.plot in OF_MACHINES or of_station:
         return [source]
@@ -310,10 +325,22 @@ def bearings_of(source: Run | Study, options: argparse.Namespace) -> list[Run | 
     return list(source.bearings.values())
 
 
+def check_without_films(run: Run, plot: str) -> None:
+    """Raises NotInRunError for a plot of films of a machine without any, with those that it has."""
+    none = f"{run.path}: {plot}: none of its bearings has a film"
+    if plot in OF_STATIONS:
+        there = run.length("station")
+        raise NotInRunError(f"{none}; choose stations of its shaft by --station (1 to {there})")
+    if plot in OF_FILMS:
+        raise NotInRunError(f"{none}; of its shaft there are {', '.join((*OF_MACHINES, *OF_STATIONS))}")
+
+
 def one_bearing(run: Run, options: argparse.Namespace) -> Run:
     """The run of one bearing, or of the bearing of a machine that --bearing names."""
     if options.bearing is not None:
         return run.bearings[options.bearing]
+    if run.is_machine and not run.bearings:
+        check_without_films(run, options.plot)
     if run.bearings:
         known = f"of one bearing: {run.bearings.in_words()}"
         raise ValueError(f"{run.path}: {options.plot}: {known}; choose by --bearing")
@@ -462,7 +489,7 @@ def collect_parser() -> Parser:
 
 def plot_parser() -> Parser:
     plots = "\n".join(f"  {name:<14}{meaning}" for name, meaning in PLOTS.items())
-    stations = "stations, response: those of the shaft that are shown (1, 2, ...)"
+    stations = f"stations, response, {', '.join(OF_STATIONS)}: those of the shaft that are shown (1, 2, ...)"
     formats = ".png, .pdf or .svg (movie: .gif or .mp4)"
     parser = parser_of(
         "tiltpad-plot",

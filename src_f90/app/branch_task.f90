@@ -13,7 +13,7 @@ module branch_task
    use marched_cycle, only: find_marched_cycle
    use newton_method, only: branch_point_type
    use continuation, only: bifurcation_type
-   use branch_progress, only: branch_progress_type, precise
+   use branch_progress, only: branch_progress_type, needs_equilibrium, precise
    use equations_of_motion, only: machine_model
    use static_model, only: make_fine
    use orbit_figures, only: orbit_figures_type, find_orbit_figures
@@ -126,7 +126,7 @@ contains
       real(wp), allocatable :: y(:), equilibrium_state(:)
       call make_start(run, y, error, equilibrium_state)
       if (allocated(error)) return
-      if (has_warm_oil(run%model)) then
+      if (needs_equilibrium(run%model)) then
          ! where the start is from it, the model has its viscosities already
          if (.not. allocated(equilibrium_state)) call take_oil(run, .false., error, equilibrium_state)
          if (allocated(error)) return
@@ -356,8 +356,8 @@ contains
             print '(a)', 'branch '//to_text(k)//': '//to_text(count(own))//' points, '//parameter//' from ' &
                & //precise(minval(value(1, :), mask=own))//' to '//precise(maxval(value(1, :), mask=own))//', ' &
                & //to_text(count(own .and. stable(1, :) > 0))//' of them stable'//frozen(warm)
-            if (inputs%branch%of == 'limit_cycle') call print_birth(file, inputs, value(1, :), stable(1, :) > 0, &
-               & parameter)
+            if (inputs%branch%of == 'limit_cycle' .and. k == 1) call print_birth(file, inputs, value(1, :), own, &
+               & stable(1, :) > 0, parameter)
             do b = 1, merge(size(inputs%bearings), 0, warm)
                call print_oil(new_bearing_file(file, inputs%bearings(b)), inputs%bearings(b)%label(', ')//'pad ', own)
             end do
@@ -411,24 +411,25 @@ contains
 
    !> To which side limit cycles are born, and how far unstable ones reach: a kick beyond them leads away from an
    !> equilibrium that is stable.
-   subroutine print_birth(file, inputs, value, stable, parameter)
+   subroutine print_birth(file, inputs, value, own, stable, parameter)
       type(run_file_type), intent(inout), target :: file
       type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: value(:)
-      logical, intent(in) :: stable(:)
+      !> Points of the branch that begins there.
+      logical, intent(in) :: own(:), stable(:)
       character(len=*), intent(in) :: parameter
       type(bearing_file_type) :: part
       real(wp), allocatable, dimension(:, :) :: highest, lowest
       real(wp) :: amplitude(2)
       logical :: unstable(size(value))
       integer :: b, k, axis
-      if (size(value) < 2) return
+      if (count(own) < 2) return
       if (file%get_real('bifurcations/point') == 1) print '(a)', '  born towards '//trim(merge('higher', 'lower ', &
          & value(2) > value(1)))//' '//parameter
-      unstable = .not. stable
+      unstable = own .and. .not. stable
       unstable(1) = .false.
       ! with the ends of their stretches, at folds
-      unstable(2:) = unstable(2:) .or. unstable(:size(value) - 1)
+      unstable(2:) = own(2:) .and. (unstable(2:) .or. unstable(:size(value) - 1))
       if (.not. any(unstable)) return
       k = maxloc(abs(value - value(1)), dim=1, mask=unstable)
       print '(a)', '  unstable cycles reach to '//parameter//' = '//precise(value(k))//', where their amplitudes are'

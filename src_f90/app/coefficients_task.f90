@@ -20,6 +20,7 @@ module coefficients_task
    use case_run, only: case_run_type
    use run_start, only: find_converged_equilibrium
    use film_network, only: warm_films_type
+   use newton_method, only: place_part_type
    implicit none (type, external)
    private
    public :: run_coefficients
@@ -37,16 +38,21 @@ contains
       type(machine_model), target :: fine
       type(bearing_coefficients_type) :: found
       type(warm_films_type), allocatable :: films(:)
+      type(place_part_type), allocatable :: before(:)
       real(wp), allocatable :: y(:)
       call find_converged_equilibrium(run, fine, y, error, films)
       if (allocated(error)) return
       call find_coefficients(fine, y, found, error)
       if (.not. allocated(error) .and. run%inputs%coefficients%threshold_up_to_rpm > 0) then
-         call find_thresholds(fine, y, found, error, films)
+         if (run%inputs%coefficients%threshold_born) then
+            call find_thresholds(fine, y, found, error, films, before)
+         else
+            call find_thresholds(fine, y, found, error, films)
+         end if
       end if
       if (.not. allocated(error)) call write_coefficients(run, fine, found, error)
       if (.not. allocated(error) .and. run%inputs%coefficients%threshold_born) then
-         call note_birth(run, fine, y, films, error)
+         call note_birth(run, fine, y, films, before, error)
       end if
       if (allocated(error)) then
          call add_context(error, 'with converged films')
@@ -60,16 +66,21 @@ contains
       call note_one_sided(run, fine, y)
    end subroutine run_coefficients
 
-   !> Follows the limit cycles that begin at the threshold speed of free, or with friction stuck, pivots, and says what
-   !> they do.
-   subroutine note_birth(run, fine, y, films, error)
+   !> Follows the limit cycles that begin at the threshold speed of free, or with friction stuck, pivots, behind an
+   !> equilibrium, and says what they do.
+   subroutine note_birth(run, fine, y, films, before, error)
       type(case_run_type), intent(inout), target :: run
       type(machine_model), intent(in), target :: fine
       real(wp), intent(in) :: y(:)
       type(warm_films_type), allocatable, intent(in) :: films(:)
+      type(place_part_type), allocatable, intent(in) :: before(:)
       type(error_type), allocatable, intent(out) :: error
       type(threshold_cycle_type) :: cycles
-      call follow_cycles(fine, y, cycles, error, films)
+      if (.not. allocated(before)) then
+         if (.not. run%quiet) print '(a)', 'limit cycles: none begin, as no threshold speed was found'
+         return
+      end if
+      call follow_cycles(fine, y, films, before, cycles, error)
       if (allocated(error)) then
          if (error%status == stopped) return
          if (.not. run%quiet) print '(a)', 'limit cycles: '//error%message

@@ -4,8 +4,8 @@ module linear_algebra
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: dgesv, zgesv, dgbsv, zgbsv, dgbtrf, dgbtrs, dstev, dpbtrf, dpbtrs, dsygv, dsbgv, find_eigenvalues, &
-      & largest_first, identity, solve, solve_complex, solve_2x2, solve_few, simd_width, padded, apply
+   public :: dgesv, zgesv, zgetrs, dgbsv, zgbsv, dgbtrf, dgbtrs, dstev, dpbtrf, dpbtrs, dsygv, dsbgv, &
+      & find_eigenvalues, largest_first, identity, solve, solve_complex, solve_2x2, solve_few, simd_width, padded, apply
 
    !> Rows are filled up to a multiple of this, so that loops over them have no remainder.
    integer, parameter :: simd_width = 8
@@ -35,6 +35,16 @@ module linear_algebra
          complex(wp), intent(inout) :: a(lda, *), b(ldb, *)
          integer, intent(out) :: ipiv(*), info
       end subroutine zgesv
+
+      !> Solves a x = b (trans = 'N') with what zgesv has left of a.
+      subroutine zgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         character(len=1), intent(in) :: trans
+         integer, intent(in) :: n, nrhs, lda, ldb, ipiv(*)
+         complex(wp), intent(in) :: a(lda, *)
+         complex(wp), intent(inout) :: b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine zgetrs
 
       !> Eigenvalues wr + i wi of a, and (jobvl, jobvr 'V'; else 'N') left and right eigenvectors; `info` /= 0: it does
       !> not converge.

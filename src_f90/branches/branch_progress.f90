@@ -3,7 +3,7 @@ module branch_progress
    use kinds, only: wp, i8, pi
    use text, only: to_text, filled
    use errors, only: error_type, raise, add_context, numerics_error, stopped
-   use case_groups, only: branch_type
+   use case_groups, only: branch_type, station_element_type
    use case_parameter, only: case_parameter_type, find_parameter
    use equations_of_motion, only: machine_model
    use film_network, only: warm_films_type
@@ -13,17 +13,17 @@ module branch_progress
    use orbit_problem, only: orbit_problem_type, begin_orbits, period_multiple_at
    use limit_cycle, only: limit_cycle_type, begin_cycles
    use hopf_start, only: begin_at_hopf_point
-   use newton_method, only: branch_problem_type, branch_point_type, can_be_of, return_to
+   use doubled_orbit, only: double_period, half_apart
+   use newton_method, only: branch_problem_type, branch_point_type, place_part_type, can_be_of, return_to
    use continuation, only: branch_options, start_branch, advance, bifurcation_type, find_bifurcations, find_first
    use bifurcation_curve, only: curve_type, begin_curve, go_to_point, follow_curve
    use varied_bearing, only: varied_bearing_type, bearing_orbits_type
    use linear_bearing, only: pivot_name
    use heat_balance_equations, only: has_warm_oil
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
-   use linear_algebra, only: solve
    implicit none (type, external)
    private
-   public :: branch_progress_type, double_period, precise
+   public :: branch_progress_type, needs_equilibrium, precise
 
    type :: branch_progress_type
       !> What the case asks for.
@@ -224,6 +224,15 @@ contains
       end if
    end subroutine stand_at
 
+   !> Whether orbits need the equilibrium at a value of the parameter: for the viscosities of warm oil, and for elements
+   !> that act in motion alone.
+   pure logical function needs_equilibrium(model)
+      type(machine_model), intent(in) :: model
+      type(station_element_type), allocatable :: elements(:)
+      elements = model%inputs%station_elements()
+      needs_equilibrium = has_warm_oil(model) .or. .not. all(elements%static)
+   end function needs_equilibrium
+
    !> Gives orbits the viscosities of warm oil from the equilibrium, whose state this is and whose viscosities the model
    !> has.
    subroutine begin_oil(self, model, equilibrium_state)
@@ -271,7 +280,7 @@ contains
 
    !> With the limit cycles that begin at the first Hopf point of the equilibria. `fine`, a static model, is in
    !> equilibrium in y, with these temperatures along and across its films, if it has any.
-   subroutine begin_at_hopf(self, model, fine, y, films, hopf, error)
+   subroutine begin_at_hopf(self, model, fine, y, films, hopf, error, before)
       class(branch_progress_type), intent(inout), target :: self
       type(machine_model), intent(in) :: model
       type(machine_model), intent(in), target :: fine
@@ -279,10 +288,13 @@ contains
       type(warm_films_type), allocatable, intent(in) :: films(:)
       type(bifurcation_type), intent(out) :: hopf
       type(error_type), allocatable, intent(out) :: error
+      !> An equilibrium before that point, where it is known already; else they are followed from y.
+      type(place_part_type), intent(in), optional :: before(:)
       type(equilibrium_problem_type) :: equilibria
       type(branch_point_type) :: here
       real(wp) :: rest(model%n)
       call begin_equilibria(equilibria, self%bearing(fine), y, self%first, self%way, films)
+      if (present(before)) call equilibria%go_to(before)
       equilibria%pivot = at_rest(model)
       call start_branch(equilibria, self%options, self%options%high > self%first, here, error)
       call add_context(error, 'the first equilibrium')
@@ -290,7 +302,7 @@ contains
       if (allocated(error)) return
       rest = 0
       rest(model%layout%positions()) = equilibria%positions
-      if (has_warm_oil(model)) then
+      if (needs_equilibrium(model)) then
          call self%begin_oil(model, rest)
          self%ode%start = [rest, fine%oil%viscosity]
          self%ode%found = self%ode%start
@@ -370,7 +382,7 @@ contains
          call orbit%set_mesh([0.0_wp, 1.0_wp], spread(spread(nowhere, 2, points), 3, 1))
          orbit%start = nowhere
          orbit%scale = model%scale
-         if (has_warm_oil(model)) call self%begin_oil(model, nowhere)
+         if (needs_equilibrium(model)) call self%begin_oil(model, nowhere)
          call self%begin_with_orbit(orbit, 1)
       else
          call self%begin_with_equilibrium(nowhere)
@@ -447,10 +459,10 @@ contains
          return
       end if
       if (size(split) > 0 .and. self%points > 0) then
-         if (dot_product(split, half_apart(self%orbits)) < 0 .or. self%of_cycles .and. norm2(half_apart(self%orbits)) &
-            & < shrunk*sqrt(maxval(self%orbits%weight))) then
+         if (dot_product(split, half_apart(self%orbits)) < 0 .or. self%branch == 1 &
+            & .and. norm2(half_apart(self%orbits)) < shrunk*sqrt(maxval(self%orbits%weight))) then
             at_end = 'it comes back to the branch that it left'
-            if (self%of_cycles) at_end = 'it shrinks to an equilibrium, at a Hopf point'
+            if (self%branch == 1) at_end = 'it shrinks to an equilibrium, at a Hopf point'
             call forget_doublings()
             return
          end if
@@ -477,7 +489,7 @@ contains
       !> Keeps the period doublings among bifurcation points from which a branch is to be followed.
       subroutine note_doublings()
          integer :: k
-         if (.not. self%given%switch .or. self%of_cycles .or. self%orbits%period_multiple >= self%longest_turns) return
+         if (.not. self%given%switch .or. self%orbits%period_multiple >= self%longest_turns) return
          do k = 1, size(special)
             if (special(k)%kind == 'period_doubling') self%period_doublings = [self%period_doublings, &
                & special(k)%point]
@@ -527,56 +539,6 @@ contains
       if (more) self%branch = self%branch + 1
       self%points = 0
       self%length = across*self%options%first_step
+      if (self%of_cycles) self%length = min(first_cycle, self%length)
    end subroutine begin_double
-
-   ! Branches of orbits of double period, which begin at a period doubling.
-
-   !> From a period doubling of a problem: the point of the branch of double period there, on which the problem stands
-   !> then. Its tangent is the disturbance that comes back with the opposite sign after a period.
-   subroutine double_period(problem, period_doubling, point, ok)
-      class(orbit_problem_type), intent(inout) :: problem
-      type(branch_point_type), intent(in) :: period_doubling
-      type(branch_point_type), intent(out) :: point
-      logical, intent(out) :: ok
-      type(orbit_type) :: twice
-      real(wp) :: direction(problem%n), matrix(problem%n, problem%n)
-      integer :: i, n
-      call return_to(problem, period_doubling)
-      direction = 1
-      do i = 1, 3
-         matrix = problem%orbit%monodromy
-         do n = 1, problem%n
-            matrix(n, n) = matrix(n, n) + 1
-         end do
-         call solve(problem%n, 1, matrix, direction, ok)
-         if (.not. ok) return
-         direction = direction/sqrt(sum(problem%weight*direction**2))
-      end do
-      n = problem%orbit%intervals()
-      associate (orbit => problem%orbit, time => problem%orbit%time, switching_point => problem%orbit%switching_point)
-         twice = orbit
-         call twice%set_mesh([time, time(n) + time(1:)], reshape([orbit%at, orbit%at], [problem%n, points, 2*n]), &
-            & [switching_point, switching_point(1:)])
-      end associate
-      problem%orbit = twice
-      problem%period_multiple = 2*problem%period_multiple
-      call problem%get_place(point%place)
-      allocate (point%change(problem%n + 1), source=0.0_wp)
-      point%tangent = [direction, 0.0_wp]
-      point%parameter = period_doubling%parameter
-      call return_to(problem, point)
-      call problem%spectrum(point%values, point%growth, ok)
-   end subroutine double_period
-
-   !> By how much an orbit is elsewhere half a period later, in the measure of the branch: by nothing where it is that
-   !> of half the period.
-   pure function half_apart(problem)
-      class(orbit_problem_type), intent(in) :: problem
-      real(wp), allocatable :: half_apart(:)
-      real(wp) :: y(problem%states())
-      associate (orbit => problem%orbit)
-         call orbit%state_at(0.5_wp*orbit%time(orbit%intervals()), y)
-         half_apart = problem%weight(:size(y))*(y - orbit%start)/orbit%scale
-      end associate
-   end function half_apart
 end module branch_progress

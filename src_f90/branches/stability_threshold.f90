@@ -8,7 +8,7 @@ module stability_threshold
    use film_network, only: warm_films_type
    use case_parameter, only: case_parameter_type, find_parameter
    use linear_bearing, only: pivot_name, bearing_coefficients_type, cross_stiffness_of
-   use newton_method, only: branch_point_type, return_to
+   use newton_method, only: branch_point_type, place_part_type, return_to
    use continuation, only: branch_options, start_branch, advance, bifurcation_type, find_bifurcations
    use varied_bearing, only: varied_bearing_type
    use equilibrium_branch, only: equilibrium_problem_type, begin_equilibria
@@ -27,13 +27,16 @@ contains
    !> For each linearised bearing the lowest speed, rpm, from that of the model up to that of its case at which an
    !> eigenvalue crosses the imaginary axis; no number where none does. The model, a static one, is in equilibrium in y.
    !> An error only of status `stopped`, where `give_up` of the model says so.
-   subroutine find_thresholds(model, y, found, error, films)
+   subroutine find_thresholds(model, y, found, error, films, before)
       type(machine_model), intent(in) :: model
       real(wp), intent(in) :: y(:)
       type(bearing_coefficients_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
       !> Of each bearing, where films have temperatures along and across.
       type(warm_films_type), allocatable, intent(in), optional :: films(:)
+      !> The last equilibrium before the instability of stuck pivots, or where none has friction of free or locked ones;
+      !> not allocated where it was not found.
+      type(place_part_type), allocatable, intent(out), optional :: before(:)
       type(machine_model), target :: moving
       type(case_parameter_type) :: speed
       type(equilibrium_problem_type) :: problem
@@ -50,7 +53,7 @@ contains
          allocate (found%thresholds(size(found%bearings)), source=ieee_value(first, ieee_quiet_nan))
          options = branch_options(first_step=longest, max_step=longest, high=given%threshold_up_to_rpm)
          options%give_up => model%give_up
-         call follow(problem, options, found%bearings%pivot, found%thresholds, found%sought_up_to, error)
+         call follow(problem, options, found%bearings%pivot, found%thresholds, found%sought_up_to, error, before)
       end associate
       if (.not. allocated(error)) return
       if (error%status /= stopped) deallocate (error)
@@ -58,7 +61,7 @@ contains
 
    !> Follows equilibria to the first crossing of each of these ways of the pivots, if it has one, up to the bound
    !> of the speed or to where they turn back or end, which may be an error. All ways have the same equilibria.
-   subroutine follow(problem, options, pivots, thresholds, reached, error)
+   subroutine follow(problem, options, pivots, thresholds, reached, error, before)
       type(equilibrium_problem_type), intent(inout) :: problem
       type(branch_options), intent(in) :: options
       character(len=pivot_name), intent(in) :: pivots(:)
@@ -67,12 +70,14 @@ contains
       !> Speed up to which they were followed, rpm.
       real(wp), intent(out) :: reached
       type(error_type), allocatable, intent(out) :: error
+      type(place_part_type), allocatable, intent(out), optional :: before(:)
       type(branch_point_type) :: here(size(pivots)), next(size(pivots))
       type(bifurcation_type), allocatable :: special(:)
       real(wp) :: length
-      integer :: i
+      integer :: i, at_rest
       logical :: ends, again, is_short
       reached = problem%parameter
+      at_rest = max(1, findloc(pivots, 'stuck', dim=1))
       problem%pivot = pivots(1)
       call start_branch(problem, options, .true., here(1), error)
       if (allocated(error)) return
@@ -104,8 +109,17 @@ contains
             cycle
          end if
          reached = next(1)%parameter
+         if (present(before)) call note_place()
          here = next
       end do
+   contains
+      !> Notes where the step begins that has passed the first instability.
+      subroutine note_place()
+         if (allocated(before) .or. ieee_is_nan(thresholds(at_rest))) return
+         call return_to(problem, here(1))
+         call problem%get_place(before)
+         call return_to(problem, next(1))
+      end subroutine note_place
    end subroutine follow
 
    !> Gives the point where the problem stands, found with the first of these ways of the pivots, the values of each.

@@ -8,7 +8,7 @@ module threshold_cycle
    use equations_of_motion, only: machine_model, new_machine_model
    use factories, only: march_films
    use film_network, only: warm_films_type
-   use newton_method, only: branch_point_type, return_to
+   use newton_method, only: branch_point_type, place_part_type, return_to
    use continuation, only: bifurcation_type
    use orbit_figures, only: orbit_figures_type, find_orbit_figures
    use branch_progress, only: branch_progress_type
@@ -25,15 +25,17 @@ module threshold_cycle
 
 contains
 
-   !> Those of a static model that is in equilibrium in y, without its unbalance, from its speed up to where thresholds
-   !> are sought. An error where there is no threshold speed, or no cycle behind it; one of status `stopped`, too.
-   subroutine follow_cycles(fine, y, found, error, films)
+   !> Those of a static model that is in equilibrium in y, without its unbalance, up to where thresholds are sought;
+   !> from an equilibrium before the threshold speed, as `find_thresholds` has it. An error where no Hopf point follows,
+   !> or no cycle behind it; one of status `stopped`, too.
+   subroutine follow_cycles(fine, y, films, before, found, error)
       type(machine_model), intent(in), target :: fine
       real(wp), intent(in) :: y(:)
-      type(threshold_cycle_type), intent(out) :: found
-      type(error_type), allocatable, intent(out) :: error
       !> Of each bearing, where films have temperatures along and across.
       type(warm_films_type), allocatable, intent(in) :: films(:)
+      type(place_part_type), intent(in) :: before(:)
+      type(threshold_cycle_type), intent(out) :: found
+      type(error_type), allocatable, intent(out) :: error
       type(machine_model), target :: moving, static
       type(branch_progress_type), target :: b
       type(bifurcation_type) :: hopf
@@ -60,7 +62,7 @@ contains
       static%inputs = inputs
       call b%prepare(moving, 0_i8, error)
       b%options%give_up => fine%give_up
-      if (.not. allocated(error)) call b%begin_at_hopf(moving, static, y, films, hopf, error)
+      if (.not. allocated(error)) call b%begin_at_hopf(moving, static, y, films, hopf, error, before)
       if (allocated(error)) return
       found%threshold = hopf%point%parameter
       found%lowest = found%threshold

@@ -1,5 +1,6 @@
 !> A bearing with a number of its input as the parameter of a branch, and its periodic orbits as those of an ODE. In
-!> orbits warm oil has the viscosities of the bearing in equilibrium at the parameter's value, which a motion keeps.
+!> orbits warm oil has the viscosities of the bearing in equilibrium at the parameter's value, which a motion keeps, and
+!> elements that act in motion alone act about that equilibrium.
 module varied_bearing
    use kinds, only: wp, pi
    use errors, only: error_type, add_context
@@ -63,7 +64,7 @@ module varied_bearing
 
    type, extends(parametric_ode_type) :: bearing_orbits_type
       type(varied_bearing_type) :: bearing
-      !> Where the oil is warm.
+      !> Where the oil is warm, or an element acts in motion alone.
       type(frozen_viscosity_type), allocatable :: oil
       !> How the motion is marched, for a mesh.
       type(march_options) :: march
@@ -189,7 +190,11 @@ contains
          if (.not. allocated(self%oil)) return
          call self%oil%find(parameter, self%start, self%found, oil_error)
          model%oil%viscosity = self%found(model%n + 1:)
-         if (.not. allocated(oil_error)) model%oil = self%oil%known(1)%oil
+         if (.not. allocated(oil_error)) then
+            model%oil = self%oil%known(1)%oil
+            ! what acts in motion alone acts about this equilibrium
+            call model%rotor%move_about(self%found(:model%rotor%positions))
+         end if
       end associate
       if (.not. allocated(error)) call move_alloc(oil_error, error)
    end subroutine set

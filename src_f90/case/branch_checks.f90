@@ -23,8 +23,12 @@ contains
          call check_curve()
          if (inputs%followed() == 'limit_cycle') call check_free('limit cycles')
          if (b%point == 'hopf') call check_free('Hopf points')
-         call require(b%switch .or. b%of == 'periodic', 'branch%switch = .false.: has no effect on a branch of ' &
-            & //'equilibria or limit cycles and on a curve', error)
+         call require(b%point /= 'fold' .or. inputs%thermal%model /= 'film' .or. inputs%followed() /= 'equilibrium', &
+            & 'branch%point = ''fold'': is not followed with temperatures along and across films, whose folds are ' &
+            & //'sharp; thermal%model = ''pad'' has such curves, and a study of branches over '//b%parameter &
+            & //' has the folds of this model at values of '//b%second_parameter, error)
+         call require(b%switch .or. b%of == 'periodic' .or. b%of == 'limit_cycle', &
+            & 'branch%switch = .false.: has no effect on a branch of equilibria and on a curve', error)
       end associate
    contains
 
@@ -71,6 +75,9 @@ contains
       call require(inputs%coefficients%threshold_up_to_rpm > 0, 'coefficients%threshold_born = .true.: needs ' &
          & //'coefficients%threshold_up_to_rpm, the speed in rpm up to which thresholds and their cycles are sought', &
          & error)
+      call require(.not. abs(inputs%coefficients%cross_stiffness) > 0, 'coefficients%threshold_born = .true.: not ' &
+         & //'with coefficients%cross_stiffness = {}, which acts on small vibrations alone; a group &element with ' &
+         & //'cross_stiffness acts on the motion of a machine', [inputs%coefficients%cross_stiffness], error)
       call check_pivots(inputs, 'coefficients%threshold_born', error)
    end subroutine check_threshold_cycles
 

@@ -133,9 +133,6 @@ contains
          call check_source(name, element)
          call require(element%static .or. inputs%start%from == 'equilibrium', name//'%static = .false.: needs ' &
             & //'start%from = ''equilibrium'', about which it acts', error)
-         call require(element%static .or. inputs%about%task /= 'branch' .or. inputs%followed() == 'equilibrium', name &
-            & //'%static = .false.: is not for a branch of periodic orbits, whose equilibria are ' &
-            & //'not found; a study (&sweep) of the task periodic finds each orbit about its own', error)
       end subroutine check_element
 
       !> Coefficients come from a file or not.

@@ -268,7 +268,7 @@ contains
             & //'curve ends, twice the first one if left out; it also ends at the first or last value of either')
          call v%whole(inputs%branch%max_points, 'max_points', 2.0_wp, 1e5_wp, 'maximum number of points of a branch')
          call v%flag(inputs%branch%switch, 'switch', &
-            & 'periodic: whether the orbits of double period are followed, too, where the period doubles')
+            & 'periodic, limit_cycle: whether those of double period are followed, too, where the period doubles')
       end subroutine list_analyses
 
       ! The variables of a bearing.

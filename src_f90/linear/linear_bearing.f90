@@ -5,7 +5,7 @@ module linear_bearing
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi
    use text, only: to_text
-   use linear_algebra, only: solve_complex
+   use linear_algebra, only: solve_complex, zgesv, zgetrs
    use errors, only: error_type, raise, numerics_error
    use state_layout, only: tilt, of_journal
    use equations_of_motion, only: machine_model
@@ -67,6 +67,9 @@ module linear_bearing
    !> of an eigenvalue, over itself.
    integer, parameter :: parts = 4, most_rounds = 60
    real(wp), parameter :: closeness = 1e-11_wp
+   !> They come in at once where a shape stays alike to this; factors are kept where a change falls to this part of the
+   !> one before.
+   real(wp), parameter :: alike = 0.9_wp, falls = 0.3_wp
    !> Least whirl frequency over the speed of the shaft: slower whirl is taken there, as the coefficients have a limit.
    real(wp), parameter :: slowest = 1e-6_wp
 
@@ -304,23 +307,38 @@ contains
       integer, intent(in) :: kept(:)
       complex(wp), intent(inout) :: values(:), shapes(:, :)
       type(error_type), allocatable, intent(inout) :: error
+      type(error_type), allocatable :: missed
+      complex(wp) :: value, shape(size(kept))
       integer :: i, k
       select type (rotor => model%rotor)
       type is (elastic_rotor_type)
          if (.not. rotor%has_own_frequencies()) return
-         do i = 1, size(values)
-            if (values(i)%im < 0) cycle
-            do k = 1, parts
-               call follow_mode(rotor, model%point%speed(0.0_wp), bearing, kept, real(k, wp)/parts, values(i), &
-                  & shapes(:, i), error)
-               if (allocated(error)) return
+         associate (speed => model%point%speed(0.0_wp))
+            do i = 1, size(values)
+               if (values(i)%im < 0) cycle
+               ! at once, where the vibration stays what it is
+               value = values(i)
+               shape = shapes(:, i)/norm2(abs(shapes(:, i)))
+               call follow_mode(rotor, speed, bearing, kept, 1.0_wp, value, shape, missed)
+               if (.not. allocated(missed)) then
+                  if (abs(dot_product(shape, shapes(:, i))) >= alike*norm2(abs(shapes(:, i)))) then
+                     values(i) = value
+                     shapes(:, i) = shape
+                     cycle
+                  end if
+               end if
+               if (allocated(missed)) deallocate (missed)
+               do k = 1, parts
+                  call follow_mode(rotor, speed, bearing, kept, real(k, wp)/parts, values(i), shapes(:, i), error)
+                  if (allocated(error)) return
+               end do
             end do
-         end do
+         end associate
       end select
    end subroutine take_own_frequencies
 
    !> Newton's method on an eigenvalue, 1/s, and its shape, with this part of what its own frequency changes: a fixed
-   !> point in the frequency.
+   !> point in the frequency. Its equations are factored anew where the last factors lead on too slowly.
    subroutine follow_mode(rotor, speed, bearing, kept, part, value, shape, error)
       type(elastic_rotor_type), intent(in) :: rotor
       real(wp), intent(in) :: speed, part
@@ -330,38 +348,61 @@ contains
       type(error_type), allocatable, intent(inout) :: error
       real(wp), dimension(rotor%positions, rotor%positions) :: stiffness, damping, mass
       real(wp), dimension(size(kept), size(kept)) :: k, c, m
-      complex(wp) :: matrix(size(kept) + 1, size(kept) + 1), step(size(kept) + 1, 1)
-      integer :: round
-      logical :: ok
-      associate (n => size(kept), r => rotor%positions)
-         do round = 1, most_rounds
-            call rotor%whirl_changes(speed, value%im, stiffness, damping, mass)
-            k = bearing%stiffness(kept, kept)
-            c = bearing%damping(kept, kept)
-            m = bearing%mass(kept, kept)
-            ! the first positions are the rotor's, and all of these move
-            k(:r, :r) = k(:r, :r) + part*stiffness
-            c(:r, :r) = c(:r, :r) + part*damping
-            m(:r, :r) = m(:r, :r) + part*mass
-            shape = shape/norm2([norm2(shape%re), norm2(shape%im)])
-            matrix(:n, :n) = k + value*c + value**2*m
-            matrix(:n, n + 1) = matmul(c + 2*value*m, shape)
-            matrix(n + 1, :n) = conjg(shape)
-            matrix(n + 1, n + 1) = 0
-            step(:n, 1) = -matmul(matrix(:n, :n), shape)
-            step(n + 1, 1) = 0
-            call solve_complex(n + 1, 1, matrix, step, ok)
-            if (.not. ok) exit
+      complex(wp) :: factors(size(kept) + 1, size(kept) + 1), step(size(kept) + 1, 1)
+      real(wp) :: before, change
+      integer :: round, pivots(size(kept) + 1), info
+      logical :: anew
+      k = bearing%stiffness(kept, kept)
+      c = bearing%damping(kept, kept)
+      m = bearing%mass(kept, kept)
+      anew = .true.
+      change = huge(change)
+      do round = 1, most_rounds
+         call rotor%whirl_changes(speed, value%im, stiffness, damping, mass)
+         shape = shape/norm2([norm2(shape%re), norm2(shape%im)])
+         call solve_step(shape, step)
+         if (info /= 0) exit
+         associate (n => size(kept))
             shape = shape + step(:n, 1)
             if (value%im <= 0) step(n + 1, 1)%im = 0
             value = value + step(n + 1, 1)
             value%im = max(0.0_wp, value%im)
-            if (abs(step(n + 1, 1)) <= closeness*abs(value)) return
-         end do
-      end associate
+            before = change
+            change = abs(step(n + 1, 1))
+            if (change <= closeness*abs(value)) return
+            anew = change > falls*before
+         end associate
+      end do
       call raise(error, numerics_error, 'a mode at '//to_text(value%im/(2*pi))//' Hz does not settle with the ' &
          & //'coefficients of its elements at its own frequency; element%frequency = ''synchronous'' takes those of ' &
          & //'the speed')
+   contains
+      !> Changes of shape and eigenvalue.
+      subroutine solve_step(shape, step)
+         complex(wp), intent(in) :: shape(:)
+         complex(wp), intent(out) :: step(:, :)
+         complex(wp), dimension(size(shape)) :: of_mass, of_damping
+         associate (n => size(shape), r => rotor%positions)
+            of_mass = matmul(m, shape)
+            of_damping = matmul(c, shape)
+            ! the first positions are the rotor's, and all of these move
+            of_mass(:r) = of_mass(:r) + part*matmul(mass, shape(:r))
+            of_damping(:r) = of_damping(:r) + part*matmul(damping, shape(:r))
+            step(:n, 1) = -matmul(k, shape) - value*of_damping - value**2*of_mass
+            step(:r, 1) = step(:r, 1) - part*matmul(stiffness, shape(:r))
+            step(n + 1, 1) = 0
+            if (.not. anew) then
+               call zgetrs('N', n + 1, 1, factors, n + 1, pivots, step, n + 1, info)
+               return
+            end if
+            factors(:n, :n) = k + value*c + value**2*m
+            factors(:r, :r) = factors(:r, :r) + part*(stiffness + value*damping + value**2*mass)
+            factors(:n, n + 1) = of_damping + 2*value*of_mass
+            factors(n + 1, :n) = conjg(shape)
+            factors(n + 1, n + 1) = 0
+            call zgesv(n + 1, 1, factors, n + 1, pivots, step, n + 1, info)
+         end associate
+      end subroutine solve_step
    end subroutine follow_mode
 
    !> 1 where nothing moves.

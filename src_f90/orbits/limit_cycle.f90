@@ -25,6 +25,7 @@ module limit_cycle
       procedure :: period
       procedure :: revolutions
       procedure :: trivial_error
+      procedure :: across_motion
       procedure, private :: set_phase
       procedure, private :: direction
    end type limit_cycle_type
@@ -109,6 +110,15 @@ contains
       if (.not. ok) direction = 0
       self%evaluations = self%evaluations + 1
    end function direction
+
+   !> The part of a disturbance of the start, over the scales, that the phase condition lets be.
+   function across_motion(self, disturbance) result(part)
+      class(limit_cycle_type), intent(inout) :: self
+      real(wp), intent(in) :: disturbance(:)
+      real(wp) :: part(size(disturbance))
+      part = self%direction()
+      part = disturbance - dot_product(self%phase, disturbance)/dot_product(self%phase, part)*part
+   end function across_motion
 
    !> By how much the monodromy matrix misses that it leaves the direction of the motion as it is, over its length: the
    !> error of the multiplier that is 1. None at a place of rest.

@@ -55,6 +55,7 @@ module orbit_problem
       procedure :: period
       procedure :: revolutions
       procedure :: residual
+      procedure :: across_motion
    end type orbit_problem_type
 
    !> The difference of the parameter for a derivative over it, over its size. The rates are known to some 1e-10 of
@@ -238,6 +239,14 @@ contains
          moved(i) = after(k) + (mesh(i) - before(k))*(after(k + 1) - after(k))/(before(k + 1) - before(k))
       end do
    end function moved
+
+   !> The part of a disturbance of the start that the start can take: all of it, as a forcing drives the motion.
+   function across_motion(self, disturbance) result(part)
+      class(orbit_problem_type), intent(inout) :: self
+      real(wp), intent(in) :: disturbance(:)
+      real(wp) :: part(size(disturbance))
+      part = disturbance
+   end function across_motion
 
    !> By how much the orbit is no solution, over the scales: the defect at the points, and the gap of the period.
    real(wp) function residual(self)

@@ -249,6 +249,11 @@ REFUSALS = {
     "eigenvalue": (("branch%last=13000",), 2, "there the leading eigenvalue is -29.2"),
     "twice": (("branch%second_parameter='operation%speed_rpm'",), 1, "a curve is over two different numbers"),
     "unbalance": (("rotor%unbalance=0.01",), 1, "branch%point = 'hopf': must be without unbalance"),
+    "sharp folds": (
+        ("branch%point='fold'", "thermal%model='film'", "oil%grade=32"),
+        1,
+        "a study of branches over operation%speed_rpm has the folds of this model at values of rotor%mass",
+    ),
     "driven cycles": (("rotor%unbalance=0.01", "branch%point='cycle_fold'"), 1, "must be without unbalance"),
     "not driven": (("branch%point='neimark_sacker'",), 1, "needs an unbalance, about whose orbits it is"),
     "friction": (("friction%model='bengisu_akay'",), 1, "must be 'none' or 'lugre' with branch%point"),

@@ -251,10 +251,28 @@ def test_an_element_is_refused(run, group):
     assert REFUSED[group] in run(COMPRESSOR + group, status=1).stderr
 
 
-def test_a_branch_of_orbits_has_no_equilibria_to_move_about(run):
-    branch = "&branch parameter='operation%speed_rpm', last=12000 /\n"
-    done = run(COMPRESSOR + branch + PISTON.format(", static=.false."), "case%task=branch", status=1)
-    assert "static = .false.: is not for a branch of periodic orbits" in done.stderr
+def test_a_branch_of_orbits_moves_about_its_equilibria(result):
+    """Of an element that acts in motion alone: both ends are the orbits found there alone."""
+    case = COMPRESSOR + PISTON.format(", static=.false.")
+    branch = "&branch parameter='operation%speed_rpm', last=12000, step=500 /\n"
+    names = [f"station_{axis}_{end}" for axis in "yz" for end in ("max", "min")]
+    with result(case + branch, "case%task=branch") as file:
+        assert file["parameter"][-1] == 12000
+        found = {at: np.array([file[name][at] for name in names]) for at in (0, -1)}
+        parts = [file[f"multiplier_{part}"] for part in ("real", "imag")]
+        multiplier = {at: np.hypot(*(part[at, 0] for part in parts)) for at in found}
+        first = file["parameter"][0]
+    for at, speed in ((0, first), (-1, 12000)):
+        with result(case, "case%task=periodic", f"operation%speed_rpm={speed}") as file:
+            path = [file[f"station_{axis}"][:] for axis in "yz"]
+            expected = np.array([each for one in path for each in (one.max(axis=0), one.min(axis=0))])
+            # between the samples an orbit goes a little further
+            np.testing.assert_allclose(found[at], expected, atol=2e-3 * np.ptp(expected, axis=0).max())
+            size = np.hypot(file["periodic/multiplier_real"][0], file["periodic/multiplier_imag"][0])
+            assert multiplier[at] == pytest.approx(size, rel=1e-4)
+    with result(case.replace(", static=.false.", "") + branch, "case%task=branch") as file:
+        # which an element that bears load, too, moves elsewhere
+        assert np.abs(file["station_y_max"][-1] - found[-1][0]).max() > 1e-7
 
 
 @pytest.fixture

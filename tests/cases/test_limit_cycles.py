@@ -371,7 +371,15 @@ REFUSALS = {
         2,
         "no limit cycle was found: the march from the start of the case comes to rest",
     ),
-    "switch": (("branch%switch=.false.",), 1, "has no effect on a branch of equilibria or limit cycles"),
+    "switch": (("branch%of='equilibrium'", "branch%switch=.false."), 1, "no effect on a branch of equilib"),
+    "cross-coupled": (
+        (
+            *("case%task='coefficients'", "coefficients%threshold_born=.true."),
+            *("coefficients%threshold_up_to_rpm=9500", "coefficients%cross_stiffness=1e6"),
+        ),
+        1,
+        "not with coefficients%cross_stiffness = 1e6, which acts on small vibrations alone",
+    ),
 }
 
 

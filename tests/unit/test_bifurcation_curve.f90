@@ -1,5 +1,5 @@
 !> Curves of bifurcation points that are known: folds with a cusp, Hopf points and folds that meet at a Bogdanov-Takens
-!> point, two Hopf curves that cross, and a Neimark-Sacker curve that ends at a 1:2 resonance.
+!> point or cross, two Hopf curves that cross, and Neimark-Sacker curves that end at a 1:2 and at a 1:1 resonance.
 module known_curves
    use kinds, only: wp
    use errors, only: error_type
@@ -12,7 +12,8 @@ module known_curves
 
    !> Over p and q: 'cusp', x' = p + q x - x**3; 'takens', x' = y, y' = p + q y + x**2 + x y; 'double', x = p, with
    !> vibrations that grow by p - 0.5 and p - 0.7 + q/2; 'torus', the same with multipliers of the product
-   !> (0.5 + p)**2 whose mean over its root is -0.8 - 0.4 q.
+   !> (0.5 + p)**2 whose mean over its root is -0.8 - 0.4 q, and 'strong' 0.8 + 0.4 q; 'zero', x' = p + x**2, with a
+   !> vibration that grows by q - 0.5.
    type, extends(branch_problem_type) :: surface
       character(len=6) :: of = ''
       real(wp) :: x = 0
@@ -38,7 +39,7 @@ contains
          case ('cusp')
             slopes = [values(2) - 3*x**2, 1.0_wp, x]
             b = -(values(1) + values(2)*x - x**3)
-         case ('takens')
+         case ('takens', 'zero')
             slopes = [2*x, 1.0_wp, 0.0_wp]
             b = -(values(1) + x**2)
          case default
@@ -70,6 +71,10 @@ contains
             values = [cmplx(at(2) - 3*x**2, 0.0_wp, wp)]
          case ('takens')
             values = pair((at(2) + x)/2, -2*x)
+         case ('zero')
+            values = [cmplx(2*x, 0.0_wp, wp), pair(at(2) - 0.5_wp, (at(2) - 0.5_wp)**2 + 4)]
+         case ('strong')
+            values = pair((0.5_wp + at(1))*(0.8_wp + 0.4_wp*at(2)), (0.5_wp + at(1))**2)
          case ('double')
             values = [pair(at(1) - 0.5_wp, (at(1) - 0.5_wp)**2 + 1), &
                & pair(at(1) - 0.7_wp + at(2)/2, (at(1) - 0.7_wp + at(2)/2)**2 + 4)]
@@ -78,7 +83,7 @@ contains
          end select
       end associate
       growth = values%re
-      if (self%of == 'torus') growth = abs(values) - 1
+      if (any(self%of == ['torus ', 'strong'])) growth = abs(values) - 1
       values = values(largest_first(growth))
       growth = growth(largest_first(growth))
       ok = .true.
@@ -97,7 +102,8 @@ contains
       complex(wp), intent(in) :: value
       character(len=:), allocatable :: kind
       kind = 'fold'
-      if (abs(value%im) > 0) kind = trim(merge('neimark_sacker', 'hopf          ', self%of == 'torus'))
+      if (abs(value%im) > 0) kind = trim(merge('neimark_sacker', 'hopf          ', any(self%of == ['torus ', &
+         & 'strong'])))
    end function kind_of
 
    pure subroutine get_place(self, place)
@@ -130,6 +136,8 @@ program test_bifurcation_curve
    if (runs('takens')) call bogdanov_takens()
    if (runs('double')) call double_hopf()
    if (runs('torus')) call torus()
+   if (runs('strong')) call strong_resonance()
+   if (runs('zero')) call fold_hopf()
    call report()
 
 contains
@@ -152,7 +160,7 @@ contains
       real(wp) :: length
       integer :: k
       curve%kind = kind
-      curve%of_multipliers = of == 'torus'
+      curve%of_multipliers = any(of == ['torus ', 'strong'])
       curve%names = ['p', 'q']
       curve%line%first = first
       curve%line%last = last
@@ -262,4 +270,32 @@ contains
       call expect(norm2(place(special(1)%point, first, last) - 0.5_wp) < 1e-5_wp, 'at -1')
       call expect(at_end == 'its frequency comes to half of that of the orbit', 'where the curve ends')
    end subroutine torus
+
+   !> The multipliers become 1 at q = 0.5.
+   subroutine strong_resonance()
+      real(wp), allocatable :: points(:, :)
+      type(bifurcation_type), allocatable :: special(:)
+      character(len=:), allocatable :: at_end
+      real(wp), parameter :: first(2) = [0, 0], last(2) = [1, 1]
+      call follow('strong', 'neimark_sacker', 0.0_wp, first, last, points, special, at_end)
+      call expect(all(abs(points(1, :) - 0.5_wp) < 1e-6_wp), 'points are where they are known')
+      call expect(all(special%kind == 'resonance_1_1') .and. size(special) == 1, 'a 1:1 resonance')
+      call expect(norm2(place(special(1)%point, first, last) - 0.5_wp) < 1e-5_wp, 'at 1')
+      call expect(at_end == 'its frequency goes to 0', 'where the curve ends')
+   end subroutine strong_resonance
+
+   !> On the folds p = 0 a vibration begins at q = 0.5.
+   subroutine fold_hopf()
+      real(wp), allocatable :: points(:, :)
+      type(bifurcation_type), allocatable :: special(:)
+      character(len=:), allocatable :: at_end
+      real(wp), parameter :: first(2) = [-1, 0], last(2) = [1, 1]
+      call follow('zero', 'fold', -1.0_wp, first, last, points, special, at_end)
+      call expect(all(abs(points(1, :)) < 1e-6_wp), 'folds are where they are known')
+      call expect(all(special%kind == 'fold_hopf') .and. size(special) == 1, 'a fold and Hopf point')
+      call expect(norm2(place(special(1)%point, first, last) - [0.0_wp, 0.5_wp]) < 1e-5_wp, 'where both meet')
+      call expect(all((points(4, :) > 0 .eqv. points(2, :) < 0.5_wp) .or. abs(points(2, :) - 0.5_wp) < 1e-5_wp), &
+         & 'beyond which neither solution is stable')
+      call expect(at_end == 'the last value of q', 'to the end')
+   end subroutine fold_hopf
 end program test_bifurcation_curve

@@ -222,7 +222,7 @@ program test_continuation
    use orbit_polynomials, only: orbit_type
    use constant_orbit, only: at_rest
    use orbit_problem, only: orbit_problem_type, begin_orbits
-   use branch_progress, only: double_period
+   use doubled_orbit, only: double_period
    use branch_problems, only: far_away, parabola, turning_frame, duffing, oscillator_orbits
    use check, only: runs, expect, expect_close, expect_error, expect_no_error, report
    implicit none (type, external)

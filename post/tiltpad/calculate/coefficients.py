@@ -152,6 +152,13 @@ def chosen_pivot(source: Run | Study, group: str, pivot: str | None) -> tuple[st
     return place_of_pivot(source, pivot)
 
 
+def of_pivots(source: Run | Study, pivot: str | None = None) -> str:
+    """Of which pivots results are, "pivots free"; empty where there is one kind alone."""
+    if "pivot" not in source or source.length("pivot") < 2:
+        return ""
+    return f"pivots {place_of_pivot(source, pivot)[0]}"
+
+
 def place_of_pivot(source: Run | Study, pivot: str | None) -> tuple[str, int]:
     """The same of any result that has values for each of the pivots."""
     there = [str(each) for each in source["pivot"]]

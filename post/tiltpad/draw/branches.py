@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from tiltpad.calculate import branches, signals
+from tiltpad.calculate.coefficients import of_pivots
 from tiltpad.calculate.critical_speeds import operating_range
 from tiltpad.calculate.response import DIRECTIONS, Peak
 from tiltpad.calculate.response import response as response_of
@@ -83,7 +84,7 @@ def response(
     panels["amplitude"].set(ylabel=f"{size.text}, order 1 ({size.unit})", ylim=(0, None))
     panels["phase"].set(ylabel="phase lag, order 1 (deg)", xlabel=units.Shown(text, 1, unit).label)
     whose = [f"station {own.station}"] if own.station else []
-    whose += [f"pivots {one.pivot}"] if one.pivot else []
+    whose.append(of_pivots(one.source, one.pivot) if one.pivot else "")
     layout.heading(fig, entries, ", ".join(each for each in (layout.title(runs), *whose) if each))
     return fig
 

@@ -26,6 +26,7 @@ from tiltpad.draw.turbulence import turbulence
 from tiltpad.draw.vibrations import campbell, coefficients, stability
 from tiltpad.draw.warm import temperatures
 from tiltpad.files.read import Run
+from tiltpad.files.station import Station
 from tiltpad.files.study import Study
 from tiltpad.files.units import SHOWN, in_words, literal
 
@@ -109,20 +110,26 @@ def sticking(runs: Sequence[Run], last: float | None = None, pad: int | None = N
 def poincare(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
     """Journal, and tilt rate over tilt of a pad, once a revolution, on the path of the last ones.
 
-    Where pads are fixed, the velocity of the journal stands in for the tilt.
+    Where pads are fixed, the velocity of the journal stands in for the tilt; stations have the first alone.
     """
-    fig, (left, right) = plt.subplots(1, 2, figsize=(layout.PAGE, 3.4))
     tilting = plots.all_tilt(runs)
+    shown = [plots.ORBIT, plots.PHASE if tilting else plots.RISE]
+    if any(isinstance(run, Station) for run in runs):
+        del shown[1]
+    width = layout.PAGE if len(shown) > 1 else layout.COLUMN
+    fig, panels = plt.subplots(1, len(shown), squeeze=False, figsize=(width, 3.4))
+    left, *others = panels[0]
     for i, run in enumerate(runs):
-        for ax, names in ((left, plots.ORBIT), (right, plots.PHASE if tilting else plots.RISE)):
+        for ax, names in zip((left, *others), shown, strict=True):
             count = last or (max(50, run.length("revolution")) if signals.is_torus(run) else 50)
             plots.poincare(run, ax, count, names, pad or 1, **layout.look(i, 0, runs))
     left.set(box_aspect=1, adjustable="datalim")
     left.margins(0.1)
-    right.set(box_aspect=1)
-    right.locator_params(axis="x", nbins=6)
-    right.set_title(f"pad {pad or 1}" if tilting else "journal")
-    left.set_title("journal" + (turning_of(runs[0]) if len(runs) == 1 else ""))
+    for right in others:
+        right.set(box_aspect=1)
+        right.locator_params(axis="x", nbins=6)
+        right.set_title(f"pad {pad or 1}" if tilting else "journal")
+    left.set_title(("journal" if others else "shaft") + (turning_of(runs[0]) if len(runs) == 1 else ""))
     points = {"color": "0.3" if len(runs) > 1 else "C0", "linestyle": "", "marker": ".", "markersize": 5}
     path = (f"last {plots.PATH} revolutions", {"color": "0.7"})
     layout.legend(fig, runs, [("once a revolution", points), path])

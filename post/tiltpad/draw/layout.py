@@ -20,6 +20,7 @@ from matplotlib.patches import ConnectionPatch, FancyArrowPatch, Rectangle
 
 from tiltpad.calculate import differences, signals
 from tiltpad.files.read import Bearing, Run, needs_run
+from tiltpad.files.station import Station
 from tiltpad.files.study import Study
 from tiltpad.files.units import literal
 
@@ -92,6 +93,8 @@ def of_several(draw: Callable[..., Figure]) -> Callable[..., Figure]:
             if not isinstance(each, Study):
                 needs_run(each)
         fig = draw(several, **{each.name: given[each.name] for each in own if each.name in given})
+        if all(isinstance(each, Station) for each in several):
+            say_shaft(fig)
         for each in several:
             remark_unfinished(fig, each, Path(each.path).stem if len(several) > 1 else "")
         spread(fig)
@@ -99,6 +102,14 @@ def of_several(draw: Callable[..., Figure]) -> Callable[..., Figure]:
 
     vars(drawn)["__signature__"] = whole
     return drawn
+
+
+def say_shaft(fig: Figure) -> None:
+    """Calls what stations do by the shaft, and not by a journal, at the axes."""
+    for ax in fig.axes:
+        ax.set_xlabel(ax.get_xlabel().replace("journal", "shaft"))
+        ax.set_ylabel(ax.get_ylabel().replace("journal", "shaft"))
+        ax.set_title(ax.get_title().replace("journal", "shaft"), fontsize=ax.title.get_fontsize())
 
 
 def remark_unfinished(fig: Figure, source: Run | Study, name: str = "") -> None:
@@ -159,10 +170,10 @@ def spread(fig: Figure) -> None:
 def labels(runs: Sequence[Run | Study]) -> list[str]:
     """Different names for runs: their titles, else the differences of their inputs, else their files.
 
-    Bearings of one machine have their own names; its title stands above the picture.
+    Bearings and stations of one machine have their own names; its title stands above the picture.
     """
     if machine_of(runs):
-        return [f"bearing {run.name}" for run in runs if isinstance(run, Bearing)]
+        return [run.label for run in runs if isinstance(run, Bearing)]
     titles = [run.title for run in runs]
     stems = [Path(run.path).stem for run in runs]
     inputs = [run.input for run in runs if isinstance(run, Run)]

@@ -100,16 +100,20 @@ def mode_table(run: Run) -> str:
     rows: list[Sequence[str]] = []
     notes: list[str] = []
     left_out = 0
-    for number, pivot in enumerate(str(each) for each in run["pivot"]):
+    pivots = [str(each) for each in run["pivot"]]
+    several = len(pivots) > 1
+    for number, pivot in enumerate(pivots):
         found = station_modes(run, pivot)
         for k in np.flatnonzero(found.own & ((found.frequency > 0) | (found.damping_ratio < 0))):
-            rows.append((f"{pivot}, {found.word[k]}", *vibration(found, k)))
+            word = f"{pivot}, {found.word[k]}" if several else str(found.word[k])
+            rows.append((word, *vibration(found, k)))
         if "modes/threshold_rpm" in run and np.isfinite(speed := run["modes/threshold_rpm"][number]):
-            notes.append(f"{pivot} pivots: {speed:.1f} rpm")
+            notes.append(f"{pivot} pivots: {speed:.1f} rpm" if several else f"{speed:.1f} rpm")
         left_out += int((~found.own).sum())
     why = "which a march damps (reduction%damp_above)"
     note = paragraph(f"Not listed: high modes of the shaft, {left_out}, {why}." if left_out else "")
-    return table(("pivots, whirl of the shaft", *VIBRATION), rows) + threshold(notes) + note
+    head = "pivots, whirl of the shaft" if several else "whirl of the shaft"
+    return table((head, *VIBRATION), rows) + threshold(notes) + note
 
 
 def vibration(found: Modes | StationModes, k: SupportsIndex) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon, Rectangle
 
 from tiltpad.calculate import stations as of_stations
+from tiltpad.calculate.coefficients import of_pivots
 from tiltpad.draw import layout
 from tiltpad.files.archive import NotInRunError, RunError
 from tiltpad.files.read import Run
@@ -257,7 +258,7 @@ def shapes(runs: Sequence[Run], pivot: str | None = None) -> Figure:
         ax.set_title(f"{digits(found.frequency[k])} Hz, {sense}\n{decrement}", fontsize="small")
     marks = [(word, {"color": color}) for word, color in SENSE.items() if word in senses]
     bearing = ("bearing", {"color": "0.2", "linestyle": "", "marker": "^", "markersize": 5})
-    layout.heading(fig, [*marks, bearing], f"{run.title}, pivots {found.pivot}".removeprefix(", "))
+    layout.heading(fig, [*marks, bearing], ", ".join(filter(None, (run.title, of_pivots(run, pivot)))))
     return fig
 
 

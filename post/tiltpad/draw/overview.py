@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tiltpad.calculate.coefficients import coefficients
+from tiltpad.calculate.coefficients import coefficients, of_pivots
 from tiltpad.calculate.modes import Modes, modes, of_journal
 from tiltpad.calculate.remarks import by_weight
 from tiltpad.calculate.stations import attached
@@ -81,7 +81,7 @@ def stability(run: Run) -> Iterator[tuple[str, bool]]:
 def of_modes(run: Run, pivot: str) -> Iterator[tuple[str, bool]]:
     """What the modes of these pivots tell of journal or shaft, and of the pads."""
     found = modes(run, pivot)
-    pivots = f" with pivots {pivot}" if run.bearings or run.tilts else ""
+    pivots = f" with {words}" if (words := of_pivots(run, pivot)) else ""
     listed = (found.name != "") & ((found.frequency > 0) | (found.eigenvalue.real > 0)) & ~found.of_reduction
     journal, pads = listed & of_journal(found.name), listed & ~of_journal(found.name)
     if journal.any():
@@ -159,7 +159,7 @@ def moves_most(run: Run) -> str:
     words = "peak to peak"
     if not sizes and "response/amplitude" in run:
         sizes = [2 * run["response/amplitude"][0]]
-        words = f"peak to peak under its unbalance, pivots {run['pivot'][0]}"
+        words = ", ".join(filter(None, ("peak to peak under its unbalance", of_pivots(run))))
     if not sizes:
         return ""
     size = np.max(sizes, axis=0)
@@ -235,8 +235,8 @@ def stiffness(run: Run) -> Iterator[Fact]:
     if "coefficients" not in run:
         return
     found = coefficients(run, str(run["pivot"][0]))
-    note = f"pivots {found.pivot}, " * run.tilts
-    note += f"at {found.frequency_ratio[0]:g} of the shaft speed"
+    place = f"at {found.frequency_ratio[0]:g} of the shaft speed"
+    note = ", ".join(filter(None, (of_pivots(run), place)))
     for name, letter, both in (("stiffness", "K", found.stiffness[0]), ("damping", "C", found.damping[0])):
         for k, axis in enumerate("yz"):
             own = SHOWN[name]._replace(text=f"{name} {letter} {axis}{axis}")

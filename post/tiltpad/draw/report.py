@@ -152,7 +152,7 @@ def mode_table(run: Run) -> str:
 
 def of_pivots(run: Run, pivot: str) -> str:
     """What the pivots do in coefficients and modes; fixed pads have none."""
-    return pivot if run.tilts else "none"
+    return pivot if run.length("pivot") > 1 else "none"
 
 
 def pictures(run: Run) -> Iterable[str]:

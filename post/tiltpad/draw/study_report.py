@@ -130,30 +130,35 @@ def critical(study: Study, operating: tuple[float, float] | None) -> str:
     """A table of the critical speeds at all stations, for each kind of pivots; empty where there are none."""
     linear = "response_y_real" in study
     rows = []
-    for pivot in [str(each) for each in study["pivot"]] if linear else [None]:
+    pivots: list[str | None] = [str(each) for each in study["pivot"]] if linear else [None]
+    # kinds of pivots that are one, as without pads that tilt, are not told
+    first = int(len(pivots) < 2)
+    for pivot in pivots:
         try:
             found = critical_speeds(study, pivot=pivot, operating=operating)
         except (ValueError, NotInRunError):
             continue
-        rows += [critical_row(pivot, each) for each in found]
+        rows += [critical_row(f"{pivot}", each)[first:] for each in found]
     text = (
         "N1, N2: speeds at half power; AF: amplification factor N/(N2 - N1); SM: separation margin; API 617."
     )
     if operating:
         text += f" Operating speeds: {written(operating[0])} to {written(operating[1])} rpm."
+    heads: tuple[str, ...]
     heads = ("pivots", "station", "direction", "N (rpm)", "amplitude (µm)", "N1 (rpm)", "N2 (rpm)", "AF")
+    heads = heads[first:]
     margins = ("required SM below, above (%)", *(("SM (%)", "required SM (%)") if operating else ()))
     wanted = len(heads) + len(margins)
     return table((*heads, *margins), [row[:wanted] for row in rows]) + paragraph(text) if rows else ""
 
 
-def critical_row(pivot: str | None, own: CriticalSpeed) -> tuple[str, ...]:
+def critical_row(pivot: str, own: CriticalSpeed) -> tuple[str, ...]:
     """Cells of a critical speed."""
     peak = own.peak
     size = digits(SHOWN["amplitude"].factor * peak.amplitude)
     edges = (peak.below_rpm, peak.above_rpm, peak.amplification_factor)
     sides = ", ".join(digits(each, 3) for each in (peak.margin_below, peak.margin_above))
-    place = (pivot or "–", f"{own.station or '–'}", peak.direction, digits(peak.speed_rpm))
+    place = (pivot, f"{own.station or '–'}", peak.direction, digits(peak.speed_rpm))
     asked = (digits(each, 3) for each in (own.margin, own.required))
     return (*place, size, *(digits(each) for each in edges), sides, *asked)
 

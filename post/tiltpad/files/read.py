@@ -420,6 +420,11 @@ class Bearing(Run):
             return namelist.resolved(self.attributes["input"])
 
     @property
+    def label(self) -> str:
+        """What it is called beside others of the same machine."""
+        return f"bearing {self.name}"
+
+    @property
     def remarks(self) -> list[str]:
         """Those on the bearing."""
         before = f"bearing '{self.name}': "
