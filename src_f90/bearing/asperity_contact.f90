@@ -7,9 +7,10 @@ module asperity_contact
    use kinds, only: wp, pi
    use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type, pad_directions
+   use sloped_gap, only: sloped_motion, edge_films
    implicit none (type, external)
    private
-   public :: asperity_contact_type, asperity_load, new_asperity_contact, no_asperities
+   public :: asperity_contact_type, asperity_load, sloped_asperity_load, new_asperity_contact, no_asperities
 
    !> Mean pressure over K' E': 4.4086e-5 (4 - h/sigma)^6.804 below h = 4 sigma, the usual fit of F_5/2.
    real(wp), parameter :: highest_ratio = 4, coefficient = 4.4086e-5_wp, exponent = 6.804_wp
@@ -38,6 +39,7 @@ module asperity_contact
    contains
       procedure :: act
       procedure :: evaluate
+      procedure :: evaluate_sloped
       procedure :: heat
    end type asperity_contact_type
 
@@ -60,6 +62,17 @@ module asperity_contact
    contains
       procedure :: carried
    end type asperity_load
+
+   !> The same of a journal whose axis is inclined to the pad's. The inherited slopes and film position are not set.
+   type, extends(asperity_load) :: sloped_asperity_load
+      !> On the journal: integral of z times the force, N m, z from the pad's middle.
+      real(wp) :: journal_moment(2) = 0
+      !> Derivatives of (force, journal_moment), and of `moment`, over (position, slope).
+      real(wp) :: slopes(4, 4) = 0, turning_slopes(4) = 0
+      !> The motion at which the oil's film is to be taken, and derivatives of its (position, slope) over the true ones.
+      type(sloped_motion) :: film_motion
+      real(wp) :: film_slopes_4(4, 4) = 0
+   end type sloped_asperity_load
 
    !> Integrals over a pad of the pressure p and of p n, n the outward direction; of -dp/dh n and -dp/dh n n.
    type :: contact_sums
@@ -98,6 +111,19 @@ contains
       call set_loads(self, gap, motion%position, speed*gap%journal_radius, load)
       call set_film(self, gap, directions, motion%position, load)
    end subroutine evaluate
+
+   !> The same with slopes: `film_motion` is set even where nothing touches.
+   pure subroutine evaluate_sloped(self, gap, directions, motion, speed, load)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      type(pad_directions), intent(in) :: directions
+      type(sloped_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(sloped_asperity_load), intent(inout) :: load
+      load%thickness = minval(edge_films(gap, directions, motion))
+      load%touches = .false.
+      load%film_motion = motion
+   end subroutine evaluate_sloped
 
    !> Normal force, N.
    pure real(wp) function carried(self)

@@ -1,0 +1,92 @@
+!> The films of all pads of a bearing with slopes (sloped_gap).
+module sloped_film
+   use kinds, only: wp
+   use film_solver, only: film_law_type, film_ok, film_closed, cavitation_none
+   use film_losses, only: film_loss
+   use pad_gap, only: pad_gap_type, pad_directions
+   use sloped_gap, only: sloped_motion, sloped_response, edge_films
+   implicit none (type, external)
+   private
+   public :: sloped_film_type, sloped_motion, sloped_response, edge_films, new_sloped_film
+
+   type :: sloped_film_type
+      type(pad_gap_type), allocatable :: gaps(:)
+      type(pad_directions), allocatable :: directions(:)
+      !> Condition of cavitation (film_solver): its own, and the one in force.
+      integer :: own_condition = cavitation_none, condition = cavitation_none
+   contains
+      procedure :: evaluate_pad
+      procedure :: field_of_pad
+      procedure :: find_loss
+      procedure :: cavitates
+      procedure :: set_cavitation
+      procedure :: forget
+   end type sloped_film_type
+
+contains
+
+   !> For these gaps, with a condition of cavitation.
+   type(sloped_film_type) function new_sloped_film(gaps, condition) result(self)
+      type(pad_gap_type), intent(in) :: gaps(:)
+      integer, intent(in) :: condition
+      self%gaps = gaps
+      self%directions = gaps%directions()
+      self%own_condition = condition
+      self%condition = condition
+   end function new_sloped_film
+
+   !> The film of pad i at a motion, with an oil and a journal speed, rad/s.
+   subroutine evaluate_pad(self, i, motion, oil, speed, want_derivatives, response)
+      class(sloped_film_type), intent(inout) :: self
+      integer, intent(in) :: i
+      type(sloped_motion), intent(in) :: motion
+      class(film_law_type), intent(in) :: oil
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: want_derivatives
+      type(sloped_response), intent(out) :: response
+      response%edge_films = edge_films(self%gaps(i), self%directions(i), motion)
+      response%film%min_film_thickness = minval(response%edge_films)
+      response%film%status = film_closed
+   end subroutine evaluate_pad
+
+   !> Its pressure, Pa, (axial position, angle), at a motion that leaves it open.
+   subroutine field_of_pad(self, i, motion, oil, speed, phi, z, pressure)
+      class(sloped_film_type), intent(inout) :: self
+      integer, intent(in) :: i
+      type(sloped_motion), intent(in) :: motion
+      class(film_law_type), intent(in) :: oil
+      !> Angles from the pivot, rad, and distances from the middle plane, m, on the pad.
+      real(wp), intent(in) :: speed, phi(:), z(:)
+      real(wp), intent(out) :: pressure(:, :)
+      pressure = 0
+   end subroutine field_of_pad
+
+   !> Loss and flows of pad i (film_losses); of a closed film only the status.
+   subroutine find_loss(self, i, motion, oil, speed, loss)
+      class(sloped_film_type), intent(inout) :: self
+      integer, intent(in) :: i
+      type(sloped_motion), intent(in) :: motion
+      class(film_law_type), intent(in) :: oil
+      real(wp), intent(in) :: speed
+      type(film_loss), intent(out) :: loss
+      loss%status = film_closed
+   end subroutine find_loss
+
+   !> True where pressures below the cavitation pressure are not kept.
+   pure logical function cavitates(self)
+      class(sloped_film_type), intent(in) :: self
+      cavitates = self%condition /= cavitation_none
+   end function cavitates
+
+   !> Lets films cavitate as the solver was made to, or keeps them full.
+   pure subroutine set_cavitation(self, allowed)
+      class(sloped_film_type), intent(inout) :: self
+      logical, intent(in) :: allowed
+      self%condition = merge(self%own_condition, cavitation_none, allowed)
+   end subroutine set_cavitation
+
+   !> Forgets the films that were solved last: what is solved then is the same to the last bit, wherever one comes from.
+   pure subroutine forget(self)
+      class(sloped_film_type), intent(inout) :: self
+   end subroutine forget
+end module sloped_film
