@@ -1,7 +1,8 @@
 !> The films of all pads of a bearing with slopes (sloped_gap).
 module sloped_film
    use kinds, only: wp
-   use film_solver, only: film_law_type, film_ok, film_closed, cavitation_none
+   use film_solver, only: film_law_type, film_ok, film_closed, cavitation_none, cavitation_gumbel
+   use weighted_film, only: weighted_film_type, new_weighted_film
    use film_losses, only: film_loss
    use pad_gap, only: pad_gap_type, pad_directions
    use sloped_gap, only: sloped_motion, sloped_response, edge_films
@@ -9,11 +10,22 @@ module sloped_film
    private
    public :: sloped_film_type, sloped_motion, sloped_response, edge_films, new_sloped_film
 
+   !> Functions along the arc and across the width, from the coarsest to the finest.
+   integer, parameter :: levels = 5, along(levels) = [4, 6, 8, 12, 20], across(levels) = [5, 5, 7, 9, 11]
+   !> Least film thickness over the clearance from which on a level may do; share of the last functions in the power up
+   !> to which it does.
+   real(wp), parameter :: thickness(levels) = [0.3_wp, 0.15_wp, 0.08_wp, 0.04_wp, 0.0_wp], enough = 2e-3_wp
+   !> Films thinner than this, over the clearance, count as closed (film_solver).
+   real(wp), parameter :: thinnest = 1e-9_wp
+
    type :: sloped_film_type
       type(pad_gap_type), allocatable :: gaps(:)
       type(pad_directions), allocatable :: directions(:)
       !> Condition of cavitation (film_solver): its own, and the one in force.
       integer :: own_condition = cavitation_none, condition = cavitation_none
+      !> Full films, made when they are asked for, (level, pad), and the level of the last one.
+      type(weighted_film_type), allocatable, private :: full(:, :)
+      integer, allocatable, private :: level(:)
    contains
       procedure :: evaluate_pad
       procedure :: field_of_pad
@@ -33,6 +45,8 @@ contains
       self%directions = gaps%directions()
       self%own_condition = condition
       self%condition = condition
+      allocate (self%full(levels, size(gaps)))
+      allocate (self%level(size(gaps)), source=1)
    end function new_sloped_film
 
    !> The film of pad i at a motion, with an oil and a journal speed, rad/s.
@@ -46,8 +60,36 @@ contains
       type(sloped_response), intent(out) :: response
       response%edge_films = edge_films(self%gaps(i), self%directions(i), motion)
       response%film%min_film_thickness = minval(response%edge_films)
-      response%film%status = film_closed
+      if (.not. response%film%min_film_thickness > thinnest*self%gaps(i)%machined_clearance) then
+         response%film%status = film_closed
+         return
+      end if
+      call find_full(self, i, motion, oil, speed, want_derivatives, response)
    end subroutine evaluate_pad
+
+   !> The full film, on the first level that does.
+   subroutine find_full(self, i, motion, oil, speed, want_derivatives, response)
+      class(sloped_film_type), intent(inout) :: self
+      integer, intent(in) :: i
+      type(sloped_motion), intent(in) :: motion
+      class(film_law_type), intent(in) :: oil
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: want_derivatives
+      type(sloped_response), intent(inout) :: response
+      real(wp) :: share
+      associate (level => self%level(i))
+         level = findloc(response%film%min_film_thickness > thickness*self%gaps(i)%machined_clearance, .true., dim=1)
+         do
+            if (.not. self%full(level, i)%is_made()) then
+               self%full(level, i) = new_weighted_film(self%gaps(i), along(level), across(level))
+            end if
+            call self%full(level, i)%evaluate(motion, oil, speed, self%condition == cavitation_gumbel, &
+               & want_derivatives, response, share)
+            if (share <= enough .or. level == levels) exit
+            level = level + 1
+         end do
+      end associate
+   end subroutine find_full
 
    !> Its pressure, Pa, (axial position, angle), at a motion that leaves it open.
    subroutine field_of_pad(self, i, motion, oil, speed, phi, z, pressure)
@@ -58,7 +100,15 @@ contains
       !> Angles from the pivot, rad, and distances from the middle plane, m, on the pad.
       real(wp), intent(in) :: speed, phi(:), z(:)
       real(wp), intent(out) :: pressure(:, :)
-      pressure = 0
+      type(sloped_response) :: response
+      integer :: j, k
+      call self%evaluate_pad(i, motion, oil, speed, .false., response)
+      do j = 1, size(phi)
+         do k = 1, size(z)
+            pressure(k, j) = self%full(self%level(i), i)%pressure_at(phi(j), z(k))
+         end do
+      end do
+      if (self%condition == cavitation_gumbel) pressure = max(pressure, self%gaps(i)%cavitation_pressure)
    end subroutine field_of_pad
 
    !> Loss and flows of pad i (film_losses); of a closed film only the status.
