@@ -2,7 +2,8 @@
 program test_sloped_film
    use kinds, only: wp, pi, degree
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_law_type, cavitation_none, cavitation_gumbel
+   use film_solver, only: film_motion, film_response, film_law_type, cavitation_none, cavitation_gumbel, &
+      & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, converged_film
    use sloped_film, only: sloped_film_type, sloped_motion, sloped_response, new_sloped_film
@@ -18,6 +19,7 @@ program test_sloped_film
    if (runs('differences')) call differences([3e5_wp, 1e5_wp, -1e5_wp], paper_oil, cavitation_none)
    if (runs('differences')) call differences([3e5_wp, 1e5_wp, -1e5_wp], uneven, cavitation_none)
    if (runs('differences')) call differences([3e5_wp, 1e5_wp, -1e5_wp], paper_oil, cavitation_gumbel)
+   if (runs('differences')) call differences([0.0_wp, 0.0_wp, 0.0_wp], paper_oil, cavitation_reynolds)
    if (runs('aligned')) then
       call aligned([0.0_wp, 0.0_wp, 0.0_wp], paper_oil, cavitation_none)
       call aligned([3e5_wp, 1e5_wp, -1e5_wp], paper_oil, cavitation_none)
@@ -38,17 +40,25 @@ contains
          & [176.410_wp, 16808.80_wp, 7.49423_wp, 215.276_wp], 9.25872e6_wp)
       call one('yaw 300', 0.1_wp, [-26.0_wp, 52.0_wp, 300.0_wp, 0.0_wp], &
          & [-66.5113_wp, 13739.42_wp, 12.28122_wp, -73.01773_wp], 5.56730e6_wp)
+      call one('ruptured', 0.1_wp, [0.0_wp, 50.0_wp, 0.0_wp, 300.0_wp], &
+         & [563.7244_wp, 2186.777_wp, 6.505341_wp, 23.994934_wp], 1.6529643e6_wp, cavitation_reynolds)
+      call one('ruptured', 0.1_wp, [0.0_wp, 50.0_wp, 0.0_wp, 0.0_wp], &
+         & [490.4097_wp, 1907.721_wp, 0.0_wp, 0.0_wp], 1.0488399e6_wp, cavitation_reynolds)
       call one('LD 0.5', 0.05_wp, [-29.0_wp, 60.0_wp, 0.0_wp, 600.0_wp], &
          & [40.26555_wp, 7521.378_wp, 0.530276_wp, 28.66551_wp], 7.00755e6_wp)
    end subroutine independent
 
    !> Force, moment and highest pressure of one film; e in um, slope in urad; of the pad.
-   subroutine one(name, length, e, expected, highest)
+   subroutine one(name, length, e, expected, highest, condition)
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: length, e(4), expected(4), highest
+      integer, intent(in), optional :: condition
       type(sloped_film_type) :: film
       type(sloped_response) :: r
-      film = new_sloped_film([paper_pad(length=length)], cavitation_none)
+      integer :: used
+      used = cavitation_none
+      if (present(condition)) used = condition
+      film = new_sloped_film([paper_pad(length=length)], used)
       call film%evaluate_pad(1, motion_of(1e-6_wp*e), paper_oil, speed, .false., r)
       call expect(norm2(r%film%force + expected(:2)) < 1e-3_wp*norm2(expected(:2)), name//': force')
       call expect(norm2(r%moment + expected(3:)) < 3e-3_wp*norm2(expected(3:)) + 1e-6_wp*length*norm2(expected), &

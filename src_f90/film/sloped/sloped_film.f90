@@ -1,7 +1,11 @@
 !> The films of all pads of a bearing with slopes (sloped_gap).
 module sloped_film
    use kinds, only: wp
-   use film_solver, only: film_law_type, film_ok, film_closed, cavitation_none, cavitation_gumbel
+   use film_solver, only: film_law_type, film_ok, film_closed, cavitation_none, cavitation_gumbel, &
+      & cavitation_reynolds, film_counters
+   use direct_film, only: share_of_modes
+   use following_film, only: following_angles
+   use sloped_volumes, only: sloped_volumes_type, new_sloped_volumes
    use weighted_film, only: weighted_film_type, new_weighted_film
    use film_losses, only: film_loss
    use pad_gap, only: pad_gap_type, pad_directions
@@ -15,6 +19,11 @@ module sloped_film
    !> Least film thickness over the clearance from which on a level may do; share of the last functions in the power up
    !> to which it does.
    real(wp), parameter :: thickness(levels) = [0.3_wp, 0.15_wp, 0.08_wp, 0.04_wp, 0.0_wp], enough = 2e-3_wp
+   !> Columns and rows of the volumes of films that cavitate; on half as many each way the film is solved as well.
+   integer, parameter :: columns = 48, rows = 16
+   !> How far below the cavitation pressure a full film may fall, over its highest pressure, before it counts as
+   !> cavitated (direct_film): as much as weighted functions err beside edges.
+   real(wp), parameter :: slight_tension = 2e-3_wp
    !> Films thinner than this, over the clearance, count as closed (film_solver).
    real(wp), parameter :: thinnest = 1e-9_wp
 
@@ -26,6 +35,9 @@ module sloped_film
       !> Full films, made when they are asked for, (level, pad), and the level of the last one.
       type(weighted_film_type), allocatable, private :: full(:, :)
       integer, allocatable, private :: level(:)
+      !> Volumes of films that cavitate, on two grids, (grid, pad).
+      type(sloped_volumes_type), allocatable, private :: volumes(:, :)
+      type(film_counters) :: counters
    contains
       procedure :: evaluate_pad
       procedure :: field_of_pad
@@ -41,12 +53,19 @@ contains
    type(sloped_film_type) function new_sloped_film(gaps, condition) result(self)
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: condition
+      integer :: i
       self%gaps = gaps
       self%directions = gaps%directions()
       self%own_condition = condition
       self%condition = condition
       allocate (self%full(levels, size(gaps)))
       allocate (self%level(size(gaps)), source=1)
+      if (condition /= cavitation_reynolds) return
+      allocate (self%volumes(2, size(gaps)))
+      do i = 1, size(gaps)
+         self%volumes(1, i) = new_sloped_volumes(gaps(i), columns/2, rows/2)
+         self%volumes(2, i) = new_sloped_volumes(gaps(i), columns, rows)
+      end do
    end function new_sloped_film
 
    !> The film of pad i at a motion, with an oil and a journal speed, rad/s.
@@ -65,7 +84,58 @@ contains
          return
       end if
       call find_full(self, i, motion, oil, speed, want_derivatives, response)
+      if (self%condition /= cavitation_reynolds) return
+      associate (lowest => self%gaps(i)%cavitation_pressure, film => response%film)
+         if (lowest - film%min_pressure > slight_tension*(film%max_pressure - lowest)) then
+            call take_volumes(self, i, motion, oil, speed, want_derivatives, response)
+         end if
+      end associate
    end subroutine evaluate_pad
+
+   !> Makes the response of a full film that of its cavitated film, as direct_film does.
+   subroutine take_volumes(self, i, motion, oil, speed, want_derivatives, response)
+      class(sloped_film_type), intent(inout) :: self
+      integer, intent(in) :: i
+      type(sloped_motion), intent(in) :: motion
+      class(film_law_type), intent(in) :: oil
+      real(wp), intent(in) :: speed
+      logical, intent(in) :: want_derivatives
+      type(sloped_response), intent(inout) :: response
+      type(sloped_response) :: full, found(2), whole(2)
+      real(wp) :: c
+      integer :: k
+      full = response
+      c = share_of_modes(self%gaps(i)%cavitation_pressure, full%film)
+      do k = 1, 2
+         associate (volumes => self%volumes(k, i))
+            call volumes%set_motion(following_angles(self%gaps(i), motion%middle, speed, k*columns/4), motion, oil, speed)
+            if (k == 2) call volumes%start_from(self%volumes(1, i))
+            call volumes%evaluate(.true., want_derivatives, self%counters, found(k))
+            if (.not. c > 0) cycle
+            call volumes%evaluate(.false., want_derivatives, self%counters, whole(k))
+            call volumes%start_from(self%volumes(1, i))
+         end associate
+      end do
+      response%film%status = maxval(found%film%status)
+      response%film%force = extrapolated(found(1)%film%force, found(2)%film%force)
+      response%moment = extrapolated(found(1)%moment, found(2)%moment)
+      response%derivatives = extrapolated(found(1)%derivatives, found(2)%derivatives)
+      response%film%max_pressure = extrapolated(found(1)%film%max_pressure, found(2)%film%max_pressure)
+      response%place = found(2)%place
+      if (.not. c > 0) return
+      response%film%force = response%film%force + c*(full%film%force - extrapolated(whole(1)%film%force, whole(2)%film%force))
+      response%moment = response%moment + c*(full%moment - extrapolated(whole(1)%moment, whole(2)%moment))
+      response%derivatives = response%derivatives + c*(full%derivatives &
+         & - extrapolated(whole(1)%derivatives, whole(2)%derivatives))
+      response%film%max_pressure = response%film%max_pressure + c*(full%film%max_pressure &
+         & - extrapolated(whole(1)%film%max_pressure, whole(2)%film%max_pressure))
+   end subroutine take_volumes
+
+   !> What two grids, the second twice as fine, tell of one that is infinitely fine.
+   elemental real(wp) function extrapolated(coarse, fine)
+      real(wp), intent(in) :: coarse, fine
+      extrapolated = (4*fine - coarse)/3
+   end function extrapolated
 
    !> The full film, on the first level that does.
    subroutine find_full(self, i, motion, oil, speed, want_derivatives, response)

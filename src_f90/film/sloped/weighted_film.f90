@@ -28,9 +28,9 @@ module weighted_film
    integer, parameter :: sides = 5
    !> Vectors that are solved for together: the film, its four adjoints, filled up to SIMD's width.
    integer, parameter :: lanes = 8
-   !> Even intervals of the arc on which Guembel's condition clips a pressure, and lines across the width: with twice as
-   !> many of both forces change by less than 1e-4.
-   integer, parameter :: clip_cells = 48
+   !> Even intervals of the arc on which Guembel's condition clips a pressure, and Gauss's points of the root of the
+   !> distance from either side, as fourier_film has them.
+   integer, parameter :: clip_cells = 48, clip_points = 8
    !> Step of derivatives by differences, over the clearance.
    real(wp), parameter :: difference = 1e-6_wp
 
@@ -65,9 +65,9 @@ module weighted_film
       !> Whether there is a fifth side; derivatives of forces and moments over u.
       logical :: has_fifth = .false.
       real(wp) :: over_u(4, 4) = 0
-      !> Of pressures that are clipped: sine, cosine and functions, (point, -1:function), and the lift at points along the
-      !> arc; what the direct derivatives lose.
-      real(wp), allocatable :: clip_values(:, :), clip_lift(:, :)
+      !> Of pressures that are clipped: sine, cosine and functions, (point, -1:function), and the lift, (point, line);
+      !> functions across the width, (function, line), z and width of lines, m; what the direct derivatives lose.
+      real(wp), allocatable :: clip_values(:, :), clip_lift(:, :), clip_across(:, :), clip_z(:), clip_width(:)
       real(wp) :: lost(4, 4) = 0
       !> Of a law that varies, (along, across, which): E, K E, V, and what else drives the film.
       real(wp), allocatable :: law(:, :, :)
@@ -742,24 +742,24 @@ contains
       cosine = self%clip_values(:, 0)
       shares = 0
       self%lost = 0
-      do r = 1, self%z%points
+      do r = 1, 2*clip_points
          line = 0
          do j = 1, self%z%n
             do i = 1, self%x%n
-               line = line + (self%z%value(j, r)*self%solution(1, self%place(i, j)))*self%clip_values(:, i)
+               line = line + (self%clip_across(j, r)*self%solution(1, self%place(i, j)))*self%clip_values(:, i)
             end do
          end do
-         associate (e => self%motion%middle%position + self%across(r)*self%motion%slope)
+         associate (e => self%motion%middle%position + self%clip_z(r)*self%motion%slope)
             thickness = self%gap%machined_clearance - e(1)*sine - e(2)*cosine
          end associate
          deficit = self%gap%cavitation_pressure - self%gap%ambient_pressure - self%rise*self%clip_lift(:, r) &
             & - line/(thickness*sqrt(thickness))
          call clipped_weights(clip_cells, deficit, lost)
-         lost = lost*(2*self%half_arc/clip_cells*self%half_length*self%z%weight(r))
+         lost = lost*(2*self%half_arc/clip_cells*self%clip_width(r))
          do k = 0, clip_cells
             if (.not. abs(lost(k)) > 0) cycle
             n = [sine(k), cosine(k)]
-            m = [n, self%across(r)*n]
+            m = [n, self%clip_z(r)*n]
             h = thickness(k)
             forces = forces - self%radius*lost(k)*deficit(k)*m
             if (.not. want_derivatives) cycle
@@ -769,7 +769,7 @@ contains
             do j = 1, self%z%n
                do i = 1, self%x%n
                   shares(:4, self%place(i, j)) = shares(:4, self%place(i, j)) + (lost(k)/(h*sqrt(h)) &
-                     & *self%clip_values(k, i)*self%z%value(j, r))*m
+                     & *self%clip_values(k, i)*self%clip_across(j, r))*m
                end do
             end do
          end do
@@ -785,22 +785,37 @@ contains
       self%solution(1, :) = film
    end subroutine clip
 
-   !> Sine, cosine, functions and lift at the even points at which pressures are clipped.
+   !> What `clip` needs of the points along the arc and of the lines.
    pure subroutine set_clip(self)
       class(weighted_film_type), intent(inout) :: self
       real(wp), dimension(self%x%n) :: value, slope, second
+      real(wp), dimension(self%z%n) :: slope_z, second_z
+      type(bubble_type) :: root
       real(wp) :: x, lift(4)
-      integer :: k, r
-      allocate (self%clip_values(0:clip_cells, -1:self%x%n), self%clip_lift(0:clip_cells, self%z%points))
+      integer :: k, r, side
+      associate (lines => 2*clip_points)
+         allocate (self%clip_values(0:clip_cells, -1:self%x%n), self%clip_lift(0:clip_cells, lines), &
+            & self%clip_across(self%z%n, lines), self%clip_z(lines), self%clip_width(lines))
+      end associate
+      root = new_bubbles(1, clip_points)
+      do r = 1, clip_points
+         do side = 0, 1
+            associate (s => 0.5_wp*(1 + root%place(r)), line => 2*r - side)
+               self%clip_z(line) = self%half_length*(1 - s**2)*(1 - 2*side)
+               self%clip_width(line) = self%half_length*s*root%weight(r)
+               call bubbles_at(self%z%n, self%clip_z(line)/self%half_length, self%clip_across(:, line), slope_z, second_z)
+            end associate
+         end do
+      end do
       do k = 0, clip_cells
          x = -1 + 2*k/real(clip_cells, wp)
          call bubbles_at(self%x%n, x, value, slope, second)
          associate (phi => self%middle + self%half_arc*x)
             self%clip_values(k, :) = [sin(phi), cos(phi), value]
          end associate
-         do r = 1, self%z%points
+         do r = 1, 2*clip_points
             lift = 0
-            if (abs(self%rise) > 0) lift = lift_at(self, self%half_arc*(1 - x), self%across(r))
+            if (abs(self%rise) > 0) lift = lift_at(self, self%half_arc*(1 - x), self%clip_z(r))
             self%clip_lift(k, r) = lift(1)
          end do
       end do
