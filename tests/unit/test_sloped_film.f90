@@ -7,6 +7,8 @@ program test_sloped_film
    use pad_gap, only: pad_gap_type
    use fourier_film, only: fourier_film_type, converged_film
    use sloped_film, only: sloped_film_type, sloped_motion, sloped_response, new_sloped_film
+   use film_losses, only: film_losses_type, film_loss, new_film_losses
+   use asperity_contact, only: asperity_contact_type, asperity_load, sloped_asperity_load, new_asperity_contact
    use paper_bearing, only: paper_oil, paper_pad, offset_pad, uneven
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
@@ -27,6 +29,15 @@ program test_sloped_film
       call aligned([3e5_wp, 1e5_wp, -1e5_wp], paper_oil, cavitation_gumbel)
       call aligned([0.0_wp, 0.0_wp, 0.0_wp], uneven, cavitation_gumbel)
    end if
+   if (runs('losses')) then
+      call losses([0.0_wp, 0.0_wp, 0.0_wp], paper_oil, cavitation_none)
+      call losses([3e5_wp, 1e5_wp, 0.0_wp], paper_oil, cavitation_reynolds)
+      call losses([0.0_wp, 0.0_wp, 0.0_wp], uneven, cavitation_reynolds)
+      call losses([0.0_wp, 0.0_wp, 0.0_wp], paper_oil, cavitation_gumbel)
+   end if
+   if (runs('asperities')) call asperities()
+   if (runs('energy')) call energy(cavitation_none)
+   if (runs('energy')) call energy(cavitation_reynolds)
    call report()
 
 contains
@@ -99,6 +110,88 @@ contains
             & (r%film%min_pressure - f%min_pressure)/(f%max_pressure - f%min_pressure), f%min_pressure, f%max_pressure
       end do
    end subroutine aligned
+
+   subroutine losses(pressures, oil, condition)
+      real(wp), intent(in) :: pressures(3)
+      class(film_law_type), intent(in) :: oil
+      integer, intent(in) :: condition
+      type(sloped_film_type) :: film
+      type(film_losses_type) :: without
+      type(film_loss) :: a, b
+      type(sloped_motion) :: motion
+      integer :: trial
+      film = new_sloped_film([offset_pad(pressures)], condition)
+      without = new_film_losses(offset_pad(pressures), condition)
+      do trial = 1, 4
+         motion%middle%position = clearance*[between(-0.5_wp, 0.4_wp), between(0.0_wp, 0.6_wp)]
+         motion%middle%velocity = clearance*speed*[between(-0.1_wp, 0.1_wp), between(-0.1_wp, 0.1_wp)]
+         call film%find_loss(1, motion, oil, speed, a)
+         call without%find(motion%middle, oil, speed, b)
+         print '(a,10es10.2)', 'losses', norm2(a%force - b%force)/norm2(b%force), a%couette/b%couette - 1, &
+            & (a%pressure - b%pressure)/b%couette, (a%wedge - b%wedge)/b%couette, a%inlet/b%inlet - 1, &
+            & (a%outlet - b%outlet)/b%inlet, (a%side - b%side)/b%inlet, (a%unfed - b%unfed)/b%inlet, b%unfed/b%inlet, &
+            & b%pressure/b%couette
+      end do
+   end subroutine losses
+
+   !> Contact of asperities: without slopes that of asperity_contact; its derivatives are slopes.
+   subroutine asperities()
+      type(asperity_contact_type) :: contact
+      type(asperity_load) :: without
+      type(sloped_asperity_load) :: load, low, high
+      type(sloped_motion) :: motion
+      real(wp) :: step, errors(3)
+      integer :: trial, k
+      contact = new_asperity_contact(1e-6_wp, 1.15e11_wp, 1e-3_wp, 0.1_wp, 34.0_wp)
+      associate (pad => offset_pad())
+      do trial = 1, 8
+         motion = motion_of(clearance*[0.3_wp, 0.926_wp, 0.0_wp, 0.0_wp])
+         call contact%evaluate(pad, pad%directions(), motion%middle, speed, without)
+         call contact%evaluate_sloped(pad, pad%directions(), motion, speed, load)
+         print '(a,l2,8es10.2)', 'asp', load%touches, norm2(load%force - without%force)/norm2(without%force), &
+            & norm2(load%slopes(:2, :2) - without%force_slopes)/norm2(without%force_slopes), load%moment - without%moment, &
+            & norm2(load%film_motion%middle%position - without%film_position), norm2(load%film_motion%slope)
+         motion%slope = clearance*[between(-0.5_wp, 0.5_wp), between(-0.5_wp, 0.5_wp)]
+         call contact%evaluate_sloped(pad, pad%directions(), motion, speed, load)
+         errors = 0
+         do k = 1, 4
+            step = clearance*merge(1e-6_wp, 2e-5_wp, k <= 2)
+            call contact%evaluate_sloped(pad, pad%directions(), motion%moved(k, step), speed, high)
+            call contact%evaluate_sloped(pad, pad%directions(), motion%moved(k, -step), speed, low)
+            errors(1) = max(errors(1), norm2([(high%force - low%force), (high%journal_moment - low%journal_moment)] &
+               & - 2*step*load%slopes(:, k))/norm2(2*step*load%slopes(:, k)))
+            errors(2) = max(errors(2), abs(high%moment - low%moment - 2*step*load%turning_slopes(k)) &
+               & /norm2(2*step*load%turning_slopes))
+            errors(3) = max(errors(3), norm2([(high%film_motion%middle%position - low%film_motion%middle%position), &
+               & 0.05_wp*(high%film_motion%slope - low%film_motion%slope)] - 2*step*[1.0_wp, 1.0_wp, 0.05_wp, 0.05_wp]* &
+               & load%film_slopes_4(:, k))/step)
+         end do
+         print '(a,l2,8es10.2)', 'asp', load%touches, errors, load%thickness
+      end do
+      end associate
+   end subroutine asperities
+
+   !> What the journal does to the film becomes heat; what flows in flows out.
+   subroutine energy(condition)
+      integer, intent(in) :: condition
+      type(sloped_film_type) :: film
+      type(film_loss) :: loss
+      type(sloped_motion) :: motion
+      type(sloped_response) :: r
+      integer :: trial
+      film = new_sloped_film([offset_pad()], condition)
+      do trial = 1, 4
+         motion = motion_of(clearance*[between(-0.5_wp, 0.4_wp), between(0.0_wp, 0.5_wp), between(-3.0_wp, 3.0_wp), &
+            & between(-4.0_wp, 4.0_wp)])
+         motion%middle%velocity = clearance*speed*[between(-0.1_wp, 0.1_wp), between(-0.1_wp, 0.1_wp)]
+         motion%slope_rate = clearance*speed*[between(-1.0_wp, 1.0_wp), between(-1.0_wp, 1.0_wp)]
+         call film%evaluate_pad(1, motion, paper_oil, speed, .false., r)
+         call film%find_loss(1, motion, paper_oil, speed, loss)
+         print '(a,10es10.2)', 'energy', (loss%wedge - dot_product(r%film%force, motion%middle%velocity) &
+            & - dot_product(r%moment, motion%slope_rate) - loss%pressure)/loss%pressure, loss%pressure, loss%wedge, &
+            & norm2(loss%force-r%film%force)/norm2(loss%force)
+      end do
+   end subroutine energy
 
    subroutine differences(pressures, oil, condition)
       real(wp), intent(in) :: pressures(3)

@@ -84,13 +84,19 @@ contains
          return
       end if
       call find_full(self, i, motion, oil, speed, want_derivatives, response)
-      if (self%condition /= cavitation_reynolds) return
-      associate (lowest => self%gaps(i)%cavitation_pressure, film => response%film)
-         if (lowest - film%min_pressure > slight_tension*(film%max_pressure - lowest)) then
-            call take_volumes(self, i, motion, oil, speed, want_derivatives, response)
-         end if
-      end associate
+      if (is_cavitated(self, i, response)) call take_volumes(self, i, motion, oil, speed, want_derivatives, response)
    end subroutine evaluate_pad
+
+   !> Whether a full film cavitates by the condition of Reynolds.
+   pure logical function is_cavitated(self, i, full)
+      class(sloped_film_type), intent(in) :: self
+      integer, intent(in) :: i
+      type(sloped_response), intent(in) :: full
+      associate (lowest => self%gaps(i)%cavitation_pressure)
+         is_cavitated = self%condition == cavitation_reynolds .and. lowest - full%film%min_pressure &
+            & > slight_tension*(full%film%max_pressure - lowest)
+      end associate
+   end function is_cavitated
 
    !> Makes the response of a full film that of its cavitated film, as direct_film does.
    subroutine take_volumes(self, i, motion, oil, speed, want_derivatives, response)
@@ -109,27 +115,31 @@ contains
       do k = 1, 2
          associate (volumes => self%volumes(k, i))
             call volumes%set_motion(following_angles(self%gaps(i), motion%middle, speed, k*columns/4), motion, oil, speed)
-            if (k == 2) call volumes%start_from(self%volumes(1, i))
+            if (c > 0) call volumes%evaluate(.false., want_derivatives, self%counters, whole(k))
             call volumes%evaluate(.true., want_derivatives, self%counters, found(k))
-            if (.not. c > 0) cycle
-            call volumes%evaluate(.false., want_derivatives, self%counters, whole(k))
-            call volumes%start_from(self%volumes(1, i))
          end associate
       end do
       response%film%status = maxval(found%film%status)
-      response%film%force = extrapolated(found(1)%film%force, found(2)%film%force)
-      response%moment = extrapolated(found(1)%moment, found(2)%moment)
-      response%derivatives = extrapolated(found(1)%derivatives, found(2)%derivatives)
-      response%film%max_pressure = extrapolated(found(1)%film%max_pressure, found(2)%film%max_pressure)
+      response%film%min_pressure = self%gaps(i)%cavitation_pressure
       response%place = found(2)%place
+      call add(response, full, c - 1)
+      call add(response, found(2), 4/3.0_wp)
+      call add(response, found(1), -1/3.0_wp)
       if (.not. c > 0) return
-      response%film%force = response%film%force + c*(full%film%force - extrapolated(whole(1)%film%force, whole(2)%film%force))
-      response%moment = response%moment + c*(full%moment - extrapolated(whole(1)%moment, whole(2)%moment))
-      response%derivatives = response%derivatives + c*(full%derivatives &
-         & - extrapolated(whole(1)%derivatives, whole(2)%derivatives))
-      response%film%max_pressure = response%film%max_pressure + c*(full%film%max_pressure &
-         & - extrapolated(whole(1)%film%max_pressure, whole(2)%film%max_pressure))
+      call add(response, whole(2), -4*c/3)
+      call add(response, whole(1), c/3)
    end subroutine take_volumes
+
+   !> Adds a share of another film.
+   pure subroutine add(film, other, share)
+      type(sloped_response), intent(inout) :: film
+      type(sloped_response), intent(in) :: other
+      real(wp), intent(in) :: share
+      film%film%force = film%film%force + share*other%film%force
+      film%film%max_pressure = film%film%max_pressure + share*other%film%max_pressure
+      film%moment = film%moment + share*other%moment
+      film%derivatives = film%derivatives + share*other%derivatives
+   end subroutine add
 
    !> What two grids, the second twice as fine, tell of one that is infinitely fine.
    elemental real(wp) function extrapolated(coarse, fine)
@@ -148,6 +158,8 @@ contains
       type(sloped_response), intent(inout) :: response
       real(wp) :: share
       associate (level => self%level(i))
+         response%edge_films = edge_films(self%gaps(i), self%directions(i), motion)
+         response%film%min_film_thickness = minval(response%edge_films)
          level = findloc(response%film%min_film_thickness > thickness*self%gaps(i)%machined_clearance, .true., dim=1)
          do
             if (.not. self%full(level, i)%is_made()) then
@@ -171,17 +183,28 @@ contains
       real(wp), intent(in) :: speed, phi(:), z(:)
       real(wp), intent(out) :: pressure(:, :)
       type(sloped_response) :: response
+      type(sloped_volumes_type) :: fine
+      type(film_counters) :: counters
       integer :: j, k
-      call self%evaluate_pad(i, motion, oil, speed, .false., response)
+      call find_full(self, i, motion, oil, speed, .false., response)
+      if (is_cavitated(self, i, response)) then
+         fine = new_sloped_volumes(self%gaps(i), 2*columns, 2*rows)
+         call fine%set_motion(following_angles(self%gaps(i), motion%middle, speed, columns), motion, oil, speed)
+         call fine%evaluate(.true., .false., counters, response)
+      end if
       do j = 1, size(phi)
          do k = 1, size(z)
-            pressure(k, j) = self%full(self%level(i), i)%pressure_at(phi(j), z(k))
+            if (is_cavitated(self, i, response)) then
+               pressure(k, j) = fine%pressure_at(phi(j), z(k))
+            else
+               pressure(k, j) = self%full(self%level(i), i)%pressure_at(phi(j), z(k))
+            end if
          end do
       end do
-      if (self%condition == cavitation_gumbel) pressure = max(pressure, self%gaps(i)%cavitation_pressure)
+      if (self%condition /= cavitation_none) pressure = max(pressure, self%gaps(i)%cavitation_pressure)
    end subroutine field_of_pad
 
-   !> Loss and flows of pad i (film_losses); of a closed film only the status.
+   !> Loss and flows of pad i (film_losses), by volumes on two grids; of a closed film only the status.
    subroutine find_loss(self, i, motion, oil, speed, loss)
       class(sloped_film_type), intent(inout) :: self
       integer, intent(in) :: i
@@ -189,7 +212,26 @@ contains
       class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: speed
       type(film_loss), intent(out) :: loss
+      type(sloped_volumes_type) :: grids(2)
+      type(sloped_response) :: response
+      type(film_counters) :: counters
+      type(film_loss) :: found(2)
+      integer :: k
       loss%status = film_closed
+      if (minval(edge_films(self%gaps(i), self%directions(i), motion)) <= thinnest*self%gaps(i)%machined_clearance) return
+      do k = 1, 2
+         grids(k) = new_sloped_volumes(self%gaps(i), k*columns, k*rows)
+         call grids(k)%set_motion(following_angles(self%gaps(i), motion%middle, speed, k*columns/2), motion, oil, speed)
+         if (k == 2) call grids(2)%start_from(grids(1))
+         call grids(k)%evaluate(self%condition == cavitation_reynolds, .false., counters, response)
+         if (self%condition == cavitation_gumbel) call grids(k)%drop_tension()
+         call grids(k)%losses(oil, speed*self%gaps(i)%journal_radius, found(k))
+      end do
+      loss = film_loss(response%film%status, extrapolated(found(1)%force, found(2)%force), &
+         & extrapolated(found(1)%couette, found(2)%couette), extrapolated(found(1)%pressure, found(2)%pressure), &
+         & extrapolated(found(1)%wedge, found(2)%wedge), extrapolated(found(1)%inlet, found(2)%inlet), &
+         & extrapolated(found(1)%outlet, found(2)%outlet), extrapolated(found(1)%side, found(2)%side), &
+         & extrapolated(found(1)%unfed, found(2)%unfed))
    end subroutine find_loss
 
    !> True where pressures below the cavitation pressure are not kept.
@@ -208,5 +250,12 @@ contains
    !> Forgets the films that were solved last: what is solved then is the same to the last bit, wherever one comes from.
    pure subroutine forget(self)
       class(sloped_film_type), intent(inout) :: self
+      integer :: i, k
+      if (.not. allocated(self%volumes)) return
+      do i = 1, size(self%volumes, 2)
+         do k = 1, size(self%volumes, 1)
+            call self%volumes(k, i)%start_from()
+         end do
+      end do
    end subroutine forget
 end module sloped_film

@@ -54,6 +54,7 @@ module sloped_volumes
       procedure :: set_motion
       procedure :: evaluate
       procedure :: start_from
+      procedure :: drop_tension
       procedure :: losses
       procedure :: pressure_at
    end type sloped_volumes_type
@@ -197,7 +198,11 @@ contains
       type(sloped_response), intent(inout) :: response
       integer :: round, first
       logical :: was_full
-      if (.not. cavitates) self%film = .true.
+      logical, allocatable :: held(:, :)
+      if (.not. cavitates) then
+         allocate (held, source=self%film)
+         self%film = .true.
+      end if
       was_full = all(self%film)
       first = 1
       do round = 1, rounds_a_column*self%columns
@@ -211,6 +216,8 @@ contains
       if (cavitates .and. first <= self%columns) response%film%status = film_not_converged
       call sum_up(self, response)
       if (want_derivatives) call differentiate(self, cavitates, response)
+      ! the next cavitated film begins as the last one ended
+      if (.not. cavitates) call move_alloc(held, self%film)
    end subroutine evaluate
 
    !> Factor of the equations of the cells of the film, from a column on.
@@ -502,15 +509,103 @@ contains
       end do
    end subroutine start_from
 
-   !> Loss and flows of the last film, at a speed of the journal's surface, m/s. `holds`: which cells are taken for the
-   !> film (Guembel's condition: those above the cavitation pressure of a full film).
-   pure subroutine losses(self, oil, surface, clips, loss)
-      class(sloped_volumes_type), intent(in) :: self
+   !> Makes the cells of a full film below the cavitation pressure cavitated ones (Guembel).
+   pure subroutine drop_tension(self)
+      class(sloped_volumes_type), intent(inout) :: self
+      self%film = self%p(1:self%rows, 1:self%columns) > 0
+   end subroutine drop_tension
+
+   !> Loss and flows of the last film (film_losses), at a speed of the journal's surface, m/s.
+   subroutine losses(self, oil, surface, loss)
+      class(sloped_volumes_type), intent(inout) :: self
       class(film_law_type), intent(in) :: oil
       real(wp), intent(in) :: surface
-      logical, intent(in) :: clips
       type(film_loss), intent(out) :: loss
+      type(sloped_response) :: response
+      real(wp), allocatable :: free(:, :)
+      integer :: r
+      ! across the edge of a film that is clipped the oil flows as in the full one
+      free = self%p
+      self%p(1:self%rows, 1:self%columns) = merge(self%p(1:self%rows, 1:self%columns), 0.0_wp, self%film)
+      call sum_up(self, response)
+      loss%force = response%film%force
+      do r = 1, self%rows
+         call add_row(self, oil, surface, r, free, loss)
+      end do
    end subroutine losses
+
+   !> Adds a row of cells, in the order of the flow.
+   pure subroutine add_row(self, oil, surface, r, free, loss)
+      type(sloped_volumes_type), intent(in) :: self
+      class(film_law_type), intent(in) :: oil
+      real(wp), intent(in) :: surface
+      integer, intent(in) :: r
+      !> Pressures before cavitated cells got that of cavitation.
+      real(wp), intent(in) :: free(0:, 0:)
+      type(film_loss), intent(inout) :: loss
+      !> Flows through the last face and on from a cavitated cell, and driven by pressure, m^3/s; drop over a face, Pa.
+      real(wp) :: through, carried, driven, drop, unit, shear, arriving
+      integer :: i
+      logical :: before, after
+      unit = self%radius/self%scale
+      carried = 0
+      before = .false.
+      do i = 0, self%columns
+         after = .false.
+         if (i < self%columns) after = self%film(r, i + 1)
+         through = 0.5_wp*surface*self%sliding_face(r, i)*self%h_face(r, i)*self%height(r)
+         if (before .or. after) then
+            drop = self%p(r, i) - self%p(r, i + 1)
+            driven = unit*self%along(r, i)*(free(r, i) - free(r, i + 1))
+            loss%pressure = loss%pressure + unit*self%along(r, i)*drop**2
+            loss%wedge = loss%wedge - through*drop
+            through = through + driven
+            if (i > 0 .and. .not. before) loss%unfed = loss%unfed + through - carried
+         else if (i > 0) then
+            through = carried
+         end if
+         if (i == 0) loss%inlet = loss%inlet + through
+         if (i == self%columns) loss%outlet = loss%outlet + through
+         if (i == self%columns) exit
+         shear = oil%viscosity*self%shear(r, i + 1)*surface*self%radius*self%width(i + 1)*self%height(r)/self%h(r, i + 1)
+         loss%couette = loss%couette + shear*surface
+         arriving = 0
+         call take_sides(self, r, i + 1, unit, free, arriving, loss)
+         if (.not. after) then
+            carried = through + arriving
+            loss%couette = loss%couette - shear*max(0.0_wp, surface - (through + carried) &
+               & /(self%sliding(r, i + 1)*self%h(r, i + 1)*self%height(r)))
+         end if
+         before = after
+      end do
+   end subroutine add_row
+
+   !> Heat of the flow across through both faces of a cell, each face once; flow out at the sides; what arrives in a
+   !> cavitated cell from the film beside it.
+   pure subroutine take_sides(self, r, i, unit, free, arriving, loss)
+      type(sloped_volumes_type), intent(in) :: self
+      integer, intent(in) :: r, i
+      real(wp), intent(in) :: unit, free(0:, 0:)
+      real(wp), intent(inout) :: arriving
+      type(film_loss), intent(inout) :: loss
+      real(wp) :: flow, drop
+      integer :: side
+      logical :: neighbour
+      do side = -1, 1, 2
+         associate (next => r + side, face => r + min(side, 0))
+            drop = self%p(r, i) - self%p(next, i)
+            flow = unit*self%across(face, i)*(free(r, i) - free(next, i))
+            neighbour = .false.
+            if (next >= 1 .and. next <= self%rows) neighbour = self%film(next, i)
+            if (self%film(r, i)) then
+               loss%pressure = loss%pressure + merge(0.5_wp, 1.0_wp, neighbour)*unit*self%across(face, i)*drop**2
+               if (next < 1 .or. next > self%rows) loss%side = loss%side + flow
+            else if (neighbour) then
+               arriving = arriving - flow
+            end if
+         end associate
+      end do
+   end subroutine take_sides
 
    !> Pressure of the last film, Pa, at an angle from the pivot, rad, and z, m: linear between the middles of cells and
    !> the edges.
