@@ -149,8 +149,8 @@ contains
       do turn = -1, 1
          call find_bounds(self, gap, motion, turn, bounds)
          do k = 1, 3
-            if (bounds(k + 1) > bounds(k)) call add_area(self, gap, motion, bounds(k:k + 1), load%normal, pushed, slope, &
-               & slopes)
+            if (.not. bounds(k + 1) > bounds(k)) cycle
+            call add_area(self, gap, motion, bounds(k:k + 1), load%normal, pushed, slope, slopes)
          end do
       end do
       associate (friction => friction_at(self, speed))
@@ -250,7 +250,8 @@ contains
          end do
          load%film_motion%middle%position = 0.5_wp*(at(1)%film_position + at(2)%film_position)
          load%film_motion%slope = (at(2)%film_position - at(1)%film_position)/length
-         associate (mean => 0.5_wp*(at(1)%film_slopes + at(2)%film_slopes), rise => at(2)%film_slopes - at(1)%film_slopes)
+         associate (mean => 0.5_wp*(at(1)%film_slopes + at(2)%film_slopes), &
+            & rise => at(2)%film_slopes - at(1)%film_slopes)
             load%film_slopes_4(:2, :2) = mean
             load%film_slopes_4(:2, 3:) = 0.25_wp*length*rise
             load%film_slopes_4(3:, :2) = rise/length

@@ -10,30 +10,33 @@ module bubble_functions
       !> Functions, and Gauss's points.
       integer :: n = 0, points = 0
       real(wp), allocatable :: place(:), weight(:)
-      !> Values and slopes, (function, point), and products of two of them, (pair, point).
-      real(wp), allocatable :: value(:, :), slope(:, :), products(:, :), slope_products(:, :)
+      !> Values, (function, point) and (point, function), and products of two of them and of two slopes, (pair, point).
+      real(wp), allocatable :: value(:, :), by_point(:, :), products(:, :), slope_products(:, :)
    end type bubble_type
 
 contains
 
    pure type(bubble_type) function new_bubbles(n, points) result(self)
       integer, intent(in) :: n, points
-      real(wp) :: second(n)
-      integer :: q, i, j
+      real(wp) :: slope(n), second(n)
+      integer :: q, i, j, pairs
+      ! filled up with zeros to whole SIMD vectors
+      pairs = 4*((n*(n + 1)/2 + 3)/4)
       self%n = n
       self%points = points
-      allocate (self%value(n, points), self%slope(n, points))
-      allocate (self%products(n*(n + 1)/2, points), self%slope_products(n*(n + 1)/2, points))
+      allocate (self%value(n, points))
+      allocate (self%products(pairs, points), self%slope_products(pairs, points), source=0.0_wp)
       call find_points(points, self%place, self%weight)
       do q = 1, points
-         call bubbles_at(n, self%place(q), self%value(:, q), self%slope(:, q), second)
+         call bubbles_at(n, self%place(q), self%value(:, q), slope, second)
          do i = 1, n
             do j = 1, i
                self%products(pair_of(i, j), q) = self%value(i, q)*self%value(j, q)
-               self%slope_products(pair_of(i, j), q) = self%slope(i, q)*self%slope(j, q)
+               self%slope_products(pair_of(i, j), q) = slope(i)*slope(j)
             end do
          end do
       end do
+      self%by_point = transpose(self%value)
    end function new_bubbles
 
    !> The number of a pair of functions.
