@@ -136,9 +136,10 @@ contains
             if (film%unknowns == 0) film = new_weighted_film(self%gaps(i), along(level), across(level))
             call film%evaluate(motion, oil%viscosity, speed, want_derivatives, response, last_share)
          end associate
-         ! of an empty film volumes tell all
-         if (last_share <= enough .or. self%cavitates() .and. share_of_modes(self%gaps(i)%cavitation_pressure, &
-            & response%film) <= 0) exit
+         ! of a film that is nearly empty little counts
+         if (is_cavitated(self, i, response)) last_share = last_share*share_of_modes(self%gaps(i)%cavitation_pressure, &
+            & response%film)
+         if (last_share <= enough) exit
       end do
    end subroutine find_full
 
