@@ -131,7 +131,7 @@ modules_of = $(basename $(notdir $(filter $(addsuffix /%,$1),$(sources))))
 # a march or its tables call at each step: these arrays are short, one line of a grid at most.
 short := equations_of_motion newton_system bordered_system rigid_rotor state_layout bearing_samples table_film \
          $(filter-out marching sor_film local_cavitation volume_flows fourier_field,\
-         $(call modules_of,$(addprefix src_f90/,film/tables film/common film/volumes film/fourier pivot bearing integrate)))
+         $(call modules_of,$(addprefix src_f90/,film/tables film/common film/volumes film/fourier film/sloped pivot bearing integrate)))
 heaped := $(filter-out $(short),$(basename $(notdir $(sources))))
 # modules that compute little, and what their FFLAGS have besides; not those that a march calls at each step or sample.
 # Tests, which take longer to compile than the modules under test, have it with the checks alone.

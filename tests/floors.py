@@ -13,7 +13,7 @@ from pathlib import Path
 #: Lowest first: each uses only those before it. A folder inside one may be a floor of its own ("film/table").
 FORTRAN = (
     *("base", "system", "case", "input"),
-    *("film/common", "film/fourier", "film/volumes", "film/tables", "film"),
+    *("film/common", "film/fourier", "film/volumes", "film/tables", "film", "film/sloped"),
     *("pivot", "rotor", "bearing", "integrate", "model"),
     *("statics", "heat", "equilibrium", "linear", "orbits", "branches", "signals"),
     *("storage", "results", "app"),

@@ -26,8 +26,8 @@ module tiltpad_library
 contains
 
    !> Pressure of every pad's film, and what the program samples of it, in one state of the bearing.
-   subroutine film_pressure(text, name, viscosity, weights, time, journal, tilt, pivot_deflection, along, across, &
-      phi, z, pressure, force, max_pressure, min_film_thickness, status, message, pads, n, m)
+   subroutine film_pressure(text, name, viscosity, weights, time, journal, motion, along, across, phi, z, &
+       pressure, force, max_pressure, min_film_thickness, status, message, pads, n, m)
       integer(c_int), intent(in) :: pads, n, m
       character(len=*), intent(in) :: text, name
       !> Of the oil on each pad, Pa s; 0: that of the case.
@@ -36,8 +36,8 @@ contains
       real(c_double), intent(in) :: weights(5, 3, pads)
       !> s, of which the speed follows; y, z of the journal, m, and their rates, m/s.
       real(c_double), intent(in) :: time, journal(4)
-      !> Tilt, rad, and pivot deflection, m (tilting-only: no matter), each with its rate.
-      real(c_double), intent(in) :: tilt(2, pads), pivot_deflection(2, pads)
+      !> Tilt, rad, pivot deflection, m, pitch and yaw, rad, each with its rate; what pads do not have does not matter.
+      real(c_double), intent(in) :: motion(2, 4, pads)
       !> Points: share of the arc from the trailing edge (0) to the leading one (1); share of half the width from the
       !> middle plane.
       real(c_double), intent(in) :: along(n), across(m)
@@ -57,8 +57,7 @@ contains
       logical :: ok
       call read_bearing(text, name, viscosity, weights, inputs, model, error)
       if (.not. allocated(error)) then
-         y = model%state(journal_motion(journal(:2), journal(3:4)), &
-            & [(pad_state(tilt(1, i), tilt(2, i), pivot_deflection(1, i), pivot_deflection(2, i)), i=1, pads)])
+         y = model%state(journal_motion(journal(:2), journal(3:4)), states_of(motion))
          call model%evaluate(time, y, .false., ok)
          if (.not. ok) call raise(error, numerics_error, name//': '//model%refusal)
       end if
@@ -80,13 +79,12 @@ contains
    end subroutine film_pressure
 
    !> Loads, losses and flows of all pads in n states of the bearing.
-   subroutine power_losses(text, name, viscosity, weights, time, journal, tilt, pivot_deflection, losses, status, &
-      message, pads, n)
+   subroutine power_losses(text, name, viscosity, weights, time, journal, motion, losses, status, message, pads, n)
       integer(c_int), intent(in) :: pads, n
       character(len=*), intent(in) :: text, name
       !> As in film_pressure, state by state.
       real(c_double), intent(in) :: viscosity(pads), weights(5, 3, pads), time(n), journal(4, n), &
-         tilt(2, pads, n), pivot_deflection(2, pads, n)
+         motion(2, 4, pads, n)
       !> Load, N; Couette, pressure and boundary loss, W; drag on the journal and on the pad, N m; inlet, outlet and
       !> side flow, m^3/s. No numbers where a film is closed.
       real(c_double), intent(out) :: losses(9, pads, n)
@@ -103,9 +101,7 @@ contains
          finder = new_bearing_losses(inputs%bearings(1))
          do k = 1, n
             call finder%find(model%bearings(1), journal_motion(journal(:2, k), journal(3:4, k)), &
-               & [(pad_state(tilt(1, i, k), tilt(2, i, k), pivot_deflection(1, i, k), pivot_deflection(2, i, k)), &
-                  i=1, pads)], &
-               & model%oil, model%point%speed(time(k)), found)
+               & states_of(motion(:, :, :, k)), model%oil, model%point%speed(time(k)), found)
             do i = 1, pads
                associate (pad => found(i))
                   losses(:, i, k) = [pad%load, pad%couette, pad%pressure, pad%boundary, pad%journal_drag, &
@@ -116,6 +112,17 @@ contains
       end if
       call tell(error, status, message)
    end subroutine power_losses
+
+   !> States of pads with this motion, (displacement and rate, kind, pad).
+   pure function states_of(motion) result(states)
+      real(c_double), intent(in) :: motion(:, :, :)
+      type(pad_state) :: states(size(motion, 3))
+      integer :: i
+      do i = 1, size(states)
+         states(i)%x = motion(1, :, i)
+         states(i)%v = motion(2, :, i)
+      end do
+   end function states_of
 
    !> Contact of the pivot of a pad at pivot deflections, m; all zero where these are not positive.
    subroutine contact(text, name, pad, pivot_deflection, force, slope, radius, exponent, peak_pressure, status, &

@@ -6,7 +6,7 @@ module equilibrium_notes
    use case_groups, only: bearing_type, station_element_type
    use case_inputs, only: case_type, longest_label
    use bearing_numbers, only: load, load_on_journal, specific_load, sommerfeld_number, of_supply
-   use state_layout, only: tilt, pivot_deflection
+   use state_layout, only: tilt, pivot_deflection, pitch, yaw
    use force_balance, only: stability_type
    use bearing_shape, only: bearing_shape_type
    use heat_balance, only: oil_temperatures_type
@@ -205,9 +205,13 @@ contains
          pivot = ''
          if (tilting) pivot = filled('tilt {m.3} mrad, pivot deflection {u.2} um, contact {.1} N, ', &
             & [static%pads(i)%x(tilt), static%pads(i)%x(pivot_deflection), static%pivot_load(i)])
+         if (allocated(static%slopes)) pivot = pivot//filled('pitch {m.4}, yaw {m.4} mrad, films at both ends {u.2}, ' &
+            & //'{u.2} um, ', [static%pads(i)%x([pitch, yaw]), static%slopes(i)%edge_films])
          print '(a)', filled('  pad {}: '//pivot//'minimum film thickness {u.2} um, maximum pressure {M.3} MPa', &
             & [real(wp) :: i, static%min_film_thickness(i), static%max_pressure(i)])
       end do
+      if (allocated(static%moments)) print '(a)', filled('  moments on the journal against its slopes: y {.3}, ' &
+         & //'z {.3} N m', static%moments(:, 1))
    end subroutine print_equilibrium
 
    !> "the journal is stable, the pads are unstable: oscillatory instability, eigenvalue 69.4 1/s at 37.0 Hz"; what is

@@ -39,6 +39,8 @@ contains
       integer(i8) :: samples
       call require(size(inputs%bearings) == 1, '--verify: compares the films of one bearing with a rigid journal, ' &
          & //'not those of a machine; run each bearing alone, with its load as rotor%static_load', error)
+      if (size(inputs%bearings) == 1) call require(.not. inputs%has_slopes(1), '--verify: does not compare films in ' &
+         & //'which slopes of the journal count (pads that pitch, bearing%slope)', error)
       call require(inputs%about%task /= 'branch', '--verify: the points of a branch keep no states to verify; run ' &
          & //'one of them with case%task = ''equilibrium'' or ''periodic''', error)
       call require(inputs%output%keep == 'all' .or. .not. any(inputs%about%task == ['march   ', 'periodic']), &

@@ -7,9 +7,11 @@ module asperity_contact
    use kinds, only: wp, pi
    use film_solver, only: film_motion
    use pad_gap, only: pad_gap_type, pad_directions
+   use linear_algebra, only: identity
+   use sloped_gap, only: sloped_motion, edge_films
    implicit none (type, external)
    private
-   public :: asperity_contact_type, asperity_load, new_asperity_contact, no_asperities
+   public :: asperity_contact_type, asperity_load, sloped_asperity_load, new_asperity_contact, no_asperities
 
    !> Mean pressure over K' E': 4.4086e-5 (4 - h/sigma)^6.804 below h = 4 sigma, the usual fit of F_5/2.
    real(wp), parameter :: highest_ratio = 4, coefficient = 4.4086e-5_wp, exponent = 6.804_wp
@@ -38,6 +40,7 @@ module asperity_contact
    contains
       procedure :: act
       procedure :: evaluate
+      procedure :: evaluate_sloped
       procedure :: heat
    end type asperity_contact_type
 
@@ -60,6 +63,17 @@ module asperity_contact
    contains
       procedure :: carried
    end type asperity_load
+
+   !> The same of a journal whose axis is inclined to the pad's. The inherited slopes and film position are not set.
+   type, extends(asperity_load) :: sloped_asperity_load
+      !> On the journal: integral of z times the force, N m, z from the pad's middle.
+      real(wp) :: journal_moment(2) = 0
+      !> Derivatives of (force, journal_moment), and of `moment`, over (position, slope).
+      real(wp) :: slopes(4, 4) = 0, turning_slopes(4) = 0
+      !> The motion at which the oil's film is to be taken, and derivatives of its (position, slope) over the true ones.
+      type(sloped_motion) :: film_motion
+      real(wp) :: film_slopes_4(4, 4) = 0
+   end type sloped_asperity_load
 
    !> Integrals over a pad of the pressure p and of p n, n the outward direction; of -dp/dh n and -dp/dh n n.
    type :: contact_sums
@@ -98,6 +112,153 @@ contains
       call set_loads(self, gap, motion%position, speed*gap%journal_radius, load)
       call set_film(self, gap, directions, motion%position, load)
    end subroutine evaluate
+
+   !> The same with slopes; `film_motion` and its derivatives are set even where nothing touches.
+   pure subroutine evaluate_sloped(self, gap, directions, motion, speed, load)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      type(pad_directions), intent(in) :: directions
+      type(sloped_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(sloped_asperity_load), intent(inout) :: load
+      real(wp) :: ends(2)
+      ends = edge_films(gap, directions, motion)
+      load%thickness = minval(ends)
+      load%touches = abs(load%thickness) < self%reach
+      load%film_motion = motion
+      load%film_slopes_4 = identity(4)
+      if (.not. load%touches) return
+      call set_sloped_loads(self, gap, motion, speed*gap%journal_radius, load)
+      call set_sloped_film(self, gap, directions, motion, ends, load)
+   end subroutine evaluate_sloped
+
+   !> Sets forces and moments, and their derivatives; the journal's surface moves at a speed, m/s. With m = (n, z n), n
+   !> the outward direction, they are integrals of the pressure p and of -dp/dh times m and m m^T.
+   pure subroutine set_sloped_loads(self, gap, motion, speed, load)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      type(sloped_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      type(sloped_asperity_load), intent(inout) :: load
+      real(wp) :: pushed(4), slope(4), slopes(4, 4), bounds(4), drawn(4)
+      integer :: k, turn
+      load%normal = 0
+      pushed = 0
+      slope = 0
+      slopes = 0
+      do turn = -1, 1
+         call find_bounds(self, gap, motion, turn, bounds)
+         do k = 1, 3
+            if (.not. bounds(k + 1) > bounds(k)) cycle
+            call add_area(self, gap, motion, bounds(k:k + 1), load%normal, pushed, slope, slopes)
+         end do
+      end do
+      associate (friction => friction_at(self, speed))
+         drawn = -pushed + friction*turned(pushed)
+         load%force = drawn(:2)
+         load%journal_moment = drawn(3:)
+         do k = 1, 4
+            load%slopes(:, k) = -slopes(:, k) + friction*turned(slopes(:, k))
+         end do
+         load%moment = friction*gap%pad_radius()*load%normal
+         load%turning_slopes = friction*gap%pad_radius()*slope
+      end associate
+   contains
+      !> Friction pulls the journal along phi.
+      pure function turned(x)
+         real(wp), intent(in) :: x(4)
+         real(wp) :: turned(4)
+         turned = [x(2), -x(1), x(4), -x(3)]
+      end function turned
+   end subroutine set_sloped_loads
+
+   !> Where the stretches of the arc on which the film is thin at either end of the pad begin and end, in order, rad.
+   pure subroutine find_bounds(self, gap, motion, turn, bounds)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      type(sloped_motion), intent(in) :: motion
+      integer, intent(in) :: turn
+      real(wp), intent(out) :: bounds(4)
+      real(wp) :: towards, half
+      integer :: side
+      do side = 0, 1
+         associate (e => motion%middle%position + (side - 0.5_wp)*gap%axial_length*motion%slope)
+            towards = atan2(e(1), e(2)) + 2*pi*turn
+            half = acos(min(1.0_wp, max(-1.0_wp, (gap%machined_clearance - self%reach)/max(norm2(e), tiny(half)))))
+            bounds(2*side + 1:2*side + 2) = min(max(towards + [-half, half], -gap%trailing_angle), gap%leading_angle)
+         end associate
+      end do
+      associate (a => bounds([1, 3]), b => bounds([2, 4]))
+         ! stretches that do not meet leave a gap between them, in which nothing touches
+         bounds = [minval(a), min(maxval(a), minval(b)), max(maxval(a), minval(b)), maxval(b)]
+      end associate
+   end subroutine find_bounds
+
+   !> Adds the integrals over the arc between two angles, rad. Across the width the depth is linear: from where it is 0
+   !> Gauss's points err as little as along the arc.
+   pure subroutine add_area(self, gap, motion, bounds, normal, pushed, slope, slopes)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      type(sloped_motion), intent(in) :: motion
+      real(wp), intent(in) :: bounds(2)
+      real(wp), intent(inout) :: normal, pushed(4), slope(4), slopes(4, 4)
+      real(wp) :: phi, outward(2), from, to, z, depth, rise, force, falling, m(4)
+      integer :: i, k, l
+      do i = 1, points
+         phi = 0.5_wp*(sum(bounds) + place(i)*(bounds(2) - bounds(1)))
+         outward = [sin(phi), cos(phi)]
+         depth = (self%reach - gap%machined_clearance + dot_product(motion%middle%position, outward))/self%roughness
+         rise = dot_product(motion%slope, outward)/self%roughness
+         from = -0.5_wp*gap%axial_length
+         to = -from
+         if (depth + rise*from < 0 .and. depth + rise*to > 0) from = -depth/rise
+         if (depth + rise*to < 0 .and. depth + rise*from > 0) to = -depth/rise
+         do k = 1, points
+            z = 0.5_wp*(from + to + place(k)*(to - from))
+            if (.not. depth + rise*z > 0) cycle
+            force = 0.25_wp*(bounds(2) - bounds(1))*(to - from)*weight(i)*weight(k)*gap%pad_radius()*self%pressure &
+               & *(depth + rise*z)**exponent
+            falling = exponent*force/((depth + rise*z)*self%roughness)
+            m = [outward, z*outward]
+            normal = normal + force
+            pushed = pushed + force*m
+            slope = slope + falling*m
+            do l = 1, 4
+               slopes(:, l) = slopes(:, l) + (falling*m(l))*m
+            end do
+         end do
+      end do
+   end subroutine add_area
+
+   !> Sets where the film is to be taken: as without slopes at either end of the pad, where it is thinnest.
+   pure subroutine set_sloped_film(self, gap, directions, motion, ends, load)
+      class(asperity_contact_type), intent(in) :: self
+      type(pad_gap_type), intent(in) :: gap
+      type(pad_directions), intent(in) :: directions
+      type(sloped_motion), intent(in) :: motion
+      !> Least film thickness there, m.
+      real(wp), intent(in) :: ends(2)
+      type(sloped_asperity_load), intent(inout) :: load
+      type(asperity_load) :: at(2)
+      type(film_motion) :: there
+      integer :: side
+      associate (length => gap%axial_length)
+         do side = 1, 2
+            there = motion%at((side - 1.5_wp)*length)
+            at(side)%thickness = ends(side)
+            call set_film(self, gap, directions, there%position, at(side))
+         end do
+         load%film_motion%middle%position = 0.5_wp*(at(1)%film_position + at(2)%film_position)
+         load%film_motion%slope = (at(2)%film_position - at(1)%film_position)/length
+         associate (mean => 0.5_wp*(at(1)%film_slopes + at(2)%film_slopes), &
+            & rise => at(2)%film_slopes - at(1)%film_slopes)
+            load%film_slopes_4(:2, :2) = mean
+            load%film_slopes_4(:2, 3:) = 0.25_wp*length*rise
+            load%film_slopes_4(3:, :2) = rise/length
+            load%film_slopes_4(3:, 3:) = mean
+         end associate
+      end associate
+   end subroutine set_sloped_film
 
    !> Normal force, N.
    pure real(wp) function carried(self)

@@ -7,10 +7,13 @@ module bearing_losses
    use turbulent_film, only: turbulent_film_type
    use pad_gap, only: pad_gap_type
    use film_losses, only: film_losses_type, film_loss
-   use asperity_contact, only: asperity_load
+   use sloped_gap, only: sloped_motion
+   use sloped_film, only: sloped_film_type
+   use asperity_contact, only: asperity_load, sloped_asperity_load
    use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state
    use kinematics, only: frame_of, motion_of
+   use sloped_pad, only: sloped_motion_of
    use tilting_pad, only: tilting_pad_type
    use tilting_pad_bearing, only: tilting_pad_bearing_type
    use factories, only: new_losses
@@ -46,6 +49,8 @@ module bearing_losses
    type :: bearing_losses_type
       private
       type(film_losses_type), allocatable :: films(:)
+      !> Where slopes count.
+      type(sloped_film_type), allocatable :: sloped
    contains
       procedure :: find
    end type bearing_losses_type
@@ -90,10 +95,14 @@ contains
       call bearing%laws_with(oil, speed, laws)
       do i = 1, size(pads)
          associate (pad => bearing%pads(i))
-            motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
-            call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
-            if (asperity%touches) motion%position = asperity%film_position
-            call self%films(i)%find(motion, laws(i), speed, film)
+            if (allocated(bearing%sloped)) then
+               call find_sloped(self, bearing, i, journal, pads(i), laws(i), speed, motion, asperity, film)
+            else
+               motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
+               call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
+               if (asperity%touches) motion%position = asperity%film_position
+               call self%films(i)%find(motion, laws(i), speed, film)
+            end if
             losses(i) = of_pad(pad, speed, film, asperity)
             losses(i)%mean_film_thickness = pad%gap%mean_film_thickness(motion, pad%directions)
             select type (laws)
@@ -103,6 +112,35 @@ contains
          end associate
       end do
    end subroutine find
+
+   !> The loss of a film with slopes, the motion in the middle plane at which it is taken, and the asperities.
+   subroutine find_sloped(self, bearing, i, journal, state, law, speed, motion, asperity, film)
+      class(bearing_losses_type), intent(inout) :: self
+      type(tilting_pad_bearing_type), intent(in) :: bearing
+      integer, intent(in) :: i
+      type(journal_motion), intent(in) :: journal
+      type(pad_state), intent(in) :: state
+      class(film_law_type), intent(in) :: law
+      real(wp), intent(in) :: speed
+      type(film_motion), intent(out) :: motion
+      type(asperity_load), intent(out) :: asperity
+      type(film_loss), intent(out) :: film
+      type(sloped_motion) :: sloped
+      type(sloped_asperity_load) :: touching
+      associate (pad => bearing%pads(i))
+         sloped = sloped_motion_of(pad, frame_of(pad%position, journal, state), journal, bearing%sloped%journal, state)
+         call bearing%asperities%evaluate_sloped(pad%gap, pad%directions, sloped, speed, touching)
+      end associate
+      if (touching%touches) sloped = touching%film_motion
+      if (.not. allocated(self%sloped)) then
+         self%sloped = bearing%sloped%film
+         ! the losses are those of the case's own condition
+         call self%sloped%set_cavitation(.true.)
+      end if
+      call self%sloped%find_loss(i, sloped, law, speed, film)
+      motion = sloped%middle
+      asperity = touching%asperity_load
+   end subroutine find_sloped
 
    !> How turbulent a film is, at points of its arc.
    pure subroutine find_turbulence(law, gap, motion, loss)

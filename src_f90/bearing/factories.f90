@@ -8,6 +8,7 @@ module factories
    use film_solver, only: film_solver_type, cavitation_none, cavitation_gumbel, cavitation_reynolds
    use fourier_film, only: new_fourier_film
    use film_resolution, only: enough_cells, enough_modes, usual_error
+   use sloped_film, only: sloped_film_type, new_sloped_film
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: new_table_film
    use film_losses, only: film_losses_type, new_film_losses
@@ -24,8 +25,9 @@ module factories
    use tilting_pad, only: tilting_pad_type
    implicit none (type, external)
    private
-   public :: make_film, make_laws, law_changes, usual_arc, march_films, static_films, converged_films, quick_films, &
-      & filled_films, of_march, new_losses, make_law, make_friction, new_asperities, new_pads, pad_pivot, make_contacts
+   public :: make_film, make_sloped_film, make_laws, law_changes, usual_arc, march_films, static_films, &
+      & converged_films, quick_films, filled_films, of_march, new_losses, make_law, make_friction, new_asperities, &
+      & new_pads, pad_pivot, make_contacts
 
    !> What films are for: a march; the search for an equilibrium, which goes far and stays nowhere; what is linearised
    !> at a single state, with converged films; long ways of which only the end counts; a few states of a march, with
@@ -120,6 +122,16 @@ contains
          end select
       end associate
    end subroutine make_film
+
+   !> The films of all pads where slopes of the journal count.
+   subroutine make_sloped_film(bearing, accuracy, film)
+      type(bearing_type), intent(in) :: bearing
+      !> One of the five above.
+      integer, intent(in) :: accuracy
+      type(sloped_film_type), intent(out) :: film
+      film = new_sloped_film(new_gaps(bearing), cavitation_of(bearing%film%cavitation), &
+         & closely=any(accuracy == [static_films, converged_films]))
+   end subroutine make_sloped_film
 
    !> The laws of the films of this number of pads, unless they are these already.
    subroutine make_laws(film, pads, laws)
@@ -300,6 +312,9 @@ contains
             pad%weight = p%mass(i)*gravity
             pad%centre_tangential = p%centre_tangential(i)
             pad%centre_radial = p%centre_radial(i)
+            pad%inertia_pitch = p%inertia_pitch(i)
+            pad%inertia_yaw = p%inertia_yaw(i)
+            pad%axial_offset = p%pivot_axial_offset(i)
             pad%rotational_stiffness = v%rotational_stiffness(i)
          end associate
       end do

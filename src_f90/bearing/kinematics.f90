@@ -7,7 +7,7 @@ module kinematics
    use state_layout, only: pad_state, tilt, pivot_deflection, most_coordinates, of_journal
    implicit none (type, external)
    private
-   public :: pad_position, pad_frame, frame_of, motion_of, motion_slopes, to_global, in_mirror
+   public :: pad_position, pad_frame, frame_of, motion_of, journal_slopes, motion_slopes, to_global, in_mirror
 
    !> Where a pad sits in the bearing.
    type :: pad_position

@@ -4,13 +4,14 @@
 module tilting_pad
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
+   use linear_algebra, only: identity, solve_few
    use text, only: filled
    use film_solver, only: film_motion, film_response, film_ok, film_closed, film_not_converged, film_not_resolved
    use pad_gap, only: pad_gap_type, pad_directions
    use asperity_contact, only: asperity_load
    use contact_table, only: contact_table_type
    use friction, only: friction_law, friction_response
-   use state_layout, only: pad_state, tilt, pivot_deflection, most_coordinates, of_journal
+   use state_layout, only: pad_state, tilt, pivot_deflection, pitch, yaw, most_coordinates, most_rotations, of_journal
    use kinematics, only: pad_position, pad_frame, motion_slopes, to_global
    implicit none (type, external)
    private
@@ -30,6 +31,9 @@ module tilting_pad
       real(wp) :: largest_tilt
       !> Mass; moment of inertia about the pivot; weight; centre of gravity from the pivot.
       real(wp) :: mass = 0, inertia = 0, weight = 0, centre_tangential = 0, centre_radial = 0
+      !> Moments of inertia of pitch and yaw about the pivot, and how far this stands from the middle plane along the
+      !> shaft, m: as far the other way from the pivot the centre of gravity lies.
+      real(wp) :: inertia_pitch = 0, inertia_yaw = 0, axial_offset = 0
       !> R1 of the pivot; its moment against the tilt over the tilt, N m/rad.
       real(wp) :: ball_radius, rotational_stiffness = 0
    contains
@@ -53,12 +57,16 @@ module tilting_pad
       type(coordinate_type) :: words(most_coordinates)
       !> Which coordinate is the pivot deflection; 0: the pivots are rigid.
       integer :: deflection = 0
+      !> Which coordinates turn the pad in its pivot, the tilt first.
+      integer :: rotations = 0, rotation(most_rotations) = 0
    contains
       procedure :: add
       procedure :: length
       procedure :: loads
       procedure :: derivatives
       procedure :: masses
+      procedure :: per_mass
+      procedure :: bristle_series
    end type pad_coordinates_type
 
    !> Loads of one pad at one instant.
@@ -93,31 +101,53 @@ contains
    pure type(pad_coordinates_type) function new_pad_coordinates(motion) result(coordinates)
       character(len=*), intent(in) :: motion
       if (motion == 'fixed') return
-      call coordinates%add(tilt, coordinate_type('tilt', 'pad_tilt', 'rad', 'pad tilt'))
-      if (motion == 'tilting_radial') call coordinates%add(pivot_deflection, &
+      call coordinates%add(tilt, coordinate_type('tilt', 'pad_tilt', 'rad', 'pad tilt'), turns=.true.)
+      if (index(motion, 'radial') > 0) call coordinates%add(pivot_deflection, &
          & coordinate_type('pivot_deflection', 'pivot_deflection', 'm', 'pivot deflection'))
+      if (index(motion, 'pitch') > 0) call coordinates%add(pitch, coordinate_type('pitch', 'pad_pitch', 'rad', &
+         & 'pad pitch'), turns=.true.)
+      if (index(motion, 'yaw') > 0) call coordinates%add(yaw, coordinate_type('yaw', 'pad_yaw', 'rad', 'pad yaw'), &
+         & turns=.true.)
    end function new_pad_coordinates
 
    !> Adds a coordinate behind the others.
-   pure subroutine add(self, kind, words)
+   pure subroutine add(self, kind, words, turns)
       class(pad_coordinates_type), intent(inout) :: self
       !> Its place in pad_state.
       integer, intent(in) :: kind
       type(coordinate_type), intent(in) :: words
+      !> Whether it turns the pad in its pivot; left out: no.
+      logical, intent(in), optional :: turns
       self%n = self%n + 1
       self%kind(self%n) = kind
       self%words(self%n) = words
       if (kind == pivot_deflection) self%deflection = self%n
+      if (.not. present(turns)) return
+      self%rotations = self%rotations + 1
+      self%rotation(self%rotations) = self%n
    end subroutine add
 
+   !> The name of the series of the bristles of a rotation.
+   pure function bristle_series(self, rotation) result(name)
+      class(pad_coordinates_type), intent(in) :: self
+      integer, intent(in) :: rotation
+      character(len=:), allocatable :: name
+      name = 'bristle_deflection'
+      if (rotation > 1) name = name//'_'//trim(self%words(self%rotation(rotation))%name)
+   end function bristle_series
+
    !> What stands for a unit of a coordinate of a pad, m: for 1 rad of its tilt the distance from the pivot to the
-   !> centre of its arc.
+   !> centre of its arc, of its pitch or yaw half its length.
    pure real(wp) function length(self, pad, coordinate)
       class(pad_coordinates_type), intent(in) :: self
       type(tilting_pad_type), intent(in) :: pad
       integer, intent(in) :: coordinate
       length = 1
-      if (self%kind(coordinate) == tilt) length = pad%position%centre_distance
+      if (self%kind(coordinate) == tilt) then
+         length = pad%position%centre_distance
+      else if (any(self%rotation == coordinate)) then
+         length = 0.5_wp*pad%gap%axial_length
+      end if
    end function length
 
    !> True where a pad stands and its film has a force.
@@ -181,7 +211,7 @@ contains
       else
          answer%contact = max(0.0_wp, radial)
       end if
-      call friction%evaluate(pad%ball_radius*state%v(tilt), state%bristle, answer%contact, answer%friction)
+      call friction%evaluate(pad%ball_radius*state%v(tilt), state%bristle(1), answer%contact, answer%friction)
       moment = -force(1)*pad%position%centre_distance - pad%ball_radius*answer%friction%force &
          & - pad%weight*(pad%centre_tangential*frame%s - pad%centre_radial*frame%c)
       if (asperities%touches) moment = moment + asperities%moment
@@ -298,14 +328,32 @@ contains
       end subroutine add
    end subroutine add_friction
 
-   !> The mass matrix of the coordinates, eqs (3)-(4): moment and force per rate of tilt rate and pivot deflection rate.
+   !> The mass matrix of the coordinates, eqs (3)-(4): moment and force per rate of tilt rate and pivot deflection rate,
+   !> of pitch rate and yaw rate. The product of inertia of pitch and yaw is that of the centre of gravity.
    pure function masses(self, pad)
       class(pad_coordinates_type), intent(in) :: self
       type(tilting_pad_type), intent(in) :: pad
       real(wp) :: masses(self%n, self%n)
-      real(wp) :: both(pivot_deflection, pivot_deflection), coupling
-      coupling = pad%mass*pad%centre_tangential
-      both = reshape([pad%inertia, coupling, coupling, pad%mass], [2, 2])
-      masses = both(self%kind(:self%n), self%kind(:self%n))
+      real(wp) :: all(most_coordinates, most_coordinates)
+      associate (m => pad%mass, c_t => pad%centre_tangential, c_r => pad%centre_radial, s => pad%axial_offset)
+         all(:, tilt) = [pad%inertia, m*c_t, -m*s*c_t, m*s*c_r]
+         all(:, pivot_deflection) = [m*c_t, m, -m*s, 0.0_wp]
+         all(:, pitch) = [-m*s*c_t, -m*s, pad%inertia_pitch, m*c_t*c_r]
+         all(:, yaw) = [m*s*c_r, 0.0_wp, m*c_t*c_r, pad%inertia_yaw]
+      end associate
+      masses = all(self%kind(:self%n), self%kind(:self%n))
    end function masses
+
+   !> Its inverse, 0 of what is no coordinate.
+   function per_mass(self, pad)
+      class(pad_coordinates_type), intent(in) :: self
+      type(tilting_pad_type), intent(in) :: pad
+      real(wp) :: per_mass(most_coordinates, most_coordinates), one(self%n, self%n)
+      integer :: k
+      per_mass = 0
+      one = identity(self%n)
+      do k = 1, self%n
+         per_mass(:self%n, k) = solve_few(self%masses(pad), one(:, k))
+      end do
+   end function per_mass
 end module tilting_pad

@@ -3,87 +3,45 @@
 module tilting_pad_bearing
    use kinds, only: wp, i8, degree
    use clock, only: wall_clock
-   use linear_algebra, only: identity, solve_few
-   use text, only: to_text
    use case_inputs, only: case_type
-   use film_solver, only: film_solver_type, film_motion, film_oil, film_law_type, film_response, film_not_converged
+   use film_solver, only: film_solver_type, film_oil, film_law_type
    use turbulent_film, only: take_oil
-   use asperity_contact, only: asperity_contact_type, asperity_load
-   use friction, only: friction_law
+   use asperity_contact, only: asperity_load
+   use friction, only: no_friction
    use rigid_rotor, only: journal_motion
-   use state_layout, only: pad_state, element_layout_type, new_element_layout, tilt, pivot_deflection, of_journal, &
-      & most_coordinates
-   use abstract_element, only: element_type
+   use state_layout, only: pad_state, element_layout_type, new_element_layout, tilt, pivot_deflection, pitch, yaw, &
+      & of_journal, most_coordinates
    use kinematics, only: pad_frame, frame_of, motion_of
-   use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads, pad_derivatives
-   use factories, only: make_film, make_laws, law_changes, new_asperities, new_pads, march_films, static_films, &
-      & of_march, pad_pivot, make_contacts, make_friction
+   use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads
+   use factories, only: make_film, make_laws, law_changes, new_asperities, new_pads, static_films, of_march, &
+      & make_contacts, make_friction
+   use bearing_construction, only: constructed_bearing, pad_sample, sloped_sample
+   use sloped_bearing, only: make_sloped, sloped_films, sloped_loads, add_late_turning, find_turning_bristles, &
+      & sloped_output, take_sloped_samples
    implicit none (type, external)
    private
-   public :: tilting_pad_bearing_type, pad_sample, new_tilting_pad_bearing, pad_outputs
+   public :: tilting_pad_bearing_type, pad_sample, sloped_sample, new_tilting_pad_bearing
 
-   !> Outputs of a pad: film force on the journal in its frame, N, maximum pressure, Pa.
-   integer, parameter :: pad_outputs = 3
+   !> Outputs of a pad: film force on the journal in its frame, N, maximum pressure, Pa; where slopes count also its
+   !> moment, N m, and where the pressure is highest, rad and m.
+   integer, parameter :: pad_outputs = 3, sloped_outputs = 7
 
-   !> What is sampled of a pad beside its state.
-   type :: pad_sample
-      !> N; N m; film force on the journal in the pad frame, N.
-      real(wp) :: pivot_load = 0, friction_moment = 0, film_force(2) = 0
-      !> m; Pa.
-      real(wp) :: min_film_thickness = 0, max_pressure = 0
-      !> Normal force between the asperities of pad and journal, N.
-      real(wp) :: asperity_force = 0
-   end type pad_sample
-
-   type, extends(element_type) :: tilting_pad_bearing_type
-      type(tilting_pad_type), allocatable :: pads(:)
-      !> What its pads do.
-      class(pad_coordinates_type), allocatable :: coordinates
-      type(pad_pivot), allocatable :: pivots(:)
-      !> Of each pad the inverse of its matrix of masses, (coordinate, coordinate, pad); 0 of what is no coordinate.
-      real(wp), allocatable, private :: per_mass(:, :, :)
-      !> Of each pad the characteristic scales of its states that hang on no load.
-      type(pad_state), allocatable, private :: natural(:)
-      type(asperity_contact_type) :: asperities
-      class(film_solver_type), allocatable :: film
-      !> The loads of each pad in the state evaluated last; their derivatives where they were taken last.
-      type(pad_loads), allocatable :: loads(:)
-      type(pad_derivatives), allocatable :: derivatives(:)
-      !> Contact of each pad with the journal in the state evaluated last.
-      type(asperity_load), allocatable :: asperity(:)
-      !> False: the pivots slide freely, whatever the law.
-      logical :: rubs = .true.
-      !> Bearing clearance, m.
-      real(wp) :: clearance = 0
-      !> What its films are for (factories).
-      integer :: accuracy = march_films
-      !> Of the oil, kg/m^3.
-      real(wp) :: density = 0
-      !> Of the state evaluated last: speed, rad/s, and laws of the films; frames and motions.
-      real(wp), private :: speed = 0
-      class(film_law_type), allocatable, private :: laws(:)
-      type(pad_frame), allocatable, private :: frame(:)
-      type(film_motion), allocatable, private :: motion(:)
-      !> Motions at which the films are taken: those of the journal, but where it touches a pad.
-      type(film_motion), allocatable, private :: film_motion(:)
-      type(film_response), allocatable, private :: response(:)
-      integer(i8), private :: evaluations = 0
+   type, extends(constructed_bearing) :: tilting_pad_bearing_type
    contains
       procedure :: adopt
       procedure :: laws_with
       procedure :: set_coordinates
+      procedure :: set_cavitation
+      procedure :: least_outputs
       procedure :: layout
       procedure :: evaluate
       procedure :: add_force
       procedure :: part_derivatives
       procedure :: add_late
       procedure :: bristle_slopes
+      procedure :: find_bristles
       procedure :: own_force
       procedure :: add_rates
-      procedure :: part_masses
-      procedure :: length
-      procedure :: clearance_of
-      procedure :: position_name
       procedure :: scales
       procedure :: reference_force
       procedure :: switching_rates
@@ -92,16 +50,11 @@ module tilting_pad_bearing
       procedure :: sampled
       procedure :: take_samples
       procedure :: pressure_field
-      procedure :: warning
-      procedure :: films_converge
       procedure :: use_in_statics
    end type tilting_pad_bearing_type
 
    !> One of this number of film evaluations is timed.
    integer(i8), parameter :: timing_stride = 16
-   !> Film thickness over bearing clearance below which a failed march is put down to it.
-   real(wp), parameter :: nearly_closed = 1e-2_wp
-   type(friction_law), parameter :: no_friction = friction_law()
    !> Characteristic scale of the tilt rate over that at which Bengisu-Akay friction changes its direction: with a
    !> larger one the moment of friction would be no better than 1e-2.
    real(wp), parameter :: sticking_scale = 10
@@ -123,6 +76,7 @@ contains
          if (present(accuracy)) bearing%accuracy = accuracy
          call make_film(given, inputs%integration%relative_tolerance, bearing%accuracy, bearing%film, &
             & law_changes(inputs, given))
+         call make_sloped(bearing, inputs, b, anew=.true.)
          call make_contacts(given%pivot, inputs%moves(), bearing%pivots)
          allocate (bearing%loads(n), bearing%derivatives(n), bearing%frame(n), bearing%motion(n), &
             & bearing%asperity(n), bearing%film_motion(n), bearing%response(n))
@@ -143,12 +97,13 @@ contains
          if (.not. allocated(self%natural)) allocate (self%natural(size(self%pads)))
          do i = 1, size(self%pivots)
             call make_friction(given%friction, i, self%pivots(i)%friction)
-            ! clearance over pad length for tilts; a thousandth of the clearance for pivot deflections without load; the
-            ! deflection at which bristles yield
+            ! clearance over pad length for tilts, over half its width for pitch and yaw; a thousandth of the clearance
+            ! for pivot deflections without load; the deflection at which bristles yield
             self%natural(i)%x = self%clearance
             self%natural(i)%x(tilt) = given%assembled_clearance(i)/((given%journal_radius &
                & + given%machined_clearance(i))*given%pads%arc_deg(i)*degree)
             self%natural(i)%x(pivot_deflection) = 1e-3_wp*given%assembled_clearance(i)
+            self%natural(i)%x([pitch, yaw]) = given%assembled_clearance(i)/(0.5_wp*given%axial_length(i))
             self%natural(i)%bristle = self%pivots(i)%friction%static_coefficient/given%friction%bristle_stiffness
          end do
          self%asperities = new_asperities(given%asperity, inputs%highest_speed()*given%journal_radius)
@@ -172,24 +127,32 @@ contains
 
    subroutine set_masses(self)
       class(tilting_pad_bearing_type), intent(inout) :: self
-      real(wp), allocatable :: one(:, :)
-      integer :: i, k
+      integer :: i
       if (allocated(self%per_mass)) deallocate (self%per_mass)
-      allocate (self%per_mass(most_coordinates, most_coordinates, size(self%pads)), source=0.0_wp)
+      allocate (self%per_mass(most_coordinates, most_coordinates, size(self%pads)))
       do i = 1, size(self%pads)
-         associate (n => self%coordinates%n, masses => self%coordinates%masses(self%pads(i)))
-            one = identity(n)
-            do k = 1, n
-               self%per_mass(:n, k, i) = solve_few(masses, one(:, k))
-            end do
-         end associate
+         self%per_mass(:, :, i) = self%coordinates%per_mass(self%pads(i))
       end do
    end subroutine set_masses
+
+   !> Lets its films cavitate as its case has them, or keeps them whole.
+   subroutine set_cavitation(self, allowed)
+      class(tilting_pad_bearing_type), intent(inout) :: self
+      logical, intent(in) :: allowed
+      call self%film%set_cavitation(allowed)
+      if (allocated(self%sloped)) call self%sloped%film%set_cavitation(allowed)
+   end subroutine set_cavitation
+
+   !> Outputs of a pad that it has at least.
+   pure integer function least_outputs(self)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      least_outputs = merge(sloped_outputs, pad_outputs, allocated(self%sloped))
+   end function least_outputs
 
    pure type(element_layout_type) function layout(self)
       class(tilting_pad_bearing_type), intent(in) :: self
       layout = new_element_layout(size(self%pads), self%coordinates%kind(:self%coordinates%n), &
-         & self%pivots(1)%friction%has_bristle)
+         & self%pivots(1)%friction%has_bristle, self%coordinates%rotation(:self%coordinates%rotations))
    end function layout
 
    !> Makes the bearing that of another case, with the same pads but for numbers. Films and contact, which take time to
@@ -203,7 +166,12 @@ contains
       before = self%pads
       call set_parts(self, inputs, b)
       if (anew) call self%film%forget()
-      if (any(before%gap%differs(self%pads%gap))) call make_films_anew(self, inputs, b)
+      if (anew .and. allocated(self%sloped)) call self%sloped%film%forget()
+      if (any(before%gap%differs(self%pads%gap))) then
+         call make_films_anew(self, inputs, b)
+      else
+         call make_sloped(self, inputs, b, anew=.false.)
+      end if
       if (pivots_differ) call make_contacts(inputs%bearings(b)%pivot, inputs%moves(), self%pivots)
    end subroutine adopt
 
@@ -238,6 +206,7 @@ contains
       film%counters = self%film%counters
       call film%set_cavitation(self%film%cavitates())
       call move_alloc(film, self%film)
+      call make_sloped(self, inputs, b, anew=.true.)
    end subroutine make_films_anew
 
    !> Sets the loads in a state, with the oil of each pad, the speed in rad/s, and their derivatives where they are
@@ -258,16 +227,22 @@ contains
       integer :: i
       skipped = .false.
       if (present(chosen)) skipped = .not. chosen
-      do i = 1, size(self%pads)
-         if (skipped(i)) cycle
-         self%frame(i) = frame_of(self%pads(i)%position, journal, pads(i))
-         self%motion(i) = motion_of(self%pads(i)%position, self%frame(i), journal, pads(i))
-         call self%asperities%evaluate(self%pads(i)%gap, self%pads(i)%directions, self%motion(i), speed, &
-            & self%asperity(i))
-         self%film_motion(i) = self%motion(i)
-         if (self%asperity(i)%touches) self%film_motion(i)%position = self%asperity(i)%film_position
-      end do
-      call evaluate_films(self, oil, speed, want_derivatives, chosen)
+      if (allocated(self%sloped)) then
+         self%speed = speed
+         call take_oil(self%laws, oil, self%pads%gap, self%density, speed*self%pads(1)%gap%journal_radius)
+         call sloped_films(self, journal, pads, speed, want_derivatives, skipped)
+      else
+         do i = 1, size(self%pads)
+            if (skipped(i)) cycle
+            self%frame(i) = frame_of(self%pads(i)%position, journal, pads(i))
+            self%motion(i) = motion_of(self%pads(i)%position, self%frame(i), journal, pads(i))
+            call self%asperities%evaluate(self%pads(i)%gap, self%pads(i)%directions, self%motion(i), speed, &
+               & self%asperity(i))
+            self%film_motion(i) = self%motion(i)
+            if (self%asperity(i)%touches) self%film_motion(i)%position = self%asperity(i)%film_position
+         end do
+         call evaluate_films(self, oil, speed, want_derivatives, chosen)
+      end if
       ok = .true.
       do i = 1, size(self%pads)
          if (skipped(i)) cycle
@@ -278,12 +253,15 @@ contains
       end do
       do i = 1, size(self%pads)
          if (skipped(i)) cycle
+         if (allocated(self%sloped)) then
+            call sloped_loads(self, i, journal, pads(i), want_derivatives)
+            cycle
+         end if
          call set_loads(self, i, self%frame(i), pads(i), self%response(i)%force, self%asperity(i), self%loads(i))
          if (want_derivatives) call self%coordinates%derivatives(self%pads(i), self%frame(i), self%motion(i), pads(i), &
             & self%response(i), self%asperity(i), self%loads(i), self%derivatives(i))
       end do
    end subroutine evaluate
-
    !> The films at the motions set; some evaluations are timed, for all.
    subroutine evaluate_films(self, oil, speed, want_derivatives, chosen)
       class(tilting_pad_bearing_type), intent(inout) :: self
@@ -389,6 +367,11 @@ contains
          over_bristle = 0
          return
       end if
+      if (self%coordinates%rotations > 1) then
+         over_bristle = 0
+         call add_late_turning(self, part, m, accelerations, over_positions, over_rates)
+         return
+      end if
       per_moment = 0
       per_moment(tilt) = 1
       if (accelerations) per_moment = self%per_mass(:, tilt, part)
@@ -404,6 +387,14 @@ contains
          slopes = [friction%rate_velocity, friction%rate_deflection, self%pads(part)%ball_radius]
       end associate
    end function bristle_slopes
+
+   pure subroutine find_bristles(self, part, m, accelerations, over_bristle, of_rates, of_bristle)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      integer, intent(in) :: part, m
+      logical, intent(in) :: accelerations
+      real(wp), intent(out) :: over_bristle(:, :), of_rates(:, :), of_bristle
+      call find_turning_bristles(self, part, m, accelerations, over_bristle, of_rates, of_bristle)
+   end subroutine find_bristles
 
    pure real(wp) function own_force(self, part, coordinate)
       class(tilting_pad_bearing_type), intent(in) :: self
@@ -425,39 +416,14 @@ contains
             dydt(o + 2*k - 1) = y(o + 2*k)
             dydt(o + 2*k) = accelerations(k)
          end do
-         if (layout%bristles) dydt(o + layout%per_pad) = self%loads(i)%friction%rate
+         if (.not. layout%bristles) cycle
+         dydt(o + 2*layout%coordinates + 1) = self%loads(i)%friction%rate
+         if (layout%rotations > 1) dydt(o + 2*layout%coordinates + 1:o + layout%per_pad) &
+            & = self%sloped%friction(i)%rate(:layout%rotations)
       end do
    end subroutine add_rates
 
-   pure subroutine part_masses(self, part, n, masses)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      integer, intent(in) :: part, n
-      real(wp), intent(out) :: masses(n, n)
-      masses = self%coordinates%masses(self%pads(part))
-   end subroutine part_masses
-
-   pure real(wp) function length(self, part, coordinate)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      integer, intent(in) :: part, coordinate
-      length = self%coordinates%length(self%pads(part), coordinate)
-   end function length
-
-   !> Of a pivot deflection the bearing clearance: that under the load is no limit.
-   pure real(wp) function clearance_of(self, coordinate, scale)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      integer, intent(in) :: coordinate
-      real(wp), intent(in) :: scale
-      clearance_of = merge(self%clearance, scale, self%coordinates%kind(coordinate) == pivot_deflection)
-   end function clearance_of
-
-   pure function position_name(self, coordinate) result(name)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      integer, intent(in) :: coordinate
-      character(len=:), allocatable :: name
-      name = trim(self%coordinates%words(coordinate)%name)
-   end function position_name
-
-   !> Rates: times the speed, but the tilt rate not above ten times that at which friction changes its direction.
+   !> Rates: times the speed, but those of rotations not above ten times that at which friction changes its direction.
    pure function scales(self, parts, force, speed)
       class(tilting_pad_bearing_type), intent(in) :: self
       integer, intent(in) :: parts
@@ -469,8 +435,10 @@ contains
          if (force > 0) scales(i)%x(pivot_deflection) = max(scales(i)%x(pivot_deflection), &
             & self%pivots(i)%contact%law%pivot_deflection(force))
          scales(i)%v = scales(i)%x*speed
-         scales(i)%v(tilt) = min(scales(i)%v(tilt), sticking_scale*self%pivots(i)%friction%sticking_velocity &
-            & /self%pads(i)%ball_radius)
+         associate (turns => self%coordinates%kind(self%coordinates%rotation(:self%coordinates%rotations)))
+            scales(i)%v(turns) = min(scales(i)%v(turns), sticking_scale*self%pivots(i)%friction%sticking_velocity &
+               & /self%pads(i)%ball_radius)
+         end associate
       end do
    end function scales
 
@@ -502,9 +470,16 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(element_layout_type), intent(in) :: layout
       real(wp), intent(in) :: correction(:)
-      real(wp) :: output(pad_outputs*size(self%pads))
+      real(wp) :: output(self%outputs*size(self%pads))
       real(wp) :: added(2)
       integer :: i, k, o
+      if (self%outputs > pad_outputs) output = 0
+      if (allocated(self%sloped)) then
+         do i = 1, size(self%pads)
+            output(self%outputs*(i - 1) + 1:self%outputs*i) = sloped_output(self, i, layout, correction)
+         end do
+         return
+      end if
       call self%film%take_pressures(self%film_motion, self%laws, self%speed, self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), over_positions => self%derivatives(i)%film_over_positions, &
@@ -519,13 +494,14 @@ contains
                added = added + over_positions(:, of_journal + k)*correction(o + 2*k - 1) &
                   & + over_rates(:, of_journal + k)*correction(o + 2*k)
             end do
-            output(pad_outputs*(i - 1) + 1:pad_outputs*i) = [film%force + added, film%max_pressure]
+            o = self%outputs*(i - 1)
+            output(o + 1:o + pad_outputs) = [film%force + added, film%max_pressure]
          end associate
       end do
    end function output
 
    !> The samples of all pads in a state whose outputs are known: without the film solver.
-   pure subroutine take_samples(self, journal, pads, speed, output, samples)
+   pure subroutine take_samples(self, journal, pads, speed, output, samples, slopes)
       class(tilting_pad_bearing_type), intent(in) :: self
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pads(:)
@@ -533,13 +509,24 @@ contains
       real(wp), intent(in) :: speed
       real(wp), intent(in) :: output(:)
       type(pad_sample), intent(inout) :: samples(:)
+      !> Only where slopes count.
+      type(sloped_sample), intent(inout), optional :: slopes(:)
       type(pad_frame) :: frame
       type(asperity_load) :: asperity
       type(pad_loads) :: loads
       integer :: i
+      if (allocated(self%sloped)) then
+         do i = 1, size(pads)
+            associate (film => output(self%outputs*(i - 1) + 1:self%outputs*i))
+               call take_sloped_samples(self, i, journal, pads(i), speed, film, samples(i), slopes(i))
+            end associate
+         end do
+         return
+      end if
       do i = 1, size(pads)
          frame = frame_of(self%pads(i)%position, journal, pads(i))
-         associate (film => output(pad_outputs*(i - 1) + 1:pad_outputs*i), pad => self%pads(i), gap => self%pads(i)%gap)
+         associate (film => output(self%outputs*(i - 1) + 1:self%outputs*i), pad => self%pads(i), &
+            & gap => self%pads(i)%gap)
             call self%asperities%evaluate(gap, pad%directions, motion_of(pad%position, frame, journal, pads(i)), &
                & speed, asperity)
             call set_loads(self, i, frame, pads(i), film(1:2), asperity, loads)
@@ -555,7 +542,8 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(pad_sample) :: sampled(size(self%pads))
       integer :: i
-      call self%film%take_pressures(self%film_motion, self%laws, self%speed, self%response)
+      if (.not. allocated(self%sloped)) call self%film%take_pressures(self%film_motion, self%laws, self%speed, &
+         & self%response)
       do i = 1, size(self%pads)
          associate (film => self%response(i), loads => self%loads(i))
             sampled(i) = pad_sample(loads%contact, self%pads(i)%ball_radius*loads%friction%force, film%force, &
@@ -570,31 +558,21 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       real(wp), intent(in) :: phi(:, :), z(:, :)
       real(wp), intent(out) :: pressure(:, :, :)
+      integer :: i
+      if (allocated(self%sloped)) then
+         do i = 1, size(self%pads)
+            call self%sloped%film%field_of_pad(i, self%sloped%film_motion(i), self%laws(i), self%speed, phi(:, i), &
+               & z(:, i), pressure(:, :, i))
+         end do
+         return
+      end if
       call self%film%field(self%film_motion, self%laws, self%speed, phi, z, pressure)
    end subroutine pressure_field
 
-   !> Names the pad whose film was nearly closed in the state evaluated last, if there is one; else empty.
-   function warning(self)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      character(len=:), allocatable :: warning
-      integer :: i
-      warning = ''
-      i = minloc(self%response%min_film_thickness, dim=1)
-      associate (thickness => self%response(i)%min_film_thickness)
-         if (thickness < nearly_closed*self%clearance) warning = 'the film of pad '//to_text(i) &
-            & //' is closing: thickness '//to_text(thickness)//' m'
-      end associate
-   end function warning
 
    !> True where no friction puts switching points into the motion.
    pure logical function is_smooth(self)
       class(tilting_pad_bearing_type), intent(in) :: self
       is_smooth = .not. self%rubs .or. same_type_as(self%pivots(1)%friction, no_friction)
    end function is_smooth
-
-   !> False where a film of the state evaluated last, solved by iteration, did not converge.
-   pure logical function films_converge(self)
-      class(tilting_pad_bearing_type), intent(in) :: self
-      films_converge = all(self%response%status /= film_not_converged)
-   end function films_converge
 end module tilting_pad_bearing

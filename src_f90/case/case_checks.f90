@@ -51,6 +51,7 @@ contains
             call check_laws(bearing)
             call check_start(bearing)
             call check_pads(bearing)
+            call check_slopes(bearing, inputs%thermal%model, inputs%has_slopes(b), error)
             call add_context(error, bearing%label())
          end associate
       end do
@@ -360,6 +361,71 @@ contains
             & //'there is no end', [x%start], error)
       end subroutine check_times
    end subroutine check_case
+
+   !> Pads that pitch and yaw, pivots off the middle plane, and a journal that is inclined.
+   subroutine check_slopes(bearing, heat, slopes_count, error)
+      type(bearing_type), intent(in) :: bearing
+      !> thermal%model
+      character(len=*), intent(in) :: heat
+      logical, intent(in) :: slopes_count
+      type(error_type), allocatable, intent(inout) :: error
+      character(len=:), allocatable :: what, with
+      real(wp) :: angle, closing, open
+      integer :: i
+      associate (p => bearing%pads, slope => bearing%slope)
+         if (.not. slopes_count .and. .not. any(is_set([p%inertia_pitch, p%inertia_yaw])) &
+            & .and. .not. any(abs(p%pivot_axial_offset) > 0)) return
+         with = '; pads%motion = '''//p%motion//''' has none'
+         do i = 1, bearing%pad_count()
+            call require(bearing%pitching() .or. .not. is_set(p%inertia_pitch(i)), 'pads%inertia_pitch = {}: is for ' &
+               & //'pads that pitch'//with, [p%inertia_pitch(i)], error)
+            call require(bearing%yawing() .or. .not. is_set(p%inertia_yaw(i)), 'pads%inertia_yaw = {}: is for pads ' &
+               & //'that yaw'//with, [p%inertia_yaw(i)], error)
+            call require(bearing%pitching() .or. .not. abs(p%pivot_axial_offset(i)) > 0, 'pads%pivot_axial_offset = ' &
+               & //'{}: is for pads that pitch'//with, [p%pivot_axial_offset(i)], error)
+            call require(abs(p%pivot_axial_offset(i)) < 0.5_wp*bearing%axial_length(i), 'pads%pivot_axial_offset = ' &
+               & //'{}: must be less than half of bearing%axial_length = {}'//in_metres, [real(wp) :: &
+               & p%pivot_axial_offset(i), bearing%axial_length(i), i], error)
+            if (bearing%pitching()) call require_inertia('pitch', p%inertia_pitch(i), p%centre_radial(i))
+            if (bearing%yawing()) call require_inertia('yaw', p%inertia_yaw(i), p%centre_tangential(i))
+            ! what no pad follows, where the journal is in the middle
+            angle = p%pivot_angle_deg(i)*degree
+            closing = 0.5_wp*bearing%axial_length(i)*abs(slope(1)*sin(angle) + slope(2)*cos(angle))
+            open = bearing%assembled_clearance(i)
+            if (bearing%pitching()) then
+               closing = 0.5_wp*bearing%axial_length(i)*abs(slope(1)*cos(angle) - slope(2)*sin(angle)) &
+                  & *sin(min(90.0_wp, p%arc_deg(i)*max(p%pivot_ratio(i), 1 - p%pivot_ratio(i)))*degree)
+               open = bearing%machined_clearance(i)
+            end if
+            call require(bearing%yawing() .or. closing < open, 'bearing%slope = {}, {}: closes the film of pad {} at ' &
+               & //'rest, {} m at its ends where there are {} m; pads%motion = ''tilting_pitch_yaw'' lets it follow', &
+               & [real(wp) :: slope, i, closing, open], error)
+         end do
+         if (.not. slopes_count) return
+         what = 'bearing%slope = '//list_text(slope)
+         if (.not. any(abs(slope) > 0)) what = 'coefficients%slopes = .true.'
+         if (bearing%pitching()) what = 'pads%motion = '''//p%motion//''''
+         call require(bearing%pivot%law /= 'rocker' .or. .not. bearing%pitching(), what//': is not for pivot%law = ' &
+            & //'''rocker'', on whose line a pad does not pitch; the other laws have balls', error)
+         call require(any(bearing%film%solver == ['auto  ', 'direct']), what//': is not for film%solver = ''' &
+            & //bearing%film%solver//''', which knows no slopes; ''auto'' does', error)
+         call require(heat /= 'film', what//': is not for thermal%model = ''film''; ''pad'' has a temperature for ' &
+            & //'each pad, even over its width', error)
+         call require(p%bending == 'none', what//': is not for pads%bending = '''//p%bending//'''; ''none'' is', error)
+      end associate
+
+   contains
+
+      !> That of the pad's mass in its centre of gravity is less.
+      subroutine require_inertia(name, inertia, distance)
+         character(len=*), intent(in) :: name
+         real(wp), intent(in) :: inertia, distance
+         real(wp) :: least
+         least = bearing%pads%mass(i)*(distance**2 + bearing%pads%pivot_axial_offset(i)**2)
+         call require(inertia > least, 'pads%inertia_'//name//' = {}: must exceed {}, that of its mass in the centre ' &
+            & //'of gravity (pad {})', [real(wp) :: inertia, least, i], error)
+      end subroutine require_inertia
+   end subroutine check_slopes
 
    !> What each kind needs, and what it has no use for.
    subroutine check_values(x, name, error)

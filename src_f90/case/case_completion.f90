@@ -29,6 +29,8 @@ module case_completion
       real(wp) :: centre_tangential = 0, centre_radial = 0
       !> Moment of inertia about the pivot over the mass, m^2.
       real(wp) :: squared_radius = 0
+      !> The part of it that lies along the pad, and not outward.
+      real(wp) :: along = 0
    end type annular_sector_type
 
 contains
@@ -50,6 +52,8 @@ contains
             pads%inertia(:) = unset
             pads%centre_tangential(:) = unset
             pads%centre_radial(:) = unset
+            pads%inertia_pitch(:) = unset
+            pads%inertia_yaw(:) = unset
          end associate
       end do
    end subroutine leave_out
@@ -210,6 +214,7 @@ contains
                call require_range('centre_tangential', p%centre_tangential(i), centre_range, error)
                call require_range('centre_radial', p%centre_radial(i), centre_range, error)
             end if
+            if (bearing%pitching()) call set_slope_inertias(bearing, i, error)
             p%density(i) = unset
             if (needs_thickness) then
                call fill(p%thickness(i), p%pivot_distance(i))
@@ -241,6 +246,29 @@ contains
          end do
       end subroutine complete_excitations
    end subroutine complete_case
+
+   !> Moments of inertia of the pitch and the yaw of a pad that are left out: its mass is spread evenly over its length,
+   !> and of its moment of inertia about the pivot as much lies along the pad as of that of an annular sector.
+   subroutine set_slope_inertias(bearing, i, error)
+      type(bearing_type), intent(inout) :: bearing
+      integer, intent(in) :: i
+      type(error_type), allocatable, intent(inout) :: error
+      type(annular_sector_type) :: sector
+      real(wp) :: thickness, axial, share
+      associate (p => bearing%pads)
+         thickness = merge(p%thickness(i), p%pivot_distance(i), is_set(p%thickness(i)))
+         sector = new_annular_sector(bearing%journal_radius + bearing%machined_clearance(i), thickness, &
+            & p%pivot_ratio(i)*p%arc_deg(i)*degree, (1 - p%pivot_ratio(i))*p%arc_deg(i)*degree, &
+            & bearing%axial_length(i), p%pivot_distance(i))
+         share = sector%along/sector%squared_radius
+         axial = p%mass(i)*(bearing%axial_length(i)**2/12 + p%pivot_axial_offset(i)**2)
+         call fill(p%inertia_pitch(i), axial + (1 - share)*p%inertia(i))
+         call require_range('inertia_pitch', p%inertia_pitch(i), inertia_range, error)
+         if (.not. bearing%yawing()) return
+         call fill(p%inertia_yaw(i), axial + share*p%inertia(i))
+         call require_range('inertia_yaw', p%inertia_yaw(i), inertia_range, error)
+      end associate
+   end subroutine set_slope_inertias
 
    !> Speeds of a lateral analysis.
    pure subroutine complete_lateral(elastic, speed_rpm)
@@ -293,6 +321,7 @@ contains
       sector%centre_tangential = radius*(cos(trailing) - cos(leading))/arc
       sector%centre_radial = outward - pivot
       sector%squared_radius = 0.5_wp*(bore**2 + back**2) + pivot*(pivot - 2*outward)
+      sector%along = 0.25_wp*(bore**2 + back**2)*(1 - (sin(2*leading) + sin(2*trailing))/(2*arc))
    end function new_annular_sector
 
    !> Finds the law where it is left out, checks its numbers, and gives the constant law the paper's viscosity.

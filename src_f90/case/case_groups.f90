@@ -57,8 +57,10 @@ module case_groups
    type :: pads_type
       real(wp), allocatable :: pivot_angle_deg(:), arc_deg(:), pivot_ratio(:), pivot_distance(:)
       real(wp), allocatable :: mass(:), inertia(:), centre_tangential(:), centre_radial(:)
-      !> What the four above follow from where they are left out; unset in a complete case. Fixed pads may leave out
-      !> all six: then they stay unset.
+      !> Moments of inertia of pads that pitch and yaw; how far the pivot stands from the middle along the shaft, m.
+      real(wp), allocatable :: inertia_pitch(:), inertia_yaw(:), pivot_axial_offset(:)
+      !> What mass, inertia and centre of gravity follow from where they are left out; unset in a complete case. Fixed
+      !> pads may leave out all six: then they stay unset.
       real(wp), allocatable :: density(:), thickness(:)
       !> W/(m K); it counts, with the thickness, where films have temperatures.
       real(wp), allocatable :: conductivity(:)
@@ -204,6 +206,8 @@ module case_groups
       real(wp) :: clearance_temperature = unset, shaft_expansion = 11e-6_wp, housing_expansion = 11e-6_wp
       real(wp) :: housing_temperature = unset
       real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
+      !> Of a rigid journal along y and z over the distance along the shaft, rad.
+      real(wp) :: slope(2) = 0
       type(oil_type) :: oil
       type(pads_type) :: pads
       type(pivot_type) :: pivot
@@ -216,6 +220,8 @@ module case_groups
       procedure :: changes_shape
       procedure :: tilting
       procedure :: tilting_radial
+      procedure :: pitching
+      procedure :: yawing
    end type bearing_type
 
    !> The paper's.
@@ -369,6 +375,9 @@ contains
          pads%inertia = [4.055e-4_wp, 4.055e-4_wp]
          pads%centre_tangential = [0.0_wp, 0.0_wp]
          pads%centre_radial = [-10.1e-3_wp, -10.1e-3_wp]
+         pads%inertia_pitch = [unset, unset]
+         pads%inertia_yaw = [unset, unset]
+         pads%pivot_axial_offset = [0.0_wp, 0.0_wp]
          pads%density = [unset, unset]
          pads%thickness = [unset, unset]
          pads%conductivity = [50.0_wp, 50.0_wp]
@@ -456,8 +465,19 @@ contains
 
    elemental logical function tilting_radial(self)
       class(bearing_type), intent(in) :: self
-      tilting_radial = self%pads%motion == 'tilting_radial'
+      tilting_radial = index(self%pads%motion, 'radial') > 0
    end function tilting_radial
+
+   !> Whether its pads follow a slope of the journal outward, and one along the pad.
+   elemental logical function pitching(self)
+      class(bearing_type), intent(in) :: self
+      pitching = index(self%pads%motion, 'pitch') > 0
+   end function pitching
+
+   elemental logical function yawing(self)
+      class(bearing_type), intent(in) :: self
+      yawing = index(self%pads%motion, 'yaw') > 0
+   end function yawing
 
    !> "bearing 'drive_end'", and what follows it; empty for one without name.
    pure function label(self, ending) result(text)

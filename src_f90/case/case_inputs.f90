@@ -36,6 +36,7 @@ module case_inputs
       procedure :: station_elements
       procedure :: dampers
       procedure :: element_labels
+      procedure :: has_slopes
       procedure :: moves
       procedure :: seeks_orbits
       procedure :: followed
@@ -105,6 +106,18 @@ contains
             & s%pivot_deflection_rate]) > 0)
       end associate
    end function is_disturbed
+
+   !> Whether slopes of the journal count in the films of bearing b: of pads that pitch, of a journal that is inclined
+   !> or comes to be on a branch, and where coefficients against them are asked for.
+   pure logical function has_slopes(self, b)
+      class(case_type), intent(in) :: self
+      integer, intent(in) :: b
+      associate (bearing => self%bearings(b), branch => self%branch)
+         has_slopes = bearing%pitching() .or. any(abs(bearing%slope) > 0) .or. self%about%task == 'coefficients' &
+            & .and. self%coefficients%slopes .or. self%about%task == 'branch' .and. index(branch%parameter &
+            & //branch%second_parameter, 'bearing%slope') > 0
+      end associate
+   end function has_slopes
 
    !> Whether the task integrates the motion.
    pure logical function moves(self)

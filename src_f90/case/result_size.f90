@@ -68,20 +68,25 @@ contains
       values = 3 + 2*size(inputs%excitations) + 2*inputs%rotor%station_count()
       values = values + 4*size(inputs%element_labels())
       do b = 1, size(inputs%bearings)
-         values = values + values_of_bearing(inputs%bearings(b))
+         values = values + values_of_bearing(inputs%bearings(b), inputs%has_slopes(b))
       end do
    end function values_of_sample
 
    !> Values of a sample that are those of one bearing.
-   pure integer function values_of_bearing(bearing) result(values)
+   pure integer function values_of_bearing(bearing, slopes_count) result(values)
       type(bearing_type), intent(in) :: bearing
-      integer :: of_pad
+      logical, intent(in) :: slopes_count
+      integer :: of_pad, turning
+      ! each with its rate, its friction and, with bristles, these
+      turning = merge(1, 0, bearing%pitching()) + merge(1, 0, bearing%yawing())
       of_pad = 4
       if (bearing%tilting()) of_pad = of_pad + 4
       if (bearing%tilting_radial()) of_pad = of_pad + 2
-      if (bearing%tilting() .and. bearing%friction%model == 'lugre') of_pad = of_pad + 1
+      of_pad = of_pad + 3*turning
+      if (bearing%tilting() .and. bearing%friction%model == 'lugre') of_pad = of_pad + 1 + turning
+      if (slopes_count) of_pad = of_pad + 4
       if (bearing%asperity%model /= 'none') of_pad = of_pad + 1
-      values = 4 + of_pad*bearing%pad_count()
+      values = merge(6, 4, slopes_count) + of_pad*bearing%pad_count()
    end function values_of_bearing
 
    !> Bytes of memory that a run takes at most beyond those of its start; the figures of its last revolutions, where it

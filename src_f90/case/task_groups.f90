@@ -73,6 +73,8 @@ module task_groups
       real(wp) :: threshold_up_to_rpm = 0
       !> Whether the limit cycles are followed that begin there.
       logical :: threshold_born = .false.
+      !> Whether also those against the slopes of the journal are asked for.
+      logical :: slopes = .false.
       !> Q at the journal, N/m: what whirls forward is driven by Q times its displacement, across it.
       real(wp) :: cross_stiffness = 0
    end type coefficients_type

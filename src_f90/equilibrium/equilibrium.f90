@@ -352,6 +352,8 @@ contains
          part%min_film_thickness = found%min_film_thickness(pads)
          part%max_pressure = found%max_pressure(pads)
          part%oil = found%oil(pads)
+         if (allocated(found%slopes)) part%slopes = found%slopes(pads)
+         if (allocated(found%moments)) part%moments = found%moments(:, b:b)
       end associate
    end function part_of
 

@@ -7,7 +7,8 @@ module equilibrium_record
    use film_network, only: warm_films_type
    use bearing_shape, only: bearing_shape_type
    use state_layout, only: pad_state
-   use tilting_pad_bearing, only: pad_sample
+   use tilting_pad_bearing, only: pad_sample, sloped_sample
+   use sloped_bearing, only: sampled_slopes, moment_on_journal
    use equations_of_motion, only: machine_model
    use errors, only: error_type, raise, numerics_error
    use force_balance, only: stability_type, stability_at
@@ -27,6 +28,10 @@ module equilibrium_record
       real(wp), allocatable :: pivot_load(:)
       !> Per pad minimum film thickness, m, and maximum pressure, Pa.
       real(wp), allocatable :: min_film_thickness(:), max_pressure(:)
+      !> Where slopes count in a bearing of the model: what is sampled of its pads beside; moments on the journals, (2,
+      !> bearing), against their slopes along y and z, N m.
+      type(sloped_sample), allocatable :: slopes(:)
+      real(wp), allocatable :: moments(:, :)
       !> The oil of every pad's film; its temperatures in each bearing, where films have them along and across.
       type(film_oil), allocatable :: oil(:)
       type(warm_films_type), allocatable :: films(:)
@@ -79,7 +84,30 @@ contains
       found%min_film_thickness = samples%min_film_thickness
       found%max_pressure = samples%max_pressure
       found%oil = model%oil
+      call describe_slopes(model, y, found)
    end subroutine describe
+
+   !> What is beside it where slopes count.
+   subroutine describe_slopes(model, y, found)
+      type(machine_model), intent(in) :: model
+      real(wp), intent(in) :: y(:)
+      type(equilibrium_type), intent(inout) :: found
+      type(sloped_sample) :: slopes(model%layout%pads)
+      real(wp) :: moments(2, size(model%bearings))
+      integer :: b, i
+      if (.not. any([(allocated(model%bearings(b)%sloped), b=1, size(model%bearings))])) return
+      moments = 0
+      do b = 1, size(model%bearings)
+         if (.not. allocated(model%bearings(b)%sloped)) cycle
+         associate (of => model%layout%elements(b))
+            slopes(of%first_pad:of%last_pad) = [(sampled_slopes(model%bearings(b), i), i=1, of%pads)]
+            moments(:, b) = moment_on_journal(model%bearings(b), model%rotor%journal(y(:model%rotor%states), b), &
+               & of%pad_states(y), slopes(of%first_pad:of%last_pad))
+         end associate
+      end do
+      found%slopes = slopes
+      found%moments = moments
+   end subroutine describe_slopes
 
    !> The same with its stability; an error where this is not found.
    subroutine describe_with_stability(model, y, found, error)

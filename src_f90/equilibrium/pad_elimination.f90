@@ -6,8 +6,9 @@ module pad_elimination
    use errors, only: asked
    use linear_algebra, only: solve_few
    use rigid_rotor, only: journal_motion
-   use state_layout, only: pad_state, tilt, pivot_deflection, of_journal
-   use kinematics, only: pad_frame, frame_of, motion_of
+   use state_layout, only: pad_state, tilt, pivot_deflection, pitch, yaw, of_journal
+   use kinematics, only: pad_frame, frame_of
+   use sloped_bearing, only: least_thickness, align_pad
    use equations_of_motion, only: machine_model
    use force_balance, only: forces, part_derivatives
    use static_model, only: reference_force, next_time_step, longest_move, shortest_move, trace, set_free, &
@@ -79,10 +80,13 @@ contains
       !> Puts the pads that are not in equilibrium at zero tilt on their pivots, where their films are open there, and
       !> evaluates.
       subroutine put_down()
+         type(pad_state) :: still
          integer :: i
          do i = 1, size(pads)
             if (in_equilibrium(i)) cycle
-            if (film_of(model, i, journal, pad_state()) > 0) pads(i) = pad_state()
+            still = pad_state()
+            call align_pad(model%bearings(1), i, journal, still)
+            if (film_of(model, i, journal, still) > 0) pads(i) = still
          end do
          call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. in_equilibrium)
       end subroutine put_down
@@ -246,6 +250,7 @@ contains
          pad%x(tilt) = atan2(frame%along, -frame%outward) + part*max(on_pivot + pad%x(pivot_deflection), 0.0_wp) &
             & /(0.5_wp*of%gap%arc()*of%gap%pad_radius())
       end associate
+      call align_pad(model%bearings(1), i, journal, pad)
    end function leaning
 
    !> One step of a pad alone, shortened until nothing moves too far and its film stays open.
@@ -257,7 +262,7 @@ contains
       real(wp), intent(inout) :: time_step
       type(pad_state) :: trial
       real(wp), allocatable, dimension(:, :) :: over_positions, over_rates, stiffness, damping
-      real(wp), allocatable :: force(:), step(:)
+      real(wp), allocatable :: force(:), step(:), extents(:)
       real(wp) :: clearance, thinnest
       integer :: k
       clearance = model%bearings(1)%clearance
@@ -273,9 +278,10 @@ contains
          associate (of => model%bearings(1)%pads(i), kind => model%bearings(1)%coordinates%kind(:size(step)))
             trial = pad_state()
             trial%x(kind) = pad%x(kind) + step
-            if (maxval(abs(step)*merge(of%gap%arc()*of%gap%pad_radius(), 1.0_wp, kind == tilt)) &
-               & <= longest_move*clearance .and. film_of(model, i, journal, trial) >= thinnest &
-               & .and. abs(trial%x(tilt)) < of%largest_tilt) exit
+            extents = merge(of%gap%arc()*of%gap%pad_radius(), 1.0_wp, kind == tilt)
+            where (kind == pitch .or. kind == yaw) extents = 0.5_wp*of%gap%axial_length
+            if (maxval(abs(step)*extents) <= longest_move*clearance &
+               & .and. film_of(model, i, journal, trial) >= thinnest .and. abs(trial%x(tilt)) < of%largest_tilt) exit
          end associate
          time_step = 0.5_wp*time_step
          if (time_step*model%point%speed(0.0_wp) < shortest_step) return
@@ -289,9 +295,6 @@ contains
       integer, intent(in) :: i
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(in) :: pad
-      associate (of => model%bearings(1)%pads(i))
-         film_of = of%gap%min_film_thickness(motion_of(of%position, frame_of(of%position, journal, pad), journal, &
-            & pad), of%directions)
-      end associate
+      film_of = least_thickness(model%bearings(1), i, journal, pad)
    end function film_of
 end module pad_elimination

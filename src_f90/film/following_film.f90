@@ -14,7 +14,7 @@ module following_film
       & middle_motion, new_mid_arc_frame
    implicit none (type, external)
    private
-   public :: following_film_type, new_following_film, new_following_grid
+   public :: following_film_type, new_following_film, new_following_grid, following_angles
 
    !> Columns of a grid for every row.
    integer, parameter :: columns_a_row = 8
@@ -126,12 +126,22 @@ contains
       type(film_motion), intent(in) :: motion
       real(wp), intent(in) :: speed
       integer, intent(in) :: rows
+      associate (half => columns_a_row*rows/2)
+         film = new_elimination_film(gap, 2*half, rows, following_angles(gap, motion, speed, half))
+      end associate
+   end function new_following_grid
+
+   !> Angles from the pivot, rad, from the trailing to the leading edge, between twice this number of columns of such a
+   !> grid.
+   pure function following_angles(gap, motion, speed, half) result(angles)
+      type(pad_gap_type), intent(in) :: gap
+      type(film_motion), intent(in) :: motion
+      real(wp), intent(in) :: speed
+      integer, intent(in) :: half
+      real(wp) :: angles(0:2*half), zero, e(2)
       type(dimensionless_pad_type) :: pad
       type(mid_arc_frame_type) :: frame
       type(middle_motion) :: seen
-      real(wp) :: angles(0:columns_a_row*rows), zero, e(2)
-      integer :: half
-      half = columns_a_row*rows/2
       pad = new_dimensionless_pad(gap)
       frame = new_mid_arc_frame(gap, pad)
       seen = frame%motion(motion, unit_oil, speed)
@@ -144,6 +154,6 @@ contains
       end associate
       angles(:half) = pad%spread_angles(e, -pad%half_arc, zero, half)
       angles(half:) = pad%spread_angles(e, zero, pad%half_arc, half)
-      film = new_elimination_film(gap, 2*half, rows, 0.5_wp*(gap%leading_angle - gap%trailing_angle) + angles)
-   end function new_following_grid
+      angles = 0.5_wp*(gap%leading_angle - gap%trailing_angle) + angles
+   end function following_angles
 end module following_film

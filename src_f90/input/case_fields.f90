@@ -231,6 +231,8 @@ contains
          call v%flag(inputs%coefficients%threshold_born, 'threshold_born', 'the limit cycles that begin at the ' &
             & //'threshold speed are followed, without unbalance: towards which speeds they are born, and the lowest ' &
             & //'with one')
+         if (rigid) call v%flag(inputs%coefficients%slopes, 'slopes', 'whether stiffness and damping against slopes ' &
+            & //'of the journal and moments on it are found, too, 4 x 4')
          call v%number(inputs%coefficients%cross_stiffness, 'cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', 'Q: ' &
             & //'cross-coupled stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward ' &
             & //'whirl; of a machine at each journal, and &element has it at other stations')
@@ -304,6 +306,8 @@ contains
          call v%number(own%ambient_pressure, 'ambient_pressure', -1e9_wp, 1e9_wp, 'Pa', 'pressure at the other edges')
          call v%number(own%cavitation_pressure, 'cavitation_pressure', -1e9_wp, 1e9_wp, 'Pa', &
             & 'pressure at which the film cavitates')
+         if (rigid) call v%numbers(own%slope, 'slope', -0.1_wp, 0.1_wp, 'rad', 'slopes of the rigid journal in the ' &
+            & //'bearing, dy/dx and dz/dx over the distance x along the shaft')
          if (machine) then
             if (all) call list_kind(v, own%mount_type, of)
             if (.not. all) call list_kind(v, own%mount_type)
@@ -414,8 +418,16 @@ contains
             & 'linear expansion of the pad; 11e-6: steel')
          call v%each(pads%temperature, 'pads', 'temperature', low, high, 'C', 'for bearing%clearance_temperature: ' &
             & //'mean temperature of the pad; if left out, that of thermal%model = film')
-         call v%word(pads%motion, 'motion', 'tilting_radial tilting_only fixed', 'tilting_radial: the pads tilt and ' &
-            & //'move radially on their pivots; tilting_only: they only tilt; fixed: neither, lobes of a plain bearing')
+         call v%word(pads%motion, 'motion', 'tilting_radial tilting_only fixed tilting_radial_pitch ' &
+            & //'tilting_radial_pitch_yaw tilting_pitch tilting_pitch_yaw', 'tilting_radial: the pads tilt and ' &
+            & //'move radially on their pivots; tilting_only: they only tilt; fixed: neither, lobes of a plain ' &
+            & //'bearing; with pitch they also follow a slope of the shaft outward, with yaw one along the pad')
+         call v%each(pads%inertia_pitch, 'pads', 'inertia_pitch', inertia_range(1), inertia_range(2), 'kg m^2', &
+            & 'pads that pitch: moment of inertia of the pitch about the pivot; from the shape if left out')
+         call v%each(pads%inertia_yaw, 'pads', 'inertia_yaw', inertia_range(1), inertia_range(2), 'kg m^2', &
+            & 'pads that yaw: moment of inertia of the yaw about the pivot; from the shape if left out')
+         call v%each(pads%pivot_axial_offset, 'pads', 'pivot_axial_offset', -10.0_wp, 10.0_wp, 'm', &
+            & 'pads that pitch: how far the pivot stands from the middle of the pad along the shaft')
       end subroutine list_pads
 
       subroutine list_pivot(pivot)

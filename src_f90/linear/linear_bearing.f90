@@ -35,6 +35,7 @@ module linear_bearing
       logical, allocatable :: moves(:)
    contains
       procedure :: condense
+      procedure :: condense_slopes
    end type linear_bearing_type
 
    !> The modes in the order of their damping ratios, the least first, so that the first says whether the equilibrium is
@@ -57,6 +58,9 @@ module linear_bearing
       type(linear_bearing_type), allocatable :: bearings(:), with_rotor(:)
       !> Of each journal, N/m and N s/m, (row, column, frequency, pivot, bearing).
       real(wp), allocatable :: stiffness(:, :, :, :, :), damping(:, :, :, :, :)
+      !> Where they are asked for, the same of y, z and the slopes of the journal along these, with moments on it: N,
+      !> N m, m and rad.
+      real(wp), allocatable :: slope_stiffness(:, :, :, :, :), slope_damping(:, :, :, :, :)
       type(vibration_modes_type), allocatable :: modes(:)
       !> Threshold speeds of stability, rpm, where they are asked for, and up to where they were sought.
       real(wp), allocatable :: thresholds(:)
@@ -92,12 +96,17 @@ contains
          associate (pivots => size(found%bearings), ratios => size(given%frequency_ratio), n => size(model%bearings))
             allocate (found%stiffness(2, 2, ratios, pivots, n), found%damping(2, 2, ratios, pivots, n), &
                & found%modes(pivots))
+            if (given%slopes) allocate (found%slope_stiffness(4, 4, ratios, pivots, n), &
+               & found%slope_damping(4, 4, ratios, pivots, n))
             do i = 1, pivots
                each_bearing: do b = 1, n
                   do k = 1, ratios
                      call found%bearings(i)%condense(model%layout%elements(b)%all_positions(), &
                         & given%frequency_ratio(k), speed, found%stiffness(:, :, k, i, b), &
                         & found%damping(:, :, k, i, b), ok)
+                     if (ok .and. given%slopes) call found%bearings(i)%condense_slopes(model, b, &
+                        & given%frequency_ratio(k), found%slope_stiffness(:, :, k, i, b), &
+                        & found%slope_damping(:, :, k, i, b), ok)
                      if (.not. ok) exit each_bearing
                   end do
                end do each_bearing
@@ -190,7 +199,7 @@ contains
       real(wp), intent(in) :: over_positions(:, :), over_rates(:, :)
       bearing%pivot = pivot
       allocate (bearing%moves(size(over_rates, 1)), source=.true.)
-      if (pivot == 'locked') bearing%moves(model%layout%tilts()) = .false.
+      if (pivot == 'locked') bearing%moves(model%layout%turning()) = .false.
       bearing%mass = masses(model)
       bearing%stiffness = over_positions
       bearing%damping = over_rates
@@ -223,20 +232,65 @@ contains
       real(wp), intent(in) :: ratio, speed
       real(wp), intent(out) :: stiffness(of_journal, of_journal), damping(of_journal, of_journal)
       logical, intent(out) :: ok
-      complex(wp), allocatable :: z(:, :), response(:, :)
-      complex(wp) :: left(of_journal, of_journal)
-      real(wp) :: frequency
       integer, allocatable :: kept(:)
       kept = pack(places, self%moves(places))
-      frequency = max(slowest, ratio)*speed
-      z = cmplx(self%stiffness(kept, kept) - frequency**2*self%mass(kept, kept), &
-         & frequency*self%damping(kept, kept), wp)
-      response = z(of_journal + 1:, :of_journal)
-      call solve_complex(size(response, 1), of_journal, z(of_journal + 1:, of_journal + 1:), response, ok)
-      left = z(:of_journal, :of_journal) - matmul(z(:of_journal, of_journal + 1:), response)
+      call reduce(self%stiffness(kept, kept), self%damping(kept, kept), self%mass(kept, kept), &
+         & max(slowest, ratio)*speed, of_journal, stiffness, damping, ok)
+   end subroutine condense
+
+   !> The same of the first n positions, from these matrices of all, at a whirl frequency, rad/s.
+   subroutine reduce(all_stiffness, all_damping, mass, frequency, n, stiffness, damping, ok)
+      real(wp), intent(in) :: all_stiffness(:, :), all_damping(:, :), mass(:, :), frequency
+      integer, intent(in) :: n
+      real(wp), intent(out) :: stiffness(n, n), damping(n, n)
+      logical, intent(out) :: ok
+      complex(wp), allocatable :: z(:, :), response(:, :)
+      complex(wp) :: left(n, n)
+      z = cmplx(all_stiffness - frequency**2*mass, frequency*all_damping, wp)
+      response = z(n + 1:, :n)
+      call solve_complex(size(response, 1), n, z(n + 1:, n + 1:), response, ok)
+      left = z(:n, :n) - matmul(z(:n, n + 1:), response)
       stiffness = left%re
       damping = left%im/frequency
-   end subroutine condense
+   end subroutine reduce
+
+   !> Stiffness and damping of y, z and the slopes of the journal of bearing b, where the derivatives of the model were
+   !> taken last.
+   subroutine condense_slopes(self, model, b, ratio, stiffness, damping, ok)
+      class(linear_bearing_type), intent(in) :: self
+      type(machine_model), intent(in) :: model
+      integer, intent(in) :: b
+      real(wp), intent(in) :: ratio
+      real(wp), dimension(2*of_journal, 2*of_journal), intent(out) :: stiffness, damping
+      logical, intent(out) :: ok
+      real(wp), allocatable, dimension(:, :) :: k, c, m
+      integer, allocatable :: places(:), at(:), kept(:), unsloped(:)
+      integer, parameter :: slopes(of_journal) = [3, 4]
+      integer :: i, j, n
+      places = model%layout%elements(b)%all_positions()
+      n = size(places) + of_journal
+      unsloped = [1, 2, (i, i=2*of_journal + 1, n)]
+      allocate (k(n, n), c(n, n), m(n, n), source=0.0_wp)
+      k(unsloped, unsloped) = self%stiffness(places, places)
+      c(unsloped, unsloped) = self%damping(places, places)
+      m(unsloped, unsloped) = self%mass(places, places)
+      associate (own => model%layout%elements(b)%coordinates)
+         do i = 1, model%layout%elements(b)%pads
+            associate (of => model%bearings(b)%sloped%derivatives(i))
+               at = [(j, j=1, 2*of_journal), (2*of_journal + (i - 1)*own + j, j=1, own)]
+               k(slopes, at) = k(slopes, at) - of%over_positions(slopes, :size(at))
+               c(slopes, at) = c(slopes, at) - of%over_rates(slopes, :size(at))
+               associate (others => [1, 2, (j, j=2*of_journal + 1, size(at))])
+                  k(at(others), slopes) = k(at(others), slopes) - of%over_positions(others, slopes)
+                  c(at(others), slopes) = c(at(others), slopes) - of%over_rates(others, slopes)
+               end associate
+            end associate
+         end do
+      end associate
+      kept = [1, 2, slopes, pack([(i, i=2*of_journal + 1, n)], self%moves(places(of_journal + 1:)))]
+      call reduce(k(kept, kept), c(kept, kept), m(kept, kept), max(slowest, ratio)*model%point%speed(0.0_wp), &
+         & 2*of_journal, stiffness, damping, ok)
+   end subroutine condense_slopes
 
    !> The modes of rotor and pads with a cross-coupled stiffness, N/m. `ok` is false where the eigenvalues are not
    !> found.

@@ -6,7 +6,8 @@ module bearing_samples
    use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, of_journal
    use tilting_pad, only: pad_coordinates_type
-   use tilting_pad_bearing, only: pad_sample, pad_outputs
+   use tilting_pad_bearing, only: pad_sample, sloped_sample
+   use sloped_bearing, only: moment_on_journal
    use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
@@ -21,6 +22,9 @@ module bearing_samples
       type(journal_motion) :: journal
       type(pad_state), allocatable :: states(:)
       type(pad_sample), allocatable :: loads(:)
+      !> Where slopes count, else not allocated; moments on the journal against its slopes along y and z, N m.
+      type(sloped_sample), allocatable :: slopes(:)
+      real(wp) :: moment(2) = 0
    end type bearing_sample
 
 contains
@@ -40,10 +44,16 @@ contains
          sample%shaft_angle = model%point%shaft_angle(t)
          sample%speed = model%point%speed(t)
          sample%journal = model%rotor%journal(y(:model%rotor%states), b)
-         if (.not. allocated(sample%states)) allocate (sample%states(of%pads), sample%loads(of%pads))
+         if (.not. allocated(sample%states)) then
+            allocate (sample%states(of%pads), sample%loads(of%pads))
+            if (allocated(bearing%sloped)) allocate (sample%slopes(of%pads))
+         end if
          sample%states(:) = of%pad_states(y)
          call bearing%take_samples(sample%journal, sample%states, sample%speed, &
-            & output(pad_outputs*(of%first_pad - 1) + 1:pad_outputs*of%last_pad), sample%loads)
+            & output(model%pad_outputs*(of%first_pad - 1) + 1:model%pad_outputs*of%last_pad), sample%loads, &
+            & sample%slopes)
+         if (allocated(sample%slopes)) sample%moment = moment_on_journal(bearing, sample%journal, sample%states, &
+            & sample%slopes)
       end associate
    end subroutine take_sample
 

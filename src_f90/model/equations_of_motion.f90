@@ -8,7 +8,7 @@ module equations_of_motion
    use operating_point, only: operating_point_type
    use oil_properties, only: reference_viscosity
    use film_solver, only: film_oil
-   use tilting_pad_bearing, only: tilting_pad_bearing_type, new_tilting_pad_bearing, pad_outputs
+   use tilting_pad_bearing, only: tilting_pad_bearing_type, new_tilting_pad_bearing
    use rigid_rotor, only: rotor_type, journal_motion
    use rotor_factory, only: make_rotor
    use ode_model, only: ode_model_type
@@ -34,6 +34,8 @@ module equations_of_motion
       type(viscosity_history_type) :: oil_history
       !> Characteristic scale of each state.
       real(wp), allocatable :: scale(:)
+      !> Outputs of a pad.
+      integer :: pad_outputs = 0
       !> Asked by searches between evaluations of the films whether they are to be given up, where it is set.
       procedure(asked_to_stop), pointer, nopass :: give_up => null()
       type(newton_system_type), private :: newton
@@ -114,7 +116,9 @@ contains
       pairs = [(e, e=1, size(self%bearings)), self%others%pair]
       self%layout = new_state_layout(self%rotor%states, layouts, pairs)
       self%n = self%layout%n
-      self%outputs = pad_outputs*sum(layouts(:size(self%bearings))%pads)
+      self%pad_outputs = maxval([0, (self%bearings(e)%least_outputs(), e=1, size(self%bearings))])
+      self%bearings%outputs = self%pad_outputs
+      self%outputs = self%pad_outputs*sum(layouts(:size(self%bearings))%pads)
       self%scale = state_scales(self%inputs%highest_speed(), self%point, self%rotor, elements, &
          & [self%bearings%clearance, self%least_clearance()], self%layout)
       self%newton = new_newton_system(self%layout, maxval([self%rotor%journals, pairs]))
@@ -139,7 +143,7 @@ contains
       type(operating_point_type), intent(in) :: point
       integer :: b
       do b = 1, size(self%bearings)
-         if (point%cavitation .neqv. self%point%cavitation) call self%bearings(b)%film%set_cavitation(point%cavitation)
+         if (point%cavitation .neqv. self%point%cavitation) call self%bearings(b)%set_cavitation(point%cavitation)
          self%bearings(b)%rubs = point%friction
       end do
       self%point = point
@@ -326,7 +330,7 @@ contains
       integer :: b
       do b = 1, size(self%bearings)
          associate (of => self%layout%elements(b))
-            output(pad_outputs*(of%first_pad - 1) + 1:pad_outputs*of%last_pad) &
+            output(self%pad_outputs*(of%first_pad - 1) + 1:self%pad_outputs*of%last_pad) &
                & = self%bearings(b)%output(of, correction)
          end associate
       end do

@@ -258,17 +258,19 @@ contains
       type(machine_model), intent(in) :: model
       real(wp), intent(inout) :: over_positions(:, :), over_rates(:, :)
       type(friction_response) :: friction
-      integer :: b, i, at
+      integer :: b, i, k, at
       do b = 1, size(model%bearings)
          associate (bearing => model%bearings(b))
             do i = 1, size(bearing%pads)
                if (.not. model%layout%elements(b)%has(tilt)) cycle
-               at = model%layout%elements(b)%first_position(i)
                call bearing%pivots(i)%friction%evaluate(0.0_wp, 0.0_wp, bearing%loads(i)%contact, friction)
-               associate (square => bearing%pads(i)%ball_radius**2)
-                  over_positions(at, at) = over_positions(at, at) &
-                     & - square*friction%force_deflection*friction%rate_velocity
-                  over_rates(at, at) = over_rates(at, at) - square*friction%force_velocity
+               associate (square => bearing%pads(i)%ball_radius**2, of => model%layout%elements(b))
+                  do k = 1, of%rotations
+                     at = of%first_position(i) - 1 + of%rotation(k)
+                     over_positions(at, at) = over_positions(at, at) &
+                        & - square*friction%force_deflection*friction%rate_velocity
+                     over_rates(at, at) = over_rates(at, at) - square*friction%force_velocity
+                  end do
                end associate
             end do
          end associate

@@ -16,6 +16,9 @@ module newton_system
    type :: element_rows_type
       integer :: m = of_journal
       real(wp), allocatable :: over_positions(:, :, :), over_rates(:, :, :)
+      !> Of parts with several bristles: these are `known` + `follow` times the rates of the part's rotations; what they
+      !> do to its accelerations.
+      real(wp), allocatable :: known(:, :), follow(:, :, :), over_bristle(:, :, :)
    end type element_rows_type
 
    !> The rotor's equations without the displacements that are not those of journals: A on the rates of the journals,
@@ -69,6 +72,10 @@ contains
          associate (of => system%elements(e), from => layout%elements(e))
             of%m = of_journal + from%coordinates
             allocate (of%over_positions(of%m, of%m, from%parts), of%over_rates(of%m, of%m, from%parts), source=0.0_wp)
+            associate (n => from%rotations, parts => from%parts)
+               if (n > 1) allocate (of%known(n, parts), of%follow(n, n, parts), &
+                  & of%over_bristle(of%m - of_journal, n, parts))
+            end associate
          end associate
       end do
       system%matrix = new_bordered_matrix(pairs, [(layout%elements(e)%pair(), e=1, size(layout%elements))], &
@@ -113,6 +120,12 @@ contains
          associate (of => self%layout%elements(e))
             do i = 1, of%parts
                n = min(of%first_pad + i - 1, size(bristle, 2))
+               if (of%bristles .and. of%rotations > 1) then
+                  bristle(:, n) = 0
+                  call put_part(self, e, elements(e)%to, i, gamma, x, bristle(:, n), u)
+                  call put_bristles(self, e, elements(e)%to, i, gamma, b, u)
+                  cycle
+               end if
                if (of%bristles) bristle(:, n) = bristle_of(elements(e)%to%bristle_slopes(i), gamma, b(of%bristle(i)))
                call put_part(self, e, elements(e)%to, i, gamma, x, bristle(:, n), u)
             end do
@@ -130,6 +143,13 @@ contains
             if (.not. of%bristles) cycle
             do i = 1, of%pads
                n = of%first_pad + i - 1
+               if (of%rotations > 1) then
+                  associate (z => of%bristle(i), r => of%rotations, rows => self%elements(e))
+                     b(z:z + r - 1) = rows%known(:, i) + matmul(rows%follow(:, :, i), &
+                        & u(of%first_position(i) - 1 + of%rotation(:r)))
+                  end associate
+                  cycle
+               end if
                b(of%bristle(i)) = bristle(1, n) + bristle(2, n)*u(of%first_position(i))
             end do
          end associate
@@ -244,6 +264,27 @@ contains
       end subroutine put
    end subroutine put_part
 
+   !> Puts the bristles of a part with several into the matrix on the rates, where its derivatives already are.
+   subroutine put_bristles(self, e, element, part, gamma, b, u)
+      class(newton_system_type), intent(inout) :: self
+      integer, intent(in) :: e, part
+      class(element_type), intent(in) :: element
+      real(wp), intent(in) :: gamma, b(:)
+      real(wp), intent(inout) :: u(:)
+      real(wp) :: of_bristle
+      associate (rows => self%elements(e), block => self%matrix%groups(e)%block(:, :, part), &
+         & of => self%layout%elements(e))
+         associate (own => of%first_position(part), z => of%bristle(part), at => of%rotation(:of%rotations), &
+            & known => rows%known(:, part), follow => rows%follow(:, :, part), over => rows%over_bristle(:, :, part))
+            call element%find_bristles(part, rows%m, .true., over, follow, of_bristle)
+            known = b(z:z + of%rotations - 1)/(1 - gamma*of_bristle)
+            follow = follow*gamma/(1 - gamma*of_bristle)
+            u(own:own + of%coordinates - 1) = u(own:own + of%coordinates - 1) + gamma*matmul(over, known)
+            block(:, at) = block(:, at) + matmul(over, follow)
+         end associate
+      end associate
+   end subroutine put_bristles
+
    !> The whole Jacobian J.
    function jacobian(self, rotor, elements) result(matrix)
       class(newton_system_type), intent(in) :: self
@@ -276,7 +317,9 @@ contains
       class(element_type), intent(in) :: element
       real(wp), intent(inout) :: matrix(:, :)
       real(wp), dimension(self%elements(e)%m, self%elements(e)%m) :: over_positions, over_rates
-      real(wp) :: over_bristle(self%elements(e)%m - of_journal), slopes(3)
+      real(wp) :: over_bristle(self%elements(e)%m - of_journal), slopes(3), of_bristle
+      real(wp) :: over_bristles(self%elements(e)%m - of_journal, self%layout%elements(e)%rotations)
+      real(wp), dimension(self%layout%elements(e)%rotations, self%layout%elements(e)%rotations) :: of_rates
       integer :: i, at(self%elements(e)%m)
       over_positions = self%elements(e)%over_positions(:, :, part)
       over_rates = self%elements(e)%over_rates(:, :, part)
@@ -292,7 +335,16 @@ contains
             matrix(of_rotor, u) = matrix(of_rotor, u) + rotor%row_accelerations(over_rates(:of_journal, :), pair)
             matrix(u(own:), x) = matrix(u(own:), x) + over_positions(own:, :)
             matrix(u(own:), u) = matrix(u(own:), u) + over_rates(own:, :)
-            if (layout%bristles) then
+            if (layout%bristles .and. layout%rotations > 1) then
+               call element%find_bristles(part, self%elements(e)%m, .true., over_bristles, of_rates, of_bristle)
+               associate (z => layout%bristle(part) - 1, r => layout%rotations)
+                  matrix(u(own:), z + 1:z + r) = over_bristles
+                  matrix(z + 1:z + r, u(own - 1 + layout%rotation(:r))) = of_rates
+                  do i = 1, r
+                     matrix(z + i, z + i) = of_bristle
+                  end do
+               end associate
+            else if (layout%bristles) then
                slopes = element%bristle_slopes(part)
                associate (z => layout%bristle(part))
                   matrix(u(own:), z) = over_bristle

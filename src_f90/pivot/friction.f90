@@ -4,8 +4,8 @@ module friction
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: friction_law, friction_response, bengisu_akay_friction, lugre_friction
-   public :: default_bristle_damping, never_sticks
+   public :: friction_law, friction_response, turning_friction, bengisu_akay_friction, lugre_friction
+   public :: default_bristle_damping, never_sticks, no_friction
 
    !> What a law answers.
    type :: friction_response
@@ -18,6 +18,14 @@ module friction
       !> Derivatives of the rate over velocity and deflection.
       real(wp) :: rate_velocity = 0, rate_deflection = 0
    end type friction_response
+
+   !> What a law answers to a velocity of several components, (component) and (component, component it is derived by);
+   !> those of the rate over the deflection are rate_deflection on the diagonal.
+   type :: turning_friction
+      real(wp), dimension(3) :: force = 0, rate = 0, force_normal = 0
+      real(wp), dimension(3, 3) :: force_velocity = 0, rate_velocity = 0
+      real(wp) :: force_deflection = 0, rate_deflection = 0
+   end type turning_friction
 
    !> A sticking velocity, m/s, far above all others.
    real(wp), parameter :: never_sticks = 1e30_wp
@@ -32,8 +40,11 @@ module friction
       real(wp) :: sticking_velocity = never_sticks
    contains
       procedure :: evaluate
+      procedure :: evaluate_turning
       procedure :: switching_points
    end type friction_law
+
+   type(friction_law), parameter :: no_friction = friction_law()
 
    !> Bengisu-Akay's static law, eq (22); v_c is the sticking velocity.
    type, extends(friction_law) :: bengisu_akay_friction
@@ -77,6 +88,46 @@ contains
       real(wp), intent(in) :: velocity, deflection, normal
       type(friction_response), intent(out) :: response
    end subroutine evaluate
+
+   !> The response to a velocity, m/s, and bristles, m, of up to three components: the isotropic law, whose coefficients
+   !> depend on the size of the velocity alone (Velenis, Tsiotras, Canudas-de-Wit and Sorine 2005, Vehicle System
+   !> Dynamics 43, for LuGre). A law is linear in the deflection, so that force and rate are those without deflection,
+   !> along the velocity, and those that the deflection adds: with a single component those of `evaluate`.
+   pure subroutine evaluate_turning(self, velocity, deflection, normal, response)
+      class(friction_law), intent(in) :: self
+      real(wp), intent(in) :: velocity(:), deflection(:), normal
+      type(turning_friction), intent(out) :: response
+      type(friction_response) :: along, bent
+      real(wp) :: speed, direction(size(velocity)), force, rate
+      integer :: k, n
+      n = size(velocity)
+      speed = norm2(velocity)
+      ! under a unit of the normal force: the pivot load may vanish
+      call self%evaluate(speed, 0.0_wp, 1.0_wp, along)
+      ! per velocity
+      direction = 0
+      force = along%force_velocity
+      rate = along%rate_velocity
+      if (speed > tiny(speed)/epsilon(speed)) then
+         direction = velocity/speed
+         force = along%force/speed
+         rate = along%rate/speed
+      end if
+      response%force_normal(:n) = force*velocity + along%force_deflection*deflection
+      response%force = normal*response%force_normal
+      response%rate(:n) = rate*velocity + along%rate_deflection*deflection
+      response%force_deflection = normal*along%force_deflection
+      response%rate_deflection = along%rate_deflection
+      do k = 1, n
+         call self%evaluate(speed, deflection(k), 1.0_wp, bent)
+         response%force_velocity(k, :n) = normal*((along%force_velocity - force)*direction(k) &
+            & + bent%force_velocity - along%force_velocity)*direction
+         response%rate_velocity(k, :n) = ((along%rate_velocity - rate)*direction(k) &
+            & + bent%rate_velocity - along%rate_velocity)*direction
+         response%force_velocity(k, k) = response%force_velocity(k, k) + normal*force
+         response%rate_velocity(k, k) = response%rate_velocity(k, k) + rate
+      end do
+   end subroutine evaluate_turning
 
    pure subroutine evaluate_bengisu_akay(self, velocity, deflection, normal, response)
       class(bengisu_akay_friction), intent(in) :: self

@@ -16,6 +16,8 @@ module coefficient_results
       & put_stability_levels
 
    character(len=*), parameter :: of_journal = 'pivot frequency_ratio row column'
+   character(len=*), parameter :: of_slopes = 'pivot frequency_ratio slope_row slope_column', &
+      & slopes(4) = [character(len=7) :: 'y', 'z', 'slope_y', 'slope_z']
    character(len=*), parameter :: of_positions = 'position_row position_column', of_modes = 'pivot mode'
 
 contains
@@ -42,6 +44,13 @@ contains
       call file%put('coefficients/damping', across(found%damping(:, :, :, :, b)), 'N s/m', &
          & 'damping of the bearing at the journal, the pads condensed', of_journal)
       call put_full(file, found, layout%all_positions())
+      if (.not. allocated(found%slope_stiffness)) return
+      call file%put('slope_row', slopes, 'force or moment on the journal')
+      call file%put('slope_column', slopes, 'displacement or slope of the journal')
+      call file%put('coefficients/slope_stiffness', across(found%slope_stiffness(:, :, :, :, b)), 'SI', 'stiffness ' &
+         & //'over displacements (m) and slopes (rad) of the journal: forces (N) and moments (N m)', of_slopes)
+      call file%put('coefficients/slope_damping', across(found%slope_damping(:, :, :, :, b)), 'SI', 'damping over ' &
+         & //'the rates of displacements (m/s) and slopes (rad/s) of the journal', of_slopes)
    end subroutine put_coefficients
 
    !> Pads whose film only just begins to carry.

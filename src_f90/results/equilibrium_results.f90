@@ -43,11 +43,35 @@ contains
       if (coordinates%n > 0) call file%put('equilibrium/pivot_load', found%pivot_load, 'N', 'pivot load', 'pad')
       call file%put('equilibrium/min_film_thickness', found%min_film_thickness, 'm', 'minimum film thickness', 'pad')
       call file%put('equilibrium/max_pressure', found%max_pressure, 'Pa', 'maximum film pressure', 'pad')
+      if (allocated(found%slopes)) call put_slopes(file, found)
       call put_figure(file, 'equilibrium_min_film_thickness', minval(found%min_film_thickness), 'm', &
          & 'minimum film thickness at the equilibrium')
       call put_figure(file, 'equilibrium_max_pressure', maxval(found%max_pressure), 'Pa', &
          & 'maximum pressure at the equilibrium')
    end subroutine put_equilibrium
+
+   !> Writes films at both ends, moments on the journal and where the pressure is highest.
+   subroutine put_slopes(file, found)
+      class(record_type), intent(inout) :: file
+      type(equilibrium_type), intent(in) :: found
+      call file%put('equilibrium/journal_moment_y', found%moments(1, 1), 'N m', &
+         & 'moment on the journal against its vertical slope')
+      call file%put('equilibrium/journal_moment_z', found%moments(2, 1), 'N m', &
+         & 'moment on the journal against its horizontal slope')
+      associate (slopes => found%slopes)
+         call put('start_film_thickness', slopes%edge_films(1), 'm', 'minimum film thickness at the end of lower x')
+         call put('end_film_thickness', slopes%edge_films(2), 'm', 'minimum film thickness at the end of higher x')
+         call put('max_pressure_angle', slopes%place(1), 'rad', 'angle of the maximum pressure from the pivot')
+         call put('max_pressure_axial', slopes%place(2), 'm', &
+            & 'distance of the maximum pressure from the middle along the shaft')
+      end associate
+   contains
+      subroutine put(name, values, units, long_name)
+         character(len=*), intent(in) :: name, units, long_name
+         real(wp), intent(in) :: values(:)
+         call file%put('equilibrium/'//name, values, units, long_name, 'pad')
+      end subroutine put
+   end subroutine put_slopes
 
    !> Writes how much the slope of an elastic shaft in the bearing, which films leave out, changes their thickness.
    subroutine put_misalignment(file, misalignment)

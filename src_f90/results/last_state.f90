@@ -206,7 +206,9 @@ contains
             call read_one(trim(of%series)//'_rate', pads%v(kind))
          end associate
       end do
-      if (bristles) call read_one('bristle_deflection', pads%bristle)
+      do k = 1, merge(coordinates%rotations, 0, bristles)
+         call read_one(coordinates%bristle_series(k), pads%bristle(k))
+      end do
    contains
       !> The values of a series in the sample.
       subroutine read_one(name, values)
@@ -224,6 +226,6 @@ contains
       type(pad_state), intent(in) :: pads(:)
       integer :: i
       all_finite = all(ieee_is_finite([journal%position, journal%velocity, [(pads(i)%x, pads(i)%v, i=1, size(pads))], &
-         & pads%bristle]))
+         & [(pads(i)%bristle, i=1, size(pads))]]))
    end function all_finite
 end module last_state

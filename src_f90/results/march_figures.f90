@@ -194,14 +194,14 @@ contains
       type(bearing_file_type), intent(inout) :: file
       type(bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: time(:), revolutions
-      real(wp), allocatable :: tilt(:, :), rate(:, :), moment(:, :)
+      real(wp), allocatable :: rate(:, :), moment(:, :)
       real(wp), dimension(bearing%pad_count()) :: work, stuck
       real(wp) :: slow
       integer :: i, n
       n = size(time)
-      call file%last_samples('pad_tilt', n, tilt)
-      call file%last_samples('pad_tilt_rate', n, rate)
-      call file%last_samples('friction_moment', n, moment)
+      work = works('tilt', 'friction_moment', rate, moment)
+      if (bearing%pitching()) work = work + works('pitch', 'friction_moment_pitch', rate, moment)
+      if (bearing%yawing()) work = work + works('yaw', 'friction_moment_yaw', rate, moment)
       associate (law => bearing%friction, pivot => bearing%pivot)
          slow = law%critical_velocity
          if (law%model == 'lugre') then
@@ -210,7 +210,6 @@ contains
             slow = sticking/law%decay
          end if
          do i = 1, size(work)
-            work(i) = path_integral(tilt(i, :), moment(i, :))
             stuck(i) = slow_share(time, (pivot%socket_radius(i) - pivot%radius_difference(i))*rate(i, :), slow)
          end do
       end associate
@@ -222,6 +221,27 @@ contains
       call put_figure(file, 'stick_fraction', sum(stuck)/size(stuck), '1', &
          & 'share of time that pivots stick, mean of the pads')
       call put_figure(file, 'pad_stick_fraction', stuck, '1', 'share of time that the pivot sticks')
+   contains
+      !> The work of friction against a rotation, J, of each pad; rate and moment become those of all rotations so far,
+      !> the first as it is, with others their size.
+      function works(rotation, series, all_rates, all_moments)
+         character(len=*), intent(in) :: rotation, series
+         real(wp), allocatable, intent(inout) :: all_rates(:, :), all_moments(:, :)
+         real(wp) :: works(bearing%pad_count())
+         real(wp), allocatable :: angle(:, :), own_rate(:, :), own_moment(:, :)
+         integer :: i
+         call file%last_samples('pad_'//rotation, n, angle)
+         call file%last_samples('pad_'//rotation//'_rate', n, own_rate)
+         call file%last_samples(series, n, own_moment)
+         works = [(path_integral(angle(i, :), own_moment(i, :)), i=1, size(angle, 1))]
+         if (allocated(all_rates)) then
+            all_rates = hypot(all_rates, own_rate)
+            all_moments = hypot(all_moments, own_moment)
+         else
+            call move_alloc(own_rate, all_rates)
+            call move_alloc(own_moment, all_moments)
+         end if
+      end function works
    end subroutine put_friction
 
    !> Lift-off, flutter and rubbing of the pads and whirl of the journal in the last revolutions. Fixed pads can only

@@ -9,7 +9,7 @@ module march_results
    use periodic_orbit, only: periodic_orbit_type
    use record, only: record_type
    use summary_group, only: put_figure
-   use state_layout, only: most_coordinates
+   use state_layout, only: most_coordinates, most_rotations
    use viscosity_history, only: viscosity_history_type
    use bearing_samples, only: bearing_sample
    use run_file, only: run_file_type
@@ -19,7 +19,8 @@ module march_results
    public :: add_sample, put_spectra, put_viscosity_history, put_periodic
 
    !> Values of a sample: of the shaft, of a journal, and of a pad at most.
-   integer, parameter :: of_shaft = 3, of_journal = 4, of_pad = 8 + 2*most_coordinates
+   integer, parameter :: of_shaft = 3, of_journal = 4, of_moments = 2
+   integer, parameter :: of_pad = 11 + 2*most_coordinates + 2*most_rotations
    !> Revolutions of a spectrum from which on a window leaves whole orders and halves of them apart.
    integer, parameter :: fewest_under_window = 8
 
@@ -61,7 +62,7 @@ contains
       integer :: b
       n = of_shaft
       do b = 1, size(samples)
-         n = n + of_journal + of_pad*size(samples(b)%states)
+         n = n + of_journal + of_moments + of_pad*size(samples(b)%states)
       end do
    end function most_values
 
@@ -74,6 +75,10 @@ contains
       integer :: pads, i, j, at
       values(n + 1:n + of_journal) = [sample%journal%position, sample%journal%velocity]
       n = n + of_journal
+      if (allocated(sample%slopes)) then
+         values(n + 1:n + of_moments) = sample%moment
+         n = n + of_moments
+      end if
       pads = size(sample%states)
       at = n
       do i = 1, pads
@@ -91,8 +96,22 @@ contains
                call take(state%x(sample%coordinates%kind(j)))
                call take(state%v(sample%coordinates%kind(j)))
             end do
-            if (sample%bristles) call take(state%bristle)
+            if (sample%bristles) then
+               do j = 1, sample%coordinates%rotations
+                  call take(state%bristle(j))
+               end do
+            end if
             if (sample%asperities) call take(pad%asperity_force)
+         end associate
+         if (.not. allocated(sample%slopes)) cycle
+         associate (slopes => sample%slopes(i))
+            do j = 2, sample%coordinates%rotations
+               call take(slopes%friction_moment(j - 1))
+            end do
+            do j = 1, 2
+               call take(slopes%edge_films(j))
+               call take(slopes%place(j))
+            end do
          end associate
       end do
       ! the last pad stands behind all others
@@ -155,6 +174,10 @@ contains
       call file%declare('journal_z', 1, 'm', 'journal displacement, horizontal', '')
       call file%declare('journal_vy', 1, 'm/s', 'journal velocity, vertical', '')
       call file%declare('journal_vz', 1, 'm/s', 'journal velocity, horizontal', '')
+      if (allocated(sample%slopes)) then
+         call file%declare('journal_moment_y', 1, 'N m', 'moment on the journal against its vertical slope', '')
+         call file%declare('journal_moment_z', 1, 'N m', 'moment on the journal against its horizontal slope', '')
+      end if
       if (sample%coordinates%n > 0) then
          call of_pads('pivot_load', 'N', 'pivot load')
          call of_pads('friction_moment', 'N m', 'pivot friction moment')
@@ -169,9 +192,23 @@ contains
             call of_pads(trim(words%series)//'_rate', trim(words%units)//'/s', trim(words%label)//' rate')
          end associate
       end do
-      if (sample%bristles) call of_pads('bristle_deflection', 'm', 'bristle deflection')
+      if (sample%bristles) then
+         do j = 1, sample%coordinates%rotations
+            call of_pads(sample%coordinates%bristle_series(j), 'm', 'bristle deflection')
+         end do
+      end if
       if (sample%asperities) call of_pads('asperity_force', 'N', &
          & 'normal force between the asperities of pad and journal')
+      if (.not. allocated(sample%slopes)) return
+      do j = 2, sample%coordinates%rotations
+         associate (name => sample%coordinates%words(sample%coordinates%rotation(j))%name)
+            call of_pads('friction_moment_'//trim(name), 'N m', 'pivot friction moment against the '//trim(name))
+         end associate
+      end do
+      call of_pads('start_film_thickness', 'm', 'minimum film thickness at the end of lower x')
+      call of_pads('max_pressure_angle', 'rad', 'angle of the maximum pressure from the pivot')
+      call of_pads('end_film_thickness', 'm', 'minimum film thickness at the end of higher x')
+      call of_pads('max_pressure_axial', 'm', 'distance of the maximum pressure from the middle along the shaft')
    contains
       subroutine of_pads(name, units, long_name)
          character(len=*), intent(in) :: name, units, long_name

@@ -32,6 +32,8 @@ module result_remarks
    real(wp), parameter :: largest_rise = 50, warm_metal = 120
    !> Films thinner than this number of roughnesses touch; part of the minimum thickness that a slope may change.
    real(wp), parameter :: roughnesses = 3, visible_slope = 0.2_wp
+   !> The same of a journal that is inclined in pads that cannot follow.
+   real(wp), parameter :: steep_slope = 0.1_wp
    !> Part of the clearance by which few pivots give way.
    real(wp), parameter :: soft_pivot = 0.2_wp
    !> Part of a pad's inflow that may be missing in its balance.
@@ -176,12 +178,29 @@ contains
             end associate
          end if
       end associate
-      said = said//on_beginning_films(bearing%pad_count(), file)
+      said = said//on_beginning_films(bearing%pad_count(), file)//on_slope(bearing, file)
       associate (misalignment => figure(file, 'misalignment'))
          said = said//line_if(misalignment > visible_slope, 'the slope of the shaft changes the film by {ci} % of ' &
             & //'its minimum thickness from the middle of the bearing to its end, which is left out', [misalignment])
       end associate
    end function on_equilibrium
+
+   !> On a journal so inclined that its ends come close to pads that cannot follow.
+   function on_slope(bearing, file) result(said)
+      type(bearing_type), intent(in) :: bearing
+      type(bearing_file_type), intent(in) :: file
+      character(len=:), allocatable :: said
+      real(wp), dimension(bearing%pad_count()) :: first, last
+      said = ''
+      if (bearing%pitching() .or. .not. file%has('equilibrium/start_film_thickness')) return
+      call file%get_list('equilibrium/start_film_thickness', first)
+      call file%get_list('equilibrium/end_film_thickness', last)
+      associate (part => 0.5_wp*abs(first - last)/min(first, last))
+         said = line_if(any(part > steep_slope), 'the slope of the journal changes the film of '//listed(part &
+            & > steep_slope)//' by up to {ci} % of its minimum thickness from the middle to an end; pads that pitch ' &
+            & //'(pads%motion) follow', [maxval(part)])
+      end associate
+   end function on_slope
 
    !> On a transition so sudden that films lose stiffness in it.
    function on_transition(bearing) result(said)

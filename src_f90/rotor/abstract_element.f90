@@ -23,6 +23,7 @@ module abstract_element
       procedure(part_derivatives), deferred :: part_derivatives
       procedure :: add_late
       procedure :: bristle_slopes
+      procedure :: find_bristles
       procedure :: own_force
       procedure :: sampled_force
       procedure :: sampled_position
@@ -115,6 +116,19 @@ contains
       real(wp) :: slopes(3)
       slopes = 0
    end function bristle_slopes
+
+   !> The same of a part with bristles of several rotations: what they do to its own rows, per deflection (row,
+   !> rotation), which is then left out of `add_late`; derivatives of their rates over the rates of the rotations, and
+   !> of each over its own deflection.
+   pure subroutine find_bristles(self, part, m, accelerations, over_bristle, of_rates, of_bristle)
+      class(element_type), intent(in) :: self
+      integer, intent(in) :: part, m
+      logical, intent(in) :: accelerations
+      real(wp), intent(out) :: over_bristle(:, :), of_rates(:, :), of_bristle
+      over_bristle = 0
+      of_rates = 0
+      of_bristle = 0
+   end subroutine find_bristles
 
    !> Force along a displacement of a part, N or N m, in the state evaluated last.
    pure real(wp) function own_force(self, part, coordinate)

@@ -1,17 +1,18 @@
 !> This module alone knows where the states lie. Those of the rotor come first, displacements and then their rates.
 !> Those of the elements follow, of each those of its first pad, of its second, ..: each of its displacements with its
-!> rate (of a pad its tilt and, on a flexible pivot, its pivot deflection) and (LuGre) the bristle deflection. A state
-!> that an element lacks is left out: fixed pads have none. The bearings are the first elements; others need have no
-!> pads.
+!> rate (of a pad its tilt and, on a flexible pivot, its pivot deflection, then its pitch and its yaw) and (LuGre) the
+!> bristle deflection, one for each way in which the pivot turns. A state that an element lacks is left out: fixed pads
+!> have none. The bearings are the first elements; others need have no pads.
 module state_layout
    use kinds, only: wp
    implicit none (type, external)
    private
    public :: state_layout_type, element_layout_type, new_element_layout, new_state_layout
-   public :: pad_state, tilt, pivot_deflection, most_coordinates, of_journal
+   public :: pad_state, tilt, pivot_deflection, pitch, yaw, most_coordinates, most_rotations, of_journal
 
-   !> What a pad may do: its tilt, rad, and the deflection of its pivot, m.
-   integer, parameter :: tilt = 1, pivot_deflection = 2, most_coordinates = 4
+   !> What a pad may do: its tilt, rad, the deflection of its pivot, m, and the slopes of its axis over that of the
+   !> bearing outward (pitch) and along the pad (yaw), rad. The tilt, pitch and yaw turn it in its pivot.
+   integer, parameter :: tilt = 1, pivot_deflection = 2, pitch = 3, yaw = 4, most_coordinates = 4, most_rotations = 3
    !> Displacements of a journal, y and z.
    integer, parameter :: of_journal = 2
 
@@ -19,8 +20,8 @@ module state_layout
    type :: pad_state
       !> Its displacements and their rates.
       real(wp) :: x(most_coordinates) = 0, v(most_coordinates) = 0
-      !> Deflection of the bristles, m.
-      real(wp) :: bristle = 0
+      !> Deflection of the bristles, m, one for each of its rotations, the tilt first.
+      real(wp) :: bristle(most_rotations) = 0
    end type pad_state
 
    !> By its tilt, rad, and the deflection of its pivot, m, with their rates, and that of its bristles, m.
@@ -36,8 +37,10 @@ module state_layout
       integer :: parts = 0
       !> Of each displacement its place in pad_state.
       integer :: kind(most_coordinates) = 0
-      !> Whether there are bristles.
+      !> Whether there are bristles, and how many of the displacements turn the pad, each of which has its own; their
+      !> places among the displacements.
       logical :: bristles = .false.
+      integer :: rotations = 0, rotation(most_rotations) = 0
       !> Numbers of its first and last pad among those of all elements; states and displacements before those of its
       !> first pad.
       integer :: first_pad = 1, last_pad = 0, states_before = 0, positions_before = 0
@@ -67,6 +70,7 @@ module state_layout
       procedure :: rates
       procedure :: n_positions
       procedure :: tilts
+      procedure :: turning
       procedure :: put_all_pads
    end type state_layout_type
 
@@ -78,20 +82,27 @@ contains
       if (present(rate)) pad%v(tilt) = rate
       if (present(deflection)) pad%x(pivot_deflection) = deflection
       if (present(deflection_rate)) pad%v(pivot_deflection) = deflection_rate
-      if (present(bristle)) pad%bristle = bristle
+      if (present(bristle)) pad%bristle(1) = bristle
    end function new_pad_state
 
    !> The layout of an element with this number of pads, whose displacements are of these kinds, before it has its place
-   !> among others.
-   pure type(element_layout_type) function new_element_layout(pads, kind, bristles) result(layout)
+   !> among others. Bristles are those of the displacements that turn the pads, at these places; left out: of the first.
+   pure type(element_layout_type) function new_element_layout(pads, kind, bristles, rotation) result(layout)
       integer, intent(in) :: pads, kind(:)
       logical, intent(in) :: bristles
+      integer, intent(in), optional :: rotation(:)
       layout%pads = pads
       layout%parts = max(1, pads)
       layout%coordinates = size(kind)
       layout%kind(:size(kind)) = kind
       layout%bristles = bristles .and. size(kind) > 0
-      layout%per_pad = 2*size(kind) + merge(1, 0, layout%bristles)
+      layout%rotations = min(1, size(kind))
+      layout%rotation(1) = layout%rotations
+      if (present(rotation)) then
+         layout%rotations = size(rotation)
+         layout%rotation(:size(rotation)) = rotation
+      end if
+      layout%per_pad = 2*size(kind) + merge(layout%rotations, 0, layout%bristles)
    end function new_element_layout
 
    !> The layout for a number of rotor states and the elements that act on these pairs of its displacements.
@@ -139,11 +150,11 @@ contains
       before = self%states_before + (pad - 1)*self%per_pad
    end function before
 
-   !> Index of a pad's bristle deflection; only where there are bristles.
+   !> Index of a pad's first bristle deflection, behind which its others stand; only where there are bristles.
    elemental integer function bristle(self, pad)
       class(element_layout_type), intent(in) :: self
       integer, intent(in) :: pad
-      bristle = self%before(pad) + self%per_pad
+      bristle = self%before(pad) + 2*self%coordinates + 1
    end function bristle
 
    !> Place of the first displacement of a pad, its tilt; its others are the next.
@@ -232,6 +243,20 @@ contains
       end do
    end function tilts
 
+   !> Which displacements turn pads in their pivots: their tilts, pitches and yaws.
+   pure function turning(self)
+      class(state_layout_type), intent(in) :: self
+      integer, allocatable :: turning(:)
+      integer :: b, i, k
+      allocate (turning(0))
+      do b = 1, size(self%elements)
+         associate (of => self%elements(b))
+            if (of%has(tilt)) turning = [turning, ((of%first_position(i) + of%rotation(k) - 1, k=1, of%rotations), &
+               & i=1, of%pads)]
+         end associate
+      end do
+   end function turning
+
    !> The states of the pads; what they lack is 0.
    pure function pad_states(self, y) result(pads)
       class(element_layout_type), intent(in) :: self
@@ -244,7 +269,10 @@ contains
             pads(i)%x(self%kind(k)) = y(o + 2*k - 1)
             pads(i)%v(self%kind(k)) = y(o + 2*k)
          end do
-         if (self%bristles) pads(i)%bristle = y(o + self%per_pad)
+         if (.not. self%bristles) cycle
+         do k = 1, self%rotations
+            pads(i)%bristle(k) = y(o + 2*self%coordinates + k)
+         end do
       end do
    end function pad_states
 
@@ -260,7 +288,10 @@ contains
             y(o + 2*k - 1) = pads(i)%x(self%kind(k))
             y(o + 2*k) = pads(i)%v(self%kind(k))
          end do
-         if (self%bristles) y(o + self%per_pad) = pads(i)%bristle
+         if (.not. self%bristles) cycle
+         do k = 1, self%rotations
+            y(o + 2*self%coordinates + k) = pads(i)%bristle(k)
+         end do
       end do
    end subroutine put_pads
 

@@ -8,6 +8,7 @@ module static_model
    use rigid_rotor, only: journal_motion
    use state_layout, only: pad_state, tilt, pivot_deflection
    use kinematics, only: pad_frame, frame_of, in_mirror
+   use sloped_bearing, only: align_pad
    use equations_of_motion, only: machine_model, new_machine_model
    use errors, only: error_type, stopped, raise, numerics_error, asked
    use text, only: to_text
@@ -138,6 +139,7 @@ contains
             frame = frame_of(position, journal, pads(i))
             pads(i)%x(tilt) = (frame%along + model%inputs%bearings(1)%machined_clearance(i)/3)/position%centre_distance
          end associate
+         call align_pad(model%bearings(1), i, journal, pads(i))
       end do
       y = model%state(journal, pads)
    end function placed

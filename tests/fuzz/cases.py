@@ -36,6 +36,11 @@ TOGETHER = (
 INSTEAD = ("bearing%preload", "pads%density", "pads%thickness")
 #: What changes the shape of the bearing; not drawn: it needs much else of the case.
 SHAPE = ("bearing%clearance_temperature", "pads%bending", "pads%temperature")
+#: Slopes of the journal and pads that follow them; not drawn: they need films that know them.
+SLOPES = (
+    *("bearing%slope", "coefficients%slopes", "pads%inertia_pitch", "pads%inertia_yaw"),
+    "pads%pivot_axial_offset",
+)
 ALONE = ("film%circumferential_cells", "film%axial_cells")
 #: Variables of which one stands in the place of the other; the last one belongs to the grade.
 EITHER = (
@@ -74,7 +79,7 @@ SPECIAL = {
     "pivot%file",
     *(
         key
-        for group in (*TOGETHER, ALONE, EITHER, INSTEAD, SHAPE, OF_LAW, TURBULENCE, START, HELD, OIL)
+        for group in (*TOGETHER, ALONE, EITHER, INSTEAD, SHAPE, SLOPES, OF_LAW, TURBULENCE, START, HELD, OIL)
         for key in group
     ),
 }
@@ -148,6 +153,7 @@ def set_task(dice: Random, variables: dict[str, Variable], found: dict[str, tupl
         found["coefficients%threshold_up_to_rpm"] = (0.0,)
     # which it needs
     found.pop("coefficients%threshold_born", None)
+    found.pop("coefficients%slopes", None)
 
 
 def held(dice: Random, variables: dict[str, Variable], found: dict[str, tuple]) -> dict[str, tuple]:
@@ -339,8 +345,8 @@ def pads(dice: Random, variables: dict[str, Variable]) -> dict[str, tuple]:
         each(lambda key=key: number(dice, variables[f"pads%{key}"]))
         for key in ("conductivity", "young_modulus", "poisson_ratio", "expansion")
     )
-    motion = dice.choice(variables["pads%motion"].choices).encode()
+    motion = dice.choice([each for each in variables["pads%motion"].choices if "pitch" not in each]).encode()
     values = (tuple(angles), arc, ratio, distance, mass, inertia, tangential, radial, *solid, (motion,))
-    left = {*INSTEAD, *SHAPE}
+    left = {*INSTEAD, *SHAPE, *SLOPES}
     keys = (key for key, variable in variables.items() if variable.group == "pads" and key not in left)
     return dict(zip(keys, values, strict=True))

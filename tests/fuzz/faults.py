@@ -51,6 +51,10 @@ TOGETHER = (
     ({"start%pivot_deflection": "1e-6", "pads%motion": "tilting_only"}, "start%pivot_deflection"),
     ({"pads%motion": "fixed", "friction%model": "lugre"}, "friction%model"),
     ({"pads%motion": "fixed", "start%pad_tilt": "1e-3"}, "start%pad_tilt"),
+    ({"bearing%slope": "1e-2, 0"}, "bearing%slope"),
+    ({"pads%inertia_yaw": "1e-3"}, "pads%inertia_yaw"),
+    ({"pads%pivot_axial_offset": "1e-3"}, "pads%pivot_axial_offset"),
+    ({"pads%motion": "tilting_pitch", "film%solver": "sor"}, "pads%motion"),
     ({"pads%pivot_angle_deg": "0, 60"}, "pads%pivot_angle_deg"),
 )
 

@@ -5,9 +5,10 @@ module energy_ledger
    use ode_model, only: ode_model_type
    use film_solver, only: film_motion
    use rigid_rotor, only: journal_motion
-   use state_layout, only: pad_state, tilt, pivot_deflection
+   use state_layout, only: pad_state, tilt, pivot_deflection, pitch, yaw
    use kinematics, only: frame_of, motion_of
-   use tilting_pad_bearing, only: pad_sample
+   use tilting_pad_bearing, only: pad_sample, sloped_sample
+   use sloped_bearing, only: sampled_slopes
    use equations_of_motion, only: machine_model
    implicit none (type, external)
    private
@@ -57,6 +58,7 @@ contains
                power(2) = power(2) + dot_product(film, y(3:4)) &
                   & - force(1)*b%bearings(1)%pads(pad)%position%centre_distance*pads(pad)%v(tilt)
                power(3) = power(3) - films(pad)%friction_moment*pads(pad)%v(tilt)
+               if (b%layout%elements(1)%has(pitch)) call add_slopes(b, pad, pads(pad), power(2:3))
                if (b%layout%elements(1)%has(pivot_deflection)) then
                   weight = p%mass(pad)*b%inputs%rotor%gravity
                   power(2) = power(2) - force(2)*pads(pad)%v(pivot_deflection)
@@ -74,6 +76,18 @@ contains
          dydt(n + 3) = sum(abs(power))
       end associate
    end subroutine ledger_rhs
+
+   !> Power of film and friction along pitch and yaw of a pad whose pivot stands in the middle plane.
+   subroutine add_slopes(bearing, pad, state, power)
+      type(machine_model), intent(in) :: bearing
+      integer, intent(in) :: pad
+      type(pad_state), intent(in) :: state
+      real(wp), intent(inout) :: power(2)
+      type(sloped_sample) :: sample
+      sample = sampled_slopes(bearing%bearings(1), pad)
+      power(1) = power(1) - sample%moment(2)*state%v(pitch) - sample%moment(1)*state%v(yaw)
+      power(2) = power(2) - sample%friction_moment(1)*state%v(pitch) - sample%friction_moment(2)*state%v(yaw)
+   end subroutine add_slopes
 
    !> Power of the asperities beside what they store: of their friction, and what eqs (3)-(4) hold beside a potential,
    !> as their arms are those of the arc's centre.
@@ -194,8 +208,18 @@ contains
                      & + p%centre_tangential(pad)*state%v(tilt)*state%v(pivot_deflection))
                   energy(4) = energy(4) + stored(b, state%x(pivot_deflection))
                end if
-               energy(4) = energy(4) + pressed(b, y, pad) &
-                  & + 0.5_wp*b%inputs%bearings(1)%pivot%rotational_stiffness(pad)*state%x(tilt)**2
+               if (b%layout%elements(1)%has(pitch)) then
+                  ! what tilt and deflection have is counted above
+                  associate (m => p%mass(pad), c_t => p%centre_tangential(pad), c_r => p%centre_radial(pad))
+                     energy(2) = energy(2) + 0.5_wp*(p%inertia_pitch(pad)*state%v(pitch)**2 &
+                        & + p%inertia_yaw(pad)*state%v(yaw)**2) + m*c_t*c_r*state%v(pitch)*state%v(yaw)
+                     energy(3) = energy(3) - 0.5_wp*m*r%gravity*(cos(a)*(c_t*state%x(yaw) + c_r*state%x(pitch)) &
+                        & *state%x(yaw) + sin(a)*(c_t*state%x(yaw) + c_r*state%x(pitch))*state%x(pitch))
+                  end associate
+               else
+                  energy(4) = energy(4) + pressed(b, y, pad)
+               end if
+               energy(4) = energy(4) + 0.5_wp*b%inputs%bearings(1)%pivot%rotational_stiffness(pad)*state%x(tilt)**2
             end associate
          end do
       end associate
@@ -225,7 +249,7 @@ program test_energy_balance
    use text, only: to_text, exact_text
    use errors, only: error_type
    use case_inputs, only: case_type
-   use state_layout, only: pad_state, tilt, pivot_deflection
+   use state_layout, only: pad_state, tilt, pivot_deflection, pitch, yaw
    use equations_of_motion, only: machine_model, new_machine_model
    use equilibrium_record, only: equilibrium_type
    use equilibrium, only: find_equilibrium
@@ -242,6 +266,8 @@ program test_energy_balance
       call balance('tilting_only', 'none', 0.05_wp)
       call balance('tilting_only', 'none', 0.05_wp, 2e4_wp)
       call balance('fixed', 'none', 0.05_wp)
+      call balance('tilting_radial_pitch_yaw', 'none', 0.05_wp)
+      call balance('tilting_radial_pitch_yaw', 'lugre', 0.05_wp)
    end if
    if (runs('bouncing')) then
       call bouncing('tilting_radial', 0.0_wp)
@@ -288,6 +314,10 @@ contains
       pads = static%pads
       pads%x(tilt) = pads%x(tilt) + [1e-4_wp, -5e-5_wp]
       pads%x(pivot_deflection) = pads%x(pivot_deflection)*[1.02_wp, 0.97_wp]
+      if (bearing%layout%elements(1)%has(pitch)) then
+         pads%x(pitch) = pads%x(pitch) + [1e-4_wp, -5e-5_wp]
+         pads%x(yaw) = pads%x(yaw) + [-3e-5_wp, 6e-5_wp]
+      end if
       call closes(inputs, bearing%static_state(static%rotor + [10e-6_wp, 5e-6_wp], pads), what, rubbed, touched)
       call expect(.not. touched, 'nothing touches, '//what)
       if (friction == 'none') then

@@ -56,7 +56,7 @@ def at_rest(run: Run) -> State:
 
 def at_time(run: Run, time: float | None) -> State:
     """The sample next to `time`, s; None: the equilibrium."""
-    at, journal, (tilt, pivot_deflection) = library.state(run, time)
+    at, journal, (tilt, pivot_deflection, *_) = library.state(run, time)
     return State(at, journal[:2], tilt[0], pivot_deflection[0])
 
 

@@ -27,6 +27,8 @@ PAPER = "&case /"
 
 #: Position and velocity of the journal.
 JOURNAL = ("journal_y", "journal_z", "journal_vy", "journal_vz")
+#: What pads do, as the library takes it.
+OF_PADS = ("pad_tilt", "pivot_deflection", "pad_pitch", "pad_yaw")
 
 
 class MissingLibraryError(ImportError):
@@ -123,7 +125,7 @@ def pressure(
     points = shares(along, 0, "the arc"), shares(across, -1, "half the width")
     when = 0.0 if at is None else at
     phi, z, field, force, max_pressure, min_film_thickness = called(
-        "film_pressure", run, *oil(run, at), when, journal, *pads, *points
+        "film_pressure", run, *oil(run, at), when, journal, np.stack(pads, axis=1), *points
     )
     return Pressure(at, field.T, phi.T, z.T, force.T, max_pressure, min_film_thickness)
 
@@ -145,8 +147,8 @@ def losses(run: Run, last: float | None = None) -> Losses:
         # the library counts samples last
         return np.moveaxis(np.array(values), 1, -1)
 
-    states = motion("pad_tilt"), motion("pivot_deflection")
-    (found,) = called("power_losses", run, *oil(run, time.mean()), time, np.array(journal), *states)
+    states = np.stack([motion(name) for name in OF_PADS], axis=1)
+    (found,) = called("power_losses", run, *oil(run, time.mean()), time, np.array(journal), states)
     load, couette, pressure, boundary, *others = np.moveaxis(found, -1, 1)
     return Losses(time, load, couette + pressure + boundary, couette, pressure, boundary, *others)
 
@@ -170,15 +172,15 @@ def oil(run: Run, time: float | None) -> tuple[np.ndarray, np.ndarray]:
     return run[warm], np.array(along).transpose(2, 0, 1)
 
 
-def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Time of the nearest sample, journal (4,), pad tilts and pivot deflections with rates (2, pad)."""
+def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple[np.ndarray, ...]]:
+    """Time of the nearest sample, journal (4,), and tilt, deflection, pitch and yaw with rates (2, pad)."""
     if time is None:
         rest = run["equilibrium"]
         still = np.zeros(run.pads)
-        tilt, pivot_deflection = (rest.get(name, still) for name in ("pad_tilt", "pivot_deflection"))
+        own = [rest.get(name, still) for name in OF_PADS]
         with reading(run.path, "equilibrium"):
             journal = np.array([rest["journal_y"], rest["journal_z"], 0, 0], float)
-        return None, journal, (np.array([tilt, still]), np.array([pivot_deflection, still]))
+        return None, journal, tuple(np.array([each, still]) for each in own)
     start, end = signals.ends(run, "time")
     step = run.values("time", slice(0, 2))[-1] - start
     if not start - step <= time <= end + step:
@@ -194,7 +196,7 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
     def pads(name: str) -> np.ndarray:
         return sample(name, f"{name}_rate") if name in run else np.zeros((2, run.pads))
 
-    return float(run.values("time", k)), sample(*JOURNAL), (pads("pad_tilt"), pads("pivot_deflection"))
+    return float(run.values("time", k)), sample(*JOURNAL), tuple(pads(name) for name in OF_PADS)
 
 
 def shares(points: int | np.ndarray, first: float, of: str) -> np.ndarray:

@@ -40,7 +40,12 @@ FAR = 10.0
 #: An arc in degrees beside whose pivot angle the names of its edges find room.
 ROOM = 30
 #: What pads can do, in words.
-MOTIONS = {"tilting_radial": "tilting, radially elastic", "tilting_only": "tilting", "fixed": "fixed"}
+MOTIONS = {
+    **{"tilting_radial": "tilting, radially elastic", "tilting_only": "tilting", "fixed": "fixed"},
+    **{"tilting_pitch": "tilting, pitching", "tilting_pitch_yaw": "tilting, pitching, yawing"},
+    "tilting_radial_pitch": "tilting, pitching, radially elastic",
+    "tilting_radial_pitch_yaw": "tilting, pitching, yawing, radially elastic",
+}
 #: How shaft and angles turn, by the sense of the shaft.
 TURNING = {
     1: (

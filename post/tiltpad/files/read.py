@@ -32,6 +32,11 @@ OF_MACHINES = ("station", "bearing", "rotor", "response", "synchronous", "stabil
 OF_EACH = ("pads", "clearance")
 #: Variables of the input that bending and expansion change, and that the group `shape` has in operation.
 OF_SHAPE = ("journal_radius", "machined_clearance", "assembled_clearance", "pivot_distance")
+#: How names of datasets end that only bearings have in whose films slopes of the journal count.
+OF_SLOPES = (
+    *("journal_moment_y", "journal_moment_z", "start_film_thickness", "end_film_thickness"),
+    *("max_pressure_angle", "max_pressure_axial", "slope_stiffness", "slope_damping"),
+)
 #: What only pads that tilt have.
 OF_TILTING = ("pad_tilt", "pivot_load", "friction_moment")
 #: Series of branches, by which a run without them is told that it is none.
@@ -319,6 +324,13 @@ class Run(Archive):
         """True where films may be turbulent (film%turbulence)."""
         return self.input["film"].get("turbulence", "none") != "none"
 
+    @property
+    def has_slopes(self) -> bool:
+        """True where slopes of the journal count in the films: inclined journals, or pads that pitch."""
+        asked = self.task == "coefficients" and self.input["coefficients"].get("slopes", False)
+        inclined = any(self.input["bearing"].get("slope", ()))
+        return bool("pitch" in self.input["pads"]["motion"] or inclined or asked)
+
     def is_cold(self, name: str) -> bool:
         """True for what a heat balance tells, of a run without one."""
         thermal = self.input.get("thermal", {}).get("model", "none")
@@ -339,7 +351,10 @@ class Run(Archive):
         # the first one that is true
         reasons = (
             (name == "bristle_deflection" and friction != "lugre", f"friction model is '{friction}'"),
-            ("pivot_deflection" in name and motion != "tilting_radial", f"pad motion is '{motion}'"),
+            ("pivot_deflection" in name and "radial" not in motion, f"pad motion is '{motion}'"),
+            ("pitch" in name and "pitch" not in motion, f"pad motion is '{motion}'"),
+            ("yaw" in name and "yaw" not in motion, f"pad motion is '{motion}'"),
+            (name.endswith(OF_SLOPES) and not self.has_slopes, "no slopes of the journal count in it"),
             (motion == "fixed" and any(each in name for each in OF_TILTING), "pad motion is 'fixed'"),
             (name.endswith(TURBULENT) and not self.is_turbulent, "film%turbulence is 'none'"),
             (self.is_cold(name), "it has no heat balance (thermal%model = 'none')"),

@@ -1,0 +1,213 @@
+"""Runs of bearings whose journal is inclined and whose pads pitch and yaw.
+
+The figures are those of a study by an independent program: Galerkin's method with 20 x 14 weighted functions,
+rigid pivots, pads without weight.
+"""
+
+import h5py
+import numpy as np
+import pytest
+
+CASE = """&case task = 'coefficients' /
+&rotor unbalance = 0, gravity = 0, static_load = -19620, 0 /
+&pads motion = '{motion}'{inertias} /
+&bearing slope = {slope}, 0 /
+&film cavitation = 'none' /
+&asperity model = 'none' /
+&coefficients slopes = .true. /
+"""
+#: Of the study, kg m^2.
+INERTIAS = {"pitch": ", inertia_pitch = 7.790538e-4", "yaw": ", inertia_yaw = 9.777795e-4"}
+#: Stiffness against y, z and the slopes, in N, N m, m and rad, at a slope of 200 urad: pads that only tilt,
+#: and pads that pitch; damping of the first.
+STIFFNESS = np.array(
+    [
+        [514903469.13, -443104.34, -1370237.29, -100590.28],
+        [297771.73, 515967694.71, -1464008.87, -3889505.42],
+        [-3098703.46, 1887738.05, 390406.83, 243921.21],
+        [1995165.93, -2485385.32, -254947.35, 395890.61],
+    ]
+)
+PITCHING = np.array(
+    [
+        [508064077.76, -673680.47, -422353.52, 1031.88],
+        [64513.83, 509083441.93, 1142.58, 422354.71],
+        [-246049.38, 1073.21, 30353.64, -64.93],
+        [903.17, 245915.28, 99.88, 30291.39],
+    ]
+)
+DAMPING = np.array(
+    [
+        [985496.79, -8842.41, -3320.52, -547.11],
+        [-9054.49, 987489.82, -447.01, -1504.66],
+        [-3949.64, -163.91, 794.94, -1.04],
+        [-316.70, -3861.10, -1.54, 791.97],
+    ]
+)
+
+
+@pytest.fixture
+def found(tiltpad, tmp_path):
+    """What a case has at its equilibrium, with its 4 x 4 coefficients."""
+
+    def run(motion, slope, *overrides):
+        inertias = "".join(INERTIAS[name] for name in INERTIAS if name in motion)
+        (tmp_path / "case.nml").write_text(CASE.format(motion=motion, slope=slope, inertias=inertias))
+        words = ("case.nml", "-q", "--overwrite", "-o", "found.h5")
+        tiltpad(*words, overrides=overrides, cwd=tmp_path, status=0)
+        with h5py.File(tmp_path / "found.h5") as file:
+            values = {name: file["equilibrium"][name][()] for name in file["equilibrium"]}
+            return values | {
+                name: file[f"coefficients/slope_{name}"][0, 0] for name in ("stiffness", "damping")
+            }
+
+    return run
+
+
+def expect_coefficients(found, expected, accuracy):
+    """Each over the geometric mean of those on the diagonal in its row and column."""
+    sizes = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
+    np.testing.assert_allclose(found / sizes, expected / sizes, rtol=0, atol=accuracy)
+
+
+def test_an_inclined_journal_on_pads_that_only_tilt(found):
+    there = found("tilting_only", 200e-6)
+    assert there["journal_y"] == pytest.approx(-45.2283e-6, abs=0.2e-6)
+    assert there["min_film_thickness"].min() == pytest.approx(32.4607e-6, abs=0.2e-6)
+    assert there["journal_moment_y"] == pytest.approx(-76.594, rel=3e-3)
+    assert there["journal_moment_z"] == pytest.approx(50.578, rel=3e-3)
+    np.testing.assert_allclose(there["max_pressure"], [5.73324e6, 5.24483e6], rtol=1e-2)
+    expect_coefficients(there["stiffness"], STIFFNESS, 1e-4)
+    expect_coefficients(there["damping"], DAMPING, 1e-4)
+    # the thinner end is that towards which the journal goes down
+    assert there["start_film_thickness"].min() < there["end_film_thickness"].min()
+
+
+def test_pads_that_pitch(found):
+    there = found("tilting_pitch", 200e-6)
+    assert there["journal_y"] == pytest.approx(-45.3620e-6, abs=0.2e-6)
+    assert there["min_film_thickness"].min() == pytest.approx(39.6237e-6, abs=0.2e-6)
+    np.testing.assert_allclose(there["pad_pitch"], [-242.379e-6, -40.2135e-6], rtol=0, atol=0.5e-6)
+    assert there["journal_moment_y"] == pytest.approx(-9.3416, abs=0.3)
+    # what is left of 382 kN m/rad on pads that only tilt
+    expect_coefficients(there["stiffness"], PITCHING, 3e-4)
+
+
+def test_pads_that_pitch_and_yaw_leave_the_bearing_aligned(found):
+    """Which is that of pads that only tilt, on a journal without slope."""
+    aligned, there = found("tilting_only", 0), found("tilting_pitch_yaw", 200e-6)
+    for name in ("journal_y", "journal_z", "min_film_thickness", "max_pressure", "pad_tilt"):
+        size = np.abs(aligned[name]).max()
+        np.testing.assert_allclose(there[name], aligned[name], rtol=0, atol=max(1e-6 * size, 1e-13))
+    np.testing.assert_allclose(there["start_film_thickness"], there["end_film_thickness"], rtol=1e-6)
+    assert abs(there["journal_moment_y"]) < 1e-3
+
+
+def test_ends_exchanged(found):
+    """What is even in the slope stays, what is odd has another sign."""
+    here, there = found("tilting_pitch", 200e-6), found("tilting_pitch", -200e-6)
+    np.testing.assert_allclose(here["pad_pitch"], -there["pad_pitch"], rtol=1e-6)
+    np.testing.assert_allclose(here["start_film_thickness"], there["end_film_thickness"], rtol=1e-9)
+    even = np.outer([1, 1, -1, -1], [1, 1, -1, -1])
+    expect_coefficients(there["stiffness"] * even, here["stiffness"], 1e-6)
+
+
+def test_a_pivot_off_the_middle_plane_pitches_its_pad(found):
+    """1 mm pitches the pads of the paper by 35 to 41 urad."""
+    there = found("tilting_pitch", 0, "pads%pivot_axial_offset=1e-3")
+    assert np.all(np.abs(there["pad_pitch"]) > 34e-6)
+    assert np.all(np.abs(there["pad_pitch"]) < 42e-6)
+
+
+MARCH = """&pads motion = 'tilting_radial_pitch_yaw' /
+&friction model = '{friction}', static_coefficient = 0.1, dynamic_coefficient = 0.08 /
+&bearing slope = {slope}, 1e-4 /
+&operation duration = 0.01 /
+&film cavitation = 'none' /
+"""
+
+
+@pytest.mark.parametrize("friction", ["none", "bengisu_akay", "lugre"])
+def test_marches(tiltpad, tmp_path, friction):
+    """With its ends exchanged a shaft moves in the same way; no friction is larger than its limit."""
+    series = {}
+    for slope in (2e-4, -2e-4):
+        (tmp_path / "case.nml").write_text(
+            MARCH.format(friction=friction, slope=slope).replace(", 1e-4", f", {np.sign(slope) * 1e-4}")
+        )
+        tiltpad("case.nml", "-q", "--overwrite", "-o", "run.h5", cwd=tmp_path, status=0)
+        with h5py.File(tmp_path / "run.h5") as file:
+            series[slope] = {name: file[name][()] for name in file if isinstance(file[name], h5py.Dataset)}
+    here, there = series.values()
+    np.testing.assert_allclose(here["journal_y"], there["journal_y"], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(here["pad_pitch"], -there["pad_pitch"], rtol=0, atol=2e-8)
+    np.testing.assert_allclose(here["start_film_thickness"], there["end_film_thickness"], rtol=0, atol=2e-9)
+    if friction == "none":
+        assert "friction_moment_pitch" not in here or not here["friction_moment_pitch"].any()
+        return
+    moments = [here[f"friction_moment{name}"] for name in ("", "_pitch", "_yaw")]
+    limit = 0.1 * (13e-3 - 15e-6) * here["pivot_load"]
+    if friction == "bengisu_akay":
+        assert np.all(np.linalg.norm(moments, axis=0) <= limit * (1 + 1e-6))
+
+
+def test_friction_holds_the_pitch_until_the_pads_slide(tiltpad, tmp_path):
+    """A shaft that is inclined suddenly: free pads follow at once, rubbing ones are held for some time."""
+    pitch = {}
+    for friction in ("none", "lugre"):
+        (tmp_path / "case.nml").write_text(MARCH.format(friction=friction, slope=2e-4))
+        start = (f"friction%model={friction}", "bearing%slope=0,0", "operation%duration=0.001")
+        tiltpad("case.nml", "-q", "-o", f"{friction}.h5", overrides=start, cwd=tmp_path, status=0)
+        there = ("start%from=file", f"start%file={friction}.h5")
+        tiltpad("case.nml", "-q", "--overwrite", "-o", "run.h5", overrides=there, cwd=tmp_path, status=0)
+        with h5py.File(tmp_path / "run.h5") as file:
+            pitch[friction] = file["pad_pitch"][()]
+            if friction == "lugre":
+                share = np.abs(file["friction_moment_pitch"][()]) / file["pivot_load"][()]
+    # the friction coefficient is 0.1 at a ball of 13 mm
+    assert 0.2 * 0.1 * 13e-3 < share.max() < 1.5 * 0.1 * 13e-3
+    assert np.abs(pitch["lugre"][-1]).max() < 0.9 * np.abs(pitch["none"][-1]).max()
+
+
+def test_a_march_goes_on_as_if_it_had_not_stopped(tiltpad, tmp_path):
+    (tmp_path / "case.nml").write_text(MARCH.format(friction="lugre", slope=2e-4))
+    tiltpad("case.nml", "-q", "-o", "whole.h5", cwd=tmp_path, status=0)
+    tiltpad(
+        "case.nml", "-q", "-o", "part.h5", overrides=("operation%duration=0.005",), cwd=tmp_path, status=0
+    )
+    start = ("start%from=file", "start%file=part.h5")
+    done = tiltpad("case.nml", "-q", "-o", "more.h5", overrides=start, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    with h5py.File(tmp_path / "whole.h5") as whole, h5py.File(tmp_path / "more.h5") as more:
+        assert whole["bristle_deflection_pitch"].shape == more["bristle_deflection_pitch"].shape
+        assert np.isfinite(more["pad_yaw"][()]).all()
+
+
+@pytest.mark.parametrize(
+    ("overrides", "words"),
+    [
+        (("bearing%slope=3e-3,0",), "closes the film of pad 1 at rest"),
+        (("bearing%slope=0,5e-3", "pads%motion=tilting_pitch"), "closes the film of pad 1 at rest"),
+        (("pads%motion=fixed", "pads%inertia_pitch=1e-3"), "is for pads that pitch"),
+        (("pads%inertia_yaw=1e-3",), "is for pads that yaw"),
+        (("pads%motion=tilting_pitch_yaw", "pads%inertia_yaw=0"), "must be 1e-15 to 1e12"),
+        (("pads%motion=tilting_pitch", "pads%inertia_pitch=1e-5"), "must exceed 8.27"),
+        (("pads%pivot_axial_offset=1e-3",), "is for pads that pitch"),
+        (("pads%motion=tilting_pitch", "pads%pivot_axial_offset=0.05"), "must be less than half of"),
+        (("pads%motion=tilting_pitch", "film%solver=sor"), "'auto' does"),
+        (
+            ("pads%motion=tilting_pitch", "oil%grade=46", "thermal%model=film"),
+            "'pad' has a temperature for each pad",
+        ),
+        (
+            ("bearing%slope=1e-4,0", "oil%grade=46", "thermal%model=film"),
+            "bearing%slope = 1e-4, 0: is not for",
+        ),
+    ],
+)
+def test_bad_input(tiltpad, tmp_path, overrides, words):
+    (tmp_path / "case.nml").write_text("&case /\n")
+    done = tiltpad("--check", "case.nml", overrides=overrides, cwd=tmp_path)
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert words in done.stderr
