@@ -1,4 +1,4 @@
-!> The films of all pads of a bearing with slopes (docs/theory/film.md, *Slopes*).
+!> The films of all pads of a bearing with slopes (docs/theory/pitch_and_yaw.md).
 !>
 !> Full films of oil of one viscosity between equal pressures are those of weighted functions, as many as a film needs.
 !> All others are those of finite volumes, extrapolated from two grids; where such a film cavitates, with a share of the
