@@ -124,7 +124,8 @@ contains
       real(wp) :: ends(2)
       ends = edge_films(gap, directions, motion)
       load%thickness = minval(ends)
-      load%touches = abs(load%thickness) < self%reach
+      ! a corner is softer than a whole edge: it may go deeper than the contact reaches
+      load%touches = load%thickness < self%reach .and. load%thickness > -gap%machined_clearance
       load%film_motion = motion
       load%film_slopes_4 = identity(4)
       if (.not. load%touches) return

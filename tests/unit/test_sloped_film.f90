@@ -11,6 +11,7 @@ program test_sloped_film
    use fourier_film, only: fourier_film_type, converged_film
    use asperity_contact, only: asperity_contact_type, asperity_load, sloped_asperity_load, new_asperity_contact
    use sloped_film, only: sloped_film_type, sloped_motion, sloped_response, new_sloped_film
+   use sloped_gap, only: edge_films
    use weighted_film, only: weighted_film_type, new_weighted_film
    use paper_bearing, only: paper_oil, paper_pad, offset_pad, uneven, clearance
    use check, only: runs, expect, expect_close, between, report
@@ -56,8 +57,8 @@ program test_sloped_film
 
 contains
 
-   !> Single films of the program behind docs/verification.md, *Slopes*: Galerkin's method with 20 x 14 functions, and
-   !> where they cavitate 384 x 128 volumes, extrapolated.
+   !> Single films of an independent program: Galerkin's method with 20 x 14 functions, and where they cavitate 384 x 128
+   !> volumes, extrapolated.
    subroutine independent()
       call one('aligned', 0.1_wp, [-26.0_wp, 52.0_wp, 0.0_wp, 0.0_wp], [23.8436_wp, 13547.03_wp, 0.0_wp, 0.0_wp], &
          & 5.10244e6_wp, cavitation_none)
@@ -371,5 +372,9 @@ contains
          end do
       end do
       call expect(all(error < 1e-6_wp), 'derivatives'//errors(error))
+      motion = motion_of([20e-6_wp, 60e-6_wp, 0.0_wp, 900e-6_wp])
+      call contact%evaluate_sloped(pad, pad%directions(), motion, speed, load)
+      call expect(load%touches .and. load%thickness < -5e-6_wp .and. load%journal_moment(2) < 0, 'a deep corner')
+      call expect(all(edge_films(pad, pad%directions(), load%film_motion) > 0), 'its film is open')
    end subroutine asperities
 end program test_sloped_film

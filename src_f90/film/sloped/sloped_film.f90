@@ -1,4 +1,4 @@
-!> The films of all pads of a bearing with slopes (docs/theory/film.md, *Slopes*).
+!> The films of all pads of a bearing with slopes (docs/theory/pitch_and_yaw.md).
 !>
 !> Full films of oil of one viscosity between equal pressures are those of weighted functions, as many as a film needs.
 !> All others are those of finite volumes, extrapolated from two grids; where such a film cavitates, with a share of the
@@ -85,15 +85,17 @@ contains
       if (.not. response%film%min_film_thickness > thinnest*self%gaps(i)%machined_clearance) then
          response%film%status = film_closed
       else if (.not. has_weights(self, i, oil)) then
-         call add_volumes(self, i, motion, oil, speed, 0.0_wp, want_derivatives, response)
+         call add_volumes(self, i, motion, oil, speed, 0.0_wp, 1.0_wp, want_derivatives, response)
       else
          call find_full(self, i, motion, oil, speed, want_derivatives, response)
          if (.not. is_cavitated(self, i, response)) return
          full = response
-         associate (c => share_of_modes(self%gaps(i)%cavitation_pressure, full%film))
+         associate (c => share_of_modes(self%gaps(i)%cavitation_pressure, full%film), &
+            & factor => min(1.0_wp, tension_of(self, i, full)/slight_tension - 1))
             call add(response, full, c - 1)
             response%film%max_pressure = c*full%film%max_pressure
-            call add_volumes(self, i, motion, oil, speed, c, want_derivatives, response)
+            ! what volumes know grows from nothing, so that a march meets no leap
+            call add_volumes(self, i, motion, oil, speed, c, factor, want_derivatives, response)
          end associate
       end if
    end subroutine evaluate_pad
@@ -111,11 +113,21 @@ contains
       class(sloped_film_type), intent(in) :: self
       integer, intent(in) :: i
       type(sloped_response), intent(in) :: full
-      associate (lowest => self%gaps(i)%cavitation_pressure)
-         is_cavitated = self%cavitates() .and. lowest - full%film%min_pressure &
-            & > slight_tension*(full%film%max_pressure - lowest)
-      end associate
+      is_cavitated = .false.
+      if (self%cavitates()) is_cavitated = tension_of(self, i, full) > slight_tension
    end function is_cavitated
+
+   !> How far a full film falls below the cavitation pressure, over how far it rises above it; at most 2.
+   pure real(wp) function tension_of(self, i, full)
+      class(sloped_film_type), intent(in) :: self
+      integer, intent(in) :: i
+      type(sloped_response), intent(in) :: full
+      associate (below => self%gaps(i)%cavitation_pressure - full%film%min_pressure, &
+         & above => full%film%max_pressure - self%gaps(i)%cavitation_pressure)
+         tension_of = 2
+         if (below < 2*above) tension_of = below/above
+      end associate
+   end function tension_of
 
    !> The full film, on the first level that does.
    subroutine find_full(self, i, motion, oil, speed, want_derivatives, response)
@@ -143,20 +155,20 @@ contains
       end do
    end subroutine find_full
 
-   !> Adds the film by volumes, extrapolated from two grids, less a share of that without cavitation.
-   subroutine add_volumes(self, i, motion, oil, speed, share, want_derivatives, response)
+   !> Adds the film by volumes, extrapolated from two grids, less a share of that without cavitation, times a factor.
+   subroutine add_volumes(self, i, motion, oil, speed, share, factor, want_derivatives, response)
       class(sloped_film_type), intent(inout) :: self
       integer, intent(in) :: i
       type(sloped_motion), intent(in) :: motion
       class(film_law_type), intent(in) :: oil
-      real(wp), intent(in) :: speed, share
+      real(wp), intent(in) :: speed, share, factor
       logical, intent(in) :: want_derivatives
       type(sloped_response), intent(inout) :: response
       type(sloped_response) :: full, found
       real(wp) :: weight
       integer :: k
       do k = 1, 2
-         weight = merge(-1, 4, k == 1)/3.0_wp
+         weight = factor*merge(-1, 4, k == 1)/3
          associate (film => self%volumes(k, i), cells => k*self%cells/2)
             if (film%rows == 0) film = new_sloped_volumes(self%gaps(i), cells(1), cells(2))
             call film%set_motion(following_angles(self%gaps(i), motion%middle, speed, cells(1)/2), motion, oil, speed)
@@ -169,8 +181,9 @@ contains
       end do
       response%place = found%place
       response%film%min_pressure = found%film%min_pressure
-      response%film%max_pressure = response%film%max_pressure + found%film%max_pressure
-      if (share > 0) response%film%max_pressure = response%film%max_pressure - share*full%film%max_pressure
+      response%film%max_pressure = response%film%max_pressure + factor*found%film%max_pressure
+      if (share > 0) response%film%max_pressure = response%film%max_pressure &
+         & - factor*share*full%film%max_pressure
    end subroutine add_volumes
 
    !> Adds a share of another film to forces and derivatives.

@@ -1,5 +1,5 @@
 !> The gap of a pad to whose axis that of the journal is inclined: its motion, its edges, and what a film solver answers
-!> for it (docs/theory/film.md, *Slopes*).
+!> for it (docs/theory/pitch_and_yaw.md).
 !>
 !> In the pad's frame (pad_gap) the axis lies at e + gamma z, z the distance from the pad's middle plane along the
 !> shaft, so that h = c_m - (e_1 + gamma_1 z) sin(phi) - (e_2 + gamma_2 z) cos(phi). The slope gamma is the journal's

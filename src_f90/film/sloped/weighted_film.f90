@@ -1,5 +1,5 @@
 !> A full film with slopes of oil of one viscosity between equal pressures, by weighted functions
-!> (docs/theory/film.md, *Slopes*).
+!> (docs/theory/pitch_and_yaw.md).
 !>
 !> With phi along the arc and R the pad's radius the pressure above that of the edges obeys
 !>    (h^3 p_phi)_phi + R^2 (h^3 p_z)_z = -12 mu R^2 (w + v z).n,   n = (sin phi, cos phi),
