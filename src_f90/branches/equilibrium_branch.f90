@@ -28,6 +28,9 @@ module equilibrium_branch
 
    !> Longest way to a point that tells a tangent, and its part of a step: where steps are short the branch may turn.
    real(wp), parameter :: longest_beside = 1e-3_wp, part = 0.1_wp
+   !> Growth per radian of the shaft that counts as this decay: what neither film nor damper holds, as a pad without
+   !> load on a flexure pivot, has growths of rounding of either sign.
+   real(wp), parameter :: rounding = 1e-9_wp
 
    type, extends(branch_problem_type) :: equilibrium_problem_type
       !> Present positions, in the order of layout%positions().
@@ -322,6 +325,7 @@ contains
             & self%cross_stiffness, values, ok)
          values = values(largest_first(values%re))
          growth = values%re/model%point%speed(0.0_wp)
+         where (abs(growth) <= rounding) growth = -rounding
       end associate
    end subroutine spectrum
 
