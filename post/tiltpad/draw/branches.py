@@ -83,15 +83,16 @@ def response(
     panels["amplitude"].set(ylabel=f"{size.text}, order 1 ({size.unit})", ylim=(0, None))
     panels["phase"].set(ylabel="phase lag, order 1 (deg)", xlabel=units.Shown(text, 1, unit).label)
     whose = [f"station {own.station}"] if own.station else []
-    whose += [f"pivots {one.pivot}"] if one.pivot else []
+    # one way of the pivots alone is that of bearings without any
+    whose += [f"pivots {one.pivot}"] if one.pivot and one.source.length("pivot") > 1 else []
     layout.heading(fig, entries, ", ".join(each for each in (layout.title(runs), *whose) if each))
     return fig
 
 
 def in_words(peak: Peak) -> str:
-    """Critical speed and amplification factor."""
-    factor = peak.amplification_factor
-    return f"{peak.speed_rpm:.0f} rpm" + (f", AF {factor:.2f}" if np.isfinite(factor) else "")
+    """Critical speed and amplification factor; of a peak that is open the least that it may be."""
+    factor, more = peak.amplification_factor, "> " * peak.open
+    return f"{peak.speed_rpm:.0f} rpm" + (f", AF {more}{factor:.2f}" if np.isfinite(factor) else "")
 
 
 @layout.of_several

@@ -103,13 +103,14 @@ def mode_table(run: Run) -> str:
     for number, pivot in enumerate(str(each) for each in run["pivot"]):
         found = station_modes(run, pivot)
         for k in np.flatnonzero(found.own & ((found.frequency > 0) | (found.damping_ratio < 0))):
-            rows.append((f"{pivot}, {found.word[k]}", *vibration(found, k)))
+            rows.append((f"{pivot}, " * run.has_pivots + f"{found.word[k]}", *vibration(found, k)))
         if "modes/threshold_rpm" in run and np.isfinite(speed := run["modes/threshold_rpm"][number]):
-            notes.append(f"{pivot} pivots: {speed:.1f} rpm")
+            notes.append(f"{pivot} pivots: " * run.has_pivots + f"{speed:.1f} rpm")
         left_out += int((~found.own).sum())
     why = "which a march damps (reduction%damp_above)"
     note = paragraph(f"Not listed: high modes of the shaft, {left_out}, {why}." if left_out else "")
-    return table(("pivots, whirl of the shaft", *VIBRATION), rows) + threshold(notes) + note
+    head = "pivots, " * run.has_pivots + "whirl of the shaft"
+    return table((head, *VIBRATION), rows) + threshold(notes) + note
 
 
 def vibration(found: Modes | StationModes, k: SupportsIndex) -> tuple[str, ...]:

@@ -257,7 +257,8 @@ def shapes(runs: Sequence[Run], pivot: str | None = None) -> Figure:
         ax.set_title(f"{digits(found.frequency[k])} Hz, {sense}\n{decrement}", fontsize="small")
     marks = [(word, {"color": color}) for word, color in SENSE.items() if word in senses]
     bearing = ("bearing", {"color": "0.2", "linestyle": "", "marker": "^", "markersize": 5})
-    layout.heading(fig, [*marks, bearing], f"{run.title}, pivots {found.pivot}".removeprefix(", "))
+    pivots = f", pivots {found.pivot}" * run.has_pivots
+    layout.heading(fig, [*marks, bearing], f"{run.title}{pivots}".removeprefix(", "))
     return fig
 
 

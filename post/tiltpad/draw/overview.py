@@ -81,7 +81,7 @@ def stability(run: Run) -> Iterator[tuple[str, bool]]:
 def of_modes(run: Run, pivot: str) -> Iterator[tuple[str, bool]]:
     """What the modes of these pivots tell of journal or shaft, and of the pads."""
     found = modes(run, pivot)
-    pivots = f" with pivots {pivot}" if run.bearings or run.tilts else ""
+    pivots = f" with pivots {pivot}" if run.has_pivots else ""
     listed = (found.name != "") & ((found.frequency > 0) | (found.eigenvalue.real > 0)) & ~found.of_reduction
     journal, pads = listed & of_journal(found.name), listed & ~of_journal(found.name)
     if journal.any():
@@ -122,7 +122,9 @@ def of_equilibrium(run: Run) -> tuple[str, bool]:
         how = f"at {digits(turning / (2 * np.pi))} Hz with a logarithmic decrement of {decrement}"
     if stable:
         return f"The equilibrium is stable: small motions die out, the last one {how}.", False
-    return f"The equilibrium is unstable: a small motion of journal or pads grows {how}.", True
+    rotor = "shaft" if run.is_machine else "journal"
+    who = f"{rotor} or pads" if run.has_pivots else f"the {rotor}"
+    return f"The equilibrium is unstable: a small motion of {who} grows {how}.", True
 
 
 def of_bearing(run: Run) -> str:
@@ -159,7 +161,7 @@ def moves_most(run: Run) -> str:
     words = "peak to peak"
     if not sizes and "response/amplitude" in run:
         sizes = [2 * run["response/amplitude"][0]]
-        words = f"peak to peak under its unbalance, pivots {run['pivot'][0]}"
+        words = "peak to peak under its unbalance" + f", pivots {run['pivot'][0]}" * run.has_pivots
     if not sizes:
         return ""
     size = np.max(sizes, axis=0)
