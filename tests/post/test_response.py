@@ -139,7 +139,9 @@ def test_a_peak_of_too_few_speeds_is_told_as_open():
     close, far = (np.linspace(500, 9500, count) for count in (901, 19))
     found, told = [], []
     for speed in (close, far):
-        (peak,) = peaks_of("y", speed, speed, np.abs(rotor(speed / 4000, 0.02)))
+        # a cubic through few points swings beside a sharp peak, too
+        every = peaks_of("y", speed, speed, np.abs(rotor(speed / 4000, 0.02)))
+        peak = max(every, key=lambda each: each.amplitude)
         found.append(peak)
         told.append(branches.in_words(peak))
     assert [peak.open for peak in found] == [False, True]
