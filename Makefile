@@ -324,11 +324,15 @@ $(B)/library: $$(call objects_of,library) $(VENV)/ready $(if $(wildcard $(FOLDER
 	$(FC) -shared -s -Wl,--as-needed $(f2py)/*.o $(filter %.o,$^) $(LIBS) -o $(FOLDER)/_library$$suffix
 	@touch $@
 
+# What the commands load is compiled at once: else each call compiles it again where Python must not or may not write.
+loaded := 'import matplotlib.backends.backend_agg, matplotlib.backends.backend_svg, tiltpad.draw.study_report'
+
 $(VENV)/ready: post/pyproject.toml post/setup.py post/requirements.txt | build/deps-checked
 	$(PYTHON) -m venv $(VENV)
 	$(venv_python) -m pip install -q --disable-pip-version-check --no-compile -r post/requirements.txt
 	$(venv_python) -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -e post \
 	   --config-settings editable_mode=compat
+	@PYTHONDONTWRITEBYTECODE= $(venv_python) -c $(loaded) || true
 	@touch $@
 
 # so that commands start in less time; also where Python must not write what it has compiled (PYTHONDONTWRITEBYTECODE)

@@ -437,7 +437,10 @@ def matplotlib_for_files() -> Any:
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
     import matplotlib as mpl
 
+    from tiltpad.draw.quick import quicken
+
     mpl.use("agg")
+    quicken()
     return mpl
 
 

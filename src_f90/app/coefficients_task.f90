@@ -281,7 +281,8 @@ contains
       integer, intent(in) :: counterpart(:)
       logical, intent(in) :: of_reduction(:)
       character(len=:), allocatable :: text, there
-      real(wp), parameter :: differs = 0.1_wp
+      ! of the decrement, and what its decimals show
+      real(wp), parameter :: differs = 0.1_wp, shown = 0.5e-4_wp
       integer :: i, k, others
       text = ''
       others = 0
@@ -292,7 +293,8 @@ contains
          there = 'none'
          if (k > 0) then
             ! a decrement of another sign differs by more than itself
-            if (abs(reduced%log_decrement(k) - exact%log_decrement(i)) <= differs*abs(exact%log_decrement(i))) cycle
+            if (abs(reduced%log_decrement(k) - exact%log_decrement(i)) <= max(shown, &
+               & differs*abs(exact%log_decrement(i)))) cycle
             there = fixed_text(reduced%log_decrement(k), 4)
          end if
          others = others + 1

@@ -217,6 +217,8 @@ contains
       character(len=40) :: buffer
       write (buffer, '(ss,f40.'//decimals_in_format(decimals)//')') x
       string = trim(adjustl(buffer))
+      ! what rounds to zero has no sign
+      if (verify(string, '-0.') == 0) string = string(1 + index(string, '-'):)
    end function fixed_text
 
    pure function lower_case(string) result(lower)

@@ -7,7 +7,7 @@
 !> cold oil, and rounds of a fixed point lead to others, until they agree in a plane across the branch.
 module equilibrium_branch
    use kinds, only: wp
-   use errors, only: error_type, raise, numerics_error, stopped
+   use errors, only: error_type, raise, numerics_error
    use linear_algebra, only: largest_first
    use equations_of_motion, only: machine_model
    use newton_method, only: branch_problem_type, place_part_type, branch_point_type, newton_options, return_to, &
@@ -27,8 +27,10 @@ module equilibrium_branch
    public :: equilibrium_problem_type, begin_equilibria
 
    !> Longest way to a point that tells a tangent, and its part of a step: where steps are short the branch may turn.
-   !> Where no equilibrium is found there it is shortened by this, down to this part of it.
-   real(wp), parameter :: longest_beside = 1e-3_wp, part = 0.1_wp, shorter = 0.2_wp, shortest = 1e-3_wp
+   real(wp), parameter :: longest_beside = 1e-3_wp, part = 0.1_wp
+   !> Growth per radian of the shaft that counts as this decay: what neither film nor damper holds, as a pad without
+   !> load on a flexure pivot, has growths of rounding of either sign.
+   real(wp), parameter :: rounding = 1e-9_wp
 
    type, extends(branch_problem_type) :: equilibrium_problem_type
       !> Present positions, in the order of layout%positions().
@@ -230,7 +232,8 @@ contains
       class(equilibrium_problem_type), intent(inout) :: self
       real(wp), intent(in) :: change(:)
       self%anew = .true.
-      associate (way => max(self%step, sqrt(self%dot(change, change))))
+      associate (way => sqrt(self%dot(change, change)))
+         self%beside = longest_beside
          if (way > 0) self%beside = min(longest_beside, part*way)
       end associate
       call self%move(change, .false.)
@@ -254,15 +257,10 @@ contains
       call solve_with_films(problem, options, point, way, error, normal)
       if (allocated(error) .or. .not. present(normal)) return
       point%parameter = problem%parameter
-      do
-         there = problem%beside*point%tangent
-         call problem%move(there, .false.)
-         call solve_with_films(problem, options, next, there, error, normal)
-         if (.not. allocated(error)) exit
-         if (error%status == stopped .or. problem%beside <= shortest*longest_beside) return
-         problem%beside = shorter*problem%beside
-         call return_to(problem, point)
-      end do
+      there = problem%beside*point%tangent
+      call problem%move(there, .false.)
+      call solve_with_films(problem, options, next, there, error, normal)
+      if (allocated(error)) return
       point%tangent = there/sqrt(problem%dot(there, there))
       call return_to(problem, point)
    end subroutine solve
@@ -327,6 +325,7 @@ contains
             & self%cross_stiffness, values, ok)
          values = values(largest_first(values%re))
          growth = values%re/model%point%speed(0.0_wp)
+         where (abs(growth) <= rounding) growth = -rounding
       end associate
    end subroutine spectrum
 

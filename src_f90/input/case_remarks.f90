@@ -42,8 +42,8 @@ module case_remarks
    character(len=*), parameter :: to_be_given = ' rotor%mass rotor%unbalance operation%speed_rpm ' &
       & //'bearing%journal_radius bearing%machined_clearance bearing%assembled_clearance bearing%axial_length ' &
       & //'bearing%viscosity pads%pivot_angle_deg pads%arc_deg pads%pivot_distance '
-   !> A variable from which another of its group follows, and this.
-   character(len=*), parameter :: source = 'preload machined_clearance'
+   !> Variables from which another of their group follows, each before this.
+   character(len=*), parameter :: sources = ' preload machined_clearance, balance_grade unbalance,'
 
 contains
 
@@ -117,8 +117,10 @@ contains
          lines = ''
          associate (r => inputs%rotor, bearings => inputs%bearings)
             if (inputs%held%is_wanted()) then
-               ! its load is not known yet
-               return
+               ! its load is not known yet, but its direction is where no attitude and no position are given
+               if (.not. (is_set(inputs%held%attitude_deg) .or. any(is_set(inputs%held%position)))) then
+                  lines = on_direction(inputs)
+               end if
             else if (r%is_rigid()) then
                lines = on_force('rotor%static_load', norm2(r%static_load), r%mass*r%gravity)//on_low_load() &
                   & //on_table(bearings(1), load(inputs))
@@ -340,21 +342,29 @@ contains
    function remarks_on_load(inputs) result(lines)
       type(case_type), intent(in) :: inputs
       character(len=:), allocatable :: lines
-      type(operating_point_type) :: point
       lines = ''
       if (.not. load(inputs) > 0) return
       lines = line_if(specific_load(inputs) > highest_usual_load, 'specific load {M.2} MPa: above {M} MPa, where ' &
          & //'pads bend under their pressure (pads%bending); most bearings carry 1 to 3 MPa', &
          & [specific_load(inputs), highest_usual_load], in_usual_unit(inputs))
+      lines = lines//on_direction(inputs)
+   end function remarks_on_load
+
+   !> Whether the load of the one bearing of a case points to where no fixed pad carries.
+   function on_direction(inputs) result(line)
+      type(case_type), intent(in) :: inputs
+      character(len=:), allocatable :: line
+      type(operating_point_type) :: point
+      line = ''
       if (inputs%bearings(1)%tilting()) return
       point = operating_point_type(inputs)
       ! the angle to which the load points, counted as that of a pivot
       associate (at => atan2(point%load(1), point%load(2))/degree)
-         lines = lines//line_if(.not. carries_at(inputs%bearings(1), inputs%sense(), at), 'the load points to {.1} ' &
+         line = line_if(.not. carries_at(inputs%bearings(1), inputs%sense(), at), 'the load points to {.1} ' &
             & //'deg, to the end of a fixed pad or between two, where little oil film carries; turn the pads ' &
             & //'(pads%pivot_angle_deg) for a groove out of the load', [at])
       end associate
-   end function remarks_on_load
+   end function on_direction
 
    !> Whether a fixed pad reaches past this angle, deg, on either side, where the shaft turns in this sense.
    pure logical function carries_at(bearing, sense, at)
@@ -459,8 +469,8 @@ contains
       logical function has_own(v)
          type(variable_type), intent(in) :: v
          integer :: k
-         has_own = any([(given(k)%group == v%group .and. (given(k)%name == v%name .or. given(k)%name//' '//v%name &
-            & == source), k=1, size(given))])
+         has_own = any([(given(k)%group == v%group .and. (given(k)%name == v%name .or. index(sources, &
+            & ' '//given(k)%name//' '//v%name//',') > 0), k=1, size(given))])
       end function has_own
 
       !> Whether a variable that is left out has an effect; of a bearing, whether the case gives it a size.

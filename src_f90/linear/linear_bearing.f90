@@ -10,7 +10,7 @@ module linear_bearing
    use state_layout, only: tilt, of_journal
    use equations_of_motion, only: machine_model
    use force_balance, only: mode_name, mode_name_length, position_lengths, force_derivatives, &
-      & bearing_derivatives, part_derivatives, add_sticking, masses, find_vibrations
+      & bearing_derivatives, part_derivatives, add_sticking, masses, find_vibrations, no_growth
    use static_model, only: make_static
    use elastic_rotor, only: elastic_rotor_type
    implicit none (type, external)
@@ -315,6 +315,11 @@ contains
       if (.not. ok) return
       if (present(model)) call take_own_frequencies(model, bearing, kept, values, shapes, error)
       ratio = damping_ratio(values)
+      ! what neither a film nor a damper holds, as a pad without load on a flexure pivot, has growths of rounding
+      where (abs(ratio) <= no_growth)
+         ratio = 0
+         values = cmplx(0.0_wp, values%im, wp)
+      end where
       waiting = values%im >= 0
       n = count(waiting)
       allocate (modes%eigenvalue(n), modes%shape(size(bearing%moves), n))
@@ -326,9 +331,10 @@ contains
          modes%eigenvalue(i) = values(next)
          modes%shape(kept, i) = normalised(shapes(:, next), lengths(kept))
       end do
-      modes%damping_ratio = damping_ratio(modes%eigenvalue)
+      ! + 0: none of them is -0
+      modes%damping_ratio = damping_ratio(modes%eigenvalue) + 0.0_wp
       allocate (modes%log_decrement(n), source=ieee_value(1.0_wp, ieee_quiet_nan))
-      where (modes%eigenvalue%im > 0) modes%log_decrement = -2*pi*modes%eigenvalue%re/modes%eigenvalue%im
+      where (modes%eigenvalue%im > 0) modes%log_decrement = -2*pi*modes%eigenvalue%re/modes%eigenvalue%im + 0.0_wp
    end subroutine find_modes
 
    !> The eigenvalues, 1/s, of rotor and pads as above, and the shapes of the positions that move.

@@ -237,18 +237,21 @@ contains
    end function parts_of_elements
 
    !> Part of the damping of a mode in a march that the reduction gives to the high modes of the shaft: the power of
-   !> this damping in a vibration, over the sum of it and of the power with which the mode decays or grows without. 0 of
-   !> what does not vibrate.
+   !> this damping in a vibration, over the sum of it and of the power with which the mode decays or grows without, or
+   !> would with the damping ratio `slight`: what has less of its own is no high mode by that. 0 of what does not
+   !> vibrate, or not faster than twice the speed of the shaft.
    pure real(wp) function part_of_reduction(model, linear, shape, eigenvalue) result(part)
       type(machine_model), intent(in) :: model
       type(linear_bearing_type), intent(in) :: linear
       complex(wp), intent(in) :: shape(:), eigenvalue
+      real(wp), parameter :: slight = 0.01_wp, slow = 2
       part = 0
-      if (.not. eigenvalue%im > 0) return
+      if (.not. eigenvalue%im > slow*model%point%speed(0.0_wp)) return
       select type (rotor => model%rotor)
       type is (elastic_rotor_type)
          associate (power => sum(rotor%matrices%high_damping*abs(shape(:rotor%positions))**2), &
-            & own => 2*abs(eigenvalue%re)*real(dot_product(shape, matmul(linear%mass, shape))))
+            & own => 2*max(abs(eigenvalue%re), slight*abs(eigenvalue)) &
+            & *real(dot_product(shape, matmul(linear%mass, shape))))
             part = power/max(tiny(part), power + own)
          end associate
       end select

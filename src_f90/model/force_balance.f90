@@ -14,7 +14,7 @@ module force_balance
    private
    public :: mode_name_length, mode_name, is_of_rotor, at_stations, position_lengths, position_names
    public :: forces, force_derivatives, bearing_derivatives, other_derivatives, part_derivatives, masses, add_sticking
-   public :: stability_type, stability_at, stability_of, find_vibrations
+   public :: stability_type, stability_at, stability_of, find_vibrations, no_growth
 
 
    !> Lengths of the names of modes, and of positions.

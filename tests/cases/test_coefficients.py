@@ -139,3 +139,32 @@ def test_study_goes_on_without_equilibrium(tiltpad, root, tmp_path):
         with h5py.File(tmp_path / "map" / f"{number:04d}.h5") as file:
             assert file.attrs["complete"] == complete
             assert ("coefficients" in file) == bool(complete)
+
+
+#: Four pads on flexure pivots; the upper right one of them carries nothing, so that only its pivot holds it.
+FLEXURES = """
+&case task='coefficients' / &rotor mass=450 / &operation speed_rpm=8000 /
+&bearing journal_radius=58.4e-3, axial_length=76.2e-3, machined_clearance=254e-6,
+  assembled_clearance=190.5e-6, viscosity=0.019 /
+&pads pivot_angle_deg=-45, 45, 135, 225, arc_deg=72, mass=1.226, inertia=7.448e-4, motion='tilting_only' /
+&pivot rotational_stiffness=1770 / &coefficients threshold_up_to_rpm=12000 /
+"""
+
+
+def test_what_neither_film_nor_damper_holds_has_no_growth_of_rounding(tiltpad, tmp_path):
+    """A pad without load on a flexure pivot is not damped: no instability, and no threshold speed."""
+    (tmp_path / "case.nml").write_text(FLEXURES)
+    done = tiltpad("case.nml", cwd=tmp_path, status=0)
+    with h5py.File(tmp_path / "case.h5") as file:
+        modes = file["modes"]
+        pads, rotor = (file[f"summary/{who}_damping_ratio"][0] for who in ("pads", "rotor"))
+        undamped = modes["damping_ratio"][0] == 0
+        assert undamped.sum() == 1
+        # its pivot turns it back, and to a few 1e-5 its weight
+        alone = np.sqrt(1770 / 7.448e-4) / (2 * np.pi)
+        np.testing.assert_allclose(modes["frequency"][0][undamped], alone, rtol=1e-4)
+        assert pads == 0 < rotor
+        assert np.isnan(modes["threshold_rpm"][0])
+    assert "the pads are stable:" in done.stdout
+    assert "pads are unstable" not in done.stdout
+    assert not re.search(r"-0\.0*\b(?!\d)", done.stdout)

@@ -161,3 +161,20 @@ def test_modes_of_a_damped_shaft_are_those_of_a_march(result):
         t, y = file["time"][()], file["station_y"][:, 7]
         late = [np.abs(y[(t > a) & (t < a + 0.1)]).max() for a in (1.0, 1.6)]
         assert abs(np.log(late[0] / late[1]) / 0.6 + value.real) < 0.1
+
+
+#: Undamped: its modes up to twice the speed are no high ones of the reduction, and none of them grows.
+UNDAMPED = ON_BEARINGS.format(shaft=SHAFT, rpm=60000, damping=0)
+
+
+def test_modes_without_damping_are_listed_and_are_no_instability(result):
+    with result(UNDAMPED) as file:
+        modes, speed = file["modes"], 60000 / 60
+        frequency, part = modes["frequency"][0], modes["part_of_reduction"][0]
+        slow = (frequency > 0) & (frequency <= 2 * speed)
+        assert slow.sum() >= 4
+        assert (part[slow] == 0).all()
+        assert part[frequency > 2 * speed].max() > 0.5
+        assert (modes["damping_ratio"][0][slow] == 0).all()
+        assert (np.diff(frequency[slow]) >= 0).all()
+        assert file["summary/rotor_damping_ratio"][0] == 0

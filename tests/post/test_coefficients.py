@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import tiltpad
 import xarray
-from tiltpad import command, figures
+from tiltpad import command, figures, read_study
 from tiltpad.calculate.results import result
 from tiltpad.draw import study_report
 
@@ -418,6 +418,22 @@ def test_a_report_begins_with_the_operating_points(study):
     assert [row[-1] for row in cells] == ["stable" if each else "unstable" for each in stable]
     stiffness = [float(row[head.index("K yy (MN/m)")]) for row in cells]
     np.testing.assert_allclose(stiffness, 1e-6 * study.stiffness[study.done, 0, 0, 0, 0], rtol=1e-3)
+
+
+def test_points_of_a_held_journal_are_a_table_of_bearings(tiltpad, tmp_path):
+    """What tables over the eccentricity have: attitude, Sommerfeld number and load."""
+    case = "&sweep held%eccentricity_ratio=0.2, 0.6 / &case task='equilibrium' /"
+    (tmp_path / "held.nml").write_text(case)
+    tiltpad("--quiet", "held.nml", cwd=tmp_path, status=0)
+    with read_study(tmp_path / "held.h5") as study:
+        page = study_report.study_report(study)
+        found = study.equilibrium_sommerfeld_number[:]
+    head, *rows = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in page.split("<tr>")[1:4]]
+    assert "attitude angle (deg)" in head
+    assert "specific load (MPa)" in head
+    np.testing.assert_allclose(
+        [float(row[head.index("Sommerfeld number")]) for row in rows], found, rtol=1e-3
+    )
 
 
 def test_diagrams_of_pivots(study):

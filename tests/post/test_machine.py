@@ -8,9 +8,12 @@ import h5py
 import numpy as np
 import pytest
 import tiltpad
-from tiltpad import command, figures
+from tiltpad import command, figures, read_study
+from tiltpad import read as tiltpad_read
 from tiltpad.calculate import stations, vibration_limits
 from tiltpad.draw import machine_report
+from tiltpad.draw.report import report
+from tiltpad.draw.study_report import study_report
 
 pytestmark = pytest.mark.usefixtures("quick_pictures")
 
@@ -61,6 +64,46 @@ CASE = """&case title='Machine' /
 &pads bearing='free_end', pivot_angle_deg=-54, 18, 90, 162, 234, arc_deg=5*60 /
 &support bearing='free_end', mass=200, stiffness=1e9, 1e9, damping=1e5, 1e5 /
 """
+
+
+#: A machine without films and pivots, and a study of one on fixed pads.
+LINEAR = """&case task='coefficients' / &operation speed_rpm=3000 / &coefficients threshold_up_to_rpm=9000 /
+&shaft length=10*0.127, diameter=0.1016, internal_damping=2e-4 / &unbalance station=6, moment=1e-4 /
+&bearing name='left', station=1, kind='linear', stiffness=1.75e7, 0, 0, 1.75e7 /
+&bearing name='right', station=11, kind='linear', stiffness=1.75e7, 0, 0, 1.75e7 /
+"""
+FIXED = """&case task='coefficients' / &sweep operation%speed_rpm=1500, 3000 /
+&shaft length=4*0.3, diameter=0.06 / &disc station=3, mass=40, polar_inertia=0.4, diametral_inertia=0.2 /
+&unbalance station=3, moment=1e-4 / &pads motion='fixed', pivot_angle_deg=-90, arc_deg=360 /
+&bearing journal_radius=30e-3, axial_length=30e-3, assembled_clearance=60e-6, preload=0, viscosity=0.03 /
+&bearing name='left', station=1 / &bearing name='right', station=5, axial_length=40e-3 /
+"""
+
+
+def test_a_machine_without_pivots_has_none_in_its_words(tiltpad, tmp_path):
+    (tmp_path / "linear.nml").write_text(LINEAR)
+    tiltpad("--quiet", "linear.nml", cwd=tmp_path, status=0)
+    with tiltpad_read(tmp_path / "linear.h5") as run:
+        assert not run.has_pivots
+        page = report(run)
+        assert "locked" not in page
+        assert "pivots" not in page.partition("<pre>")[0]
+        assert "locked" not in figures.shapes([run]).get_suptitle()
+
+
+def test_the_operating_points_of_a_machine_are_those_of_its_worst_bearing(tiltpad, tmp_path):
+    (tmp_path / "fixed.nml").write_text(FIXED)
+    tiltpad("--quiet", "fixed.nml", cwd=tmp_path, status=0)
+    with read_study(tmp_path / "fixed.h5") as study:
+        table = study_report(study).partition("Operating points")[2].partition("</table>")[0]
+        head, *rows = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in table.split("<tr>")[1:]]
+        own = [each.equilibrium_min_film_thickness for each in study.bearings.values()]
+        film = [float(row[head.index("minimum film (µm)")]) for row in rows]
+        np.testing.assert_allclose(film, 1e6 * np.minimum(*own), rtol=1e-3)
+        lost = sum(each.equilibrium_total_power_loss for each in study.bearings.values())
+        loss = [float(row[head.index("power loss (kW)")]) for row in rows]
+        np.testing.assert_allclose(loss, 1e-3 * lost, rtol=1e-3)
+        assert "locked" not in study_report(study).partition("Critical speeds")[2].partition("</table>")[0]
 
 
 def test_stations_and_bearings(machine):

@@ -132,3 +132,18 @@ def test_the_phase_of_z_is_next_to_that_of_forward_whirl(phase, wanted):
     """Of many turns that are all the same, pictures show those that can be compared."""
     found = aligned(np.radians([phase, np.add(phase, 300)]))
     np.testing.assert_allclose(np.degrees(found), [wanted, np.subtract(wanted, 60)])
+
+
+def test_a_peak_of_too_few_speeds_is_told_as_open():
+    """Its amplification factor is far too small: a study of closer speeds finds it."""
+    close, far = (np.linspace(500, 9500, count) for count in (901, 19))
+    found, told = [], []
+    for speed in (close, far):
+        # a cubic through few points swings beside a sharp peak, too
+        every = peaks_of("y", speed, speed, np.abs(rotor(speed / 4000, 0.02)))
+        peak = max(every, key=lambda each: each.amplitude)
+        found.append(peak)
+        told.append(branches.in_words(peak))
+    assert [peak.open for peak in found] == [False, True]
+    assert found[1].amplification_factor < 0.7 * found[0].amplification_factor
+    assert ["AF > " in each for each in told] == [False, True]

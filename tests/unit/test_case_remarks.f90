@@ -130,6 +130,11 @@ contains
       call expect_remark(bore//'-90, arc_deg = 360 /', '')
       call expect_remark(bore//'90, arc_deg = 360 /', 'the load points to -90.0 deg')
       call expect_remark(bore//'104, arc_deg = 360 /', 'the load points to -90.0 deg')
+      ! a journal that is held is so by a load of this direction, unless its attitude is given
+      call expect_remark(bore//'90, arc_deg = 360 / &case task = ''equilibrium'' / &held eccentricity_ratio = 0.5 /', &
+         & 'the load points to -90.0 deg')
+      call expect_remark(bore//'90, arc_deg = 360 / &case task = ''equilibrium'' / &held eccentricity_ratio = 0.5, ' &
+         & //'attitude_deg = 50 /', '')
       call expect_remark(bore//'106, arc_deg = 360 /', '')
       call expect_remark(bore//'0, 180, arc_deg = 170 /', 'the load points to -90.0 deg')
       call expect_remark(bore//'0, 180, arc_deg = 170 / &rotor gravity = 0, static_load = 0, 1e4 /', '')
@@ -188,6 +193,9 @@ contains
       call expect_remark(rest//'viscosity = 0.019 /', begin//'bearing%assembled_clearance = 8e-5 m'//achar(10))
       call expect_remark(rest//'assembled_clearance = 6e-5, viscosity = 0.019 /', '')
       call expect_remark(rest//'assembled_clearance = 6e-5 / &oil grade = 32 / &thermal model = ''pad'' /', '')
+      ! an unbalance by its grade is given
+      call expect_remark('&rotor mass = 100, balance_grade = 2.5 / '//rest(len(rotor) + 1:)//'assembled_clearance = ' &
+         & //'6e-5, viscosity = 0.019 /', '')
       ! equilibria know no unbalance
       call expect_remark('&rotor mass = 100 / '//rest(len(rotor) + 1:)//'assembled_clearance = 6e-5, viscosity = ' &
          & //'0.019 / &case task = ''coefficients'' /', '')

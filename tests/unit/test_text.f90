@@ -2,7 +2,7 @@
 !> variables.
 program test_text
    use kinds, only: wp, i8
-   use text, only: checksum, to_text, exact_text, lower_case, printable, shortened, is_utf8, &
+   use text, only: checksum, to_text, exact_text, fixed_text, lower_case, printable, shortened, is_utf8, &
       & did_you_mean, find_similar, unlike
    use case_parameter, only: group_names, names_in, meant_variable, meant_group
    use check, only: runs, expect, expect_close, report
@@ -73,6 +73,8 @@ contains
       call expect_text(15e-6_wp, '1.5e-5')
       call expect_text(2.1e11_wp, '2.1e11')
       call expect_text(-1e100_wp, '-1e100')
+      call expect(fixed_text(-1.25_wp, 1)//fixed_text(-0.04_wp, 1)//fixed_text(-0.0_wp, 3) == '-1.20.00.000', &
+         & 'what rounds to zero has no sign')
    end subroutine short_reals
 
    subroutine expect_text(x, expected)

@@ -84,6 +84,9 @@ def write_critical_speeds(found: Sequence[CriticalSpeed], path: str | os.PathLik
     for station, peak, margin, required in found:
         edges = (peak.below_rpm, peak.above_rpm, peak.amplification_factor)
         sides = (peak.margin_below, peak.margin_above)
+        if peak.open:
+            # its factor is a bound, which asks for no margin
+            sides, required = (np.nan, np.nan), np.nan
         own = "" if station is None else station
         rows.append([own, peak.direction, peak.speed_rpm, peak.amplitude, *edges, *sides, margin, required])
     write_csv(path, rows)

@@ -30,6 +30,8 @@ BETWEEN = 20
 STATION = "station"
 #: Below this amplification factor a critical speed is damped so well that it needs no separation.
 DAMPED = 2.5
+#: Fewer points of a curve in a peak leave its height and its width open: it is higher, and sharper.
+FEWEST = 3
 
 
 class Peak(NamedTuple):
@@ -40,7 +42,10 @@ class Peak(NamedTuple):
         amplitude        there, m
         below_rpm        speeds below and above it at which the amplitude is 0.707 of that; nan where the
         above_rpm        curve ends before
+        points           of the curve between these two; None where it is not known
 
+    A peak is `open` that has fewer than three points: the curve has too few for its height and its width, so
+    that amplitude and amplification factor may be far larger; a study of closer speeds finds them.
     `margin_below` and `margin_above` are the least distances of the critical speed that API 617 asks for, in
     percent of the lowest operating speed where the critical speed is below the operating speeds, and of the
     highest where it is above them.
@@ -51,6 +56,12 @@ class Peak(NamedTuple):
     amplitude: float
     below_rpm: float
     above_rpm: float
+    points: int | None = None
+
+    @property
+    def open(self) -> bool:
+        """Whether the curve has too few points for the height and the width of the peak."""
+        return self.points is not None and self.points < FEWEST
 
     @property
     def amplification_factor(self) -> float:
@@ -216,7 +227,7 @@ def aligned(phase: np.ndarray, sense: int = 1) -> np.ndarray:
 
 def peaks_of(direction: str, way: np.ndarray, speed: np.ndarray, amplitude: np.ndarray) -> list[Peak]:
     """The peaks of a curve, (n,) each; `way` rises along it."""
-    steps = np.arange(BETWEEN * (len(way) - 1) + 1) / BETWEEN
+    steps, own = np.arange(BETWEEN * (len(way) - 1) + 1) / BETWEEN, speed
     dense = np.interp(steps, np.arange(len(way)), way)
     speed, amplitude = (at_angle(way, each, dense) for each in (speed, amplitude))
     found = []
@@ -226,8 +237,11 @@ def peaks_of(direction: str, way: np.ndarray, speed: np.ndarray, amplitude: np.n
         edges = [half_power(speed[side], amplitude[side]) for side in sides]
         known = [each for each in edges if each is not None]
         if len(known) == len(edges):
-            numbers = (amplitude[top], *sorted(known))
-            found.append(Peak(direction, vertex(speed, amplitude, top), *map(float, numbers)))
+            below, above = sorted(map(float, known))
+            # of an end that the curve does not reach nothing is known
+            inside = int(((own > below) & (own < above)).sum()) if np.isfinite(below + above) else None
+            at, most = vertex(speed, amplitude, top), float(amplitude[top])
+            found.append(Peak(direction, at, most, below, above, inside))
     return found
 
 

@@ -26,7 +26,7 @@ from tiltpad.draw.plots import STYLE
 from tiltpad.files.archive import RunError
 from tiltpad.files.archive import plain as printable
 from tiltpad.files.read import Run, needs_run
-from tiltpad.files.units import SHOWN, digits
+from tiltpad.files.units import SHOWN, Shown, digits, fitted
 from tiltpad.files.writing import replacing
 
 #: Bearing clearance and thickness of the pads in the picture, over the journal's radius.
@@ -192,7 +192,9 @@ def mark_load(ax: Axes, case: Case) -> None:
     ax.annotate("", 0.8 * way, 0.25 * way, arrowprops=arrow, zorder=3)
     # beside the arrow, on the side away from the words of rotation
     side = 0.24 * np.array([-way[1], way[0]]) * (-1 if way[0] > 0.7 else 1)
-    ax.text(*(0.52 * way + side), f"load\n{digits(1e-3 * size, 3)} kN", **NOTE | {"color": "C1"}, zorder=3)
+    shown = fitted(Shown("load", 1e-3, "kN"), [size])
+    text = f"load\n{digits(shown.factor * size, 3)} {shown.unit}"
+    ax.text(*(0.52 * way + side), text, **NOTE | {"color": "C1"}, zorder=3)
 
 
 def load(case: Case) -> np.ndarray:

@@ -90,9 +90,9 @@ def response(
 
 
 def in_words(peak: Peak) -> str:
-    """Critical speed and amplification factor."""
-    factor = peak.amplification_factor
-    return f"{peak.speed_rpm:.0f} rpm" + (f", AF {factor:.2f}" if np.isfinite(factor) else "")
+    """Critical speed and amplification factor; of a peak that is open the least that it may be."""
+    factor, more = peak.amplification_factor, "> " * peak.open
+    return f"{peak.speed_rpm:.0f} rpm" + (f", AF {more}{factor:.2f}" if np.isfinite(factor) else "")
 
 
 @layout.of_several

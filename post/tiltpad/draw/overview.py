@@ -122,7 +122,9 @@ def of_equilibrium(run: Run) -> tuple[str, bool]:
         how = f"at {digits(turning / (2 * np.pi))} Hz with a logarithmic decrement of {decrement}"
     if stable:
         return f"The equilibrium is stable: small motions die out, the last one {how}.", False
-    return f"The equilibrium is unstable: a small motion of journal or pads grows {how}.", True
+    rotor = "shaft" if run.is_machine else "journal"
+    who = f"{rotor} or pads" if run.has_pivots else f"the {rotor}"
+    return f"The equilibrium is unstable: a small motion of {who} grows {how}.", True
 
 
 def of_bearing(run: Run) -> str:

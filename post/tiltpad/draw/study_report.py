@@ -30,6 +30,17 @@ POINT = {
     "rotor_damping_ratio": "damping ratio of the rotor",
     "threshold_rpm": "threshold",
 }
+#: What holds of several bearings: the least film, the loss of all, else the largest.
+OF_BEARINGS: dict[str, np.ufunc] = {
+    "equilibrium_min_film_thickness": np.fmin,
+    "equilibrium_total_power_loss": np.add,
+}
+#: Further ones where the journal is held, for comparison with tables.
+HELD = {
+    "equilibrium_attitude_angle": "attitude angle",
+    "equilibrium_sommerfeld_number": "Sommerfeld number",
+    "equilibrium_specific_load": "specific load",
+}
 #: What is told of each pad with turbulence.
 TURBULENCE = ("reynolds_number", "largest_reynolds_number", "turbulent_share")
 #: Pictures of whole studies.
@@ -79,15 +90,18 @@ def operating_points(study: Study) -> str:
 
     Coefficients are those of the first pivots at the first whirl frequency, of the bearing of a case.
     """
-    shown = [name for name in study.parameters if np.ndim(study[name]) == 1]
-    columns = {label(study, name): list(map(written, study.values(name, slice(ROWS)))) for name in shown}
-    if "speed_rpm" not in shown and "speed" in study:
+    varied = [name for name in study.parameters if np.ndim(study[name]) == 1]
+    columns = {label(study, name): list(map(written, study.values(name, slice(ROWS)))) for name in varied}
+    if "speed_rpm" not in varied and "speed" in study:
         columns["speed (rpm)"] = cells(SHOWN["speed"].factor * study.speed[:ROWS])
-    for name, head in POINT.items():
-        if name in study:
-            own = result(study, name)
-            unit = f" ({own.shown.unit})" if own.shown.unit else ""
-            columns[head + unit] = cells(own.shown.factor * own.values[:ROWS])
+    held = "equilibrium_bearing_load_y" in study and "station" not in study
+    bearings = list(study.bearings.values())
+    for name, head in (POINT | HELD if held else POINT).items():
+        found = [result(each, name) for each in ([study] if name in study else bearings) if name in each]
+        if found:
+            shown, values = found[0].shown, np.stack([each.values[:ROWS] for each in found])
+            unit = f" ({shown.unit})" if shown.unit else ""
+            columns[head + unit] = cells(shown.factor * OF_BEARINGS.get(name, np.fmax).reduce(values))
     for letter, name in (("K", "stiffness"), ("C", "damping")):
         for k, axis in enumerate("yz") if name in study else ():
             values = SHOWN[name].factor * study[name][:ROWS, 0, 0, k, k]
@@ -101,7 +115,9 @@ def operating_points(study: Study) -> str:
     rows = [row for row, done in zip(zip(*columns.values(), strict=True), study.done, strict=False) if done]
     pivots = [str(each) for each in study["pivot"]] if "pivot" in study else []
     of = f"Pivots {pivots[0]}; the others are in the table of runs. " if len(pivots) > 1 else ""
-    note = f"{of}Stability is that of the {rotor}; pads without load may flutter while it is stable."
+    worst = "Figures are those of the worst of the bearings, the loss is that of all. " * bool(bearings)
+    flutter = "; pads without load may flutter while it is stable"
+    note = f"{of}{worst}Stability is that of the {rotor}{flutter}."
     return table(tuple(columns), rows) + paragraph(note) + more(len(study.done)) if rows else ""
 
 
@@ -149,6 +165,9 @@ def critical(study: Study, operating: tuple[float, float] | None) -> str:
     heads = heads[first:]
     margins = ("required SM below, above (%)", *(("SM (%)", "required SM (%)") if operating else ()))
     wanted = len(heads) + len(margins)
+    if any(">" in row[heads.index("AF")] for row in rows):
+        text += " >: fewer than three of the speeds lie between N1 and N2, so that the peak is higher and "
+        text += "sharper than this; a study of closer speeds finds its factor and its margins."
     return table((*heads, *margins), [row[:wanted] for row in rows]) + paragraph(text) if rows else ""
 
 
@@ -157,10 +176,13 @@ def critical_row(pivot: str, own: CriticalSpeed) -> tuple[str, ...]:
     peak = own.peak
     size = digits(SHOWN["amplitude"].factor * peak.amplitude)
     edges = (peak.below_rpm, peak.above_rpm, peak.amplification_factor)
-    sides = ", ".join(digits(each, 3) for each in (peak.margin_below, peak.margin_above))
     place = (pivot, f"{own.station or '–'}", peak.direction, digits(peak.speed_rpm))
-    asked = (digits(each, 3) for each in (own.margin, own.required))
-    return (*place, size, *(digits(each) for each in edges), sides, *asked)
+    numbers, margin = (digits(each) for each in edges), digits(own.margin, 3)
+    if peak.open:
+        first, second, factor = numbers
+        return (*place, f"> {size}", first, second, f"> {factor}", "–", margin, "–")
+    sides = ", ".join(digits(each, 3) for each in (peak.margin_below, peak.margin_above))
+    return (*place, size, *numbers, sides, margin, digits(own.required, 3))
 
 
 def failures(study: Study) -> str:

@@ -18,7 +18,18 @@ from tiltpad.calculate.modes import Modes, modes, of_journal
 from tiltpad.calculate.response import STATION
 from tiltpad.calculate.selection import Where, axis_of, needs, selected, varying, written
 from tiltpad.draw.diagrams import mark_failed
-from tiltpad.draw.layout import COLUMN, DASHES, PAGE, dots, heading, labels, of_several, part_color, title
+from tiltpad.draw.layout import (
+    COLUMN,
+    DASHES,
+    DENSE,
+    PAGE,
+    dots,
+    heading,
+    labels,
+    of_several,
+    part_color,
+    title,
+)
 from tiltpad.files import units
 from tiltpad.files.archive import NotInRunError
 from tiltpad.files.read import Run
@@ -74,12 +85,13 @@ def coefficients(
             for color, (_, x, own) in zip(colors, lines, strict=True):
                 for dashes, (i, j) in zip(DASHES, elements.values(), strict=False):
                     values = SHOWN[name].factor * getattr(own, name)[..., i, j]
-                    ax.plot(x, values, dashes, color=color, **dots(len(x)))
+                    ax.plot(x, values, dashes, color=color, **dots(len(x)) | POINTS[dashes != DASHES[0]])
                 mark_failed(ax, x[np.isnan(values)], color if len(lines) > 1 else None)
             ax.set_ylabel(f"{SHOWN[name].text} {', '.join(elements)} ({SHOWN[name].unit})")
     for ax in panels[-1]:
         ax.set_xlabel(axis_label(found))
-    dashed = [("yy or yz", {"color": "0.3"}), ("zz or zy", {"color": "0.3", "linestyle": DASHES[1]})]
+    marks = dots(max((len(x) for _, x, _ in lines), default=DENSE)) | {"color": "0.3"}
+    dashed = [("yy or yz", marks), ("zz or zy", marks | POINTS[1] | {"linestyle": DASHES[1]})]
     heading(fig, [*names([text for text, *_ in lines]), *dashed], title(runs))
     return fig
 

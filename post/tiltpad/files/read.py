@@ -210,6 +210,11 @@ class Run(Archive):
         return not self.is_machine and self.input["pads"]["motion"] != "fixed"
 
     @property
+    def has_pivots(self) -> bool:
+        """Whether pads tilt; of a machine those of any of its bearings."""
+        return any(each.tilts for each in self.bearings.values()) if self.is_machine else self.tilts
+
+    @property
     def remarks(self) -> list[str]:
         """What is unusual, or leaves the range of the model; of a machine behind the name of the bearing."""
         return list(self["summary/remarks"]) if "summary/remarks" in self else []
