@@ -57,8 +57,8 @@ program test_sloped_film
 
 contains
 
-   !> Single films of an independent program: Galerkin's method with 20 x 14 functions, and where they cavitate 384 x 128
-   !> volumes, extrapolated.
+   !> Single films of an independent program: Galerkin's method with 20 x 14 functions, and where they cavitate
+   !> 384 x 128 volumes, extrapolated.
    subroutine independent()
       call one('aligned', 0.1_wp, [-26.0_wp, 52.0_wp, 0.0_wp, 0.0_wp], [23.8436_wp, 13547.03_wp, 0.0_wp, 0.0_wp], &
          & 5.10244e6_wp, cavitation_none)
