@@ -251,17 +251,20 @@ contains
          refusal = self%pads(i)%why_not(i, pads(i), self%response(i))
          return
       end do
+      if (allocated(self%sloped)) then
+         do i = 1, size(self%pads)
+            if (.not. skipped(i)) call sloped_loads(self, i, journal, pads(i), want_derivatives)
+         end do
+         return
+      end if
       do i = 1, size(self%pads)
          if (skipped(i)) cycle
-         if (allocated(self%sloped)) then
-            call sloped_loads(self, i, journal, pads(i), want_derivatives)
-            cycle
-         end if
          call set_loads(self, i, self%frame(i), pads(i), self%response(i)%force, self%asperity(i), self%loads(i))
          if (want_derivatives) call self%coordinates%derivatives(self%pads(i), self%frame(i), self%motion(i), pads(i), &
             & self%response(i), self%asperity(i), self%loads(i), self%derivatives(i))
       end do
    end subroutine evaluate
+
    !> The films at the motions set; some evaluations are timed, for all.
    subroutine evaluate_films(self, oil, speed, want_derivatives, chosen)
       class(tilting_pad_bearing_type), intent(inout) :: self
@@ -417,9 +420,11 @@ contains
             dydt(o + 2*k) = accelerations(k)
          end do
          if (.not. layout%bristles) cycle
-         dydt(o + 2*layout%coordinates + 1) = self%loads(i)%friction%rate
-         if (layout%rotations > 1) dydt(o + 2*layout%coordinates + 1:o + layout%per_pad) &
-            & = self%sloped%friction(i)%rate(:layout%rotations)
+         if (layout%rotations > 1) then
+            dydt(o + 2*layout%coordinates + 1:o + layout%per_pad) = self%sloped%friction(i)%rate(:layout%rotations)
+         else
+            dydt(o + layout%per_pad) = self%loads(i)%friction%rate
+         end if
       end do
    end subroutine add_rates
 
@@ -514,7 +519,7 @@ contains
       type(pad_frame) :: frame
       type(asperity_load) :: asperity
       type(pad_loads) :: loads
-      integer :: i
+      integer :: i, o
       if (allocated(self%sloped)) then
          do i = 1, size(pads)
             associate (film => output(self%outputs*(i - 1) + 1:self%outputs*i))
@@ -525,8 +530,8 @@ contains
       end if
       do i = 1, size(pads)
          frame = frame_of(self%pads(i)%position, journal, pads(i))
-         associate (film => output(self%outputs*(i - 1) + 1:self%outputs*i), pad => self%pads(i), &
-            & gap => self%pads(i)%gap)
+         o = self%outputs*(i - 1)
+         associate (film => output(o + 1:o + pad_outputs), pad => self%pads(i), gap => self%pads(i)%gap)
             call self%asperities%evaluate(gap, pad%directions, motion_of(pad%position, frame, journal, pads(i)), &
                & speed, asperity)
             call set_loads(self, i, frame, pads(i), film(1:2), asperity, loads)
@@ -568,7 +573,6 @@ contains
       end if
       call self%film%field(self%film_motion, self%laws, self%speed, phi, z, pressure)
    end subroutine pressure_field
-
 
    !> True where no friction puts switching points into the motion.
    pure logical function is_smooth(self)

@@ -11,6 +11,7 @@ module march_results
    use summary_group, only: put_figure
    use state_layout, only: most_coordinates, most_rotations
    use viscosity_history, only: viscosity_history_type
+   use tilting_pad_bearing, only: sloped_sample
    use bearing_samples, only: bearing_sample
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type
@@ -72,7 +73,8 @@ contains
       type(bearing_sample), intent(in) :: sample
       real(wp), intent(inout), contiguous :: values(:)
       integer, intent(inout) :: n
-      integer :: pads, i, j, at
+      integer :: pads, i, j, at, rotations
+      rotations = sample%coordinates%rotations
       values(n + 1:n + of_journal) = [sample%journal%position, sample%journal%velocity]
       n = n + of_journal
       if (allocated(sample%slopes)) then
@@ -97,22 +99,14 @@ contains
                call take(state%v(sample%coordinates%kind(j)))
             end do
             if (sample%bristles) then
-               do j = 1, sample%coordinates%rotations
+               call take(state%bristle(1))
+               do j = 2, rotations
                   call take(state%bristle(j))
                end do
             end if
             if (sample%asperities) call take(pad%asperity_force)
          end associate
-         if (.not. allocated(sample%slopes)) cycle
-         associate (slopes => sample%slopes(i))
-            do j = 2, sample%coordinates%rotations
-               call take(slopes%friction_moment(j - 1))
-            end do
-            do j = 1, 2
-               call take(slopes%edge_films(j))
-               call take(slopes%place(j))
-            end do
-         end associate
+         if (allocated(sample%slopes)) call take_slopes(sample%slopes(i))
       end do
       ! the last pad stands behind all others
       n = at - pads
@@ -122,6 +116,18 @@ contains
          values(at) = value
          at = at + pads
       end subroutine take
+
+      subroutine take_slopes(slopes)
+         type(sloped_sample), intent(in) :: slopes
+         integer :: k
+         do k = 2, rotations
+            call take(slopes%friction_moment(k - 1))
+         end do
+         do k = 1, 2
+            call take(slopes%edge_films(k))
+            call take(slopes%place(k))
+         end do
+      end subroutine take_slopes
    end subroutine take_bearing
 
    !> Adds y and z of each of a number of stations, excitations or elements, (2, number), behind the first n values.

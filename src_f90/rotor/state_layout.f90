@@ -270,8 +270,10 @@ contains
             pads(i)%v(self%kind(k)) = y(o + 2*k)
          end do
          if (.not. self%bristles) cycle
-         do k = 1, self%rotations
-            pads(i)%bristle(k) = y(o + 2*self%coordinates + k)
+         o = o + 2*self%coordinates
+         pads(i)%bristle(1) = y(o + 1)
+         do k = 2, self%rotations
+            pads(i)%bristle(k) = y(o + k)
          end do
       end do
    end function pad_states
@@ -288,10 +290,7 @@ contains
             y(o + 2*k - 1) = pads(i)%x(self%kind(k))
             y(o + 2*k) = pads(i)%v(self%kind(k))
          end do
-         if (.not. self%bristles) cycle
-         do k = 1, self%rotations
-            y(o + 2*self%coordinates + k) = pads(i)%bristle(k)
-         end do
+         if (self%bristles) y(o + 2*self%coordinates + 1:o + self%per_pad) = pads(i)%bristle(:self%rotations)
       end do
    end subroutine put_pads
 
