@@ -7,7 +7,7 @@ from html import escape
 import numpy as np
 
 from tiltpad.calculate import rotation, signals, summary
-from tiltpad.calculate.coefficients import coefficients
+from tiltpad.calculate.coefficients import coefficients, of_pivots
 from tiltpad.calculate.library import MissingLibraryError
 from tiltpad.calculate.modes import modes, of_journal
 from tiltpad.calculate.response import response
@@ -115,19 +115,20 @@ def coefficient_table(run: Run) -> str:
     if "coefficients" not in run:
         return ""
     rows = []
+    several = run.length("pivot") > 1
     for pivot in run["pivot"]:
         found = coefficients(run, pivot)
         for ratio, *both in zip(found.frequency_ratio, found.stiffness, found.damping, strict=True):
             named = zip(("stiffness", "damping"), both, strict=True)
             values = [digits(SHOWN[name].factor * each) for name, matrix in named for each in matrix.ravel()]
-            rows.append((f"{of_pivots(run, pivot)}, {ratio:g}", *values))
+            rows.append((f"{pivot}, " * several + f"{ratio:g}", *values))
     units = {"K": SHOWN["stiffness"].unit, "C": SHOWN["damping"].unit}
     heads = [f"{letter} {element} ({unit})" for letter, unit in units.items() for element in ELEMENTS]
     note = "The frequency is that of the whirl over the shaft's; y is up, the shaft turns "
     note += f"{rotation.ends(rotation.sense(run.input))}."
     if "equilibrium/viscosity" in run:
         note += " The viscosities are those of the equilibrium."
-    return table(("pivots, frequency", *heads), rows) + f"<p>{note}</p>"
+    return table(("pivots, " * several + "frequency", *heads), rows) + f"<p>{note}</p>"
 
 
 def mode_table(run: Run) -> str:
@@ -135,24 +136,21 @@ def mode_table(run: Run) -> str:
     if "modes" not in run:
         return ""
     rows, thresholds, verdicts = [], [], []
+    several = run.length("pivot") > 1
     for pivot in run["pivot"]:
         found = modes(run, pivot)
+        whose = of_pivots(run, pivot)
         journal, listed = of_journal(found.name), (found.frequency > 0) | (found.damping_ratio < 0)
         for k in (*np.flatnonzero(journal & listed), *np.flatnonzero(~journal & listed)):
-            rows.append((of_pivots(run, pivot), f"{found.name[k]}", *vibration(found, k)))
+            rows.append((f"{pivot}", f"{found.name[k]}", *vibration(found, k))[not several :])
         for who, kind in (("The journal is", journal), ("The pads are", ~journal & (found.name != ""))):
             if kind.any():
                 how = "unstable" if (found.damping_ratio[kind] < 0).any() else "stable"
-                verdicts.append(f"{who} {how}, pivots {of_pivots(run, pivot)}.")
+                verdicts.append(f"{who} {how}" + f", {whose}" * several + ".")
         if np.isfinite(found.threshold_rpm):
-            thresholds.append(f"pivots {of_pivots(run, pivot)}: {found.threshold_rpm:.1f} rpm")
+            thresholds.append(f"{whose}: " * several + f"{found.threshold_rpm:.1f} rpm")
     verdict = paragraph(f"{' '.join(verdicts)} Modes without vibration that decay are not listed.")
-    return table(("pivots", "mode", *VIBRATION), rows) + verdict + threshold(thresholds)
-
-
-def of_pivots(run: Run, pivot: str) -> str:
-    """What the pivots do in coefficients and modes; fixed pads have none."""
-    return pivot if run.length("pivot") > 1 else "none"
+    return table(("pivots", "mode", *VIBRATION)[not several :], rows) + verdict + threshold(thresholds)
 
 
 def pictures(run: Run) -> Iterable[str]:
