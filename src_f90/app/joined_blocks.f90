@@ -26,16 +26,17 @@ module joined_blocks
 contains
 
    !> Adds to `status` that of the runs that have rows in the file of a block or of the whole study, as `take_rows`.
-   subroutine find_rows(study, place, path, way, status, error)
+   subroutine find_rows(study, place, path, way, status, error, columns)
       type(study_type), intent(in) :: study
       type(study_place_type), intent(in) :: place
       !> The file, and what a message says of replacing it.
       character(len=*), intent(in) :: path, way
       integer, intent(inout) :: status(:)
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(in), optional :: columns
       logical :: other
       if (is_made_anew(place, path)) return
-      call take_rows(path, study, status, other, error)
+      call take_rows(path, study, status, other, error, columns=columns)
       if (allocated(error)) call refuse(other, place%overwrite, way, error)
    end subroutine find_rows
 
@@ -155,7 +156,7 @@ contains
    end subroutine join_blocks
 
    !> Whether all blocks are finished: each run has a row in its block's file or in the study's. Begins with the last
-   !> block, as they mostly end in their order.
+   !> block, as they mostly end in their order. Columns are looked at where rows are taken.
    subroutine ask_all(study, place, of, all_finished, error)
       type(study_type), intent(in) :: study
       type(study_place_type), intent(in) :: place
@@ -167,14 +168,14 @@ contains
       integer, allocatable :: status(:)
       integer :: j
       allocate (status(study%runs), source=not_run)
-      call find_rows(study, place, place%name//'.h5', way_out, status, error)
+      call find_rows(study, place, place%name//'.h5', way_out, status, error, columns=.false.)
       all_finished = .not. allocated(error)
       do j = of, 1, -1
          if (.not. all_finished) return
          share = block_type(j, of)
          path = share%path(place%name)
          call find_rows(study, place, path, '; --block '//to_text(j)//'/'//to_text(of)//' --overwrite replaces it', &
-            & status, error)
+            & status, error, columns=.false.)
          ! joined and deleted by another program meanwhile
          if (allocated(error)) then
             if (.not. is_regular(path)) deallocate (error)

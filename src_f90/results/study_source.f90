@@ -51,8 +51,9 @@ contains
    !> The exit status of each run of a study, where log or table of a path have a row of it that `status` has not, or
    !> only one that the system has failed; these rows are added to `log`. `other` is true where what is there is whole,
    !> but not of this study, so that it may be replaced. `origin` says when the study was begun, and
-   !> by which builds the rows were made.
-   subroutine take_rows(path, study, status, other, error, log, origin)
+   !> by which builds the rows were made. A table whose columns were changed is refused, unless `columns` says that they
+   !> do not matter.
+   subroutine take_rows(path, study, status, other, error, log, origin, columns)
       character(len=*), intent(in) :: path
       type(study_type), intent(in) :: study
       integer, intent(inout) :: status(:)
@@ -60,10 +61,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(study_log_type), intent(inout), optional :: log
       type(header_type), intent(inout), optional :: origin
+      logical, intent(in), optional :: columns
       type(study_log_type) :: there
       type(open_table_type) :: table
       logical, allocatable :: wanted(:)
+      logical :: rows
       other = .false.
+      rows = .true.
+      if (present(columns)) rows = columns
       if (is_regular(log_path(path))) then
          call there%open(log_path(path), error)
          if (.not. allocated(error)) call check_marks(log_path(path), there%header%runs, there%header%marks, study, &
@@ -77,7 +82,7 @@ contains
          call there%close()
       end if
       if (allocated(error) .or. .not. is_regular(path)) return
-      call table%open(path, study, other, error, rows=present(log))
+      call table%open(path, study, other, error, rows)
       if (.not. allocated(error)) then
          wanted = lacking(status, table%status)
          if (present(log)) call take_table(table, path, wanted, log, error)

@@ -153,7 +153,7 @@ def test_marches(tiltpad, tmp_path, friction):
 
 
 def test_a_corner_of_a_pad_that_has_left_its_pivot_hits_the_journal(tiltpad, root, tmp_path):
-    """Nothing holds the pitch of a pad without load: asperities at a corner stop it, and the march goes on."""
+    """Nothing holds the pitch of a pad without load: asperities at a corner do, and the march goes on."""
     words = (root / "input/examples/five_pads.nml", "-q", "-o", "found.h5")
     overrides = ("pads%motion=tilting_radial_pitch", "operation%duration=0.34")
     tiltpad(*words, overrides=overrides, cwd=tmp_path, status=0)
