@@ -8,8 +8,8 @@ module branch_task
    use equilibrium_record, only: equilibrium_type
    use equilibrium, only: settle_equilibrium
    use periodic_orbit, only: periodic_orbit_type, find_periodic_orbit
-   use march_settings, only: march_settings_of
    use marching, only: march_options
+   use march_settings, only: march_settings_of
    use marched_cycle, only: find_marched_cycle
    use newton_method, only: branch_point_type
    use continuation, only: bifurcation_type

@@ -72,7 +72,7 @@ module asperity_contact
       real(wp) :: slopes(4, 4) = 0, turning_slopes(4) = 0
       !> The motion at which the oil's film is to be taken, and derivatives of its (position, slope) over the true ones.
       type(sloped_motion) :: film_motion
-      real(wp) :: film_slopes_4(4, 4) = 0
+      real(wp) :: film_motion_slopes(4, 4) = 0
    end type sloped_asperity_load
 
    !> Integrals over a pad of the pressure p and of p n, n the outward direction; of -dp/dh n and -dp/dh n n.
@@ -127,7 +127,7 @@ contains
       ! a corner is softer than a whole edge: it may go deeper than the contact reaches
       load%touches = load%thickness < self%reach .and. load%thickness > -gap%machined_clearance
       load%film_motion = motion
-      load%film_slopes_4 = identity(4)
+      load%film_motion_slopes = identity(4)
       if (.not. load%touches) return
       call set_sloped_loads(self, gap, motion, speed*gap%journal_radius, load)
       call set_sloped_film(self, gap, directions, motion, ends, load)
@@ -253,10 +253,10 @@ contains
          load%film_motion%slope = (at(2)%film_position - at(1)%film_position)/length
          associate (mean => 0.5_wp*(at(1)%film_slopes + at(2)%film_slopes), &
             & rise => at(2)%film_slopes - at(1)%film_slopes)
-            load%film_slopes_4(:2, :2) = mean
-            load%film_slopes_4(:2, 3:) = 0.25_wp*length*rise
-            load%film_slopes_4(3:, :2) = rise/length
-            load%film_slopes_4(3:, 3:) = mean
+            load%film_motion_slopes(:2, :2) = mean
+            load%film_motion_slopes(:2, 3:) = 0.25_wp*length*rise
+            load%film_motion_slopes(3:, :2) = rise/length
+            load%film_motion_slopes(3:, 3:) = mean
          end associate
       end associate
    end subroutine set_sloped_film

@@ -15,7 +15,11 @@ module bearing_construction
    use factories, only: march_films, pad_pivot
    implicit none (type, external)
    private
-   public :: constructed_bearing, pad_sample, sloped_sample
+   public :: constructed_bearing, pad_sample, sloped_sample, pad_outputs, sloped_outputs
+
+   !> Outputs of a pad: film force on the journal in its frame, N, maximum pressure, Pa; where slopes count also its
+   !> moment, N m, and where the pressure is highest, rad and m.
+   integer, parameter :: pad_outputs = 3, sloped_outputs = 7
 
    !> What is sampled of a pad beside its state.
    type :: pad_sample
@@ -81,7 +85,7 @@ module bearing_construction
       type(film_response), allocatable :: response(:)
       integer(i8) :: evaluations = 0
       !> Values of a pad among the outputs of a motion.
-      integer :: outputs = 3
+      integer :: outputs = pad_outputs
       !> Not allocated where no slopes count.
       type(sloped_parts_type), allocatable :: sloped
    contains

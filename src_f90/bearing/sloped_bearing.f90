@@ -67,7 +67,7 @@ contains
                if (asperity%touches) then
                   film%film%min_film_thickness = asperity%thickness
                   if (want_derivatives) film%derivatives(:, :4) = matmul(film%derivatives(:, :4), &
-                     & asperity%film_slopes_4)
+                     & asperity%film_motion_slopes)
                end if
                self%response(i) = film%film
             end associate

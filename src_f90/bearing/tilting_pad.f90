@@ -348,12 +348,14 @@ contains
    function per_mass(self, pad)
       class(pad_coordinates_type), intent(in) :: self
       type(tilting_pad_type), intent(in) :: pad
-      real(wp) :: per_mass(most_coordinates, most_coordinates), one(self%n, self%n)
+      real(wp) :: per_mass(most_coordinates, most_coordinates)
+      real(wp), dimension(self%n, self%n) :: masses, one
       integer :: k
       per_mass = 0
+      masses = self%masses(pad)
       one = identity(self%n)
       do k = 1, self%n
-         per_mass(:self%n, k) = solve_few(self%masses(pad), one(:, k))
+         per_mass(:self%n, k) = solve_few(masses, one(:, k))
       end do
    end function per_mass
 end module tilting_pad

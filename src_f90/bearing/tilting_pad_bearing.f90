@@ -15,16 +15,12 @@ module tilting_pad_bearing
    use tilting_pad, only: tilting_pad_type, pad_coordinates_type, new_pad_coordinates, pad_loads
    use factories, only: make_film, make_laws, law_changes, new_asperities, new_pads, static_films, of_march, &
       & make_contacts, make_friction
-   use bearing_construction, only: constructed_bearing, pad_sample, sloped_sample
+   use bearing_construction, only: constructed_bearing, pad_sample, sloped_sample, pad_outputs, sloped_outputs
    use sloped_bearing, only: make_sloped, sloped_films, sloped_loads, add_late_turning, find_turning_bristles, &
       & sloped_output, take_sloped_samples
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, sloped_sample, new_tilting_pad_bearing
-
-   !> Outputs of a pad: film force on the journal in its frame, N, maximum pressure, Pa; where slopes count also its
-   !> moment, N m, and where the pressure is highest, rad and m.
-   integer, parameter :: pad_outputs = 3, sloped_outputs = 7
 
    type, extends(constructed_bearing) :: tilting_pad_bearing_type
    contains

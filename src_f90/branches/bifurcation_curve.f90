@@ -256,7 +256,6 @@ contains
          to = place_on(way, s)
          curve%line%origin = way%from + to(2)*way%ahead
          change = (to(1) - along)/problem%dot(normal, next%tangent)*next%tangent
-         problem%step = way%radius
          if (points == 1) call problem%predict(change)
          if (points > 1) call problem%move(change, .false.)
          along = to(1)

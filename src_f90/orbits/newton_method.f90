@@ -23,8 +23,6 @@ module newton_method
       integer :: n = 0
       !> Present value of the parameter, and characteristic scale of its changes.
       real(wp) :: parameter = 0, unit = 1
-      !> Length of the step to a point that is sought, where it is longer than the way along the branch.
-      real(wp) :: step = 0
       !> How much each unknown counts in the length of a branch, where the parameter counts 1.
       real(wp), allocatable :: weight(:)
       !> The largest change of all that moved last.

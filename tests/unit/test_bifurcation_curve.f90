@@ -260,29 +260,27 @@ contains
 
    !> The multipliers become -1 at q = 0.5.
    subroutine torus()
-      real(wp), allocatable :: points(:, :)
-      type(bifurcation_type), allocatable :: special(:)
-      character(len=:), allocatable :: at_end
-      real(wp), parameter :: first(2) = [0, 0], last(2) = [1, 1]
-      call follow('torus', 'neimark_sacker', 0.0_wp, first, last, points, special, at_end)
-      call expect(all(abs(points(1, :) - 0.5_wp) < 1e-6_wp), 'points are where they are known')
-      call expect(all(special%kind == 'resonance_1_2') .and. size(special) == 1, 'a 1:2 resonance')
-      call expect(norm2(place(special(1)%point, first, last) - 0.5_wp) < 1e-5_wp, 'at -1')
-      call expect(at_end == 'its frequency comes to half of that of the orbit', 'where the curve ends')
+      call meets_resonance('torus', 'resonance_1_2', 'at -1', 'its frequency comes to half of that of the orbit')
    end subroutine torus
 
    !> The multipliers become 1 at q = 0.5.
    subroutine strong_resonance()
+      call meets_resonance('strong', 'resonance_1_1', 'at 1', 'its frequency goes to 0')
+   end subroutine strong_resonance
+
+   !> A curve of Neimark-Sacker points at p = 0.5 that ends at a resonance at q = 0.5.
+   subroutine meets_resonance(surface, resonance, where_to, ending)
+      character(len=*), intent(in) :: surface, resonance, where_to, ending
       real(wp), allocatable :: points(:, :)
       type(bifurcation_type), allocatable :: special(:)
       character(len=:), allocatable :: at_end
       real(wp), parameter :: first(2) = [0, 0], last(2) = [1, 1]
-      call follow('strong', 'neimark_sacker', 0.0_wp, first, last, points, special, at_end)
+      call follow(surface, 'neimark_sacker', 0.0_wp, first, last, points, special, at_end)
       call expect(all(abs(points(1, :) - 0.5_wp) < 1e-6_wp), 'points are where they are known')
-      call expect(all(special%kind == 'resonance_1_1') .and. size(special) == 1, 'a 1:1 resonance')
-      call expect(norm2(place(special(1)%point, first, last) - 0.5_wp) < 1e-5_wp, 'at 1')
-      call expect(at_end == 'its frequency goes to 0', 'where the curve ends')
-   end subroutine strong_resonance
+      call expect(all(special%kind == resonance) .and. size(special) == 1, 'a '//resonance)
+      call expect(norm2(place(special(1)%point, first, last) - 0.5_wp) < 1e-5_wp, where_to)
+      call expect(at_end == ending, 'where the curve ends')
+   end subroutine meets_resonance
 
    !> On the folds p = 0 a vibration begins at q = 0.5.
    subroutine fold_hopf()

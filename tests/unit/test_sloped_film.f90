@@ -368,7 +368,7 @@ contains
                & /norm2(2*step*load%turning_slopes))
             error(3) = max(error(3), norm2([high%film_motion%middle%position - low%film_motion%middle%position, &
                & 0.05_wp*(high%film_motion%slope - low%film_motion%slope)] &
-               & - 2*step*[1.0_wp, 1.0_wp, 0.05_wp, 0.05_wp]*load%film_slopes_4(:, k))/step)
+               & - 2*step*[1.0_wp, 1.0_wp, 0.05_wp, 0.05_wp]*load%film_motion_slopes(:, k))/step)
          end do
       end do
       call expect(all(error < 1e-6_wp), 'derivatives'//errors(error))

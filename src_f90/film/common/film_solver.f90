@@ -9,7 +9,7 @@ module film_solver
    private
    public :: film_solver_type, film_motion, film_law_type, film_oil, film_response, film_counters
    public :: film_ok, film_closed, film_not_converged, film_not_resolved
-   public :: cavitation_none, cavitation_gumbel, cavitation_reynolds
+   public :: cavitation_none, cavitation_gumbel, cavitation_reynolds, thinnest
 
    integer, parameter :: film_ok = 0, film_closed = 1, film_not_converged = 2, film_not_resolved = 3
    !> Film cavitation: none; pressures below p_cav dropped after the solution; projected in the solution.

@@ -5,7 +5,7 @@
 !> difference of both full films, so that the force does not leap (direct_film).
 module sloped_film
    use kinds, only: wp
-   use film_solver, only: film_law_type, film_counters, film_closed, cavitation_none
+   use film_solver, only: film_law_type, film_counters, film_closed, cavitation_none, thinnest
    use direct_film, only: share_of_modes
    use following_film, only: following_angles
    use film_losses, only: film_loss
@@ -29,8 +29,6 @@ module sloped_film
    !> How far below the cavitation pressure a full film may fall, over its highest pressure, before it counts as
    !> cavitated (direct_film): as much as weighted functions err beside edges.
    real(wp), parameter :: slight_tension = 2e-3_wp
-   !> Films thinner than this, over the clearance, count as closed (film_solver).
-   real(wp), parameter :: thinnest = 1e-9_wp
 
    type :: sloped_film_type
       type(pad_gap_type), allocatable :: gaps(:)
@@ -209,9 +207,9 @@ contains
       type(sloped_volumes_type) :: fine
       integer :: j, k
       logical :: by_volumes
-      call self%evaluate_pad(i, motion, oil, speed, .false., response)
       by_volumes = .not. has_weights(self, i, oil)
       if (.not. by_volumes) then
+         response%film%min_film_thickness = minval(edge_films(self%gaps(i), self%directions(i), motion))
          call find_full(self, i, motion, oil, speed, .false., response)
          by_volumes = is_cavitated(self, i, response)
       end if
