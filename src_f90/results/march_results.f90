@@ -19,9 +19,10 @@ module march_results
    private
    public :: add_sample, put_spectra, put_viscosity_history, put_periodic
 
-   !> Values of a sample: of the shaft, of a journal, and of a pad at most.
-   integer, parameter :: of_shaft = 3, of_journal = 4, of_moments = 2
-   integer, parameter :: of_pad = 11 + 2*most_coordinates + 2*most_rotations
+   !> Values of a sample: of the shaft, of a journal, and of a pad at most; where slopes count also moments on the
+   !> journal, and of a pad places, films at both ends, friction and bristles of pitch and yaw.
+   integer, parameter :: of_shaft = 3, of_journal = 4, of_pad = 8 + 2*most_coordinates
+   integer, parameter :: of_moments = 2, of_slopes = 4 + 2*(most_rotations - 1)
    !> Revolutions of a spectrum from which on a window leaves whole orders and halves of them apart.
    integer, parameter :: fewest_under_window = 8
 
@@ -63,7 +64,8 @@ contains
       integer :: b
       n = of_shaft
       do b = 1, size(samples)
-         n = n + of_journal + of_moments + of_pad*size(samples(b)%states)
+         n = n + of_journal + of_pad*size(samples(b)%states)
+         if (allocated(samples(b)%slopes)) n = n + of_moments + of_slopes*size(samples(b)%states)
       end do
    end function most_values
 
