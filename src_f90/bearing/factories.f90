@@ -111,7 +111,7 @@ contains
                ! cavitated films by volumes are dear, by modes they are cheap
                associate (usual => merge(1, 4, condition == cavitation_gumbel)*tolerance)
                   film = new_table_film(direct, .true., merge(of_tables, usual, f%table_tolerance > 0), &
-                     & filled=accuracy == filled_films)
+                     & filled=accuracy == filled_films, fixed=.not. bearing%tilting())
                end associate
             else if (f%table_tolerance > 0) then
                film = new_table_film(direct, .false., of_tables)

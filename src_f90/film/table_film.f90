@@ -38,9 +38,9 @@ module table_film
       !> The same for pads of wide arcs.
       type(wide_arc_pad_type), allocatable :: wide_arcs(:)
       type(wide_arc_table_type), allocatable :: wide_shapes(:)
-      !> Whether films come from tables, and all of their cells are built; error of what cavitation changes and of
-      !> full films, over the force.
-      logical :: in_tables, filled
+      !> Whether films come from tables, all of their cells are built, and pads are fixed; error of what cavitation
+      !> changes and of full films, over the force.
+      logical :: in_tables, filled = .false., fixed = .false.
       real(wp) :: tolerance, full_tolerance
    contains
       procedure :: solve
@@ -52,19 +52,19 @@ contains
 
    !> The films of a solver from tables; or the same solved at the motions themselves, which is quicker where motions
    !> are few, with exact derivatives. Errors over the force: of what cavitation changes, and of full films (left out: a
-   !> share of the other). `filled`: every cell of the tables is built, whether that pays or not.
-   function new_table_film(direct, tabulated, tolerance, full_tolerance, filled) result(solver)
+   !> share of the other). `filled`: every cell of the tables is built, whether that pays or not; `fixed`: the pads are.
+   function new_table_film(direct, tabulated, tolerance, full_tolerance, filled, fixed) result(solver)
       type(direct_film_type), intent(in) :: direct
       logical, intent(in) :: tabulated
       real(wp), intent(in) :: tolerance
       real(wp), intent(in), optional :: full_tolerance
-      logical, intent(in), optional :: filled
+      logical, intent(in), optional :: filled, fixed
       type(table_film_type) :: solver
       integer :: i, k
       solver%direct_film_type = direct
       solver%in_tables = tabulated
-      solver%filled = .false.
       if (present(filled)) solver%filled = filled
+      if (present(fixed)) solver%fixed = fixed
       solver%tolerance = tolerance
       solver%full_tolerance = share_of_full*tolerance
       if (present(full_tolerance)) solver%full_tolerance = full_tolerance
@@ -123,7 +123,7 @@ contains
             shape%full = new_full_film_table(shape%pad, shape%drive, shape%supplied, self%full_tolerance, &
                & most_full/pads, self%filled)
             shape%cavitation = new_cavitation_table(shape%pad, shape%drive, gumbel, self%tolerance, &
-               & most_cavitated/(pads*merge(3, 1, shape%drive%acts)), self%filled)
+               & most_cavitated/(pads*merge(3, 1, shape%drive%acts)), self%filled, self%fixed)
          else
             shape%full = new_full_film(shape%pad, shape%drive, shape%supplied, self%full_tolerance)
             shape%cavitation = new_cavitated_film(shape%pad, shape%drive, gumbel, self%tolerance)

@@ -9,7 +9,7 @@
 !> The table answers where it pays. A node costs as much as several films of the solver that does without a table. Cells
 !> are built while films without the table and nodes have cost less than 1.2 times what all films would have cost
 !> without it; where it has no cell, and beside films that close, it leaves a film to that solver. A table that is
-!> to be closer than that solver answers everywhere.
+!> to be closer than that solver answers everywhere, and that of fixed pads has all cells (docs/theory/film.md).
 module cavitated_film
    use kinds, only: wp
    use film_solver, only: film_counters
@@ -57,6 +57,9 @@ module cavitated_film
    !> (test_cavitation_table). For smaller tolerances they are halved up to four times, for larger ones doubled twice.
    integer, parameter :: base_level = 3, base_parts = 16, most_halved = 4, most_doubled = 2
    real(wp), parameter :: base_tolerance = 4e-5_wp, loaded = 0.25_wp
+   !> Fixed pads are loaded at all T and have nothing that gives way: this number of cells along T in place of one
+   !> (make realistic).
+   integer, parameter :: parts_of_fixed = 2
    !> Beside a film that closes, where the least film thickness at a corner of a cell is below twice the length of the
    !> cell, cells are halved along the thicknesses, up to three times.
    real(wp), parameter :: least_in_cells = 2
@@ -86,8 +89,9 @@ module cavitated_film
       type(cell_store_type) :: store
       !> What all films would have cost without the table.
       real(wp) :: cost_without = 0
-      !> Whether it is to be closer than the solver that does without a table; whether all cells are built, as then.
-      logical :: is_closer, filled = .false.
+      !> Whether it is to be closer than the solver that does without a table; whether all cells are built, as then;
+      !> whether it is of fixed pads.
+      logical :: is_closer, filled = .false., fixed = .false.
    contains
       procedure :: look_up => look_up_in_table
       procedure, private :: find_cell
@@ -195,20 +199,22 @@ contains
    end subroutine set_ratio
 
    !> An empty table for a pad with its drive, with the condition of Reynolds or (without a D) Guembel, to a
-   !> tolerance over the force; `filled`, every cell is built.
-   function new_cavitation_table(pad, drive, gumbel, tolerance, most, filled) result(table)
+   !> tolerance over the force; `filled`, every cell is built; `fixed`, the pad is fixed.
+   function new_cavitation_table(pad, drive, gumbel, tolerance, most, filled, fixed) result(table)
       type(dimensionless_pad_type), intent(in) :: pad
       type(rotation_drive_type), intent(in) :: drive
       logical, intent(in) :: gumbel
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: most
-      logical, intent(in), optional :: filled
+      logical, intent(in), optional :: filled, fixed
       type(cavitation_table_type) :: table
       integer :: finer
       table%cavitated_film_type = new_cavitated_film(pad, drive, gumbel, tolerance)
       finer = max(-most_doubled, min(most_halved, nint(0.25_wp*log(base_tolerance/tolerance)/log(2.0_wp))))
       table%level = base_level + finer
       table%parts = nint(base_parts*2.0_wp**finer)
+      if (present(fixed)) table%fixed = fixed
+      if (table%fixed) table%parts = parts_of_fixed*table%parts
       table%level_of_drive = 1 + max(0, finer)
       table%store = new_cell_store(merge(4, 3, drive%acts), most)
       if (present(filled)) table%filled = filled
@@ -281,7 +287,7 @@ contains
       else if (self%drive%acts) then
          pays = self%cost < most_cost_alone*self%cost_without
       else
-         pays = self%cost < first_cost + most_cost*self%cost_without
+         pays = self%fixed .or. self%cost < first_cost + most_cost*self%cost_without
       end if
    end function pays
 
