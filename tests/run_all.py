@@ -19,7 +19,9 @@ TESTS = Path(__file__).parent
 ONLY = os.environ.get("ONLY", "")
 #: How many of the slowest tests are listed; shorter ones than this, s, never are.
 SLOWEST, SHORT = 25, 0.5
-#: A test that hangs shows where, and ends the others of its file.
+#: Files of tests that one process runs: starting Python and pytest takes as long as many tests do.
+TOGETHER = 6
+#: A test that hangs shows where, and ends the others of its process.
 PYTEST = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=0", f"--durations-min={SHORT}",
           "-o", "faulthandler_timeout=900", "-o", "faulthandler_exit_on_timeout=true"]  # fmt: skip
 #: What pytest says of a test's time, and all that it says of times.
@@ -31,10 +33,12 @@ COUNTS = re.compile(r"(\d+) passed, (\d+) failed")
 def jobs(programs):
     """Each job's name and command; programs, which are the shortest, come last."""
     python = [sys.executable, *PYTEST, *(["-k", ONLY] if ONLY else [])]
-    files = [*TESTS.glob("cases/test_*.py"), *TESTS.glob("post/test_*.py")]
-    for file in sorted(files, key=lambda file: -file.stat().st_size):
-        name = str(file.relative_to(TESTS.parent))
-        yield name, [*python, name]
+    for folder in ("cases", "post"):
+        files = sorted(TESTS.glob(f"{folder}/test_*.py"), key=lambda file: -file.stat().st_size)
+        count = -(-len(files) // TOGETHER)
+        for first in range(count):
+            names = [str(file.relative_to(TESTS.parent)) for file in files[first::count]]
+            yield " ".join(names), [*python, *names]
     for program in programs:
         yield Path(program).name, [program]
 
