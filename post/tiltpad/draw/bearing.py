@@ -11,7 +11,6 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
@@ -246,6 +245,8 @@ def movie(run: Run, path: str | Path, last: float | None = None) -> None:
 
     An MP4 needs the program ffmpeg. A frame turns the shaft by 1/FRAMES of a revolution.
     """
+    from matplotlib.animation import FFMpegWriter, FuncAnimation, PillowWriter  # no other picture needs it
+
     needs_run(run)
     path = Path(path)
     mp4 = path.suffix.lower() == ".mp4"

@@ -17,6 +17,7 @@ from matplotlib.colors import Normalize, to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import ConnectionPatch, FancyArrowPatch, Rectangle
+from matplotlib.transforms import BboxTransformTo
 
 from tiltpad.calculate import differences, signals
 from tiltpad.files.read import Bearing, Run, needs_run
@@ -329,15 +330,12 @@ def grid(count: int, height: float) -> tuple[Figure, list[Axes]]:
 
 def mark_enlarged(whole: Axes, part: Axes) -> None:
     """Draws a frame in `whole` around the limits of `part`, to its right, and lines from one to the other."""
-    if engine := part.figure.get_layout_engine():
-        engine.execute(part.figure)
-    part.apply_aspect()  # equal axes get their limits when their box is known
     whole.set_zorder(part.get_zorder() + 0.5)  # drawn after it, as the lines end at its box
-    (left, right), (low, high) = part.get_xlim(), part.get_ylim()
+    limits = BboxTransformTo(part.viewLim) + whole.transData  # equal axes get theirs when their box is known
     line = {"edgecolor": "0.65", "linewidth": 0.6, "in_layout": False}
-    whole.add_patch(Rectangle((left, low), right - left, high - low, facecolor="none", **line))
-    for y, corner in ((low, (0, 0)), (high, (0, 1))):
-        whole.add_artist(ConnectionPatch((right, y), corner, whole.transData, part.transAxes, **line))
+    whole.add_artist(Rectangle((0, 0), 1, 1, facecolor="none", transform=limits, **line))
+    for corner in (0, 0), (0, 1):
+        whole.add_artist(ConnectionPatch((1, corner[1]), corner, limits, part.transAxes, **line))
 
 
 def order_axis(ax: Axes, frequency: float, step: int) -> None:

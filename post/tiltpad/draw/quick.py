@@ -1,8 +1,9 @@
 """Drawing by the commands in less time, with the same pictures.
 
-matplotlib makes signatures and words of help for each class as it loads, and finds the ticks of an axis and
-the box of a text anew wherever a layout asks for them, ten times for a picture: most of what a report costs.
-A command needs no help, and between two moves of its axes a layout gets the same ticks and boxes again. What
+matplotlib makes signatures and words of help for each class as it loads, finds the ticks of an axis, their
+boxes and the box of a text anew wherever a layout asks for them, ten times for a picture, reads the same
+formula for each picture, and copies the marks of each tick as deep as they go: most of what a report costs.
+A command needs no help, and between two moves of its axes a picture gets the same ticks and boxes again. What
 a version of matplotlib does not have under these names stays as it is.
 """
 
@@ -11,13 +12,17 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any
 
-#: Names that are replaced: of matplotlib.artist, its class Artist, texts, axes, and the engine of layouts.
-HELP, SIGNATURE, BOX, TICKS, LAYOUT = (
+#: Names that are replaced: of matplotlib.artist, its class Artist, texts, axes, marks, figures, and of PIL.
+HELP, SIGNATURE, BOX, TICKS, TICK_BOXES, FORMULAS, MARK, DRAW, FORMATS = (
     "kwdoc",
     "_update_set_signature_and_docstring",
     "_get_layout",
     "_update_ticks",
-    "execute",
+    "_get_ticklabel_bboxes",
+    "TextToPath",
+    "_set_marker",
+    "draw",
+    "preinit",
 )
 
 
@@ -28,15 +33,21 @@ def quicken() -> None:
     if "matplotlib.text" not in sys.modules:
         replace(artist.Artist, SIGNATURE, lambda _: classmethod(lambda cls: None))
         replace(artist, HELP, lambda _: lambda cls: "")
+    from matplotlib import text, textpath
     from matplotlib.axis import Axis
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-    from matplotlib.text import Text
+    from matplotlib.figure import Figure
+    from matplotlib.markers import MarkerStyle
+    from PIL import Image
 
-    if not hasattr(getattr(Text, BOX, None), "__wrapped__"):
-        replace(Text, BOX, kept_boxes)
-        layouts: list[object] = []
-        replace(Axis, TICKS, lambda find: kept_ticks(find, layouts))
-        replace(ConstrainedLayoutEngine, LAYOUT, lambda execute: counted(execute, layouts))
+    if not hasattr(getattr(text.Text, BOX, None), "__wrapped__"):
+        replace(text.Text, BOX, kept_boxes)
+        replace(text, FORMULAS, lambda _: lambda: textpath.text_to_path)
+        drawings: list[object] = []
+        replace(Axis, TICKS, lambda find: kept(find, drawings))
+        replace(Axis, TICK_BOXES, lambda find: kept(find, drawings))
+        replace(Figure, DRAW, lambda draw: counted(draw, drawings))
+        replace(MarkerStyle, MARK, lambda take: shallow(take, MarkerStyle))
+        replace(Image, FORMATS, lambda _: png_alone)
 
 
 def replace(owner: Any, name: str, make: Callable[[Any], Any]) -> None:
@@ -64,30 +75,51 @@ def kept_boxes(find: Callable[..., Any]) -> Callable[..., Any]:
     return box
 
 
-def kept_ticks(find: Callable[..., Any], layouts: list[object]) -> Callable[..., Any]:
-    """The ticks of an axis in a plane, found once in a layout as long as the axes stay where they are."""
+def kept(find: Callable[..., Any], drawings: list[object]) -> Callable[..., Any]:
+    """What an axis in a plane finds, once in a drawing as long as the axes stay where they are."""
+    name = f"kept{find.__name__}"
 
     @wraps(find)
-    def ticks(axis: Any) -> Any:
-        if not layouts or axis.axes.name == "3d":
-            return find(axis)
-        key = (layouts[-1], *axis.axes.bbox.bounds, *axis.get_view_interval())
-        if vars(axis).get("kept_ticks", (None,))[0] != key:
-            vars(axis)["kept_ticks"] = (key, find(axis))
-        return vars(axis)["kept_ticks"][1]
+    def found(axis: Any, *of: Any) -> Any:
+        if not drawings or axis.axes.name == "3d":
+            return find(axis, *of)
+        key = (drawings[-1], *axis.axes.bbox.bounds, *axis.get_view_interval(), *map(id, of))
+        if vars(axis).get(name, (None,))[0] != key:
+            vars(axis)[name] = (key, find(axis, *of), of)  # an id is that of one thing as long as this lives
+        return vars(axis)[name][1]
 
-    return ticks
+    return found
 
 
-def counted(execute: Callable[..., Any], layouts: list[object]) -> Callable[..., Any]:
-    """A layout, which `layouts` has while it is made."""
+def counted(draw: Callable[..., Any], drawings: list[object]) -> Callable[..., Any]:
+    """The drawing of a figure with its layout, which `drawings` has while it lasts."""
 
-    @wraps(execute)
-    def execute_layout(*arguments: Any) -> Any:
-        layouts.append(object())
+    @wraps(draw)
+    def draw_figure(*arguments: Any) -> Any:
+        drawings.append(object())
         try:
-            return execute(*arguments)
+            return draw(*arguments)
         finally:
-            layouts.pop()
+            drawings.pop()
 
-    return execute_layout
+    return draw_figure
+
+
+def shallow(take: Callable[..., Any], kind: type) -> Callable[..., Any]:
+    """Takes a mark from another one with the same paths, which nothing changes."""
+
+    @wraps(take)
+    def take_mark(mark: Any, other: Any) -> None:
+        if not isinstance(other, kind):
+            take(mark, other)
+            return
+        vars(mark).update(vars(other))
+        if method := vars(other).get("_marker_function"):
+            vars(mark)["_marker_function"] = getattr(mark, method.__name__)
+
+    return take_mark
+
+
+def png_alone() -> None:
+    """Loads what writes a PNG; PIL loads all its other formats where one is asked for."""
+    from PIL import PngImagePlugin  # noqa: F401
