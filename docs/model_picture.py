@@ -100,7 +100,7 @@ def one_pad(ax: Axes) -> None:
         linewidth=0.7,
         linestyle=":",
     )
-    for at, text, side in ((np.zeros(2), "$O$", 0.1), (centre, "centre of the bore", 0.5)):
+    for at, text, side in ((np.zeros(2), "$O$", 0.1), (centre, "centre of\nthe bore", 0.3)):
         ax.plot(*at, "o", color=INK, markersize=3, zorder=7)
         write(ax, at + [-side, 0.05], text, fontsize=8)
     bore = JOURNAL + MACHINED

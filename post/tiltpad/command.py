@@ -51,7 +51,7 @@ BASIN = "basin"
 MACHINE, STATIONS, SHAFT, SHAPES = "machine", "stations", "shaft", "shapes"
 OF_MACHINES = (MACHINE, STATIONS, SHAFT, SHAPES)
 #: Plots of what a machine has as a whole, which the result of any of its bearings has, too.
-OF_WHOLE = ("multipliers", "stability", CHART)
+OF_WHOLE = ("multipliers", CHART)
 #: Plots of a motion that stations of a shaft have as a journal has; of a machine without films these alone.
 OF_STATIONS = (BRANCH, "spectrum", "poincare", "size", "orders", "waterfall")
 #: Plots that need a film or a pad.
@@ -315,8 +315,8 @@ def bearings_of(source: Run | Study, options: argparse.Namespace) -> list[Run | 
             return [Station(source, number) for number in options.station]
         if not source.bearings:
             check_without_films(source, options.plot)
-    of_station = options.plot == RESPONSE and options.station is not None
-    if isinstance(source, Study) or not source.bearings or options.plot in OF_MACHINES or of_station:
+    of_shaft = options.plot == "stability" or (options.plot == RESPONSE and options.station is not None)
+    if isinstance(source, Study) or not source.bearings or options.plot in OF_MACHINES or of_shaft:
         return [source]
     if options.plot == "temperatures" and source.is_branch:
         return [one_bearing(source, options)]

@@ -1,5 +1,6 @@
 """Results of machines: their stations and bearings, every plot of them, their report, and what is refused."""
 
+import argparse
 import re
 import shutil
 import subprocess
@@ -321,7 +322,8 @@ def test_what_the_reduction_damps_is_in_no_picture_of_stability(machine):
         assert found.of_reduction.any()
         own = stations.station_modes(run, "stuck").own[: len(found.name)]
         np.testing.assert_array_equal(found.of_reduction, ~own)
-        fig = figures.FIGURES["stability"](run, pivot="stuck")
+        options = argparse.Namespace(plot="stability", bearing=None, station=None)
+        fig = figures.FIGURES["stability"](command.bearings_of(run, options), pivot="stuck")
         drawn = [k for k, line in enumerate(fig.axes[0].get_lines()) if np.isfinite(line.get_ydata()).all()]
         assert set(drawn[: len(found.name)]) >= set(np.flatnonzero(~found.of_reduction))
         assert not set(drawn) & set(np.flatnonzero(found.of_reduction))

@@ -8,6 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import tiltpad
+from matplotlib import animation
 from PIL import Image
 from tiltpad import command, figures, units
 from tiltpad.calculate import differences, signals
@@ -229,7 +230,7 @@ def test_a_movie(result, tmp_path, monkeypatch, capsys):
     with Image.open(output) as picture:
         assert picture.n_frames == 6
         assert picture.info["loop"] == 0
-    monkeypatch.setattr(bearing, "FFMpegWriter", SimpleNamespace(isAvailable=lambda: False))
+    monkeypatch.setattr(animation, "FFMpegWriter", SimpleNamespace(isAvailable=lambda: False))
     for name, message in (("a.mp4", "needs the program ffmpeg"), ("a.png", "must end in .gif or .mp4")):
         assert command.main(["movie", str(result("four")), "-o", str(tmp_path / name)]) == 1
         said = capsys.readouterr().err

@@ -132,7 +132,7 @@ def pictures(run: Run) -> Iterable[str]:
     if "length" in run.input.get("shaft", {}):
         yield picture("machine", lambda: machine(run), "The machine to scale.")
     for name in WHOLE:
-        source = run if name in ("shaft", "stations", "shapes") else run.bearings.whole()
+        source = run.bearings.whole() if name == "multipliers" else run
         try:
             yield picture(name, partial(figures.FIGURES[name], [source]))
         except NotInRunError:
