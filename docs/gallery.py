@@ -50,6 +50,15 @@ RUNS = {
     "bent": ("input/examples/bent_pads.nml", ()),
     "turbine": ("input/examples/turbine_bearing.nml", ()),
     "lemon": ("input/examples/lemon_bore.nml", ()),
+    "curve": (
+        "input/examples/lemon_bore.nml",
+        (
+            "branch%of=curve",
+            "branch%point=hopf",
+            "branch%second_parameter=bearing%viscosity",
+            "branch%second_last=0.01",
+        ),
+    ),
 }
 #: Studies: name, which is that of the folder, case, and what is varied.
 STUDIES = {
@@ -156,6 +165,7 @@ PICTURES = (
         "with LuGre friction a torus (Neimark-Sacker) bifurcation appears at high speed",
     ),
     ("branch", "lemon", "", "a whirl with a fold below its threshold speed"),
+    ("chart", "curve", "", "the threshold speed over the viscosity, with its stable side"),
     ("basin", "kicks lemon", "", "the starts within the unstable cycle return"),
     ("response", "soft", "", "pivots that are soft give the rotor a critical speed"),
     ("coefficients", "whirl", "", "stiffness and damping over speed, at two whirl frequencies"),

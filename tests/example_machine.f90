@@ -33,7 +33,7 @@ contains
    function plain_shaft(lengths, diameter) result(machine)
       real(wp), intent(in) :: lengths(:), diameter
       type(case_type) :: machine
-      allocate (machine%rotor%elastic, machine%bearings(0))
+      allocate (machine%rotor%elastic, machine%bearings(0), machine%excitations(0))
       machine%about%task = 'march'
       call machine%rotor%elastic%begin(0, 0, 0)
       associate (shaft => machine%rotor%elastic%shaft)

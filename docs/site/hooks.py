@@ -39,7 +39,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, page: Page, **_: object) -> str:
-    """Links to the notebook lead to its page; the home page has no neighbours to list; terms are found first."""
+    """Links to the notebook lead to its page; home has no neighbours to list; terms are found first."""
     if page.is_homepage:
         page.meta["hide"] = ["navigation"]
     if page.file.src_uri == "docs/terms.md":

@@ -305,10 +305,10 @@ module case_groups
       integer :: cross_station = 0
    end type lateral_type
 
-   !> Up to which frequency, Hz, the shaft's modes on fixed bearings are kept (unset: by themselves); modes above a
-   !> frequency, Hz, are damped with a damping ratio.
+   !> Up to which frequency, Hz, the shaft's modes on fixed bearings are kept; modes above a frequency, Hz, are damped
+   !> with a damping ratio. Unset, both frequencies follow from what moves the shaft.
    type :: reduction_type
-      real(wp) :: frequency = unset, damp_above = 500, damping_ratio = 0.3_wp
+      real(wp) :: frequency = unset, damp_above = unset, damping_ratio = 0.3_wp
    end type reduction_type
 
    !> A rotor that bends, and what is on it.

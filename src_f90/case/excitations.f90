@@ -34,6 +34,7 @@ module excitations
       procedure :: prepare
       procedure :: evaluate
       procedure :: next_switch
+      procedure :: highest_frequency
    end type excitation_type
 
 contains
@@ -93,6 +94,16 @@ contains
       end if
       angle = angle + self%phase_deg*degree
    end subroutine phase
+
+   !> Highest frequency of the vibration, Hz, up to a speed of the shaft, rad/s; 0 of what does not vibrate.
+   elemental real(wp) function highest_frequency(self, highest_speed)
+      class(excitation_type), intent(in) :: self
+      real(wp), intent(in) :: highest_speed
+      highest_frequency = 0
+      if (is_set(self%frequency_ratio)) highest_frequency = self%frequency_ratio*highest_speed/(2*pi)
+      if (is_set(self%frequency_hz)) highest_frequency = self%frequency_hz
+      if (is_set(self%final_frequency_hz)) highest_frequency = max(highest_frequency, self%final_frequency_hz)
+   end function highest_frequency
 
    !> The force along y and z of amplitude 1 at a phase, rad; its derivative over the phase is that a quarter turn
    !> later.

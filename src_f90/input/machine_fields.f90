@@ -246,7 +246,8 @@ contains
       call v%group('reduction', 'A machine: which modes of the shaft are kept')
       call v%number(r%frequency, 'frequency', 1e-3_wp, 1e7_wp, 'Hz', 'modes of the shaft on fixed bearings up to ' &
          & //'this frequency are kept; if left out, as many as the run needs')
-      call v%number(r%damp_above, 'damp_above', 0.0_wp, 1e7_wp, 'Hz', 'modes above this frequency are damped')
+      call v%number(r%damp_above, 'damp_above', 0.0_wp, 1e7_wp, 'Hz', 'modes above this frequency are damped; ' &
+         & //'if left out, above four times the highest frequency of shaft and excitations, and above 500 Hz')
       call v%number(r%damping_ratio, 'damping_ratio', 0.0_wp, 1.0_wp, '1', 'their damping ratio')
    end subroutine list_reduction
 

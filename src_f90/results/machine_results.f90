@@ -112,6 +112,8 @@ contains
             & 'frequency of the first mode that is left out; 0: none is')
          call file%put(group//'truncation_error', m%truncation_error, '1', &
             & 'relative error of amplitudes by the modes that are left out; 0: not estimated')
+         call file%put(group//'damped_above', m%damped_above, 'Hz', &
+            & 'frequency above which a march damps modes of the shaft')
          call file%put(group//'damping_error', m%damping_error, '1', &
             & 'relative error of amplitudes by the damping of high modes; 0: not estimated')
       end associate

@@ -11,6 +11,7 @@ module result_remarks
    use bearing_equilibrium, only: listed
    use pad_behaviour, only: pad_behaviour_type, smallest_share
    use revolution_points, only: disagreement, steady_ring, enough_points
+   use rotor_reduction, only: far_above
    use record, only: record_type, lines
    use run_file, only: run_file_type
    use bearing_file, only: bearing_file_type, new_bearing_file
@@ -40,7 +41,7 @@ module result_remarks
    real(wp), parameter :: visible_flow = 0.02_wp
    !> Error of amplitudes by the damping of high modes of a shaft, and the multiple of the highest speed from which on
    !> it is less.
-   real(wp), parameter :: much_damping = 0.01_wp, far_above = 4
+   real(wp), parameter :: much_damping = 0.01_wp
 
 contains
 
@@ -78,8 +79,8 @@ contains
       class(run_file_type), intent(inout) :: file
       character(len=:), allocatable :: remark
       remark = ''
-      if (.not. file%has('rotor/damping_error')) return
-      associate (error => file%get_real('rotor/damping_error'), above => inputs%rotor%elastic%reduction%damp_above)
+      if (.not. file%has('rotor/damped_above')) return
+      associate (error => file%get_real('rotor/damping_error'), above => file%get_real('rotor/damped_above'))
          remark = line_if(error > much_damping, 'the damping of modes above {} Hz changes amplitudes at the highest ' &
             & //'speed by {c.1} %; reduction%damp_above = {} changes less, and takes more steps in a march', [above, &
             & error, anint(max(2*above, far_above*inputs%highest_speed()/(2*pi)))])

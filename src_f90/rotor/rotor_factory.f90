@@ -11,7 +11,8 @@ module rotor_factory
    use sparse_matrix, only: sparse_matrix_type
    use rotor_component, only: rotor_component_type, shaft_component, given_component
    use fixed_interface, only: fixed_interface_type, find_fixed_interface
-   use rotor_reduction, only: mode_selection_type, select_modes, most_modes, rotor_matrices_type, reduced_rotor
+   use rotor_reduction, only: mode_selection_type, select_modes, damped_above, most_modes, &
+      & rotor_matrices_type, reduced_rotor
    use linear_algebra, only: dpbtrf, dpbtrs
    implicit none (type, external)
    private
@@ -110,6 +111,7 @@ contains
          & //list_text(real(mounts%station, wp))//') do not hold the shaft: it needs two at different ' &
          & //'stations, and sections with stiffness between them')
       if (allocated(error)) return
+      selection%damped_above = damped_above(inputs, highest_speed)
       if (present(modes)) then
          selection%modes = min(modes, size(fixed%frequency))
          call fixed%find_modes(selection%modes)

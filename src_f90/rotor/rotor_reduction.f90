@@ -4,7 +4,7 @@ module rotor_reduction
    use kinds, only: wp, pi, rpm
    use linear_algebra, only: zgbsv, solve_complex
    use sparse_matrix, only: sparse_matrix_type
-   use case_groups, only: is_set, reduction_type, mount_type, station_element_type
+   use case_groups, only: is_set, mount_type, station_element_type
    use case_inputs, only: case_type
    use rotor_component, only: rotor_component_type, static_forces, unbalance_moments
    use fixed_interface, only: fixed_interface_type
@@ -13,7 +13,7 @@ module rotor_reduction
    use acting_element, only: acting_element_type, new_acting_element
    implicit none (type, external)
    private
-   public :: mode_selection_type, select_modes, most_modes, rotor_matrices_type, reduced_rotor
+   public :: mode_selection_type, select_modes, damped_above, far_above, most_modes, rotor_matrices_type, reduced_rotor
 
    !> A forced vibration q exp(rate*t) of a rotor at a speed, rad/s.
    type :: vibration_type
@@ -44,16 +44,17 @@ module rotor_reduction
    end type projection_type
 
    !> Modes kept in a plane, and errors of amplitudes at the highest speed, relative to the largest one: of leaving out
-   !> the others, and, in a motion, of damping those above `reduction%damp_above`; 0 where the number of modes was
-   !> given.
+   !> the others, and, in a motion, of damping those above a frequency, Hz; 0 where the number of modes was given.
    type :: mode_selection_type
       integer :: modes = 0
-      real(wp) :: truncation_error = 0, damping_error = 0
+      real(wp) :: truncation_error = 0, damping_error = 0, damped_above = 0
    end type mode_selection_type
 
    !> The modes are chosen for this error of amplitudes, and include all below this multiple of the highest speed, and
    !> below this frequency, Hz, so that a map over speeds has the same vibrations at all of them.
    real(wp), parameter :: target_error = 1e-4_wp, lowest_multiple = 3, lowest_frequency = 500
+   !> Modes below this multiple of the highest frequency are not damped, nor are those below `lowest_frequency`.
+   real(wp), parameter :: far_above = 4
    !> Most modes that a rotor keeps, those of both planes: a march has dense matrices of them.
    integer, parameter :: most_modes = 120
    !> Amplitudes are compared in a vibration that grows so fast, relative to its frequency: as with this damping ratio.
@@ -68,7 +69,7 @@ module rotor_reduction
       real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness
       !> N, of internal damping; not allocated where there is none.
       real(wp), allocatable :: circulatory(:, :)
-      !> Damping of the displacements that the reduction adds, as they are modes above reduction%damp_above, 1/s.
+      !> Damping of the displacements that the reduction adds, as they are modes above `damped_above`, 1/s.
       real(wp), allocatable :: high_damping(:)
       !> Weight (along -y), static loads, and what the offsets of the bearings bend.
       real(wp), allocatable :: load(:)
@@ -106,7 +107,7 @@ contains
       !> Displacements of the journals.
       integer, intent(in) :: border(:)
       real(wp), intent(in) :: highest_speed
-      type(mode_selection_type), intent(out) :: selection
+      type(mode_selection_type), intent(inout) :: selection
       type(vibration_type) :: whole
       type(reduced_vibration_type) :: reduced
       complex(wp), allocatable :: exact(:, :), found(:, :)
@@ -139,7 +140,7 @@ contains
             reduced = whole%reduced(component, fixed%basis(tried))
          end do
          if (.not. inputs%moves()) return
-         damping = mode_damping(inputs%rotor%elastic%reduction, fixed, modes)
+         damping = mode_damping(inputs%rotor%elastic%reduction%damping_ratio, fixed, selection)
          do i = 1, size(damping)
             associate (element => reduced%stiffness(size(border) + i, size(border) + i))
                element = element + whole%rate*damping(i)
@@ -183,18 +184,29 @@ contains
       end associate
    end function new_vibration
 
-   !> Damping of the first modes in each plane, of modal mass 1, 1/s: those above `reduction%damp_above` have a damping
-   !> ratio. Without damping they hold up an integrator of high order.
-   pure function mode_damping(r, fixed, modes) result(damping)
-      type(reduction_type), intent(in) :: r
+   !> Frequency, Hz, above which modes are damped: as given, or by the highest speed, rad/s, and the excitations.
+   pure real(wp) function damped_above(inputs, highest_speed)
+      type(case_type), intent(in) :: inputs
+      real(wp), intent(in) :: highest_speed
+      damped_above = inputs%rotor%elastic%reduction%damp_above
+      if (is_set(damped_above)) return
+      damped_above = max(lowest_frequency, far_above*max(highest_speed/(2*pi), &
+         & maxval(inputs%excitations%highest_frequency(highest_speed))))
+   end function damped_above
+
+   !> Damping of the modes in each plane, of modal mass 1, 1/s: those above a frequency have a damping ratio. Without
+   !> damping they hold up an integrator of high order.
+   pure function mode_damping(ratio, fixed, selection) result(damping)
+      real(wp), intent(in) :: ratio
       type(fixed_interface_type), intent(in) :: fixed
-      integer, intent(in) :: modes
-      real(wp) :: damping(fixed%planes*modes)
+      type(mode_selection_type), intent(in) :: selection
+      real(wp) :: damping(fixed%planes*selection%modes)
       integer :: p
-      do p = 1, fixed%planes
-         damping(p::fixed%planes) = merge(2*r%damping_ratio*fixed%frequency(:modes), 0.0_wp, &
-            & fixed%frequency(:modes) > 2*pi*r%damp_above)
-      end do
+      associate (frequency => fixed%frequency(:selection%modes))
+         do p = 1, fixed%planes
+            damping(p::fixed%planes) = merge(2*ratio*frequency, 0.0_wp, frequency > 2*pi*selection%damped_above)
+         end do
+      end associate
    end function mode_damping
 
    ! How well a reduced rotor vibrates: amplitudes of forced vibrations, compared with those of the whole one.
@@ -310,7 +322,7 @@ contains
       r%mode_frequency = fixed%frequency(:modes)/(2*pi)
       ! the last displacements are the modes
       r%high_damping = [spread(0.0_wp, 1, size(r%load) - fixed%planes*modes), &
-         & mode_damping(inputs%rotor%elastic%reduction, fixed, modes)]
+         & mode_damping(inputs%rotor%elastic%reduction%damping_ratio, fixed, r%mode_selection_type)]
       do i = 1, size(r%load)
          r%damping(i, i) = r%damping(i, i) + r%high_damping(i)
       end do

@@ -41,7 +41,7 @@ def test_much_damping_of_high_modes_is_said_with_what_changes_it(run, tmp_path):
     note = re.search(
         r"remark: the damping of modes above 500 Hz changes amplitudes at the highest speed by (.*) %; "
         r"reduction%damp_above = (\d+) changes less",
-        run(FAST, *MARCH).stdout,
+        run(FAST, *MARCH, "reduction%damp_above=500").stdout,
     )
     with h5py.File(tmp_path / "case.h5") as file:
         before = file["rotor/damping_error"][()]
@@ -50,6 +50,22 @@ def test_much_damping_of_high_modes_is_said_with_what_changes_it(run, tmp_path):
     assert "remark: the damping" not in less.stdout
     with h5py.File(tmp_path / "case.h5") as file:
         assert file["rotor/damping_error"][()] < 0.01 < before
+
+
+@pytest.mark.parametrize(
+    ("more", "limit"),
+    [
+        ("", 2000),
+        ("&operation speed_rpm=6000 /", 500),
+        ("&operation speed_rpm=6000, final_speed_rpm=45000 /", 3000),
+        ("&excitation station=3, amplitude=1, frequency_hz=900 /", 3600),
+    ],
+)
+def test_no_mode_near_the_highest_frequency_is_damped(run, tmp_path, more, limit):
+    case = FAST.replace("&operation speed_rpm=30000 /", more) if "operation" in more else FAST + more
+    assert "remark: the damping" not in run(case, *MARCH).stdout
+    with h5py.File(tmp_path / "case.h5") as file:
+        assert file["rotor/damped_above"][()] == pytest.approx(limit)
 
 
 def test_an_unbalance_in_g_mm_is_said(run):
