@@ -225,10 +225,15 @@ contains
          call count('convergence_failures', counts%convergence_failures, 'Newton iterations that failed')
       end associate
       films = [(self%model%bearings(b)%film%counters, b=1, size(self%model%bearings))]
+      do b = 1, size(self%model%bearings)
+         if (allocated(self%model%bearings(b)%sloped)) films = [films, self%model%bearings(b)%sloped%film%counters]
+      end do
       call count('film_fourier', sum(films%fourier), 'pads solved by axial modes in the march')
       call count('film_volumes', sum(films%volumes), 'pads solved on finite volumes in the march')
       call count('film_passes', sum(films%passes), &
          & 'passes over the cells of these, sweeps of over-relaxation or eliminations, in the march')
+      if (size(films) > size(self%model%bearings)) call count('film_weighted', sum(films%weighted), &
+         & 'pads with slopes solved by weighted functions in the march')
       call count('film_table', sum(films%looked_up), 'pads looked up in tables in the march')
       call count('film_cells', sum(films%cells), 'cells of these tables that were built')
       call count('film_nodes', sum(films%nodes), 'cavitated films that were solved for them')

@@ -6,7 +6,7 @@ module equilibrium_notes
    use case_groups, only: bearing_type, station_element_type
    use case_inputs, only: case_type, longest_label
    use bearing_numbers, only: load, load_on_journal, specific_load, sommerfeld_number, of_supply
-   use state_layout, only: tilt, pivot_deflection, pitch, yaw
+   use state_layout, only: tilt, pivot_deflection, pitch, yaw, of_journal
    use force_balance, only: stability_type
    use bearing_shape, only: bearing_shape_type
    use heat_balance, only: oil_temperatures_type
@@ -16,8 +16,8 @@ module equilibrium_notes
    use equilibrium, only: bearing_alone, part_of, bearing_loads
    use bearing_file, only: bearing_file_type
    use namelist_writer, only: first_equal
-   use equilibrium_results, only: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, &
-      & put_film_temperatures, put_oil
+   use equilibrium_results, only: put_equilibrium, put_misalignment, put_journal_slope, put_stability, put_figures, &
+      & put_temperatures, put_film_temperatures, put_oil
    use machine_results, only: put_machine_equilibrium, put_elements
    use bearing_samples, only: element_forces, element_positions, eccentricities
    use record, only: record_type
@@ -58,8 +58,8 @@ contains
          as = b
          if (.not. run%quiet) as = same_equilibrium(run, static, loads, slopes, b)
          title = run%inputs%bearings(b)%title()//filled('load y {.1}, z {.1} N, ', loads(:, b))
-         call note_bearing(run, bearing_alone(run%model, b, loads(:, b)), part_of(run%model, static, b), b, title, &
-            & as == b .and. .not. run%quiet, '')
+         call note_bearing(run, bearing_alone(run%model, b, loads(:, b), static%rotor), part_of(run%model, static, b), &
+            & b, title, as == b .and. .not. run%quiet, '')
          call note_misalignment(run, static, slopes(b), b, as == b .and. .not. run%quiet)
          if (as < b .and. .not. run%quiet) print '(a)', title//'all else as of '//run%inputs%bearings(as)%label()
       end do
@@ -113,7 +113,7 @@ contains
          if (agree(loads(:, first), loads(:, b)) .and. agree(one%rotor, own%rotor) &
             & .and. agree(one%pads%x(tilt), own%pads%x(tilt)) &
             & .and. agree(one%min_film_thickness, own%min_film_thickness) &
-            & .and. agree([slopes(first)], [slopes(b)])) return
+            & .and. agree([slopes(first)], [slopes(b)]) .and. .not. allocated(own%slopes)) return
       end do
    end function same_equilibrium
 
@@ -123,7 +123,7 @@ contains
       agree = maxval(abs(one - other)) <= 1e-5_wp*maxval(abs(other))
    end function agree
 
-   !> What the slope of the shaft in bearing b of a machine, rad, does to its films, which leave it out.
+   !> What the slope of the shaft in bearing b of a machine, rad, does to its films where they leave it out; else it.
    subroutine note_misalignment(run, static, slope, b, shown)
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(in) :: static
@@ -133,6 +133,14 @@ contains
       type(bearing_file_type) :: file
       real(wp) :: misalignment
       file = run%bearing(b)
+      associate (of => run%model%layout%elements(b))
+         if (of%of_rotor > of_journal) then
+            call put_journal_slope(file, static%rotor(of%slopes))
+            if (shown) print '(a)', filled('  shaft slope in the bearing, which its films have: y {m.4}, z {m.4} ' &
+               & //'mrad', static%rotor(of%slopes))
+            return
+         end if
+      end associate
       misalignment = maxval(slope*run%inputs%bearings(b)%axial_length/2 &
          & /static%min_film_thickness(run%model%layout%elements(b)%all_pads()))
       call put_misalignment(file, misalignment)

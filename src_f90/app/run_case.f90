@@ -272,10 +272,14 @@ contains
          & 'film_passes']
       character(len=*), parameter :: seconds(3) = [character(len=14) :: 'wall_seconds', 'film_seconds', &
          & 'output_seconds']
+      character(len=:), allocatable :: weighted
       integer :: k
+      weighted = ''
+      if (file%has('statistics/film_weighted')) weighted = filled(', {i} by weighted functions', &
+         & [file%get_real('statistics/film_weighted')])
       print '(a)', filled('cost: {i} steps, {i} right-hand sides, {i} Jacobians, films {i} from tables ({i} cells, ' &
          & //'{i} cavitated nodes), {i} by axial Fourier expansion and {i} on finite volumes ({i} passes over their ' &
-         & //'cells)', [(file%get_real('statistics/'//trim(counts(k))), k=1, size(counts))])
+         & //'cells)', [(file%get_real('statistics/'//trim(counts(k))), k=1, size(counts))])//weighted
       print '(a)', filled('  wall time {.2} s, of which film {.2} s and samples {.2} s', [( &
          & file%get_real('statistics/'//trim(seconds(k))), k=1, size(seconds))])
    end subroutine print_cost

@@ -14,6 +14,7 @@ module bearing_losses
    use state_layout, only: pad_state
    use kinematics, only: frame_of, motion_of
    use sloped_pad, only: sloped_motion_of
+   use sloped_bearing, only: slopes_of
    use tilting_pad, only: tilting_pad_type
    use tilting_pad_bearing, only: tilting_pad_bearing_type
    use factories, only: new_losses
@@ -128,7 +129,8 @@ contains
       type(sloped_motion) :: sloped
       type(sloped_asperity_load) :: touching
       associate (pad => bearing%pads(i))
-         sloped = sloped_motion_of(pad, frame_of(pad%position, journal, state), journal, bearing%sloped%journal, state)
+         sloped = sloped_motion_of(pad, frame_of(pad%position, journal, state), journal, slopes_of(bearing, journal), &
+            & state)
          call bearing%asperities%evaluate_sloped(pad%gap, pad%directions, sloped, speed, touching)
       end associate
       if (touching%touches) sloped = touching%film_motion

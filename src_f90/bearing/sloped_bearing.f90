@@ -7,16 +7,19 @@ module sloped_bearing
    use state_layout, only: pad_state, element_layout_type, of_journal, pitch, yaw
    use kinematics, only: frame_of, motion_of, pad_frame, to_global
    use friction, only: turning_friction, no_friction
+   use film_solver, only: film_counters
    use asperity_contact, only: sloped_asperity_load
    use sloped_gap, only: sloped_motion, edge_films
    use tilting_pad, only: pad_loads
-   use sloped_pad, only: sloped_motion_of, in_frame, find_derivatives, add_slope_loads, add_turning_friction, of_pad
+   use sloped_pad, only: sloped_motion_of, in_frame, find_derivatives, add_slope_loads, add_turning_friction, &
+      & of_pad, of_slopes, journal_slope
    use bearing_construction, only: constructed_bearing, sloped_sample, pad_sample
    use factories, only: make_sloped_film
    implicit none (type, external)
    private
-   public :: make_sloped, sloped_films, sloped_loads, add_late_turning, find_turning_bristles, sloped_output, &
-      & take_sloped_samples, sampled_slopes, moment_on_journal, least_thickness, align_pad
+   public :: make_sloped, sloped_films, sloped_loads, slopes_of, add_moments, find_inclined, add_late_sloped, &
+      & find_turning_bristles, sloped_output, take_sloped_samples, sampled_slopes, moment_on_journal, least_thickness, &
+      & align_pad
 
 contains
 
@@ -26,6 +29,7 @@ contains
       type(case_type), intent(in) :: inputs
       integer, intent(in) :: b
       logical, intent(in) :: anew
+      type(film_counters) :: counters
       logical :: cavitates
       cavitates = self%film%cavitates()
       if (.not. allocated(self%sloped)) then
@@ -39,10 +43,19 @@ contains
          self%sloped%journal%slope = inputs%bearings(b)%slope
          return
       end if
+      counters = self%sloped%film%counters
       call make_sloped_film(inputs%bearings(b), self%accuracy, self%sloped%film)
+      self%sloped%film%counters = counters
       call self%sloped%film%set_cavitation(cavitates)
       self%sloped%journal%slope = inputs%bearings(b)%slope
    end subroutine make_sloped
+
+   !> The slopes of the journal: those that are given, and those of an elastic shaft.
+   pure type(journal_slope) function slopes_of(self, journal) result(slopes)
+      class(constructed_bearing), intent(in) :: self
+      type(journal_motion), intent(in) :: journal
+      slopes = journal_slope(self%sloped%journal%slope + journal%slope, journal%slope_rate)
+   end function slopes_of
 
    !> Sets frames, motions and films of the pads that are not skipped, whose laws have their oil.
    subroutine sloped_films(self, journal, pads, speed, want_derivatives, skipped)
@@ -57,7 +70,7 @@ contains
             if (skipped(i)) cycle
             associate (pad => self%pads(i), film => of%response(i), asperity => of%asperity(i))
                self%frame(i) = frame_of(pad%position, journal, pads(i))
-               of%motion(i) = sloped_motion_of(pad, self%frame(i), journal, of%journal, pads(i))
+               of%motion(i) = sloped_motion_of(pad, self%frame(i), journal, slopes_of(self, journal), pads(i))
                call self%asperities%evaluate_sloped(pad%gap, pad%directions, of%motion(i), speed, asperity)
                of%film_motion(i) = of%motion(i)
                if (asperity%touches) of%film_motion(i) = asperity%film_motion
@@ -96,8 +109,8 @@ contains
             all(:, :4) = all(:, :4) + asperity%slopes
             moment_slopes = asperity%turning_slopes
          end if
-         call find_derivatives(self%coordinates, self%pads(i), frame, journal, of%journal, state, film, all, load, &
-            & moment_slopes, self%loads(i), of%derivatives(i), self%derivatives(i))
+         call find_derivatives(self%coordinates, self%pads(i), frame, journal, slopes_of(self, journal), state, film, &
+            & all, load, moment_slopes, self%loads(i), of%derivatives(i), self%derivatives(i))
       end associate
    end subroutine sloped_loads
 
@@ -145,30 +158,77 @@ contains
       end associate
    end subroutine set_loads
 
-   !> Friction of a pivot with several rotations, as `add_late` has it.
-   pure subroutine add_late_turning(self, part, m, accelerations, over_positions, over_rates)
+   !> Adds the moments of all pads against the slopes of the journal, N m.
+   pure subroutine add_moments(self, moment)
+      class(constructed_bearing), intent(in) :: self
+      real(wp), intent(inout) :: moment(of_journal)
+      integer :: i
+      do i = 1, size(self%pads)
+         associate (of => self%sloped%response(i), load => load_of(self%sloped%response(i)%film%force, &
+            & self%sloped%response(i)%moment, self%sloped%asperity(i)))
+            moment = moment + to_global(self%frame(i), load(3:4))
+         end associate
+      end do
+   end subroutine add_moments
+
+   !> Derivatives of a part on a shaft whose slopes count, as `part_derivatives` has them.
+   pure subroutine find_inclined(self, part, m, accelerations, over_positions, over_rates)
+      class(constructed_bearing), intent(in) :: self
+      integer, intent(in) :: part, m
+      logical, intent(in) :: accelerations
+      real(wp), intent(out) :: over_positions(m, m), over_rates(m, m)
+      over_positions = self%sloped%derivatives(part)%over_positions(:m, :m)
+      over_rates = self%sloped%derivatives(part)%over_rates(:m, :m)
+      if (.not. accelerations) return
+      associate (own => self%of_rotor + 1, n => m - self%of_rotor)
+         over_positions(own:, :) = matmul(self%per_mass(:n, :n, part), over_positions(own:, :))
+         over_rates(own:, :) = matmul(self%per_mass(:n, :n, part), over_rates(own:, :))
+      end associate
+   end subroutine find_inclined
+
+   !> Friction of a pivot as `add_late` has it, of one with several rotations or on a shaft whose slopes count.
+   pure subroutine add_late_sloped(self, part, m, accelerations, over_positions, over_rates, over_bristle)
       class(constructed_bearing), intent(in) :: self
       integer, intent(in) :: part, m
       logical, intent(in) :: accelerations
       real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
-      associate (rotation => self%coordinates%rotation(:self%coordinates%rotations))
-         call add_turning_friction(self%derivatives(part), self%pads(part), rotation, self%sloped%friction(part), m, &
-            & per_moments(self, part, m, accelerations), over_positions, over_rates)
+      real(wp), intent(out) :: over_bristle(m - of_journal)
+      type(turning_friction) :: friction
+      real(wp) :: contact(m), contact_rates(m)
+      over_bristle = 0
+      associate (rotation => self%coordinates%rotation(:self%coordinates%rotations), on => self%of_rotor, &
+         & per_moment => per_moments(self, part, m, accelerations), scalar => self%loads(part)%friction)
+         if (on > of_journal) then
+            contact = self%sloped%derivatives(part)%contact_over_positions(:m)
+            contact_rates = self%sloped%derivatives(part)%contact_over_rates(:m)
+         else
+            contact = self%derivatives(part)%contact_over_positions(:m)
+            contact_rates = self%derivatives(part)%contact_over_rates(:m)
+         end if
+         if (size(rotation) > 1) then
+            friction = self%sloped%friction(part)
+         else
+            friction%force_normal(1) = scalar%force_normal
+            friction%force_velocity(1, 1) = scalar%force_velocity
+            over_bristle(on + 1 - of_journal:) = -self%pads(part)%ball_radius*scalar%force_deflection*per_moment(:, 1)
+         end if
+         call add_turning_friction(contact, contact_rates, self%pads(part), rotation, friction, on, m, per_moment, &
+            & over_positions, over_rates)
       end associate
-   end subroutine add_late_turning
+   end subroutine add_late_sloped
 
    !> What the rows of a pad answer to a moment along each of its rotations, (row, rotation).
    pure function per_moments(self, part, m, accelerations)
       class(constructed_bearing), intent(in) :: self
       integer, intent(in) :: part, m
       logical, intent(in) :: accelerations
-      real(wp) :: per_moments(m - of_journal, self%coordinates%rotations)
+      real(wp) :: per_moments(m - self%of_rotor, self%coordinates%rotations)
       integer :: k
       per_moments = 0
       do k = 1, self%coordinates%rotations
          associate (row => self%coordinates%rotation(k))
             per_moments(row, k) = 1
-            if (accelerations) per_moments(:, k) = self%per_mass(:m - of_journal, row, part)
+            if (accelerations) per_moments(:, k) = self%per_mass(:m - self%of_rotor, row, part)
          end associate
       end do
    end function per_moments
@@ -187,8 +247,7 @@ contains
       end associate
    end subroutine find_turning_bristles
 
-   !> Output of a pad after a correction of its displacements and their rates to first order, (y, z, own), of which the
-   !> journal's slopes have none.
+   !> Output of a pad after a correction of all states to first order.
    pure function sloped_output(self, i, layout, correction) result(output)
       class(constructed_bearing), intent(in) :: self
       integer, intent(in) :: i
@@ -200,6 +259,9 @@ contains
          & v => self%sloped%derivatives(i)%film_over_rates)
          added = matmul(x(:, :of_journal), correction(layout%journal)) &
             & + matmul(v(:, :of_journal), correction(layout%journal_rates))
+         if (layout%of_rotor > of_journal) added = added &
+            & + matmul(x(:, of_slopes:of_pad - 1), correction(layout%slopes)) &
+            & + matmul(v(:, of_slopes:of_pad - 1), correction(layout%slopes - layout%journal + layout%journal_rates))
          o = layout%before(i)
          do k = 1, layout%coordinates
             added = added + x(:, of_pad + k - 1)*correction(o + 2*k - 1) + v(:, of_pad + k - 1)*correction(o + 2*k)
@@ -224,7 +286,7 @@ contains
       type(turning_friction) :: friction
       associate (pad => self%pads(i), gap => self%pads(i)%gap)
          frame = frame_of(pad%position, journal, state)
-         motion = sloped_motion_of(pad, frame, journal, self%sloped%journal, state)
+         motion = sloped_motion_of(pad, frame, journal, slopes_of(self, journal), state)
          call self%asperities%evaluate_sloped(gap, pad%directions, motion, speed, asperity)
          associate (load => load_of(output(1:2), output(4:5), asperity))
             call set_loads(self, i, frame, state, output(1:2), load, asperity, loads, friction)
@@ -259,7 +321,7 @@ contains
          frame = frame_of(pad%position, journal, state)
          if (allocated(self%sloped)) then
             least_thickness = minval(edge_films(pad%gap, pad%directions, sloped_motion_of(pad, frame, journal, &
-               & self%sloped%journal, state)))
+               & slopes_of(self, journal), state)))
          else
             least_thickness = pad%gap%min_film_thickness(motion_of(pad%position, frame, journal, state), pad%directions)
          end if
@@ -273,7 +335,8 @@ contains
       type(journal_motion), intent(in) :: journal
       type(pad_state), intent(inout) :: state
       if (self%coordinates%rotations < 2) return
-      associate (slope => in_frame(frame_of(self%pads(i)%position, journal, state), self%sloped%journal%slope))
+      associate (slope => in_frame(frame_of(self%pads(i)%position, journal, state), self%sloped%journal%slope &
+         & + journal%slope))
          state%x(pitch) = slope(2)
          if (self%coordinates%rotations > 2) state%x(yaw) = slope(1)
       end associate

@@ -35,6 +35,8 @@ module sloped_pad
       real(wp), dimension(most, most) :: over_positions = 0, over_rates = 0
       !> Of force and moment of the film on the journal in the pad frame.
       real(wp), dimension(4, most) :: film_over_positions = 0, film_over_rates = 0
+      !> Of the pivot load.
+      real(wp), dimension(most) :: contact_over_positions = 0, contact_over_rates = 0
    end type sloped_derivatives
 
 contains
@@ -274,30 +276,34 @@ contains
          contact = radial
          contact_rates = radial_rates
       end if
+      answer%contact_over_positions = contact
+      answer%contact_over_rates = contact_rates
       unsloped_answer%contact_over_positions = contact(unsloped)
       unsloped_answer%contact_over_rates = contact_rates(unsloped)
    end subroutine add_contact
 
-   !> Adds what the friction of a pivot with several rotations does to derivatives of the forces on journal, y and z,
-   !> and pad: `per_moment` are the rows' answers to a moment along each, (row of the pad, rotation).
-   pure subroutine add_turning_friction(of, pad, rotation, friction, m, per_moment, over_positions, over_rates)
-      type(pad_derivatives), intent(in) :: of
+   !> Adds what the friction of a pivot does to derivatives of the forces on what a pad knows of the rotor, `on` of all,
+   !> and on the pad: `per_moment` are the rows' answers to a moment along each rotation, (row of the pad, rotation).
+   pure subroutine add_turning_friction(contact, contact_rates, pad, rotation, friction, on, m, per_moment, &
+      & over_positions, over_rates)
+      integer, intent(in) :: on, m
+      !> Derivatives of the pivot load over positions and rates.
+      real(wp), intent(in) :: contact(m), contact_rates(m)
       type(tilting_pad_type), intent(in) :: pad
       !> Places of the rotations among the coordinates.
       integer, intent(in) :: rotation(:)
       type(turning_friction), intent(in) :: friction
-      integer, intent(in) :: m
-      real(wp), intent(in) :: per_moment(m - of_journal, size(rotation))
+      real(wp), intent(in) :: per_moment(m - on, size(rotation))
       real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
       real(wp), dimension(size(rotation), m) :: moments, moment_rates
       integer :: k
       do k = 1, m
          associate (f => -pad%ball_radius*friction%force_normal(:size(rotation)))
-            moments(:, k) = f*of%contact_over_positions(k)
-            moment_rates(:, k) = f*of%contact_over_rates(k)
+            moments(:, k) = f*contact(k)
+            moment_rates(:, k) = f*contact_rates(k)
          end associate
       end do
-      associate (at => of_journal + rotation, n => size(rotation), own => of_journal + 1)
+      associate (at => on + rotation, n => size(rotation), own => on + 1)
          moment_rates(:, at) = moment_rates(:, at) - pad%ball_radius**2*friction%force_velocity(:n, :n)
          over_positions(own:, :) = over_positions(own:, :) + matmul(per_moment, moments)
          over_rates(own:, :) = over_rates(own:, :) + matmul(per_moment, moment_rates)

@@ -16,8 +16,8 @@ module tilting_pad_bearing
    use factories, only: make_film, make_laws, law_changes, new_asperities, new_pads, static_films, of_march, &
       & make_contacts, make_friction
    use bearing_construction, only: constructed_bearing, pad_sample, sloped_sample, pad_outputs, sloped_outputs
-   use sloped_bearing, only: make_sloped, sloped_films, sloped_loads, add_late_turning, find_turning_bristles, &
-      & sloped_output, take_sloped_samples
+   use sloped_bearing, only: make_sloped, sloped_films, sloped_loads, add_moments, find_inclined, add_late_sloped, &
+      & find_turning_bristles, sloped_output, take_sloped_samples
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, sloped_sample, new_tilting_pad_bearing
@@ -32,6 +32,7 @@ module tilting_pad_bearing
       procedure :: layout
       procedure :: evaluate
       procedure :: add_force
+      procedure :: add_moment
       procedure :: part_derivatives
       procedure :: add_late
       procedure :: bristle_slopes
@@ -220,13 +221,18 @@ contains
       !> Left out: all.
       logical, intent(in), optional :: chosen(:)
       logical :: skipped(size(pads))
+      real(wp) :: started
       integer :: i
       skipped = .false.
       if (present(chosen)) skipped = .not. chosen
       if (allocated(self%sloped)) then
          self%speed = speed
          call take_oil(self%laws, oil, self%pads%gap, self%density, speed*self%pads(1)%gap%journal_radius)
+         started = wall_clock()
          call sloped_films(self, journal, pads, speed, want_derivatives, skipped)
+         associate (counters => self%sloped%film%counters)
+            counters%seconds = counters%seconds + wall_clock() - started
+         end associate
       else
          do i = 1, size(self%pads)
             if (skipped(i)) cycle
@@ -320,6 +326,12 @@ contains
       end do
    end subroutine add_force
 
+   pure subroutine add_moment(self, moment)
+      class(tilting_pad_bearing_type), intent(in) :: self
+      real(wp), intent(inout) :: moment(of_journal)
+      call add_moments(self, moment)
+   end subroutine add_moment
+
    !> Without friction.
    pure subroutine part_derivatives(self, part, m, accelerations, over_positions, over_rates)
       class(tilting_pad_bearing_type), intent(in) :: self
@@ -328,6 +340,10 @@ contains
       real(wp), intent(out) :: over_positions(m, m), over_rates(m, m)
       real(wp), dimension(most_coordinates) :: own, own_rates
       integer :: k
+      if (self%of_rotor > of_journal) then
+         call find_inclined(self, part, m, accelerations, over_positions, over_rates)
+         return
+      end if
       associate (of => self%derivatives(part))
          do k = 1, m
             over_positions(:, k) = of%over_positions(:m, k)
@@ -362,13 +378,12 @@ contains
       real(wp), intent(inout) :: over_positions(m, m), over_rates(m, m)
       real(wp), intent(out) :: over_bristle(m - of_journal)
       real(wp) :: per_moment(most_coordinates)
-      if (m == of_journal .or. is_smooth(self)) then
+      if (m == self%of_rotor .or. is_smooth(self)) then
          over_bristle = 0
          return
       end if
-      if (self%coordinates%rotations > 1) then
-         over_bristle = 0
-         call add_late_turning(self, part, m, accelerations, over_positions, over_rates)
+      if (self%coordinates%rotations > 1 .or. self%of_rotor > of_journal) then
+         call add_late_sloped(self, part, m, accelerations, over_positions, over_rates, over_bristle)
          return
       end if
       per_moment = 0

@@ -99,6 +99,7 @@ contains
       end if
       do b = 1, size(figures%bearings)
          if (allocated(sample%states)) deallocate (sample%states, sample%loads)
+         if (allocated(sample%slopes)) deallocate (sample%slopes)
          call take_sample(model, t, y, none, b, sample)
          associate (of => figures%bearings(b), tilts => sample%states%x(tilt), film => sample%loads%min_film_thickness)
             call add_place(of%journal, sample%journal%position, angle)

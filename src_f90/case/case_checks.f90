@@ -51,7 +51,10 @@ contains
             call check_laws(bearing)
             call check_start(bearing)
             call check_pads(bearing)
-            call check_slopes(bearing, inputs%thermal%model, inputs%has_slopes(b), error)
+            call require(any(inputs%inclined() == b) .or. .not. any(abs(bearing%misalignment) > 0), &
+               & 'bearing%misalignment = {}, {}: has no effect where films ignore slopes; bearing%shaft_slope = ' &
+               & //'''film'' counts them', bearing%misalignment, error)
+            call check_slopes(bearing, inputs%thermal%model, inputs%has_slopes(b), any(inputs%inclined() == b), error)
             call add_context(error, bearing%label())
          end associate
       end do
@@ -363,16 +366,19 @@ contains
    end subroutine check_case
 
    !> Pads that pitch and yaw, pivots off the middle plane, and a journal that is inclined.
-   subroutine check_slopes(bearing, heat, slopes_count, error)
+   subroutine check_slopes(bearing, heat, slopes_count, on_shaft, error)
       type(bearing_type), intent(in) :: bearing
       !> thermal%model
       character(len=*), intent(in) :: heat
       logical, intent(in) :: slopes_count
+      !> Whether they are those of an elastic shaft.
+      logical, intent(in) :: on_shaft
       type(error_type), allocatable, intent(inout) :: error
-      character(len=:), allocatable :: what, with
+      character(len=:), allocatable :: what, with, name
       real(wp) :: angle, closing, open
       integer :: i
-      associate (p => bearing%pads, slope => bearing%slope)
+      name = merge('misalignment', 'slope       ', on_shaft)
+      associate (p => bearing%pads, slope => bearing%slope - bearing%misalignment)
          if (.not. slopes_count .and. .not. any(is_set([p%inertia_pitch, p%inertia_yaw])) &
             & .and. .not. any(abs(p%pivot_axial_offset) > 0)) return
          with = '; pads%motion = '''//p%motion//''' has none'
@@ -397,13 +403,14 @@ contains
                   & *sin(min(90.0_wp, p%arc_deg(i)*max(p%pivot_ratio(i), 1 - p%pivot_ratio(i)))*degree)
                open = bearing%machined_clearance(i)
             end if
-            call require(bearing%yawing() .or. closing < open, 'bearing%slope = {}, {}: closes the film of pad {} at ' &
-               & //'rest, {} m at its ends where there are {} m; pads%motion = ''tilting_pitch_yaw'' lets it follow', &
-               & [real(wp) :: slope, i, closing, open], error)
+            call require(bearing%yawing() .or. closing < open, 'bearing%'//trim(name)//' = {}, {}: closes the film ' &
+               & //'of pad {} at rest, {} m at its ends where there are {} m; pads%motion = ''tilting_pitch_yaw'' ' &
+               & //'lets it follow', [real(wp) :: bearing%slope + bearing%misalignment, i, closing, open], error)
          end do
          if (.not. slopes_count) return
-         what = 'bearing%slope = '//list_text(slope)
+         what = 'bearing%slope = '//list_text(bearing%slope)
          if (.not. any(abs(slope) > 0)) what = 'coefficients%slopes = .true.'
+         if (on_shaft) what = 'bearing%shaft_slope = '''//bearing%shaft_slope//''''
          if (bearing%pitching()) what = 'pads%motion = '''//p%motion//''''
          call require(bearing%pivot%law /= 'rocker' .or. .not. bearing%pitching(), what//': is not for pivot%law = ' &
             & //'''rocker'', on whose line a pad does not pitch; the other laws have balls', error)

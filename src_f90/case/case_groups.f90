@@ -206,8 +206,10 @@ module case_groups
       real(wp) :: clearance_temperature = unset, shaft_expansion = 11e-6_wp, housing_expansion = 11e-6_wp
       real(wp) :: housing_temperature = unset
       real(wp) :: supply_pressure = 0, ambient_pressure = 0, cavitation_pressure = 0
-      !> Of a rigid journal along y and z over the distance along the shaft, rad.
-      real(wp) :: slope(2) = 0
+      !> Along y and z over the distance along the shaft, rad, of a rigid journal, and of the housing on a shaft.
+      real(wp) :: slope(2) = 0, misalignment(2) = 0
+      !> 'film': the films count the slope of a shaft; 'ignored'; 'auto': where pads pitch.
+      character(len=:), allocatable :: shaft_slope
       type(oil_type) :: oil
       type(pads_type) :: pads
       type(pivot_type) :: pivot
@@ -361,6 +363,7 @@ contains
    pure type(bearing_type) function new_bearing() result(bearing)
       bearing%name = ''
       bearing%kind = 'film'
+      bearing%shaft_slope = 'auto'
       bearing%machined_clearance = [100e-6_wp, 100e-6_wp]
       bearing%assembled_clearance = [80e-6_wp, 80e-6_wp]
       bearing%preload = [unset, unset]

@@ -37,6 +37,7 @@ module case_inputs
       procedure :: dampers
       procedure :: element_labels
       procedure :: has_slopes
+      procedure :: inclined
       procedure :: moves
       procedure :: seeks_orbits
       procedure :: followed
@@ -108,16 +109,32 @@ contains
    end function is_disturbed
 
    !> Whether slopes of the journal count in the films of bearing b: of pads that pitch, of a journal that is inclined
-   !> or comes to be on a branch, and where coefficients against them are asked for.
+   !> or comes to be on a branch, of an elastic shaft, and where coefficients against them are asked for.
    pure logical function has_slopes(self, b)
       class(case_type), intent(in) :: self
       integer, intent(in) :: b
       associate (bearing => self%bearings(b), branch => self%branch)
-         has_slopes = bearing%pitching() .or. any(abs(bearing%slope) > 0) .or. self%about%task == 'coefficients' &
-            & .and. self%coefficients%slopes .or. self%about%task == 'branch' .and. index(branch%parameter &
-            & //branch%second_parameter, 'bearing%slope') > 0
+         has_slopes = bearing%pitching() .or. on_inclined_shaft(bearing) .or. any(abs(bearing%slope) > 0) &
+            & .or. self%about%task == 'coefficients' .and. self%coefficients%slopes .or. self%about%task == 'branch' &
+            & .and. index(branch%parameter//branch%second_parameter, 'bearing%slope') > 0
       end associate
    end function has_slopes
+
+   !> The bearings whose films count the slopes of an elastic shaft.
+   pure function inclined(self)
+      class(case_type), intent(in) :: self
+      integer, allocatable :: inclined(:)
+      integer :: b
+      allocate (inclined(0))
+      if (.not. self%rotor%is_rigid()) inclined = pack([(b, b=1, size(self%bearings))], &
+         & on_inclined_shaft(self%bearings))
+   end function inclined
+
+   !> Whether the films of a bearing count the slope of an elastic shaft.
+   elemental logical function on_inclined_shaft(bearing)
+      type(bearing_type), intent(in) :: bearing
+      on_inclined_shaft = bearing%shaft_slope == 'film' .or. bearing%shaft_slope == 'auto' .and. bearing%pitching()
+   end function on_inclined_shaft
 
    !> Whether the task integrates the motion.
    pure logical function moves(self)
@@ -151,15 +168,17 @@ contains
    end function followed
 
    !> The case of bearing b alone, with a rigid journal in the place of an elastic rotor, under a load along y and z, N.
-   pure type(case_type) function alone(self, b, load) result(inputs)
+   pure type(case_type) function alone(self, b, load, slope) result(inputs)
       class(case_type), intent(in) :: self
       integer, intent(in) :: b
-      real(wp), intent(in), optional :: load(2)
+      !> N, rad.
+      real(wp), intent(in), optional :: load(2), slope(2)
       inputs = self
       if (allocated(inputs%rotor%elastic)) deallocate (inputs%rotor%elastic)
       if (present(load)) inputs%rotor%static_load = load + [inputs%rotor%mass*inputs%rotor%gravity, 0.0_wp]
       inputs%bearings = self%bearings(b:b)
       inputs%bearings(1)%name = ''
+      if (present(slope)) inputs%bearings(1)%slope = slope
    end function alone
 
    !> What holds the rotor: bearings of pads, then those by coefficients.

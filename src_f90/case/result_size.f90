@@ -68,7 +68,8 @@ contains
       values = 3 + 2*size(inputs%excitations) + 2*inputs%rotor%station_count()
       values = values + 4*size(inputs%element_labels())
       do b = 1, size(inputs%bearings)
-         values = values + values_of_bearing(inputs%bearings(b), inputs%has_slopes(b))
+         values = values + values_of_bearing(inputs%bearings(b), inputs%has_slopes(b)) &
+            & + merge(2, 0, any(inputs%inclined() == b))
       end do
    end function values_of_sample
 

@@ -15,7 +15,7 @@ module equilibrium
    use equilibrium_record, only: equilibrium_type, describe_with_stability
    use static_model, only: solve_equilibrium, make_static
    use film_network, only: warm_films_type
-   use thermal_equilibrium, only: solve_warm_films, solve_shape
+   use thermal_equilibrium, only: solve_warm_films, solve_thermal_equilibrium, solve_shape
    use bearing_equilibrium, only: find_bearing_equilibrium, settle
    use factories, only: march_films, static_films
    use bearing_samples, only: element_forces
@@ -81,8 +81,13 @@ contains
          call guess_loads()
       end if
       do b = 1, size(shares)
-         shares(b)%alone = bearing_alone(model, b, loads(2*b - 1:2*b))
-         if (present(known)) shares(b)%found = part_of(model, found, b)
+         if (present(known)) then
+            shares(b)%alone = bearing_alone(model, b, loads(2*b - 1:2*b), found%rotor)
+            shares(b)%found = part_of(model, found, b)
+         else
+            ! its films are open on a straight shaft
+            shares(b)%alone = bearing_alone(model, b, loads(2*b - 1:2*b), spread(0.0_wp, 1, model%rotor%positions))
+         end if
       end do
       call bear(shares, loads)
       if (.not. allocated(error)) call find_loads()
@@ -218,6 +223,11 @@ contains
          end do
          journals = journals_of(shares)
          y = model%static_state([journals, rotor%bent - matmul(rotor%follow, journals)], pads)
+         do b = 1, size(shares)
+            associate (of => model%layout%elements(b))
+               if (of%of_rotor > of_journal) y(of%slopes) = shares(b)%alone%inputs%bearings(1)%slope
+            end associate
+         end do
          call add_others(model, y, ignored, refusal)
          if (allocated(refusal)) then
             call raise(error, input_error, 'at the equilibrium '//refusal)
@@ -234,6 +244,9 @@ contains
             call move_alloc(films, found%films)
          else
             call solve_equilibrium(model, y, found%residual, error)
+            ! heat of films on a straight shaft is not theirs
+            if (.not. allocated(error) .and. .not. present(known) .and. any(model%layout%elements%of_rotor &
+               & > of_journal)) call solve_thermal_equilibrium(model, y, found%residual, error)
          end if
          if (.not. allocated(error)) call describe_with_stability(model, y, found, error)
       end subroutine join
@@ -319,16 +332,20 @@ contains
    ! The bearings of a machine, each alone with a rigid journal that bears what the rotor lays on it: what is known of
    ! one bearing then holds for each.
 
-   !> A static model of bearing b alone under a load along y and z, N, at the speed of the machine.
-   function bearing_alone(model, b, load) result(alone)
+   !> A static model of bearing b alone under a load along y and z, N, at the speed of the machine, with the slope that
+   !> these displacements of its rotor have in the bearing, where it counts.
+   function bearing_alone(model, b, load, rotor) result(alone)
       type(machine_model), intent(in) :: model
       integer, intent(in) :: b
-      real(wp), intent(in) :: load(2)
+      real(wp), intent(in) :: load(2), rotor(:)
       type(machine_model) :: alone
+      real(wp) :: slope(2)
       integer :: accuracy
+      slope = 0
+      if (model%layout%elements(b)%of_rotor > of_journal) slope = rotor(model%layout%elements(b)%slopes)
       accuracy = model%bearings(b)%accuracy
       if (accuracy == march_films) accuracy = static_films
-      alone = new_machine_model(model%inputs%alone(b, load), accuracy)
+      alone = new_machine_model(model%inputs%alone(b, load, slope), accuracy)
       alone%give_up => model%give_up
       alone%point%speed_rpm = model%point%speed_rpm
       alone%point%cavitation = model%point%cavitation
@@ -352,8 +369,12 @@ contains
          part%min_film_thickness = found%min_film_thickness(pads)
          part%max_pressure = found%max_pressure(pads)
          part%oil = found%oil(pads)
-         if (allocated(found%slopes)) part%slopes = found%slopes(pads)
-         if (allocated(found%moments)) part%moments = found%moments(:, b:b)
+         if (allocated(model%bearings(b)%sloped)) then
+            part%slopes = found%slopes(pads)
+            part%moments = found%moments(:, b:b)
+         else if (allocated(part%slopes)) then
+            deallocate (part%slopes, part%moments)
+         end if
       end associate
    end function part_of
 

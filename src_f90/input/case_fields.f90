@@ -231,7 +231,7 @@ contains
          call v%flag(inputs%coefficients%threshold_born, 'threshold_born', 'the limit cycles that begin at the ' &
             & //'threshold speed are followed, without unbalance: towards which speeds they are born, and the lowest ' &
             & //'with one')
-         if (rigid) call v%flag(inputs%coefficients%slopes, 'slopes', 'whether stiffness and damping against slopes ' &
+         call v%flag(inputs%coefficients%slopes, 'slopes', 'whether stiffness and damping against slopes ' &
             & //'of the journal and moments on it are found, too, 4 x 4')
          call v%number(inputs%coefficients%cross_stiffness, 'cross_stiffness', -1e15_wp, 1e15_wp, 'N/m', 'Q: ' &
             & //'cross-coupled stiffness at the journal beside the bearing''s, for the modes; > 0 drives forward ' &
@@ -309,6 +309,10 @@ contains
          if (rigid) call v%numbers(own%slope, 'slope', -0.1_wp, 0.1_wp, 'rad', 'slopes of the rigid journal in the ' &
             & //'bearing, dy/dx and dz/dx over the distance x along the shaft')
          if (machine) then
+            call v%word(own%shaft_slope, 'shaft_slope', 'auto film ignored', 'of a machine: film, the slope of the ' &
+               & //'shaft counts in the films, whose moments act on the shaft; auto: where pads pitch')
+            call v%numbers(own%misalignment, 'misalignment', -0.1_wp, 0.1_wp, 'rad', 'of a machine: slopes of the ' &
+               & //'housing against the line of the bearings, along y and z; only where films count slopes')
             if (all) call list_kind(v, own%mount_type, of)
             if (.not. all) call list_kind(v, own%mount_type)
          end if

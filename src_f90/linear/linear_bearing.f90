@@ -7,7 +7,7 @@ module linear_bearing
    use text, only: to_text
    use linear_algebra, only: solve_complex, zgesv, zgetrs
    use errors, only: error_type, raise, numerics_error
-   use state_layout, only: tilt, of_journal
+   use state_layout, only: tilt, of_journal, element_layout_type
    use equations_of_motion, only: machine_model
    use force_balance, only: mode_name, mode_name_length, position_lengths, force_derivatives, &
       & bearing_derivatives, part_derivatives, add_sticking, masses, find_vibrations, no_growth
@@ -101,7 +101,7 @@ contains
             do i = 1, pivots
                each_bearing: do b = 1, n
                   do k = 1, ratios
-                     call found%bearings(i)%condense(model%layout%elements(b)%all_positions(), &
+                     call found%bearings(i)%condense(model%layout%elements(b), &
                         & given%frequency_ratio(k), speed, found%stiffness(:, :, k, i, b), &
                         & found%damping(:, :, k, i, b), ok)
                      if (ok .and. given%slopes) call found%bearings(i)%condense_slopes(model, b, &
@@ -224,18 +224,22 @@ contains
    end function pivots_of
 
    !> Stiffness, N/m, and damping, N s/m, that a journal meets which whirls at a frequency over the speed of the shaft,
-   !> rad/s: Z_jj - Z_jp Z_pp^-1 Z_pj with Z = K + i nu C - nu^2 M of journal and pads, which stand at these places.
-   !> `ok` is false where a vibration of the pads without damping has this frequency.
-   subroutine condense(self, places, ratio, speed, stiffness, damping, ok)
+   !> rad/s: Z_jj - Z_jp Z_pp^-1 Z_pj with Z = K + i nu C - nu^2 M of journal and pads of a layout; 2 x 2, or with
+   !> slopes that act in it, which are else held, 4 x 4. `ok` is false where a vibration of the pads without damping has
+   !> this frequency.
+   subroutine condense(self, layout, ratio, speed, stiffness, damping, ok)
       class(linear_bearing_type), intent(in) :: self
-      integer, intent(in) :: places(:)
+      type(element_layout_type), intent(in) :: layout
       real(wp), intent(in) :: ratio, speed
-      real(wp), intent(out) :: stiffness(of_journal, of_journal), damping(of_journal, of_journal)
+      real(wp), intent(out) :: stiffness(:, :), damping(:, :)
       logical, intent(out) :: ok
       integer, allocatable :: kept(:)
-      kept = pack(places, self%moves(places))
-      call reduce(self%stiffness(kept, kept), self%damping(kept, kept), self%mass(kept, kept), &
-         & max(slowest, ratio)*speed, of_journal, stiffness, damping, ok)
+      kept = layout%all_positions()
+      associate (n => size(stiffness, 1))
+         kept = [kept(:n), pack(kept(layout%of_rotor + 1:), self%moves(kept(layout%of_rotor + 1:)))]
+         call reduce(self%stiffness(kept, kept), self%damping(kept, kept), self%mass(kept, kept), &
+            & max(slowest, ratio)*speed, n, stiffness, damping, ok)
+      end associate
    end subroutine condense
 
    !> The same of the first n positions, from these matrices of all, at a whirl frequency, rad/s.
@@ -267,6 +271,10 @@ contains
       integer, allocatable :: places(:), at(:), kept(:), unsloped(:)
       integer, parameter :: slopes(of_journal) = [3, 4]
       integer :: i, j, n
+      if (model%layout%elements(b)%of_rotor > of_journal) then
+         call self%condense(model%layout%elements(b), ratio, model%point%speed(0.0_wp), stiffness, damping, ok)
+         return
+      end if
       places = model%layout%elements(b)%all_positions()
       n = size(places) + of_journal
       unsloped = [1, 2, (i, i=2*of_journal + 1, n)]

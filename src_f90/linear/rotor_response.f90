@@ -161,7 +161,7 @@ contains
       type(linear_bearing_type), intent(in) :: bearings
       type(linear_bearing_type), intent(out) :: linear
       logical, intent(out) :: ok
-      real(wp) :: stiffness(2, 2), damping(2, 2)
+      real(wp), allocatable, dimension(:, :) :: stiffness, damping
       real(wp), dimension(model%layout%n_positions(), model%layout%n_positions()) :: of_others, rates_of_others
       integer :: b, n
       ok = .true.
@@ -176,8 +176,10 @@ contains
       linear%damping = -linear%damping - rates_of_others(:n, :n)
       call take_high_damping(model, linear%damping)
       do b = 1, size(model%bearings)
-         associate (of => model%layout%elements(b), at => model%layout%elements(b)%journal)
-            call bearings%condense(of%all_positions(), 1.0_wp, model%point%speed(0.0_wp), stiffness, damping, ok)
+         associate (of => model%layout%elements(b), at => model%layout%elements(b)%on_rotor())
+            if (allocated(stiffness)) deallocate (stiffness, damping)
+            allocate (stiffness(size(at), size(at)), damping(size(at), size(at)))
+            call bearings%condense(of, 1.0_wp, model%point%speed(0.0_wp), stiffness, damping, ok)
             if (.not. ok) return
             linear%stiffness(at, at) = linear%stiffness(at, at) + stiffness
             linear%damping(at, at) = linear%damping(at, at) + damping

@@ -25,6 +25,8 @@ module bearing_samples
       !> Where slopes count, else not allocated; moments on the journal against its slopes along y and z, N m.
       type(sloped_sample), allocatable :: slopes(:)
       real(wp) :: moment(2) = 0
+      !> Whether slopes of an elastic shaft count in its films.
+      logical :: inclined = .false.
    end type bearing_sample
 
 contains
@@ -40,6 +42,7 @@ contains
          if (.not. allocated(sample%coordinates)) sample%coordinates = bearing%coordinates
          sample%bristles = of%bristles
          sample%asperities = bearing%asperities%act()
+         sample%inclined = of%of_rotor > of_journal
          sample%time = t
          sample%shaft_angle = model%point%shaft_angle(t)
          sample%speed = model%point%speed(t)

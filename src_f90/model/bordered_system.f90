@@ -1,7 +1,7 @@
-!> Bordered block-diagonal matrices: a border that knows all blocks, and groups of blocks that know a pair of the border
-!> and themselves but not each other. Here the border are the journals, a group is an element that acts on one, as a
-!> bearing, and a block a pad. Solved block by block, so that the cost grows with the number of blocks and not with its
-!> cube.
+!> Bordered block-diagonal matrices: a border that knows all blocks, and groups of blocks that know one or two pairs of
+!> the border and themselves but not each other. Here the border are the journals, with their slopes where these count;
+!> a group is an element that acts on one, as a bearing, and a block a pad. Solved block by block, so that the cost
+!> grows with the number of blocks and not with its cube.
 module bordered_system
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
@@ -9,18 +9,20 @@ module bordered_system
    private
    public :: bordered_matrix, new_bordered_matrix
 
-   !> Unknowns of the border that a group knows: the displacements of a journal.
-   integer, parameter :: pair = 2
+   !> Unknowns of the border that a group knows: the displacements of a journal; with its slopes twice as many.
+   integer, parameter :: pair = 2, both = 2*pair
    !> Rows are filled up to a multiple of this, for vector instructions.
    integer, parameter :: simd_width = 4
-   !> Length of the rows of a block of up to five unknowns.
-   integer, parameter :: usual_width = 8
+   !> Length of the rows of a block of up to five unknowns; of up to seven that knows two pairs.
+   integer, parameter :: usual_width = 8, long_width = 12
 
-   !> Blocks of m unknowns each, and the pair of the border that they know.
+   !> Blocks of m unknowns each, and the pair of the border that they know, and a second one; 0: they know one.
    type :: block_group
-      integer :: m = 0, pair = 1
-      !> The pair of the border over a block (pair, m, block), a block over the pair (m, pair, block), over itself.
+      integer :: m = 0, pair = 1, second = 0
+      !> What they know of the border over a block (pair, m, block), a block over that (m, pair, block), over itself.
       real(wp), allocatable :: across(:, :, :), down(:, :, :), block(:, :, :)
+      !> What the group adds to both pairs over themselves.
+      real(wp), allocatable :: corner(:, :)
       !> Rows of the blocks' systems, (column, row, block): the block itself, its border columns, the right-hand side.
       real(wp), allocatable, private :: rows(:, :, :)
    end type block_group
@@ -30,7 +32,7 @@ module bordered_system
       type(block_group), allocatable :: groups(:)
       !> What stands on the border where gamma is 0: the identity, if nothing else is put there.
       real(wp), allocatable :: border(:, :)
-      !> Of each pair what the groups add over itself, (pair, pair, number of the pair).
+      !> Of each pair what the groups that know one add over itself, (pair, pair, number of the pair).
       real(wp), allocatable :: corner(:, :, :)
    contains
       procedure :: solve
@@ -39,11 +41,11 @@ module bordered_system
 contains
 
    !> A matrix of zeros with a border of a number of pairs, and groups that know one of them, of these numbers of
-   !> blocks of m unknowns each.
-   pure function new_bordered_matrix(pairs, known, m, blocks) result(matrix)
-      integer, intent(in) :: pairs, known(:), m(:), blocks(:)
+   !> blocks of m unknowns each, and a second one where it is not 0.
+   pure function new_bordered_matrix(pairs, known, m, blocks, second) result(matrix)
+      integer, intent(in) :: pairs, known(:), m(:), blocks(:), second(:)
       type(bordered_matrix) :: matrix
-      integer :: g
+      integer :: g, on
       allocate (matrix%groups(size(m)))
       allocate (matrix%corner(pair, pair, pairs), matrix%border(pair*pairs, pair*pairs), source=0.0_wp)
       do g = 1, pair*pairs
@@ -53,8 +55,12 @@ contains
          associate (group => matrix%groups(g))
             group%m = m(g)
             group%pair = known(g)
-            allocate (group%across(pair, m(g), blocks(g)), group%down(m(g), pair, blocks(g)), source=0.0_wp)
-            allocate (group%block(m(g), m(g), blocks(g)), group%rows(usual_width, m(g), blocks(g)), source=0.0_wp)
+            group%second = second(g)
+            on = merge(both, pair, second(g) > 0)
+            if (on == both) allocate (group%corner(both, both), source=0.0_wp)
+            allocate (group%across(on, m(g), blocks(g)), group%down(m(g), on, blocks(g)), source=0.0_wp)
+            allocate (group%block(m(g), m(g), blocks(g)), &
+               & group%rows(merge(long_width, usual_width, on == both), m(g), blocks(g)), source=0.0_wp)
          end associate
       end do
    end function new_bordered_matrix
@@ -73,8 +79,9 @@ contains
       real(wp), intent(in) :: gamma
       real(wp), intent(inout), contiguous :: b(:)
       logical, intent(out) :: ok
-      !> Of each pair what stands over itself, and its right-hand side: (pair and this, row, pair).
-      real(wp) :: own(pair + 1, pair, size(self%corner, 3))
+      !> Of each pair what stands over itself, and its right-hand side: (pair and this, row, pair); what groups that
+      !> know two add to both.
+      real(wp) :: own(pair + 1, pair, size(self%corner, 3)), of_both(both + 1, both, size(self%groups))
       logical :: singular
       integer :: g, j, k, n, o
       singular = .false.
@@ -91,11 +98,15 @@ contains
       do g = 1, size(self%groups)
          associate (group => self%groups(g), blocks => size(self%groups(g)%block, 3))
             ! sizes that the compiler knows make it three times as fast
-            if (group%m == 2) then
-               call reduce(usual_width, 2, blocks, gamma, group%across, group%down, group%block, group%rows, &
+            if (group%second > 0) then
+               of_both(:, :, g) = of_corner(group, gamma)
+               call reduce(long_width, group%m, both, blocks, gamma, group%across, group%down, group%block, &
+                  & group%rows, b(o + 1:), of_both(:, :, g), singular)
+            else if (group%m == 2) then
+               call reduce(usual_width, 2, pair, blocks, gamma, group%across, group%down, group%block, group%rows, &
                   & b(o + 1:), own(:, :, group%pair), singular)
             else
-               call reduce(usual_width, group%m, blocks, gamma, group%across, group%down, group%block, &
+               call reduce(usual_width, group%m, pair, blocks, gamma, group%across, group%down, group%block, &
                   & group%rows, b(o + 1:), own(:, :, group%pair), singular)
             end if
             o = o + group%m*blocks
@@ -105,16 +116,18 @@ contains
          call eliminate(pair + 1, pair, own, singular)
          b(:pair) = own(pair + 1, :, 1)
       else
-         call solve_border(self%border, own, b, singular)
+         call solve_border(self%border, own, self%groups, of_both, b, singular)
       end if
       o = n
       do g = 1, size(self%groups)
          associate (group => self%groups(g), blocks => size(self%groups(g)%block, 3), &
             & of_pair => b(pair*(self%groups(g)%pair - 1) + 1:pair*self%groups(g)%pair))
-            if (group%m == 2) then
-               call restore(2, blocks, group%rows, of_pair, b(o + 1:))
+            if (group%second > 0) then
+               call restore(long_width, group%m, both, blocks, group%rows, b(places(group)), b(o + 1:))
+            else if (group%m == 2) then
+               call restore(usual_width, 2, pair, blocks, group%rows, of_pair, b(o + 1:))
             else
-               call restore(group%m, blocks, group%rows, of_pair, b(o + 1:))
+               call restore(usual_width, group%m, pair, blocks, group%rows, of_pair, b(o + 1:))
             end if
             o = o + group%m*blocks
          end associate
@@ -122,13 +135,30 @@ contains
       ok = .not. singular .and. all(ieee_is_finite(b))
    end subroutine solve
 
+   !> What a group of two pairs adds to both by itself, with right-hand sides of 0.
+   pure function of_corner(group, gamma)
+      type(block_group), intent(in) :: group
+      real(wp), intent(in) :: gamma
+      real(wp) :: of_corner(both + 1, both)
+      of_corner(:both, :) = -gamma*transpose(group%corner)
+      of_corner(both + 1, :) = 0
+   end function of_corner
+
+   !> Where on the border both pairs of a group are.
+   pure function places(group)
+      type(block_group), intent(in) :: group
+      integer :: places(both), j
+      places = [(pair*(group%pair - 1) + j, j=1, pair), (pair*(group%second - 1) + j, j=1, pair)]
+   end function places
+
    !> The unknowns of a border of several pairs, from what stands over each of them and its right-hand side.
-   pure subroutine solve_border(border, own, b, singular)
-      real(wp), intent(in) :: border(:, :), own(:, :, :)
+   pure subroutine solve_border(border, own, groups, of_both, b, singular)
+      real(wp), intent(in) :: border(:, :), own(:, :, :), of_both(:, :, :)
+      type(block_group), intent(in) :: groups(:)
       real(wp), intent(inout) :: b(:)
       logical, intent(inout) :: singular
       real(wp) :: rows(row_width(size(border, 1)), size(border, 1))
-      integer :: j, k, n
+      integer :: j, k, n, at(both + 1)
       n = size(border, 1)
       rows = 0
       do k = 1, size(own, 3)
@@ -140,17 +170,22 @@ contains
             end associate
          end do
       end do
+      do k = 1, size(groups)
+         if (groups(k)%second == 0) cycle
+         at = [places(groups(k)), n + 1]
+         rows(at, at(:both)) = rows(at, at(:both)) + of_both(:, :, k)
+      end do
       call eliminate(size(rows, 1), n, rows, singular)
       b(:n) = rows(n + 1, :)
    end subroutine solve_border
 
-   !> Writes the unknowns of a group's blocks through its pair, whose rows (pair and right-hand side, row) gain what
-   !> follows.
-   pure subroutine reduce(width, m, blocks, gamma, across, down, block, rows, b, border, singular)
-      !> Length of a row; unknowns of a block; blocks.
-      integer, value :: width, m, blocks
-      real(wp), intent(in) :: gamma, across(pair, m, blocks), down(m, pair, blocks), block(m, m, blocks), b(m*blocks)
-      real(wp), intent(inout) :: rows(width, m, blocks), border(pair + 1, pair)
+   !> Writes the unknowns of a group's blocks through what it knows of the border, whose rows (that and right-hand side,
+   !> row) gain what follows.
+   pure subroutine reduce(width, m, on, blocks, gamma, across, down, block, rows, b, border, singular)
+      !> Length of a row; unknowns of a block, and of the border that it knows; blocks.
+      integer, value :: width, m, on, blocks
+      real(wp), intent(in) :: gamma, across(on, m, blocks), down(m, on, blocks), block(m, m, blocks), b(m*blocks)
+      real(wp), intent(inout) :: rows(width, m, blocks), border(on + 1, on)
       logical, intent(inout) :: singular
       real(wp) :: factor
       integer :: i, j, k
@@ -158,28 +193,28 @@ contains
          do j = 1, m
             rows(:m, j, i) = -gamma*block(j, :, i)
             rows(j, j, i) = rows(j, j, i) + 1
-            rows(m + 1:m + pair, j, i) = -gamma*down(j, :, i)
-            rows(m + pair + 1, j, i) = b((i - 1)*m + j)
+            rows(m + 1:m + on, j, i) = -gamma*down(j, :, i)
+            rows(m + on + 1, j, i) = b((i - 1)*m + j)
          end do
          call eliminate(width, m, rows(:, :, i), singular)
          do k = 1, m
-            do j = 1, pair
+            do j = 1, on
                factor = gamma*across(j, k, i)
-               border(:, j) = border(:, j) + factor*rows(m + 1:m + pair + 1, k, i)
+               border(:, j) = border(:, j) + factor*rows(m + 1:m + on + 1, k, i)
             end do
          end do
       end do
    end subroutine reduce
 
-   !> The unknowns of a group's blocks from those of its pair.
-   pure subroutine restore(m, blocks, rows, of_pair, b)
-      integer, value :: m, blocks
-      real(wp), intent(in) :: rows(usual_width, m, blocks), of_pair(pair)
+   !> The unknowns of a group's blocks from those of the border that it knows.
+   pure subroutine restore(width, m, on, blocks, rows, of_border, b)
+      integer, value :: width, m, on, blocks
+      real(wp), intent(in) :: rows(width, m, blocks), of_border(on)
       real(wp), intent(inout) :: b(m*blocks)
       integer :: i, j
       do i = 1, blocks
          do j = 1, m
-            b((i - 1)*m + j) = rows(m + pair + 1, j, i) - dot_product(rows(m + 1:m + pair, j, i), of_pair)
+            b((i - 1)*m + j) = rows(m + on + 1, j, i) - dot_product(rows(m + 1:m + on, j, i), of_border)
          end do
       end do
    end subroutine restore

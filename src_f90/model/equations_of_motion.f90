@@ -114,14 +114,19 @@ contains
          layouts(e) = elements(e)%to%layout()
       end do
       pairs = [(e, e=1, size(self%bearings)), self%others%pair]
-      self%layout = new_state_layout(self%rotor%states, layouts, pairs)
+      associate (slopes => [(self%rotor%slope_pair(pairs(e)), e=1, size(elements))])
+         self%layout = new_state_layout(self%rotor%states, layouts, pairs, slopes)
+         self%newton = new_newton_system(self%layout, maxval([self%rotor%journals, pairs, slopes]))
+      end associate
+      do e = 1, size(elements)
+         elements(e)%to%of_rotor = self%layout%elements(e)%of_rotor
+      end do
       self%n = self%layout%n
       self%pad_outputs = maxval([0, (self%bearings(e)%least_outputs(), e=1, size(self%bearings))])
       self%bearings%outputs = self%pad_outputs
       self%outputs = self%pad_outputs*sum(layouts(:size(self%bearings))%pads)
       self%scale = state_scales(self%inputs%highest_speed(), self%point, self%rotor, elements, &
          & [self%bearings%clearance, self%least_clearance()], self%layout)
-      self%newton = new_newton_system(self%layout, maxval([self%rotor%journals, pairs]))
    end subroutine lay_out
 
    !> All elements: bearings, then others.
@@ -294,6 +299,11 @@ contains
             on_pair = force(of%journal)
             call elements(e)%to%add_force(on_pair)
             force(of%journal) = on_pair
+            if (of%of_rotor > of_journal) then
+               on_pair = force(of%slopes)
+               call elements(e)%to%add_moment(on_pair)
+               force(of%slopes) = on_pair
+            end if
             call elements(e)%to%add_rates(of, y, dydt)
          end associate
       end do

@@ -106,14 +106,15 @@ contains
    function position_names(model, b) result(names)
       type(machine_model), intent(in) :: model
       integer, intent(in) :: b
-      character(len=longest_position) :: names(of_journal + model%layout%elements(b)%pads &
+      character(len=longest_position) :: names(model%layout%elements(b)%of_rotor + model%layout%elements(b)%pads &
          & *model%layout%elements(b)%coordinates)
       integer :: i, k
       names(:of_journal) = ['y', 'z']
-      associate (n => model%layout%elements(b)%coordinates)
+      associate (n => model%layout%elements(b)%coordinates, of_rotor => model%layout%elements(b)%of_rotor)
+         if (of_rotor > of_journal) names(of_journal + 1:of_rotor) = ['slope_y', 'slope_z']
          do i = 1, model%layout%elements(b)%pads
             do k = 1, n
-               names(of_journal + (i - 1)*n + k) = model%bearings(b)%position_name(k)//'_'//to_text(i)
+               names(of_rotor + (i - 1)*n + k) = model%bearings(b)%position_name(k)//'_'//to_text(i)
             end do
          end do
       end associate
@@ -180,6 +181,7 @@ contains
       do e = 1, size(elements)
          associate (of => model%layout%elements(e))
             call elements(e)%to%add_force(forces(of%journal(1):of%journal(of_journal)))
+            if (of%of_rotor > of_journal) call elements(e)%to%add_moment(forces(of%slopes(1):of%slopes(of_journal)))
             do i = 1, of%pads
                forces(of%own_positions(i)) = [(elements(e)%to%own_force(i, k), k=1, of%coordinates)]
             end do
@@ -239,16 +241,18 @@ contains
       end do
    end subroutine add_elements
 
-   !> What a part of an element, with n displacements, adds to these, with friction: derivatives of the force on the
-   !> pair, y and z, and of the part's own forces over the displacements of both and over their rates.
+   !> What a part of an element, with n displacements, adds to these, with friction: derivatives of the forces on what
+   !> it knows of the rotor and of the part's own forces over the displacements of both and over their rates.
    pure subroutine part_derivatives(element, part, n, over_positions, over_rates)
       class(element_type), intent(in) :: element
       integer, intent(in) :: part, n
       real(wp), allocatable, intent(out) :: over_positions(:, :), over_rates(:, :)
-      real(wp) :: over_bristle(n)
-      allocate (over_positions(of_journal + n, of_journal + n), over_rates(of_journal + n, of_journal + n))
-      call element%part_derivatives(part, of_journal + n, .false., over_positions, over_rates)
-      call element%add_late(part, of_journal + n, .false., over_positions, over_rates, over_bristle)
+      real(wp) :: over_bristle(element%of_rotor + n - of_journal)
+      associate (m => element%of_rotor + n)
+         allocate (over_positions(m, m), over_rates(m, m))
+         call element%part_derivatives(part, m, .false., over_positions, over_rates)
+         call element%add_late(part, m, .false., over_positions, over_rates, over_bristle)
+      end associate
    end subroutine part_derivatives
 
    !> Adds to the derivatives of the forces at rest what friction adds where the pivots stick, under the pivot loads

@@ -11,10 +11,11 @@ module newton_system
    private
    public :: newton_system_type, new_newton_system
 
-   !> What the parts of an element add to rows of the equations of its pair and to their own accelerations, (m, m,
-   !> part), over the displacements of both and over their rates: m = 2 + n of a part with n displacements.
+   !> What the parts of an element add to rows of the equations of the rotor's displacements that they know and to their
+   !> own accelerations, (m, m, part), over the displacements of both and over their rates: m = on + n of a part that
+   !> knows `on` of the rotor's and has n.
    type :: element_rows_type
-      integer :: m = of_journal
+      integer :: m = of_journal, on = of_journal
       real(wp), allocatable :: over_positions(:, :, :), over_rates(:, :, :)
       !> Of parts with several bristles: these are `known` + `follow` times the rates of the part's rotations; what they
       !> do to its accelerations.
@@ -70,16 +71,17 @@ contains
       allocate (system%elements(size(layout%elements)))
       do e = 1, size(layout%elements)
          associate (of => system%elements(e), from => layout%elements(e))
-            of%m = of_journal + from%coordinates
+            of%on = from%of_rotor
+            of%m = of%on + from%coordinates
             allocate (of%over_positions(of%m, of%m, from%parts), of%over_rates(of%m, of%m, from%parts), source=0.0_wp)
             associate (n => from%rotations, parts => from%parts)
                if (n > 1) allocate (of%known(n, parts), of%follow(n, n, parts), &
-                  & of%over_bristle(of%m - of_journal, n, parts))
+                  & of%over_bristle(from%coordinates, n, parts))
             end associate
          end associate
       end do
       system%matrix = new_bordered_matrix(pairs, [(layout%elements(e)%pair(), e=1, size(layout%elements))], &
-         & layout%elements%coordinates, layout%elements%parts)
+         & layout%elements%coordinates, layout%elements%parts, layout%elements%slopes(of_journal)/of_journal)
    end function new_newton_system
 
    !> Takes the derivatives of elements, which have them, at a speed, rad/s.
@@ -94,8 +96,8 @@ contains
          associate (of => self%elements(e))
             do i = 1, size(of%over_rates, 3)
                call elements(e)%to%part_derivatives(i, of%m, .true., of%over_positions(:, :, i), of%over_rates(:, :, i))
-               of%over_positions(:of_journal, :, i) = rotor%newton_rows(of%over_positions(:of_journal, :, i))
-               of%over_rates(:of_journal, :, i) = rotor%newton_rows(of%over_rates(:of_journal, :, i))
+               of%over_positions(:of%on, :, i) = rotor%newton_rows(of%over_positions(:of%on, :, i))
+               of%over_rates(:of%on, :, i) = rotor%newton_rows(of%over_rates(:of%on, :, i))
             end do
          end associate
       end do
@@ -118,6 +120,7 @@ contains
       self%matrix%corner = 0
       do e = 1, size(elements)
          associate (of => self%layout%elements(e))
+            if (of%of_rotor > of_journal) self%matrix%groups(e)%corner = 0
             do i = 1, of%parts
                n = min(of%first_pad + i - 1, size(bristle, 2))
                if (of%bristles .and. of%rotations > 1) then
@@ -219,32 +222,37 @@ contains
       real(wp), intent(inout) :: u(:)
       associate (rows => self%elements(e), group => self%matrix%groups(e), corner => self%matrix%corner, &
          & own => self%layout%elements(e)%first_position(part), y => self%layout%elements(e)%journal(1))
-         ! a size that the compiler knows is faster
-         if (rows%m == usual) then
-            call put(usual, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, &
+         ! sizes that the compiler knows are faster
+         if (rows%on > of_journal) then
+            call put(rows%on, rows%m, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, &
+               & self%layout%elements(e)%slopes(1), group%across(:, :, part), group%down(:, :, part), &
+               & group%block(:, :, part), group%corner)
+         else if (rows%m == usual) then
+            call put(of_journal, usual, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, 0, &
                & group%across(:, :, part), group%down(:, :, part), group%block(:, :, part), corner(:, :, group%pair))
          else
-            call put(rows%m, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, &
+            call put(of_journal, rows%m, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, 0, &
                & group%across(:, :, part), group%down(:, :, part), group%block(:, :, part), corner(:, :, group%pair))
          end if
       end associate
 
    contains
 
-      !> The same with m displacements, of which those of the part itself begin at `own`, and those of the pair at y.
-      subroutine put(m, linear, linear_rates, own, y, across, down, block, corner)
-         integer, value :: m, own, y
+      !> The same with m displacements, of which those of the part itself begin at `own`, those of the pair at y, and
+      !> its slopes, where the part knows `on` = 4 of the rotor's, at s.
+      subroutine put(on, m, linear, linear_rates, own, y, s, across, down, block, corner)
+         integer, value :: on, m, own, y, s
          real(wp), intent(in) :: linear(m, m), linear_rates(m, m)
-         real(wp), intent(out) :: across(of_journal, m - of_journal), down(m - of_journal, of_journal), &
-            & block(m - of_journal, m - of_journal)
-         real(wp), intent(inout) :: corner(of_journal, of_journal)
+         real(wp), intent(out) :: across(on, m - on), down(m - on, on), block(m - on, m - on)
+         real(wp), intent(inout) :: corner(on, on)
          real(wp) :: over_positions(m, m), over_rates(m, m), over_bristle(m - of_journal), known(m), of_part(m)
          integer :: k
          over_positions = linear
          over_rates = linear_rates
          call element%add_late(part, m, .true., over_positions, over_rates, over_bristle)
          of_part(:of_journal) = x(y:y + of_journal - 1)
-         of_part(of_journal + 1:) = x(own:own + m - of_journal - 1)
+         if (on > of_journal) of_part(of_journal + 1:on) = x(s:s + of_journal - 1)
+         of_part(on + 1:) = x(own:own + m - on - 1)
          known = 0
          do k = 1, m
             known = known + over_positions(:, k)*of_part(k)
@@ -252,15 +260,15 @@ contains
          end do
          if (self%layout%elements(e)%bristles) then
             known(of_journal + 1:) = known(of_journal + 1:) + over_bristle*bristle(1)
-            over_rates(of_journal + 1:, of_journal + 1) = over_rates(of_journal + 1:, of_journal + 1) &
-               & + over_bristle*bristle(2)
+            over_rates(of_journal + 1:, on + 1) = over_rates(of_journal + 1:, on + 1) + over_bristle*bristle(2)
          end if
          u(y:y + of_journal - 1) = u(y:y + of_journal - 1) + gamma*known(:of_journal)
-         u(own:own + m - of_journal - 1) = u(own:own + m - of_journal - 1) + gamma*known(of_journal + 1:)
-         corner = corner + over_rates(:of_journal, :of_journal)
-         down = over_rates(of_journal + 1:, :of_journal)
-         across = over_rates(:of_journal, of_journal + 1:)
-         block = over_rates(of_journal + 1:, of_journal + 1:)
+         if (on > of_journal) u(s:s + of_journal - 1) = u(s:s + of_journal - 1) + gamma*known(of_journal + 1:on)
+         u(own:own + m - on - 1) = u(own:own + m - on - 1) + gamma*known(on + 1:)
+         corner = corner + over_rates(:on, :on)
+         down = over_rates(on + 1:, :on)
+         across = over_rates(:on, on + 1:)
+         block = over_rates(on + 1:, on + 1:)
       end subroutine put
    end subroutine put_part
 
@@ -318,13 +326,13 @@ contains
       real(wp), intent(inout) :: matrix(:, :)
       real(wp), dimension(self%elements(e)%m, self%elements(e)%m) :: over_positions, over_rates
       real(wp) :: over_bristle(self%elements(e)%m - of_journal), slopes(3), of_bristle
-      real(wp) :: over_bristles(self%elements(e)%m - of_journal, self%layout%elements(e)%rotations)
+      real(wp) :: over_bristles(self%layout%elements(e)%coordinates, self%layout%elements(e)%rotations)
       real(wp), dimension(self%layout%elements(e)%rotations, self%layout%elements(e)%rotations) :: of_rates
       integer :: i, at(self%elements(e)%m)
       over_positions = self%elements(e)%over_positions(:, :, part)
       over_rates = self%elements(e)%over_rates(:, :, part)
       call element%add_late(part, self%elements(e)%m, .true., over_positions, over_rates, over_bristle)
-      associate (layout => self%layout%elements(e), own => of_journal + 1)
+      associate (layout => self%layout%elements(e), own => self%elements(e)%on + 1)
          at = layout%positions_of(part)
          associate (u => self%rate_at(at), x => self%position_at(at), of_rotor => self%rate_at(:self%rotor), &
             & pair => layout%pair())
@@ -333,6 +341,12 @@ contains
             end do
             matrix(of_rotor, x) = matrix(of_rotor, x) + rotor%row_accelerations(over_positions(:of_journal, :), pair)
             matrix(of_rotor, u) = matrix(of_rotor, u) + rotor%row_accelerations(over_rates(:of_journal, :), pair)
+            if (own > of_journal + 1) then
+               associate (slopes => layout%slopes(of_journal)/of_journal, rows => [of_journal + 1, own - 1])
+                  matrix(of_rotor, x) = matrix(of_rotor, x) + rotor%row_accelerations(over_positions(rows, :), slopes)
+                  matrix(of_rotor, u) = matrix(of_rotor, u) + rotor%row_accelerations(over_rates(rows, :), slopes)
+               end associate
+            end if
             matrix(u(own:), x) = matrix(u(own:), x) + over_positions(own:, :)
             matrix(u(own:), u) = matrix(u(own:), u) + over_rates(own:, :)
             if (layout%bristles .and. layout%rotations > 1) then
@@ -347,7 +361,7 @@ contains
             else if (layout%bristles) then
                slopes = element%bristle_slopes(part)
                associate (z => layout%bristle(part))
-                  matrix(u(own:), z) = over_bristle
+                  matrix(u(own:), z) = over_bristle(own - of_journal:)
                   matrix(z, u(own)) = slopes(1)*slopes(3)
                   matrix(z, z) = slopes(2)
                end associate

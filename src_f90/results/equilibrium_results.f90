@@ -16,7 +16,8 @@ module equilibrium_results
    use summary_group, only: put_figure
    implicit none (type, external)
    private
-   public :: put_equilibrium, put_misalignment, put_stability, put_figures, put_temperatures, put_film_temperatures
+   public :: put_equilibrium, put_misalignment, put_journal_slope, put_stability, put_figures, put_temperatures, &
+      & put_film_temperatures
    public :: put_oil, read_oil, put_shape, read_shape
 
    !> The polynomials (film_oils), in their order.
@@ -72,6 +73,14 @@ contains
          call file%put('equilibrium/'//name, values, units, long_name, 'pad')
       end subroutine put
    end subroutine put_slopes
+
+   !> Writes the slope of an elastic shaft in a bearing whose films have it, rad.
+   subroutine put_journal_slope(file, slope)
+      class(record_type), intent(inout) :: file
+      real(wp), intent(in) :: slope(2)
+      call file%put('equilibrium/journal_slope_y', slope(1), 'rad', 'slope of the shaft in the bearing, vertical')
+      call file%put('equilibrium/journal_slope_z', slope(2), 'rad', 'slope of the shaft in the bearing, horizontal')
+   end subroutine put_journal_slope
 
    !> Writes how much the slope of an elastic shaft in the bearing, which films leave out, changes their thickness.
    subroutine put_misalignment(file, misalignment)

@@ -65,7 +65,7 @@ contains
       n = of_shaft
       do b = 1, size(samples)
          n = n + of_journal + of_pad*size(samples(b)%states)
-         if (allocated(samples(b)%slopes)) n = n + of_moments + of_slopes*size(samples(b)%states)
+         if (allocated(samples(b)%slopes)) n = n + 2*of_moments + of_slopes*size(samples(b)%states)
       end do
    end function most_values
 
@@ -82,6 +82,10 @@ contains
       if (allocated(sample%slopes)) then
          values(n + 1:n + of_moments) = sample%moment
          n = n + of_moments
+      end if
+      if (sample%inclined) then
+         values(n + 1:n + 2) = sample%journal%slope
+         n = n + 2
       end if
       pads = size(sample%states)
       at = n
@@ -185,6 +189,10 @@ contains
       if (allocated(sample%slopes)) then
          call file%declare('journal_moment_y', 1, 'N m', 'moment on the journal against its vertical slope', '')
          call file%declare('journal_moment_z', 1, 'N m', 'moment on the journal against its horizontal slope', '')
+      end if
+      if (sample%inclined) then
+         call file%declare('journal_slope_y', 1, 'rad', 'slope of the shaft in the bearing, vertical', '')
+         call file%declare('journal_slope_z', 1, 'rad', 'slope of the shaft in the bearing, horizontal', '')
       end if
       if (sample%coordinates%n > 0) then
          call of_pads('pivot_load', 'N', 'pivot load')

@@ -31,9 +31,9 @@ module result_remarks
    real(wp), parameter :: steep_transition = 2
    !> Warming of oil, K, across which one viscosity does not hold, and temperature of white metal, C, near its limit.
    real(wp), parameter :: largest_rise = 50, warm_metal = 120
-   !> Films thinner than this number of roughnesses touch; part of the minimum thickness that a slope may change.
-   real(wp), parameter :: roughnesses = 3, visible_slope = 0.2_wp
-   !> The same of a journal that is inclined in pads that cannot follow.
+   !> Films thinner than this number of roughnesses touch.
+   real(wp), parameter :: roughnesses = 3
+   !> Part of the minimum thickness that a slope may change, of a shaft or a journal in pads that cannot follow.
    real(wp), parameter :: steep_slope = 0.1_wp
    !> Part of the clearance by which few pivots give way.
    real(wp), parameter :: soft_pivot = 0.2_wp
@@ -181,8 +181,9 @@ contains
       end associate
       said = said//on_beginning_films(bearing%pad_count(), file)//on_slope(bearing, file)
       associate (misalignment => figure(file, 'misalignment'))
-         said = said//line_if(misalignment > visible_slope, 'the slope of the shaft changes the film by {ci} % of ' &
-            & //'its minimum thickness from the middle of the bearing to its end, which is left out', [misalignment])
+         said = said//line_if(misalignment > steep_slope, 'the slope of the shaft changes the film by {ci} % of ' &
+            & //'its minimum thickness from the middle of the bearing to its end, which is left out; ' &
+            & //'bearing%shaft_slope = ''film'' counts it', [misalignment])
       end associate
    end function on_equilibrium
 

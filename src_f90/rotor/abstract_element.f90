@@ -16,10 +16,13 @@ module abstract_element
    type, abstract :: element_type
       !> Force on the pair in the state evaluated last, N.
       real(wp), private :: force(of_journal) = 0
+      !> How many displacements of the rotor its parts know: the pair, and a second one where slopes act in it.
+      integer :: of_rotor = of_journal
    contains
       procedure :: layout
       procedure :: evaluate
       procedure :: add_force
+      procedure :: add_moment
       procedure(part_derivatives), deferred :: part_derivatives
       procedure :: add_late
       procedure :: bristle_slopes
@@ -51,8 +54,9 @@ module abstract_element
    end type element_pointer
 
    abstract interface
-      !> What a part adds to the derivatives of the forces on the pair and along its own n displacements, over these
-      !> displacements and over their rates, as they were taken last and without what add_late adds: m = 2 + n.
+      !> What a part adds to the derivatives of the forces on the rotor's displacements that it knows and along its own
+      !> n, over these displacements and over their rates, as they were taken last and without what add_late adds: m =
+      !> of_rotor + n.
       pure subroutine part_derivatives(self, part, m, accelerations, over_positions, over_rates)
          import :: element_type, wp
          class(element_type), intent(in) :: self
@@ -96,8 +100,14 @@ contains
       force = force + self%force
    end subroutine add_force
 
+   !> Adds its moment against the slopes, N m, where these act in it.
+   pure subroutine add_moment(self, moment)
+      class(element_type), intent(in) :: self
+      real(wp), intent(inout) :: moment(of_journal)
+   end subroutine add_moment
+
    !> Adds to such derivatives what acts as evaluated last, not as linearised last: friction; and gives what bristles
-   !> do to the part's own rows, per deflection.
+   !> do to the rows behind those of the pair, per deflection.
    pure subroutine add_late(self, part, m, accelerations, over_positions, over_rates, over_bristle)
       class(element_type), intent(in) :: self
       integer, intent(in) :: part, m

@@ -57,6 +57,7 @@ contains
       rotor%positions = size(matrices%load)
       rotor%states = 2*rotor%positions
       rotor%stations = size(matrices%station, 1)/2
+      if (any(matrices%slope_pairs > 0)) rotor%slope_pairs = matrices%slope_pairs
       if (allocated(matrices%elements)) rotor%elements = size(matrices%elements)
       rotor%per_mass = identity(rotor%positions)
       call solve(rotor%positions, rotor%positions, matrices%mass, rotor%per_mass, ok)
@@ -77,7 +78,8 @@ contains
       end associate
    end subroutine new_elastic_rotor
 
-   !> Journals: the clearance; others: what moves a station by the least clearance.
+   !> Journals: the clearance; slopes in bearings: over half the bearing's width; others: what moves a station by the
+   !> least clearance.
    pure function scales(self, clearances)
       class(elastic_rotor_type), intent(in) :: self
       real(wp), intent(in) :: clearances(:)
@@ -88,6 +90,11 @@ contains
       end do
       do i = 2*self%journals + 1, self%positions
          scales(i) = minval(clearances)/maxval(abs(self%matrices%station(:, i)))
+      end do
+      do i = 1, self%journals
+         associate (pair => self%slope_pair(i))
+            if (pair > 0) scales(2*pair - 1:2*pair) = clearances(i)/self%matrices%half_width(i)
+         end associate
       end do
    end function scales
 
@@ -317,7 +324,7 @@ contains
    pure function newton_rows(self, forces) result(rows)
       class(elastic_rotor_type), intent(in) :: self
       real(wp), intent(in) :: forces(:, :)
-      real(wp) :: rows(2, size(forces, 2))
+      real(wp) :: rows(size(forces, 1), size(forces, 2))
       rows = forces
    end function newton_rows
 

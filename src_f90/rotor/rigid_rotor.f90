@@ -9,9 +9,11 @@ module rigid_rotor
    private
    public :: rotor_type, journal_motion, new_rigid_rotor
 
-   !> Motion of a journal in its bearing: (y, z), m, and rates, m/s.
+   !> Motion of a journal in its bearing: (y, z), m, and rates, m/s; slopes dy/dx and dz/dx where they are displacements
+   !> of the rotor, and their rates, 1/s.
    type :: journal_motion
       real(wp) :: position(2) = 0, velocity(2) = 0
+      real(wp) :: slope(2) = 0, slope_rate(2) = 0
    end type journal_motion
 
    type :: rotor_type
@@ -19,12 +21,15 @@ module rigid_rotor
       integer :: positions = 0, states = 0, journals = 0, stations = 0
       !> Linear elements that act on it.
       integer :: elements = 0
+      !> Of each bearing which pair of its displacements are the slopes in it, 0: none is; not allocated where none are.
+      integer, allocatable :: slope_pairs(:)
       !> Whether newton_matrix is the identity matrix, whatever gamma and speed are.
       logical :: is_identity = .false.
       !> Of a rigid one, kg.
       real(wp), private :: mass = 0
    contains
       procedure, non_overridable :: journal
+      procedure, non_overridable :: slope_pair
       procedure :: scales
       procedure :: loads
       procedure :: station_displacements
@@ -63,7 +68,21 @@ contains
       associate (y => 2*bearing - 1, rate => self%positions + 2*bearing - 1)
          journal = journal_motion(states(y:y + 1), states(rate:rate + 1))
       end associate
+      if (self%slope_pair(bearing) == 0) return
+      associate (y => 2*self%slope_pairs(bearing) - 1)
+         journal%slope = states(y:y + 1)
+         journal%slope_rate = states(self%positions + y:self%positions + y + 1)
+      end associate
    end function journal
+
+   !> Which pair of its displacements are the slopes in an element on this pair, 0: none is.
+   pure integer function slope_pair(self, pair)
+      class(rotor_type), intent(in) :: self
+      integer, intent(in) :: pair
+      slope_pair = 0
+      if (.not. allocated(self%slope_pairs)) return
+      if (pair <= size(self%slope_pairs)) slope_pair = self%slope_pairs(pair)
+   end function slope_pair
 
    !> Characteristic scale of each displacement, m, with the clearance of each bearing, m.
    pure function scales(self, clearances)
@@ -176,12 +195,12 @@ contains
       over_rates = 0
    end subroutine force_derivatives
 
-   !> Forces on a journal, (2, any), as they stand in the rotor's equations: P F, with P the rotor's own choice. Here
-   !> P = 1/M: accelerations.
+   !> Forces on a journal, (2, any), or with the moments on it (4, any), as they stand in the rotor's equations: P F,
+   !> with P the rotor's own choice. Here P = 1/M: accelerations.
    pure function newton_rows(self, forces) result(rows)
       class(rotor_type), intent(in) :: self
       real(wp), intent(in) :: forces(:, :)
-      real(wp) :: rows(2, size(forces, 2))
+      real(wp) :: rows(size(forces, 1), size(forces, 2))
       rows = forces/self%mass
    end function newton_rows
 

@@ -105,7 +105,8 @@ contains
       if (allocated(error)) return
       call component%turn_in(inputs%sense())
       mounts = inputs%mounts()
-      border = journal_displacements(mounts, component)
+      border = [displacements_at(mounts%station, component%station), &
+         & displacements_at(mounts(inputs%inclined())%station, component%slope)]
       call find_fixed_interface(component, border, fixed, held)
       if (.not. held) call raise(error, input_error, 'machine: its bearings (at the stations ' &
          & //list_text(real(mounts%station, wp))//') do not hold the shaft: it needs two at different ' &
@@ -125,20 +126,18 @@ contains
       matrices = reduced_rotor(inputs, component, fixed, selection)
    end subroutine find_rotor
 
-   !> Displacements y and z of each journal among those of the rotor.
-   pure function journal_displacements(bearings, component) result(border)
-      type(mount_type), intent(in) :: bearings(:)
-      type(rotor_component_type), intent(in) :: component
-      integer :: border(2*size(bearings)), b, p
-      do b = 1, size(bearings)
+   !> Displacements y and z, or slopes, of these stations among those of the rotor.
+   pure function displacements_at(stations, over) result(border)
+      integer, intent(in) :: stations(:)
+      !> component%station or component%slope, whose rows there have one element.
+      type(sparse_matrix_type), intent(in) :: over
+      integer :: border(2*size(stations)), b, p
+      do b = 1, size(stations)
          do p = 1, 2
-            ! its row has one element
-            associate (station => component%station)
-               border(2*(b - 1) + p) = station%column(station%first(2*(bearings(b)%station - 1) + p))
-            end associate
+            border(2*(b - 1) + p) = over%column(over%first(2*(stations(b) - 1) + p))
          end do
       end do
-   end function journal_displacements
+   end function displacements_at
 
    ! What matrices that another program made must be so that they are those of a rotor.
 
@@ -238,16 +237,23 @@ contains
       call require(size(inputs%rotor%elastic%discs) == 0, file//'a group disc has no effect: its matrices contain ' &
          & //'the discs', error)
       if (allocated(error)) return
-      do b = 1, size(mounts)
-         do row = 2*mounts(b)%station - 1, 2*mounts(b)%station
-            associate (first => component%station%first(row:row + 1))
-               associate (elements => component%station%value(first(1):first(2) - 1))
-                  call require(size(elements) == 1 .and. all(abs(elements - 1) <= 0), file//'station: row ' &
-                     & //to_text(row)//', of a bearing, must have one element 1 and otherwise 0', error)
+      call check_rows('station', component%station, mounts%station, '')
+      call check_rows('slope', component%slope, mounts(inputs%inclined())%station, &
+         & '; bearing%shaft_slope = ''ignored'' needs none')
+   contains
+      subroutine check_rows(name, over, stations, otherwise)
+         character(len=*), intent(in) :: name, otherwise
+         type(sparse_matrix_type), intent(in) :: over
+         integer, intent(in) :: stations(:)
+         do b = 1, size(stations)
+            do row = 2*stations(b) - 1, 2*stations(b)
+               associate (elements => over%value(over%first(row):over%first(row + 1) - 1))
+                  call require(size(elements) == 1 .and. all(abs(elements - 1) <= 0), file//name//': row ' &
+                     & //to_text(row)//', of a bearing, must have one element 1 and otherwise 0'//otherwise, error)
                end associate
-            end associate
+            end do
          end do
-      end do
+      end subroutine check_rows
    end subroutine check_stations
 
    !> Whether a matrix is `sign` times its transpose.

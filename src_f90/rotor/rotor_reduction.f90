@@ -62,7 +62,8 @@ module rotor_reduction
 
    !> M x'' + (C + Omega G) x' + (K + Omega N) x = load + forces of the bearings + unbalance. Displacements x: first
    !> those of the journals relative to their bearings, y and z of each; then those of the housings that have supports,
-   !> y and z of each, m, 0 where the spring is not loaded; then the amplitudes of the modes with the journals held, in
+   !> y and z of each, m, 0 where the spring is not loaded; then slopes of journals against their bearings, dy/dx and
+   !> dz/dx of each that counts in a film; then the amplitudes of the modes with the journals held, in
    !> y and z of each (kg^1/2 m), whose mass is 1. The weight of a housing acts on its support.
    type, extends(mode_selection_type) :: rotor_matrices_type
       integer :: journals = 0
@@ -83,6 +84,9 @@ module rotor_reduction
       !> matmul(station, x) + station_offset. The offset has what the bearings' offsets and the modes that are left out
       !> have of the static deflection, which is exact so. The same of the slopes dy/dx and dz/dx.
       real(wp), allocatable :: station(:, :), station_offset(:), slope(:, :), slope_offset(:)
+      !> Of each bearing the pair of displacements that are its slopes, 0: there is none; half its width, m.
+      integer, allocatable :: slope_pairs(:)
+      real(wp), allocatable :: half_width(:)
       !> Of the rotor without housings, kg.
       real(wp) :: total_mass = 0
       !> Frequencies of the kept modes, Hz (each in both planes of a shaft); of the first that is left out, 0: none is.
@@ -104,7 +108,7 @@ contains
       type(case_type), intent(in) :: inputs
       type(rotor_component_type), intent(in) :: component
       type(fixed_interface_type), intent(inout) :: fixed
-      !> Displacements of the journals.
+      !> Displacements of the journals, and their slopes that count in films.
       integer, intent(in) :: border(:)
       real(wp), intent(in) :: highest_speed
       type(mode_selection_type), intent(inout) :: selection
@@ -288,7 +292,14 @@ contains
       type(mount_type), allocatable :: mounts(:)
       integer :: i, modes, held
       mounts = inputs%mounts()
-      held = 2*size(mounts)
+      associate (inclined => inputs%inclined(), n => size(inputs%bearings))
+         held = 2*(size(mounts) + size(inclined))
+         allocate (r%slope_pairs(n), source=0)
+         r%slope_pairs(inclined) = housing_pair(mounts, size(mounts)) + [(i, i=1, size(inclined))]
+         r%half_width = [(0.5_wp*maxval(inputs%bearings(i)%axial_length), i=1, n)]
+         offset = [(mounts(i)%offset, i=1, size(mounts)), (inputs%bearings(inclined(i))%misalignment, &
+            & i=1, size(inclined))]
+      end associate
       r%mode_selection_type = selection
       modes = selection%modes
       if (modes < size(fixed%frequency)) r%left_out_frequency = fixed%frequency(modes + 1)/(2*pi)
@@ -300,7 +311,6 @@ contains
       r%journals = size(inputs%bearings)
       basis = fixed%basis(modes)
       into = relative_displacements(mounts, size(basis, 2))
-      offset = [(mounts(i)%offset, i=1, size(mounts))]
       call reduce_matrices(component, basis, into, held, r)
       force = component%station%transposed_times(static_forces(inputs%rotor%elastic%loads, component%station%rows)) &
          & - inputs%rotor%gravity*component%weighed

@@ -47,9 +47,13 @@ module state_layout
       !> Places of the displacements y and z on which it acts, those of its journal, among those of the rotor, and of
       !> the rates among its states.
       integer :: journal(of_journal) = [1, 2], journal_rates(of_journal) = [3, 4]
+      !> How many displacements of the rotor it knows: those, and where slopes of the journal act in it these, which are
+      !> at these places.
+      integer :: of_rotor = of_journal, slopes(of_journal) = 0
    contains
       procedure :: has
       procedure :: pair
+      procedure :: on_rotor
       procedure :: before
       procedure :: bristle
       procedure :: first_position
@@ -106,10 +110,12 @@ contains
    end function new_element_layout
 
    !> The layout for a number of rotor states and the elements that act on these pairs of its displacements.
-   pure type(state_layout_type) function new_state_layout(rotor, elements, pairs) result(layout)
+   pure type(state_layout_type) function new_state_layout(rotor, elements, pairs, slope_pairs) result(layout)
       integer, intent(in) :: rotor
       type(element_layout_type), intent(in) :: elements(:)
       integer, intent(in) :: pairs(:)
+      !> Of each element the pair that are the slopes in it, 0: there is none; left out: there are none.
+      integer, intent(in), optional :: slope_pairs(:)
       integer :: positions, e
       layout%rotor = rotor
       layout%elements = elements
@@ -123,6 +129,12 @@ contains
             of%positions_before = positions
             of%journal = [2*pairs(e) - 1, 2*pairs(e)]
             of%journal_rates = rotor/2 + of%journal
+            if (present(slope_pairs)) then
+               if (slope_pairs(e) > 0) then
+                  of%of_rotor = 2*of_journal
+                  of%slopes = [2*slope_pairs(e) - 1, 2*slope_pairs(e)]
+               end if
+            end if
             layout%pads = of%last_pad
             layout%n = layout%n + of%pads*of%per_pad
             positions = positions + of%pads*of%coordinates
@@ -172,21 +184,29 @@ contains
       places = [(self%first_position(pad) + k, k=0, self%coordinates - 1)]
    end function own_positions
 
-   !> Places of the journal's displacements and of those of a pad.
+   !> Places of the displacements of the rotor that it knows: the journal's, and its slopes where they act.
+   pure function on_rotor(self) result(places)
+      class(element_layout_type), intent(in) :: self
+      integer :: places(self%of_rotor)
+      places(:of_journal) = self%journal
+      if (self%of_rotor > of_journal) places(of_journal + 1:) = self%slopes
+   end function on_rotor
+
+   !> Places of these and of those of a pad.
    pure function positions_of(self, pad) result(places)
       class(element_layout_type), intent(in) :: self
       integer, intent(in) :: pad
-      integer :: places(2 + self%coordinates)
-      places(:2) = self%journal
-      places(3:) = self%own_positions(pad)
+      integer :: places(self%of_rotor + self%coordinates)
+      places(:self%of_rotor) = self%on_rotor()
+      places(self%of_rotor + 1:) = self%own_positions(pad)
    end function positions_of
 
-   !> Places of the journal's displacements and of those of all pads.
+   !> Places of these and of those of all pads.
    pure function all_positions(self) result(places)
       class(element_layout_type), intent(in) :: self
-      integer :: places(2 + self%pads*self%coordinates), i
-      places(:2) = self%journal
-      places(3:) = [(self%own_positions(i), i=1, self%pads)]
+      integer :: places(self%of_rotor + self%pads*self%coordinates), i
+      places(:self%of_rotor) = self%on_rotor()
+      places(self%of_rotor + 1:) = [(self%own_positions(i), i=1, self%pads)]
    end function all_positions
 
    !> The numbers of these pads among those of all bearings.

@@ -26,6 +26,8 @@ MARCHES = {
     "warm films": "&operation speed_rpm=3000, duration=0.2 /\n&oil grade=46 /\n&thermal model='film' /\n",
     "element": "&operation speed_rpm=3000, duration=0.2 /\n"
     "&element station=4, stiffness=2e7, 1e6, -1e6, 2e7, static=.false. /\n",
+    "pads that pitch": "&operation speed_rpm=3000, duration=0.1 /\n&friction model='lugre' /\n"
+    "&pads motion='tilting_radial_pitch_yaw' /\n",
     "last revolutions": "&operation speed_rpm=3000, duration=0.3 /\n&output keep='last_revolutions' /\n",
 }
 BRANCH = """&case task='branch' /

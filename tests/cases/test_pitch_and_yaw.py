@@ -1,4 +1,4 @@
-"""Runs of bearings whose journal is inclined and whose pads pitch and yaw.
+"""Runs of bearings whose journal is inclined and whose pads pitch and yaw, and of shafts whose slopes count.
 
 The figures are those of a study by an independent program: Galerkin's method with 20 x 14 weighted functions,
 rigid pivots, pads without weight.
@@ -7,6 +7,8 @@ rigid pivots, pads without weight.
 import h5py
 import numpy as np
 import pytest
+from scipy.linalg import eigvals
+from test_machine_input import beam, write
 
 CASE = """&case task = 'coefficients' /
 &rotor unbalance = 0, gravity = 0, static_load = -19620, 0 /
@@ -164,6 +166,24 @@ def test_a_corner_of_a_pad_that_has_left_its_pivot_hits_the_journal(tiltpad, roo
         assert abs(file["pad_pitch"][:, 2]).max() > 1e-3
 
 
+@pytest.mark.parametrize("pads", [1, 24])
+def test_one_pad_and_as_many_as_there_may_be(tiltpad, tmp_path, pads):
+    """Under a journal that is held, as one pad holds none: they pitch against the slope."""
+    angles = "-90" if pads == 1 else ", ".join(str(15 * k - 172.5) for k in range(24))
+    arcs = f"{pads}*{60 if pads == 1 else 12}"
+    (tmp_path / "case.nml").write_text(
+        f"&pads motion = 'tilting_pitch', pivot_angle_deg = {angles}, arc_deg = {arcs} /\n"
+        "&case task = 'equilibrium' /\n&bearing slope = 1e-4, 0, preload = 0.5 /\n"
+        "&film cavitation = 'none' /\n&held position = -8e-6, 0 /\n&rotor gravity = 0 /\n"
+    )
+    tiltpad("case.nml", "-q", "-o", "run.h5", cwd=tmp_path, status=0)
+    with h5py.File(tmp_path / "run.h5") as file:
+        pitch = file["equilibrium/pad_pitch"][()]
+        assert pitch.shape == (pads,)
+        # the outward direction of the pad below is -y
+        assert pitch[0 if pads == 1 else 5] == pytest.approx(-1e-4, abs=15e-6)
+
+
 def test_friction_holds_the_pitch_until_the_pads_slide(tiltpad, tmp_path):
     """A shaft that is inclined suddenly: free pads follow at once, rubbing ones are held for some time."""
     pitch = {}
@@ -197,6 +217,162 @@ def test_a_march_starts_where_another_has_ended(tiltpad, tmp_path):
                 np.testing.assert_array_equal(more[each][0], first[each][turned], err_msg=each)
 
 
+#: Station of the disc, and those of the bearings.
+DISC, STATIONS = 4, (2, 8)
+MACHINE = """&case task = 'coefficients' /
+&rotor file = 'rotor.h5' /
+&bearing name = 'left', station = {0}, shaft_slope = 'film' /
+&bearing name = 'right', station = {1}, shaft_slope = 'film' /
+&film cavitation = 'none' /
+&asperity model = 'none' /
+"""
+
+
+def shaft(disc=DISC, stiffer=1.0):
+    """Matrices of a shaft with a disc of 3 t, which bends by some 0.2 mrad in its bearings."""
+    matrices = beam(sections=8, length=0.2, diameter=0.2)
+    at = 4 * (disc - 1)
+    for plane in (at, at + 2):
+        matrices["mass"][plane, plane] += 3000
+        matrices["mass"][plane + 1, plane + 1] += 150
+    matrices["gyroscopic"][at + 1, at + 3] = 300
+    matrices["gyroscopic"][at + 3, at + 1] = -300
+    matrices["weighed"][at] += 3000
+    matrices["total_mass"] += 3000
+    matrices["stiffness"] *= stiffer
+    return matrices
+
+
+@pytest.fixture
+def machine(tiltpad, tmp_path):
+    """What the file of a machine on this shaft has."""
+
+    def run(matrices, *overrides, stations=STATIONS, task="coefficients"):
+        write(tmp_path / "rotor.h5", matrices)
+        (tmp_path / "machine.nml").write_text(MACHINE.format(*stations))
+        words = ("machine.nml", "-q", "--overwrite", "-o", "machine.h5", "--set", f"case%task={task}")
+        tiltpad(*words, overrides=overrides, cwd=tmp_path, status=0)
+        found = {}
+        with h5py.File(tmp_path / "machine.h5") as file:
+            file.visititems(
+                lambda name, item: found.update({name: item[()]}) if hasattr(item, "shape") else None
+            )
+        return found
+
+    return run
+
+
+def in_bearing(found, name, bearing="left"):
+    return found[f"bearings/{bearing}/equilibrium/{name}"]
+
+
+#: Of a bearing alone, and what it has as in the machine.
+MATRICES = ("stiffness", "damping")
+SAME = ("journal_y", "journal_z", "journal_moment_y", "journal_moment_z", "min_film_thickness")
+
+
+def on_whole_shaft(matrices, coefficients, speed):
+    """Eigenvalues of a shaft, rad/s and 1/s, on stiffness and damping of its bearings, 4 x 4."""
+    mass, stiffness = matrices["mass"], matrices["stiffness"].copy()
+    damping = speed * matrices["gyroscopic"]
+    for station, (own_stiffness, own_damping) in zip(STATIONS, coefficients, strict=True):
+        at = 4 * (station - 1) + np.array([0, 2, 1, 3])
+        stiffness[np.ix_(at, at)] += own_stiffness
+        damping[np.ix_(at, at)] += own_damping
+    none, one = np.zeros_like(mass), np.eye(len(mass))
+    return eigvals(np.block([[none, one], [-stiffness, -damping]]), np.block([[one, none], [none, mass]]))
+
+
+@pytest.mark.parametrize("motion", ["fixed", "tilting_radial", "tilting_radial_pitch"])
+def test_modes_of_a_shaft_in_bearings_with_slopes(machine, tiltpad, tmp_path, motion):
+    """By matrices of each bearing alone, on a rigid journal of the same slope, on the whole shaft."""
+    matrices = shaft()
+    found = machine(matrices, f"pads%motion={motion}")
+    coefficients = []
+    for b, bearing in enumerate(("left", "right")):
+        slope, load = (
+            [float(found[name.format(axis)] if b is None else found[name.format(axis)][b]) for axis in "yz"]
+            for name, b in (
+                (f"bearings/{bearing}/equilibrium/journal_slope_{{}}", None),
+                ("equilibrium/bearing_load_{}", b),
+            )
+        )
+        assert abs(slope[0]) > 1e-4
+        (tmp_path / "case.nml").write_text(
+            "&case task = 'coefficients' /\n&rotor mass = 1, unbalance = 0, "
+            f"static_load = {load[0] + 9.81}, {load[1]} /\n&pads motion = '{motion}' /\n"
+            f"&bearing slope = {slope[0]}, {slope[1]} /\n"
+            "&film cavitation = 'none' /\n&asperity model = 'none' /\n&coefficients slopes = .true. /\n"
+        )
+        tiltpad("case.nml", "-q", "--overwrite", "-o", "alone.h5", cwd=tmp_path, status=0)
+        with h5py.File(tmp_path / "alone.h5") as file:
+            coefficients.append([file[f"coefficients/slope_{name}"][0, 0] for name in MATRICES])
+            for name in SAME:
+                expected = file[f"equilibrium/{name}"][()]
+                nearly = 1e-4 if "moment" in name else 1e-10
+                np.testing.assert_allclose(in_bearing(found, name, bearing), expected, rtol=1e-5, atol=nearly)
+    expected = on_whole_shaft(matrices, coefficients, 6500 * np.pi / 30)
+    expected = expected[(expected.imag >= 0) & (abs(expected) < 2500)]
+    modes = found["synchronous/eigenvalue_real"][0] + 1j * found["synchronous/eigenvalue_imag"][0]
+    assert len(expected) >= 5
+    for value in expected:
+        assert np.nanmin(abs(modes - value)) < 1e-3 * abs(value)
+
+
+def test_a_shaft_that_sags(machine):
+    """A symmetric shaft has opposite slopes in its bearings; moments of the films bend it back."""
+    found = machine(shaft(disc=5), task="equilibrium")
+    left, right = (in_bearing(found, "journal_slope_y", name) for name in ("left", "right"))
+    assert left < -1e-4
+    assert right == pytest.approx(-left, rel=1e-6)
+    moments = [in_bearing(found, "journal_moment_y", name) for name in ("left", "right")]
+    assert moments[0] > 30
+    assert moments[1] == pytest.approx(-moments[0], rel=1e-6)
+    np.testing.assert_allclose(
+        in_bearing(found, "start_film_thickness"), in_bearing(found, "end_film_thickness", "right"), rtol=1e-6
+    )
+    # the static deflection of the whole shaft under weight, and the films' forces and moments
+    matrices = shaft(disc=5)
+    force = -9.81 * matrices["weighed"]
+    at = [4 * (station - 1) for station in STATIONS]
+    force[np.array(at) + 1] += moments
+    held = [k for k in range(0, 36, 1) if k % 4 < 2 and k not in at]
+    bent = np.zeros(36)
+    bent[held] = np.linalg.solve(matrices["stiffness"][np.ix_(held, held)], force[held])
+    assert bent[at[0] + 1] == pytest.approx(left, rel=1e-4)
+    ignored = machine(shaft(disc=5), "bearing%shaft_slope=ignored", task="equilibrium")
+    assert abs(ignored["equilibrium/station_slope_y"][1]) > 1.01 * abs(left)
+
+
+def test_housings_that_are_misaligned(machine, found):
+    """A shaft that does not bend is a rigid journal: its bearings have the slope that their housings lack."""
+    there = found("tilting_only", 200e-6)
+    stiff = shaft(disc=5, stiffer=1e6)
+    load = 9.81 * stiff["total_mass"] / 2
+    stiff["weighed"] *= 19620 / load
+    stiff["mass"] *= 19620 / load
+    stiff["total_mass"] *= 19620 / load
+    misaligned = ("bearing:left%misalignment=-200e-6,0", "bearing:right%misalignment=200e-6,0")
+    machine_found = machine(stiff, "pads%motion=tilting_only", *misaligned, task="equilibrium")
+    assert in_bearing(machine_found, "journal_slope_y") == pytest.approx(200e-6, rel=1e-3)
+    for name in ("journal_y", "min_film_thickness", "journal_moment_y", "journal_moment_z", "max_pressure"):
+        np.testing.assert_allclose(in_bearing(machine_found, name), there[name], rtol=2e-3)
+
+
+def test_a_shaft_with_its_ends_exchanged(machine):
+    here = machine(shaft(disc=4), "pads%motion=tilting_pitch")
+    there = machine(shaft(disc=6), "pads%motion=tilting_pitch")
+    slope = -in_bearing(there, "journal_slope_y", "right")
+    assert in_bearing(here, "journal_slope_y") == pytest.approx(slope, rel=1e-6)
+    np.testing.assert_allclose(
+        in_bearing(here, "pad_pitch"), -in_bearing(there, "pad_pitch", "right"), rtol=1e-5, atol=1e-12
+    )
+    for part in ("real", "imag"):
+        one, other = (np.sort(each[f"modes/eigenvalue_{part}"][0]) for each in (here, there))
+        slow = abs(one) < 1e4
+        np.testing.assert_allclose(one[slow], other[slow], rtol=1e-5, atol=1e-3)
+
+
 @pytest.mark.parametrize(
     ("overrides", "words"),
     [
@@ -217,10 +393,20 @@ def test_a_march_starts_where_another_has_ended(tiltpad, tmp_path):
             ("bearing%slope=1e-4,0", "oil%grade=46", "thermal%model=film"),
             "bearing%slope = 1e-4, 0: is not for",
         ),
+        (("machine", "bearing%misalignment=3e-3,0"), "closes the film of pad 1 at rest"),
+        (
+            ("machine", "bearing%shaft_slope=ignored", "bearing%misalignment=1e-4,0"),
+            "bearing%misalignment = 1e-4, 0: has no effect where films ignore slopes",
+        ),
+        (("machine", "film%solver=sor"), "bearing%shaft_slope = 'film': is not for film%solver = 'sor'"),
+        (("bearing%shaft_slope=film",), "shaft_slope"),
     ],
 )
 def test_bad_input(tiltpad, tmp_path, overrides, words):
-    (tmp_path / "case.nml").write_text("&case /\n")
+    on_shaft = overrides[0] == "machine"
+    (tmp_path / "case.nml").write_text(MACHINE.format(*STATIONS) if on_shaft else "&case /\n")
+    write(tmp_path / "rotor.h5", shaft())
+    overrides = overrides[on_shaft:]
     done = tiltpad("--check", "case.nml", overrides=overrides, cwd=tmp_path)
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1

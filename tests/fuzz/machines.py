@@ -58,7 +58,8 @@ def draw(dice: Random) -> Case:
         names.add("b" + "".join(dice.choices(NAME, k=dice.choice((0, 1, 5, 29)))))
     for name, place in zip(sorted(names), places, strict=True):
         groups.append(
-            f"&bearing name='{_cased(dice, name)}', station={place}, offset=0, {dice.uniform(-0.1, 0.1)!r} /"
+            f"&bearing name='{_cased(dice, name)}', station={place}, offset=0, {dice.uniform(-0.1, 0.1)!r}"
+            + dice.choice((" /", ", shaft_slope='film', misalignment=1e-4, -1e-4 /"))
         )
     for name in ("", *sorted(names)):
         own = {group.split()[0]: group for group in dice.sample(OWN, dice.randint(0, 3))}

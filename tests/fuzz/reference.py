@@ -13,7 +13,10 @@ OF_MACHINES_TOO = (
     "rotor%file",
     *(
         f"bearing%{name}"
-        for name in ["kind", "station", "offset", "stiffness", "damping", "file", "frequency"]
+        for name in [
+            *("kind", "station", "offset", "shaft_slope", "misalignment"),
+            *("stiffness", "damping", "file", "frequency"),
+        ]
     ),
 )
 

@@ -46,7 +46,7 @@ contains
       what = to_text(size(m))//' groups, the first of '//to_text(blocks(1))//' blocks of '//to_text(m(1))
       border = 2*maxval(known)
       n = border + sum(m*blocks)
-      matrix = new_bordered_matrix(maxval(known), known, m, blocks)
+      matrix = new_bordered_matrix(maxval(known), known, m, blocks, 0*known)
       call random_number(matrix%corner)
       do g = 1, size(m)
          call random_number(matrix%groups(g)%across)
@@ -81,7 +81,8 @@ contains
       real(wp) :: b(4*groups)
       integer :: g
       logical :: ok
-      matrix = new_bordered_matrix(groups, [(g, g=1, groups)], spread(2, 1, groups), spread(1, 1, groups))
+      matrix = new_bordered_matrix(groups, [(g, g=1, groups)], spread(2, 1, groups), spread(1, 1, groups), &
+         & spread(0, 1, groups))
       matrix%groups(groups)%block(1, 1, 1) = 2
       b = 1
       call matrix%solve(0.5_wp, b, ok)

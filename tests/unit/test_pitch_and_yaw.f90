@@ -1,23 +1,27 @@
 !> Pads that pitch and yaw: friction of several components, the Jacobian against differences, Newton and Euler, a free
-!> pad's eigenvalues, and the shaft with its ends exchanged.
+!> pad's eigenvalues, the shaft with its ends exchanged, and an elastic shaft whose slopes count.
 program test_pitch_and_yaw
    use kinds, only: wp
    use case_inputs, only: case_type
    use friction, only: friction_law, friction_response, turning_friction, bengisu_akay_friction, lugre_friction, &
       & never_sticks
    use rigid_rotor, only: journal_motion
-   use state_layout, only: pad_state, pitch, yaw
+   use state_layout, only: pad_state, tilt, pitch, yaw
    use kinematics, only: pad_frame, frame_of
    use equations_of_motion, only: machine_model, new_machine_model
-   use force_balance, only: find_vibrations
+   use force_balance, only: find_vibrations, forces
    use factories, only: converged_films
    use sloped_pad, only: of_pad
    use input_cases, only: case_of
+   use machine_cases, only: symmetric_rotor
    use check, only: runs, expect, expect_close, between, report
    implicit none (type, external)
 
    character(len=*), parameter :: motions(4) = [character(len=24) :: 'tilting_pitch', 'tilting_pitch_yaw', &
       & 'tilting_radial_pitch', 'tilting_radial_pitch_yaw']
+   !> Of pads on an elastic shaft: fixed, with one friction, with several.
+   character(len=*), parameter :: on_shaft(4) = [character(len=24) :: 'fixed', 'tilting_radial', 'tilting_pitch', &
+      & 'tilting_radial_pitch_yaw']
    character(len=*), parameter :: frictions(3) = [character(len=12) :: 'none', 'bengisu_akay', 'lugre']
    real(wp), parameter :: rounding = 10*epsilon(1.0_wp)
    integer :: m, f
@@ -27,12 +31,19 @@ program test_pitch_and_yaw
    if (runs('friction_slopes')) call friction_slopes()
    do m = 1, size(motions)
       do f = 1, size(frictions)
-         if (runs('jacobian')) call jacobian(motions(m), frictions(f))
-         if (runs('solutions')) call solutions(motions(m), frictions(f))
+         if (runs('jacobian')) call jacobian(motions(m), frictions(f), .false.)
+         if (runs('solutions')) call solutions(motions(m), frictions(f), .false.)
       end do
       if (runs('moments')) call moments(motions(m))
       if (runs('ends_exchanged')) call ends_exchanged(motions(m))
    end do
+   do m = 1, size(on_shaft)
+      do f = 1, size(frictions)
+         if (runs('jacobian')) call jacobian(on_shaft(m), frictions(f), .true.)
+         if (runs('solutions')) call solutions(on_shaft(m), frictions(f), .true.)
+      end do
+   end do
+   if (runs('power')) call power()
    if (runs('free_pad')) call free_pad()
    call report()
 
@@ -145,43 +156,84 @@ contains
          & //'&asperity model = ''none'' / &bearing slope = 2e-4, -1e-4 /')
    end function heavy_case
 
+   !> A shaft in two bearings whose films count its slopes.
+   type(case_type) function shaft_case(motion, friction) result(inputs)
+      character(len=*), intent(in) :: motion, friction
+      integer :: b
+      inputs = symmetric_rotor(trim(friction), 6500.0_wp, 1e-3_wp)
+      inputs%rotor%gravity = 0
+      do b = 1, 2
+         associate (of => inputs%bearings(b))
+            of%shaft_slope = 'film'
+            of%misalignment = [1e-5_wp, -2e-5_wp]
+            of%pads%motion = trim(motion)
+            of%pads%inertia_pitch = [2e-3_wp, 3e-3_wp]
+            of%pads%inertia_yaw = [4e-3_wp, 3e-3_wp]
+            of%pads%pivot_axial_offset = [2e-3_wp, -3e-3_wp]
+            of%asperity%model = 'none'
+         end associate
+      end do
+   end function shaft_case
+
+   !> Its model, or that of the journal.
+   function model_of(motion, friction, elastic) result(model)
+      character(len=*), intent(in) :: motion, friction
+      logical, intent(in) :: elastic
+      type(machine_model) :: model
+      if (elastic) then
+         model = new_machine_model(shaft_case(motion, friction))
+      else
+         model = new_machine_model(heavy_case(motion, friction))
+      end if
+   end function model_of
+
    !> A state with films, which moves.
    function moving_state(model) result(y)
       type(machine_model), intent(in) :: model
       real(wp), allocatable :: y(:)
-      type(pad_state) :: pads(2)
+      type(pad_state) :: pads(model%layout%pads)
       type(journal_motion) :: journal
       integer :: i
       journal = journal_motion([between(-20e-6_wp, 0.0_wp), between(-5e-6_wp, 5e-6_wp)], &
          & [between(-0.02_wp, 0.02_wp), between(-0.02_wp, 0.02_wp)])
-      do i = 1, 2
+      do i = 1, size(pads)
          pads(i) = pad_state(between(-1e-4_wp, 5e-4_wp), between(1.0_wp, 4.0_wp), between(2e-6_wp, 9e-6_wp), &
             & between(-5e-3_wp, 5e-3_wp))
          pads(i)%x([pitch, yaw]) = [between(-2e-4_wp, 2e-4_wp), between(-2e-4_wp, 2e-4_wp)]
          pads(i)%v([pitch, yaw]) = [between(-1.0_wp, 1.0_wp), between(-1.0_wp, 1.0_wp)]
          pads(i)%bristle = [between(-1e-7_wp, 1e-7_wp), between(-1e-7_wp, 1e-7_wp), between(-1e-7_wp, 1e-7_wp)]
       end do
-      y = model%state(journal, pads)
+      if (model%rotor%stations == 0) then
+         y = model%state(journal, pads)
+         return
+      end if
+      y = model%static_state([(between(-0.2_wp, 0.2_wp)*model%scale(i), i=1, model%rotor%positions)], pads)
+      do i = model%rotor%positions + 1, model%rotor%states
+         y(i) = between(-0.2_wp, 0.2_wp)*model%scale(i)
+      end do
    end function moving_state
 
    !> Five-point differences with steps of 1e-3 of each state's scale, rates in that of the friction's decay.
-   subroutine jacobian(motion, friction)
+   subroutine jacobian(motion, friction, elastic)
       character(len=*), intent(in) :: motion, friction
+      logical, intent(in) :: elastic
       real(wp), parameter :: h = 1e-3_wp, offsets(4) = [-2*h, -h, h, 2*h], t = 1.234e-2_wp
       real(wp), parameter :: weights(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/(12*h)
       type(machine_model) :: model
       real(wp), allocatable :: y(:), trial(:), f(:), found(:, :), expected(:, :), scale(:)
-      integer :: column, k, row
+      integer :: column, k, row, b, i
       logical :: ok, all_ok
       real(wp) :: worst
-      model = new_machine_model(heavy_case(motion, friction))
+      model = model_of(motion, friction, elastic)
       allocate (f(model%n), found(model%n, model%n), expected(model%n, model%n))
       scale = model%scale
-      associate (of => model%layout%elements(1))
-         do k = 1, of%rotations
-            scale(of%before([1, 2]) + 2*of%rotation(k)) = 0.2_wp
-         end do
-      end associate
+      do b = 1, size(model%bearings)
+         associate (of => model%layout%elements(b))
+            do k = 1, of%rotations
+               scale([(of%before(i), i=1, 2)] + 2*of%rotation(k)) = 0.2_wp
+            end do
+         end associate
+      end do
       y = moving_state(model)
       call model%rhs_and_jacobian(t, y, f, found, all_ok)
       expected = 0
@@ -204,14 +256,15 @@ contains
    end subroutine jacobian
 
    !> (1 - gamma J) v = b has the solution v.
-   subroutine solutions(motion, friction)
+   subroutine solutions(motion, friction, elastic)
       character(len=*), intent(in) :: motion, friction
+      logical, intent(in) :: elastic
       real(wp), parameter :: gamma = 1e-5_wp
       type(machine_model) :: model
       real(wp), allocatable :: matrix(:, :), v(:), rates(:), b(:)
       integer :: k
       logical :: ok
-      model = new_machine_model(heavy_case(motion, friction))
+      model = model_of(motion, friction, elastic)
       allocate (matrix(model%n, model%n), rates(model%n))
       call model%rhs_and_jacobian(0.01_wp, moving_state(model), rates, matrix, ok)
       v = [(between(-1.0_wp, 1.0_wp)*model%scale(k), k=1, model%n)]
@@ -304,6 +357,45 @@ contains
       end do
       call model%layout%put_all_pads(pads, other_y)
    end function exchanged
+
+   !> On a shaft the films' power is that of force and moment in the motion of the journal seen from its pads, but for
+   !> what turns with a pad.
+   subroutine power()
+      type(machine_model) :: model
+      real(wp), allocatable :: y(:), all_forces(:), velocity(:)
+      real(wp) :: given, expected, size_of_power
+      integer, allocatable :: x(:), v(:)
+      integer :: b, i
+      logical :: ok
+      model = model_of('tilting_pitch_yaw', 'none', .true.)
+      y = moving_state(model)
+      call model%evaluate(0.01_wp, y, .false., ok)
+      call expect(ok, 'a state with films')
+      call model%pairs(x, v)
+      velocity = y(v)
+      all_forces = forces(model, 0.01_wp, y)
+      associate (n => model%rotor%positions)
+         all_forces(:n) = all_forces(:n) - model%rotor%force(y(:2*n), model%point, 0.01_wp)
+      end associate
+      given = dot_product(all_forces, velocity)
+      size_of_power = norm2(all_forces*velocity)
+      expected = 0
+      do b = 1, 2
+         associate (pads => model%layout%elements(b)%pad_states(y), of => model%bearings(b)%sloped)
+            do i = 1, 2
+               associate (f => of%response(i)%film%force, p => of%response(i)%moment, m => of%motion(i), &
+                  & x => pads(i)%x([yaw, pitch]), turns => pads(i)%v(tilt), s => model%bearings(b)%pads(i)%axial_offset)
+                  ! the middle plane of a pad on a pivot off it does not turn with the pad, nor do its slopes
+                  associate (e => m%middle%position - s*x, g => m%slope + x)
+                     expected = expected + dot_product(f, m%middle%velocity) + dot_product(p, m%slope_rate) &
+                        & - turns*(f(1)*e(2) - f(2)*e(1) + p(1)*g(2) - p(2)*g(1))
+                  end associate
+               end associate
+            end do
+         end associate
+      end do
+      call expect_close(given, expected, 1e-9_wp*size_of_power, 'power of films')
+   end subroutine power
 
    !> Pitch and yaw of a pad in the film of an aligned journal, by the study behind docs/theory/pitch_and_yaw.md.
    subroutine free_pad()

@@ -35,7 +35,8 @@ OF_SHAPE = ("journal_radius", "machined_clearance", "assembled_clearance", "pivo
 #: How names of datasets end that only bearings have in whose films slopes of the journal count.
 OF_SLOPES = (
     *("journal_moment_y", "journal_moment_z", "start_film_thickness", "end_film_thickness"),
-    *("max_pressure_angle", "max_pressure_axial", "slope_stiffness", "slope_damping"),
+    *("max_pressure_angle", "max_pressure_axial", "slope_stiffness", "slope_damping", "journal_slope_y"),
+    "journal_slope_z",
 )
 #: What only pads that tilt have.
 OF_TILTING = ("pad_tilt", "pivot_load", "friction_moment")
@@ -331,9 +332,10 @@ class Run(Archive):
 
     @property
     def has_slopes(self) -> bool:
-        """True where slopes of the journal count in the films: inclined journals, or pads that pitch."""
+        """True where slopes of journal or shaft count in the films, as where pads pitch."""
         asked = self.task == "coefficients" and self.input["coefficients"].get("slopes", False)
-        inclined = any(self.input["bearing"].get("slope", ()))
+        bearing = self.input["bearing"]
+        inclined = any(bearing.get("slope", ())) or bearing.get("shaft_slope") == "film"
         return bool("pitch" in self.input["pads"]["motion"] or inclined or asked)
 
     def is_cold(self, name: str) -> bool:

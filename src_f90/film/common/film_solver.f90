@@ -39,6 +39,8 @@ module film_solver
       !> Pads evaluated by axial modes and on finite volumes; passes over these volumes: sweeps of over-relaxation,
       !> or eliminations.
       integer(i8) :: fourier = 0, volumes = 0, passes = 0
+      !> Pads with slopes evaluated by weighted functions.
+      integer(i8) :: weighted = 0
       !> Pads looked up in tables; cells, nodes of cavitated films and profiles of the pressure that were built for
       !> them, and the wall time, s.
       integer(i8) :: looked_up = 0, cells = 0, nodes = 0, profiles = 0

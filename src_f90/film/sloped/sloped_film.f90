@@ -86,6 +86,7 @@ contains
          call add_volumes(self, i, motion, oil, speed, 0.0_wp, 1.0_wp, want_derivatives, response)
       else
          call find_full(self, i, motion, oil, speed, want_derivatives, response)
+         self%counters%weighted = self%counters%weighted + 1
          if (.not. is_cavitated(self, i, response)) return
          full = response
          associate (c => share_of_modes(self%gaps(i)%cavitation_pressure, full%film), &
@@ -165,6 +166,7 @@ contains
       type(sloped_response) :: full, found
       real(wp) :: weight
       integer :: k
+      self%counters%volumes = self%counters%volumes + 1
       do k = 1, 2
          weight = factor*merge(-1, 4, k == 1)/3
          associate (film => self%volumes(k, i), cells => k*self%cells/2)
