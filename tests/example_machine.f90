@@ -4,7 +4,7 @@ module example_machine
    use linear_algebra, only: dgesv, zgesv, find_eigenvalues
    use errors, only: error_type
    use case_inputs, only: case_type
-   use case_groups, only: disc_type, unbalance_type
+   use case_groups, only: bearing_type, disc_type, unbalance_type
    use rotor_reduction, only: rotor_matrices_type
    use rotor_factory, only: find_rotor
    use check, only: expect_no_error
@@ -70,6 +70,7 @@ contains
       deallocate (machine%bearings)
       allocate (machine%bearings(size(stations)))
       do b = 1, size(stations)
+         machine%bearings(b) = bearing_type()
          machine%bearings(b)%name = achar(iachar('a') + b - 1)
          machine%bearings(b)%station = stations(b)
       end do

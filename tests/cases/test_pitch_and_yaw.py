@@ -373,6 +373,23 @@ def test_a_shaft_with_its_ends_exchanged(machine):
         np.testing.assert_allclose(one[slow], other[slow], rtol=1e-5, atol=1e-3)
 
 
+def test_pads_that_cannot_pitch_drive_a_slender_rotor(tiltpad, root, tmp_path):
+    """By the skew stiffness against slopes, from 6935 rpm on; pads that pitch have none of it."""
+    growth = {}
+    tilting, pitching = ("pads%motion=tilting_radial" + ending for ending in ("", "_pitch"))
+    for setting in (tilting, "bearing%shaft_slope=ignored", pitching):
+        overrides = (setting, "operation%speed_rpm=8000", "coefficients%threshold_up_to_rpm=0")
+        words = (root / "input/examples/slender.nml", "-q", "--overwrite", "-o", "found.h5")
+        tiltpad(*words, overrides=overrides, cwd=tmp_path, status=0)
+        with h5py.File(tmp_path / "found.h5") as file:
+            values = file["modes/eigenvalue_real"][0] + 1j * file["modes/eigenvalue_imag"][0]
+            growth[setting] = values.real[(values.imag > 100) & (values.imag < 220)].max()
+    stuck, ignored, free = growth.values()
+    assert stuck > 0.1
+    assert ignored < -0.3
+    assert free < -0.3
+
+
 @pytest.mark.parametrize(
     ("overrides", "words"),
     [
