@@ -183,7 +183,7 @@ venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
 .PHONY: help run build deps python again wheel test test-slurm test-debian13 stress realistic fuzz faults \
-        bench speed whirl paper site site-if-mkdocs unit test-programs debug-programs lint format docs install uninstall clean
+        bench speed whirl misalignment paper site site-if-mkdocs unit test-programs debug-programs lint format docs install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
 
@@ -201,6 +201,7 @@ help:
 	@echo 'make bench    measures run time against error, and other programs, a quarter of an hour; writes docs/benchmarks.md'
 	@echo 'make speed OLD=COMMIT   compares the speed with that of an older commit, in pairs of runs, twenty minutes'
 	@echo 'make whirl    runs the commands of docs/whirl.md and draws its pictures, some minutes'
+	@echo 'make misalignment  the same of docs/misalignment.md, half a minute'
 	@echo 'make paper    makes the figures and checks the claims of the paper, a minute or two; writes docs/paper'
 	@echo 'make build    builds build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     installs missing packages (as root or with sudo; otherwise prints the list and stops)'
@@ -287,9 +288,9 @@ speed: build python
 paper: build python
 	PYTHONPATH=post $(venv_python) -m paper $(B)/bin/tiltpad
 
-# what docs/whirl.md tells, from its own commands
-whirl: build python
-	PYTHONPATH=post $(venv_python) docs/whirl.py $(B)/bin/tiltpad build/whirl
+# what docs/whirl.md and docs/misalignment.md tell, from their own commands
+whirl misalignment: build python
+	PYTHONPATH=post $(venv_python) docs/$@.py $(B)/bin/tiltpad build/$@
 
 # ---- set-up ------------------------------------------------------------------------------------
 deps: build/deps-checked

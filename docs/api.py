@@ -44,7 +44,7 @@ HEAD = """# Python package
 #: Functions of the plots that are no plots.
 HELPERS = (
     *("on_axes", "draw_amplitude", "direction_arrow", "polar", "marks_equilibrium", "pad_marks"),
-    *("all_tilt", "label_films", "mark_orders"),
+    *("all_tilt", "label_films", "mark_orders", "of_slopes", "tells_contact"),
 )
 
 

@@ -3,36 +3,14 @@
 usage: whirl.py TILTPAD FOLDER-FOR-RUNS
 """
 
-import re
-import shlex
-import shutil
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import tiltpad
-from tiltpad import command
+from commands import follow
 from tiltpad.calculate.basins import basin
 from tiltpad.calculate.branches import bifurcations
-
-DOCS = Path(__file__).resolve().parent
-
-
-def run(page: str, program: str, folder: Path) -> None:
-    """The commands of the page in their order; files of results stay in the folder."""
-    for line in re.findall(r"```sh\n(.*?)```", page, re.DOTALL):
-        for each in line.splitlines():
-            first, *words = shlex.split(each)
-            if first == "tiltpad":
-                case = DOCS.parent / words[0]
-                subprocess.run([program, case, *words[1:], "--overwrite"], cwd=folder, check=True)
-                continue
-            own = [str(folder / word) if word.endswith((".h5", ".png")) else word for word in words]
-            if command.main(own):
-                sys.exit(f"docs/whirl.md: {each}")
-            shutil.copy(own[-1], DOCS / "images")
 
 
 def figures(folder: Path) -> Iterator[str]:
@@ -61,14 +39,5 @@ def figures(folder: Path) -> Iterator[str]:
         yield f"at about {round(lowest, -3):.0f} rpm"
 
 
-def main() -> None:
-    program, folder = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2])
-    folder.mkdir(parents=True, exist_ok=True)
-    page = (DOCS / "whirl.md").read_text()
-    run(page, program, folder)
-    if wrong := [words for words in figures(folder) if words not in page]:
-        sys.exit(f"docs/whirl.md: other figures now: {wrong}")
-
-
 if __name__ == "__main__":
-    main()
+    follow("whirl.md", figures)

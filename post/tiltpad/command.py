@@ -316,6 +316,8 @@ def bearings_of(source: Run | Study, options: argparse.Namespace) -> list[Run | 
         if not source.bearings:
             check_without_films(source, options.plot)
     of_shaft = options.plot == "stability" or (options.plot == RESPONSE and options.station is not None)
+    if isinstance(source, Study) and options.plot in OF_FILMS:
+        return [one_bearing(source, options)]
     if isinstance(source, Study) or not source.bearings or options.plot in OF_MACHINES or of_shaft:
         return [source]
     if options.plot == "temperatures" and source.is_branch:
@@ -335,16 +337,16 @@ def check_without_films(run: Run, plot: str) -> None:
         raise NotInRunError(f"{none}; of its shaft there are {', '.join((*OF_MACHINES, *OF_STATIONS))}")
 
 
-def one_bearing(run: Run, options: argparse.Namespace) -> Run:
-    """The run of one bearing, or of the bearing of a machine that --bearing names."""
+def one_bearing(source: Run | Study, options: argparse.Namespace) -> Any:
+    """The run or study of one bearing, or of the bearing of a machine that --bearing names."""
     if options.bearing is not None:
-        return run.bearings[options.bearing]
-    if run.is_machine and not run.bearings:
-        check_without_films(run, options.plot)
-    if run.bearings:
-        known = f"of one bearing: {run.bearings.in_words()}"
-        raise ValueError(f"{run.path}: {options.plot}: {known}; choose by --bearing")
-    return run
+        return bearings_of(source, options)[0]
+    if isinstance(source, Run) and source.is_machine and not source.bearings:
+        check_without_films(source, options.plot)
+    if source.bearings:
+        known = f"of one bearing: its bearings are {', '.join(source.bearings)}"
+        raise ValueError(f"{source.path}: {options.plot}: {known}; choose by --bearing")
+    return source
 
 
 def write_table(options: argparse.Namespace, output: Path) -> None:
@@ -360,8 +362,7 @@ def write_table(options: argparse.Namespace, output: Path) -> None:
             found = critical_speeds(of, where, options.pivot, options.operating)
             write_critical_speeds(found, output)
         else:
-            own = one_bearing(source, options) if isinstance(source, Run) else source
-            write_coefficients(own, output, pivot=options.pivot, where=where)
+            write_coefficients(one_bearing(source, options), output, pivot=options.pivot, where=where)
         tell_remarks([source])
 
 

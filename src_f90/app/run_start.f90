@@ -8,7 +8,7 @@ module run_start
    use files, only: real_path
    use read_files, only: file_marks, marks_name
    use film_oils, only: film_oil
-   use state_layout, only: pad_state, tilt, pivot_deflection
+   use state_layout, only: pad_state, tilt, pivot_deflection, pitch, yaw
    use equilibrium_record, only: equilibrium_type
    use bearing_equilibrium, only: find_partial_equilibrium
    use equilibrium, only: find_equilibrium, settle_equilibrium
@@ -364,6 +364,10 @@ contains
          pads%v(tilt) = pads%v(tilt) + s%pad_tilt_rate
          pads%x(pivot_deflection) = pads%x(pivot_deflection) + s%pivot_deflection
          pads%v(pivot_deflection) = pads%v(pivot_deflection) + s%pivot_deflection_rate
+         pads%x(pitch) = pads%x(pitch) + s%pad_pitch
+         pads%v(pitch) = pads%v(pitch) + s%pad_pitch_rate
+         pads%x(yaw) = pads%x(yaw) + s%pad_yaw
+         pads%v(yaw) = pads%v(yaw) + s%pad_yaw_rate
       end associate
    end subroutine disturb
 end module run_start

@@ -190,14 +190,23 @@ contains
                & //'''file''', error)
             call require(s%from == 'file' .or. s%file == '', 'start%file = '''//s%file//''': needs start%from = ' &
                & //'''file'', not '''//s%from//'''', error)
-            call require(bearing%tilting() .or. all(abs([s%pad_tilt, s%pad_tilt_rate]) <= 0), 'start%pad_tilt = {}, ' &
-               & //'pad_tilt_rate = {}: must be 0 for pads%motion = ''fixed''', [s%pad_tilt(1), s%pad_tilt_rate(1)], &
-               & error)
-            call require(bearing%tilting_radial() .or. all(abs([s%pivot_deflection, s%pivot_deflection_rate]) <= 0), &
-               & 'start%pivot_deflection = {}, pivot_deflection_rate = {}: must be 0 for pads%motion = ''' &
-               & //bearing%pads%motion//'''', [s%pivot_deflection(1), s%pivot_deflection_rate(1)], error)
+            call check_moved(bearing, bearing%tilting(), 'pad_tilt', s%pad_tilt, s%pad_tilt_rate)
+            call check_moved(bearing, bearing%tilting_radial(), 'pivot_deflection', s%pivot_deflection, &
+               & s%pivot_deflection_rate)
+            call check_moved(bearing, bearing%pitching(), 'pad_pitch', s%pad_pitch, s%pad_pitch_rate)
+            call check_moved(bearing, bearing%yawing(), 'pad_yaw', s%pad_yaw, s%pad_yaw_rate)
          end associate
       end subroutine check_start
+
+      !> Pads start only where they can move to.
+      subroutine check_moved(bearing, moves, name, values, rates)
+         type(bearing_type), intent(in) :: bearing
+         logical, intent(in) :: moves
+         character(len=*), intent(in) :: name
+         real(wp), intent(in) :: values(:), rates(:)
+         call require(moves .or. all(abs([values, rates]) <= 0), 'start%'//name//' = {}, '//name//'_rate = {}: must ' &
+            & //'be 0 for pads%motion = '''//bearing%pads%motion//'''', [values(1), rates(1)], error)
+      end subroutine check_moved
 
       subroutine check_pads(bearing)
          type(bearing_type), intent(in) :: bearing

@@ -71,6 +71,10 @@ contains
       inputs%start%pad_tilt_rate = [0.0_wp, 0.0_wp]
       inputs%start%pivot_deflection = [0.0_wp, 0.0_wp]
       inputs%start%pivot_deflection_rate = [0.0_wp, 0.0_wp]
+      inputs%start%pad_pitch = [0.0_wp, 0.0_wp]
+      inputs%start%pad_pitch_rate = [0.0_wp, 0.0_wp]
+      inputs%start%pad_yaw = [0.0_wp, 0.0_wp]
+      inputs%start%pad_yaw_rate = [0.0_wp, 0.0_wp]
       inputs%coefficients%frequency_ratio = [1.0_wp]
       inputs%branch%of = 'periodic'
       inputs%branch%parameter = ''
@@ -104,7 +108,7 @@ contains
       class(case_type), intent(in) :: self
       associate (s => self%start)
          is_disturbed = any(abs([s%journal, s%journal_velocity, s%pad_tilt, s%pad_tilt_rate, s%pivot_deflection, &
-            & s%pivot_deflection_rate]) > 0)
+            & s%pivot_deflection_rate, s%pad_pitch, s%pad_pitch_rate, s%pad_yaw, s%pad_yaw_rate]) > 0)
       end associate
    end function is_disturbed
 

@@ -33,9 +33,10 @@ module task_groups
       character(len=:), allocatable :: from
       !> The result that a start from a file continues.
       character(len=:), allocatable :: file
-      !> What is added: journal, m, m/s; per pad tilt, rad, pivot deflection, m, and their rates.
+      !> What is added: journal, m, m/s; per pad tilt, rad, pivot deflection, m, pitch and yaw, rad, and their rates.
       real(wp) :: journal(2) = 0, journal_velocity(2) = 0
-      real(wp), allocatable :: pad_tilt(:), pad_tilt_rate(:), pivot_deflection(:), pivot_deflection_rate(:)
+      real(wp), allocatable :: pad_tilt(:), pad_tilt_rate(:), pivot_deflection(:), pivot_deflection_rate(:), &
+         & pad_pitch(:), pad_pitch_rate(:), pad_yaw(:), pad_yaw_rate(:)
    end type start_type
 
    !> Where the journal is held: at an eccentricity over the bearing clearance, and an attitude from the load (unset:

@@ -180,6 +180,12 @@ contains
             & 'tilting_radial: deflections of the pivots')
          call v%each(inputs%start%pivot_deflection_rate, 'pads', 'pivot_deflection_rate', -1e3_wp, 1e3_wp, 'm/s', &
             & 'tilting_radial: their rates')
+         call v%each(inputs%start%pad_pitch, 'pads', 'pad_pitch', -0.1_wp, 0.1_wp, 'rad', 'pads that pitch: pitches')
+         call v%each(inputs%start%pad_pitch_rate, 'pads', 'pad_pitch_rate', -1e5_wp, 1e5_wp, 'rad/s', &
+            & 'pads that pitch: their rates')
+         call v%each(inputs%start%pad_yaw, 'pads', 'pad_yaw', -0.1_wp, 0.1_wp, 'rad', 'pads that yaw: yaws')
+         call v%each(inputs%start%pad_yaw_rate, 'pads', 'pad_yaw_rate', -1e5_wp, 1e5_wp, 'rad/s', &
+            & 'pads that yaw: their rates')
       end subroutine list_start
 
       subroutine list_held()

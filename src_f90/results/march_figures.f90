@@ -62,6 +62,7 @@ contains
       call extremes%write(file, load, (time(1, n) - time(1, 1))/max(1, n - 1))
       call put_journal(file, n)
       call put_film(file, n)
+      if (file%has_series('journal_moment_y')) call put_slopes(file, inputs%bearings(b), n)
       associate (bearing => inputs%bearings(b), tilting => inputs%bearings(b)%tilting())
          if (tilting) call put_tilt(file, n)
          call put_last_revolutions(file, inputs, bearing, int(revolutions + rounding))
@@ -126,6 +127,41 @@ contains
       call put_figure(file, 'pad_min_film_thickness', minval(film, dim=2), 'm', 'minimum film thickness')
       call put_figure(file, 'pad_max_pressure', maxval(pressure, dim=2), 'Pa', 'maximum pressure')
    end subroutine put_film
+
+   !> Moments on the journal, films at both ends and what pads that pitch do in the last n samples, where slopes count.
+   subroutine put_slopes(file, bearing, n)
+      type(bearing_file_type), intent(inout) :: file
+      type(bearing_type), intent(in) :: bearing
+      integer, intent(in) :: n
+      real(wp), allocatable :: values(:, :)
+      call put_moment('y', 'vertical')
+      call put_moment('z', 'horizontal')
+      call put_least('start_film_thickness', 'lower')
+      call put_least('end_film_thickness', 'higher')
+      if (bearing%pitching()) call put_range('pad_pitch', 'pitch')
+      if (bearing%yawing()) call put_range('pad_yaw', 'yaw')
+   contains
+      subroutine put_moment(axis, direction)
+         character(len=*), intent(in) :: axis, direction
+         call file%last_samples('journal_moment_'//axis, n, values)
+         call put_figure(file, 'mean_moment_'//axis, mean(values(1, :)), 'N m', 'mean moment on the journal against ' &
+            & //'its '//direction//' slope')
+      end subroutine put_moment
+
+      subroutine put_least(name, place)
+         character(len=*), intent(in) :: name, place
+         call file%last_samples(name, n, values)
+         call put_figure(file, 'pad_'//name, minval(values, dim=2), 'm', 'minimum film thickness at the end of ' &
+            & //place//' x')
+      end subroutine put_least
+
+      subroutine put_range(name, meaning)
+         character(len=*), intent(in) :: name, meaning
+         call file%last_samples(name, n, values)
+         call put_figure(file, name//'_max', maxval(values, dim=2), 'rad', 'highest '//meaning)
+         call put_figure(file, name//'_min', minval(values, dim=2), 'rad', 'lowest '//meaning)
+      end subroutine put_range
+   end subroutine put_slopes
 
    !> Tilts and contact in the last n samples.
    subroutine put_tilt(file, n)

@@ -54,7 +54,8 @@ TURBULENCE = ("film%turbulence", "film%laminar_below", "film%turbulent_above")
 #: Where a march starts; the values of the pads are not drawn.
 START = (
     *("start%from", "start%file", "start%journal", "start%journal_velocity", "start%pad_tilt"),
-    *("start%pad_tilt_rate", "start%pivot_deflection", "start%pivot_deflection_rate"),
+    *("start%pad_tilt_rate", "start%pivot_deflection", "start%pivot_deflection_rate", "start%pad_pitch"),
+    *("start%pad_pitch_rate", "start%pad_yaw", "start%pad_yaw_rate"),
 )
 #: Where the journal is held, in the order in which they belong together.
 HELD = ("held%eccentricity_ratio", "held%attitude_deg", "held%position")

@@ -33,7 +33,7 @@ CASES = {
     "&excitation amplitude=100, frequency_hz=80 / &excitation kind='step', amplitude=200, start=0.01 /",
     "runup": "&operation speed_rpm=1500, final_speed_rpm=6500, duration=0.1 / &friction model='lugre' /",
     "pitching": "&operation duration=0.02 / &friction model='lugre' / &bearing slope=2e-4,1e-4 / "
-    "&pads motion='tilting_radial_pitch_yaw' / &film cavitation='none' /",
+    "&pads motion='tilting_radial_pitch_yaw', pivot_axial_offset=1e-3, 0 / &film cavitation='none' /",
     "fixed": "&operation duration=0.06 / &pads motion='fixed' /",
     "equilibrium": "&case task='equilibrium' /",
     "turbulent": "&case task='equilibrium' / &film turbulence='ng_pan' /",

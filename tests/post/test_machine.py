@@ -92,7 +92,7 @@ def test_a_machine_without_pivots_has_none_in_its_words(tiltpad, tmp_path):
         assert "locked" not in figures.shapes([run]).get_suptitle()
 
 
-def test_the_operating_points_of_a_machine_are_those_of_its_worst_bearing(tiltpad, tmp_path):
+def test_the_operating_points_of_a_machine_are_those_of_its_worst_bearing(tiltpad, tmp_path, capsys):
     (tmp_path / "fixed.nml").write_text(FIXED)
     tiltpad("--quiet", "fixed.nml", cwd=tmp_path, status=0)
     with read_study(tmp_path / "fixed.h5") as study:
@@ -105,6 +105,11 @@ def test_the_operating_points_of_a_machine_are_those_of_its_worst_bearing(tiltpa
         loss = [float(row[head.index("power loss (kW)")]) for row in rows]
         np.testing.assert_allclose(loss, 1e-3 * lost, rtol=1e-3)
         assert "locked" not in study_report(study).partition("Critical speeds")[2].partition("</table>")[0]
+    words = ["coefficients", str(tmp_path / "fixed.h5"), "-o"]
+    for output in (str(tmp_path / "a.png"), str(tmp_path / "a.csv")):
+        assert command.main([*words, output]) == 1
+        assert "its bearings are left, right; choose by --bearing" in capsys.readouterr().err
+        assert command.main([*words, output, "--bearing", "right"]) == 0
 
 
 def test_stations_and_bearings(machine):

@@ -141,6 +141,10 @@ contains
       call expect_refused('&start pivot_deflection = 0, 1e-6 / &pads motion = ''tilting_only'' /', &
          & 'must be 0 for pads%motion = ''tilting_only''')
       call expect_allowed('&start pad_tilt = 1e-3 / &pads motion = ''tilting_only'' /')
+      call expect_allowed('&start pad_pitch = 1e-4 / &pads motion = ''tilting_pitch'' /')
+      call expect_refused('&start pad_yaw = 0, 1e-4 / &pads motion = ''tilting_pitch'' /', &
+         & 'start%pad_yaw = 0, pad_yaw_rate = 0: must be 0 for pads%motion = ''tilting_pitch''')
+      call expect_refused('&start pad_pitch_rate = 1 /', 'must be 0 for pads%motion = ''tilting_radial''')
       call expect_refused(fixed//'pad_tilt = 1e-3 /', 'start%pad_tilt = 0.001, pad_tilt_rate = 0: must be 0')
       call expect_refused(fixed//'pad_tilt_rate = 0, 1 /', 'must be 0 for pads%motion = ''fixed''')
       call expect_refused(fixed//'pivot_deflection = 1e-6 /', 'must be 0 for pads%motion = ''fixed''')

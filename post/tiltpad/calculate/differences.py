@@ -25,6 +25,9 @@ def differences(inputs: list[dict[str, dict[str, Any]]]) -> list[str]:
     varying = [name for name in names if len({each.get(name) for each in values}) > 1]
     if "pads" in varying:
         varying.remove("pads%pivot_angle_deg")
+    if "pads%motion" in varying:
+        # pads that pitch have these of their shape
+        varying = [name for name in varying if not name.startswith("pads%inertia_")]
     return [", ".join(described(name, each.get(name)) for name in varying) for each in values]
 
 

@@ -19,19 +19,22 @@ Case = Mapping[str, Mapping[str, Any]]
 
 
 class State(NamedTuple):
-    """Journal (y, z), and tilts and pivot deflections of the pads, (pad,), at a time, s (None: at rest)."""
+    """Journal (y, z), and what pads do, (pad,) each, at a time, s (None: at rest)."""
 
     time: float | None
     journal: np.ndarray
     tilt: np.ndarray
     pivot_deflection: np.ndarray
+    pitch: np.ndarray
+    yaw: np.ndarray
 
 
 class Surfaces(NamedTuple):
     """The surfaces of the pads."""
 
     angle: np.ndarray  # of points on the surface, from the centre of the bearing, (pad, phi)
-    thickness: np.ndarray  # film thickness there, (pad, phi)
+    thickness: np.ndarray  # film thickness there in the middle plane, (pad, phi)
+    slope: np.ndarray  # of the thickness along the shaft, (pad, phi)
     pivot: np.ndarray  # angles of the pivots, (pad,)
 
 
@@ -43,7 +46,7 @@ def of_pads(case: Case, name: str) -> np.ndarray:
 def centred(case: Case) -> State:
     """The journal in the middle of the bearing, pads without tilt and pivot deflection."""
     none = np.zeros(len(of_pads(case, "pads%pivot_angle_deg")))
-    return State(None, np.zeros(2), none, none)
+    return State(None, np.zeros(2), none, none, none, none)
 
 
 def at_rest(run: Run) -> State:
@@ -56,15 +59,15 @@ def at_rest(run: Run) -> State:
 
 def at_time(run: Run, time: float | None) -> State:
     """The sample next to `time`, s; None: the equilibrium."""
-    at, journal, (tilt, pivot_deflection, *_) = library.state(run, time)
-    return State(at, journal[:2], tilt[0], pivot_deflection[0])
+    at, journal, pads = library.state(run, time)
+    return State(at, journal[:2], *(each[0] for each in pads))
 
 
 def samples(run: Run, part: slice) -> list[State]:
     """The states of the samples `part`."""
     times = run.values("time", part)
     none = np.zeros((len(times), run.pads))
-    own = (run.values(name, part) if name in run else none for name in ("pad_tilt", "pivot_deflection"))
+    own = (run.values(name, part) if name in run else none for name in library.OF_PADS)
     journal = np.column_stack([run.values(name, part) for name in ("journal_y", "journal_z")])
     return [State(*each) for each in zip(times.tolist(), journal, *own, strict=True)]
 
@@ -83,5 +86,22 @@ def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:
     z = state.journal[1] - reach * np.cos(pivot)
     along = turning * (y * np.cos(own) - z * np.sin(own))
     outward = y * np.sin(own) + z * np.cos(own) + radius + machined + back
+    # a pad turns about a pivot that may stand off the middle plane (docs/theory/pitch_and_yaw.md)
+    offset = of_pads(case, "pads%pivot_axial_offset") if "pitch" in case["pads"]["motion"] else 0.0
+    along, outward = along + offset * state.yaw, outward + offset * state.pitch
+    slopes = np.array(seen_by_pads(case, state)) - [state.yaw, state.pitch]
     thickness = machined[:, None] - along[:, None] * np.sin(phi) - outward[:, None] * np.cos(phi)
-    return Surfaces(own[:, None] + turning * phi, thickness, pivot)
+    slope = -slopes[0][:, None] * np.sin(phi) - slopes[1][:, None] * np.cos(phi)
+    return Surfaces(own[:, None] + turning * phi, thickness, slope, pivot)
+
+
+def seen_by_pads(case: Case, state: State) -> tuple[np.ndarray, np.ndarray]:
+    """Slopes of the journal along each pad and outward, (pad,)."""
+    own = np.radians(of_pads(case, "pads%pivot_angle_deg")) - sense(case) * state.tilt
+    y, z = case["bearing"].get("slope", (0.0, 0.0))
+    return sense(case) * (y * np.cos(own) - z * np.sin(own)), y * np.sin(own) + z * np.cos(own)
+
+
+def half_widths(case: Case) -> np.ndarray:
+    """Half the width of each pad: where its ends are, (pad,)."""
+    return of_pads(case, "bearing%axial_length") / 2

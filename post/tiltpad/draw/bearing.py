@@ -7,7 +7,7 @@ makes the bearing clearance CLEARANCE.
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -58,13 +58,21 @@ TURNING = {
         "oil enters a pad at its smaller angle (leading edge).",
     ),
 }
+#: Views of pads from the side in a row, and their height, inches; what is said of them.
+SIDES, SIDE_HEIGHT = 4, 1.1
+FROM_THE_SIDE = (
+    "Below: the pads from the side, cut along the shaft",
+    "at their pivots, with the film at both ends. Slopes",
+    "and pitch are enlarged as the clearances are.",
+)
 NOTE = {"fontsize": "small", "color": "0.2", "ha": "center", "va": "center"}
 
 
 def bearing(case: Run | Case) -> Figure:
     """Pads, pivots, load, sense of rotation and angles of a case or result, with enlarged clearances.
 
-    A result shows the journal and the tilt of the pads at its equilibrium, or its last sample.
+    A result shows the journal and the tilt of the pads at its equilibrium, or its last sample. Where films
+    have slopes there, each pad is seen from the side, too.
     """
     run = case if isinstance(case, Run) else None
     groups = case.in_operation if isinstance(case, Run) else case
@@ -72,7 +80,15 @@ def bearing(case: Run | Case) -> Figure:
         names = ", ".join(str(each["name"]) for each in groups["bearing"])
         raise ArgumentError("a machine: choose one of its bearings by {bearing}: {names}", names=names)
     state = geometry.at_rest(run) if run else geometry.centred(groups)
-    fig, (ax, beside) = plt.subplots(1, 2, width_ratios=(1.45, 1), figsize=(PAGE, 4.4))
+    sides = side_views(groups, state)
+    rows = -(-len(sides) // SIDES)
+    fig = plt.figure(figsize=(PAGE, 4.4 + SIDE_HEIGHT * rows))
+    upper, *lower = fig.add_gridspec(1 + min(1, rows), 1, height_ratios=(4.4, SIDE_HEIGHT * rows)[: 1 + rows])
+    ax, beside = (fig.add_subplot(each) for each in upper.subgridspec(1, 2, width_ratios=(1.45, 1)))
+    if sides:
+        places = lower[0].subgridspec(rows, min(SIDES, len(sides)))
+        for side, place in zip(sides, places, strict=False):
+            side.draw(fig.add_subplot(place))
     drawing = Drawing(ax, groups, state)
     mark_angles(ax, groups)
     mark_edges(ax, drawing)
@@ -82,9 +98,70 @@ def bearing(case: Run | Case) -> Figure:
         shown = drawing.show_temperatures(run)
         fig.colorbar(shown, ax=ax, location="bottom", label="pad surfaces and shaft (°C)", shrink=0.7)
     beside.axis("off")
-    beside.text(0, 1, figures_of(groups, state), va="top", fontsize="small", linespacing=1.5)
+    text = figures_of(groups, state) + ("\n\n" + "\n".join(FROM_THE_SIDE) if sides else "")
+    beside.text(0, 1, text, va="top", fontsize="small", linespacing=1.5)
     fig.suptitle(plain(str(groups["case"].get("title", "")), width(fig)))
     return fig
+
+
+class SideView(NamedTuple):
+    """A pad and the journal, cut along the shaft at the pivot; lengths over the journal's radius."""
+
+    name: str
+    half: float  # of the width
+    films: np.ndarray  # thickness at the ends of lower and of higher x, m
+    scale: float  # 1/m: that of the films
+    journal: np.ndarray  # heights of its surface at both ends, outward
+    pivot: float | None  # its place along the shaft; fixed pads have none
+    outward: int  # 1 where this is up
+
+    def draw(self, ax: Axes) -> None:
+        """Draws it, up as in the bearing."""
+        x, way = np.array([-self.half, self.half]), self.outward
+        surface = way * self.journal
+        inner = surface + way * self.scale * self.films
+        outer = inner + way * BACK
+        ax.fill_between(x, surface - way * BACK, surface, facecolor="#dbe9f6", edgecolor="C0", linewidth=0.8)
+        ax.fill_between(x, inner, outer, facecolor="0.82", edgecolor="0.25", linewidth=0.8)
+        if self.pivot is not None:
+            back = np.interp(self.pivot, x, outer) + way * 0.045
+            ax.add_patch(Circle((self.pivot, back), 0.045, facecolor="0.25", linewidth=0))
+        ax.plot(x, np.zeros(2), color="0.45", linestyle=":", linewidth=0.7)
+        shown = SHOWN["min_film_thickness"]
+        for end, side, film in zip((-1, 1), ("right", "left"), self.films, strict=True):
+            height = np.mean([surface[(end + 1) // 2], inner[(end + 1) // 2]])
+            text = f"{digits(shown.factor * film, 3)} {shown.unit}"
+            ax.text(1.06 * end * self.half, height, text, **NOTE | {"ha": side, "fontsize": "x-small"})
+        low, high = sorted((-way * 1.5 * BACK, way * (2 * BACK + CLEARANCE)))
+        ax.set(xlim=(-1.75 * self.half, 1.75 * self.half), ylim=(low, high), aspect="equal")
+        axis = {"arrowprops": {"arrowstyle": "-|>", "color": "0.45", "linewidth": 0.7}}
+        ax.annotate("", (1.6 * self.half, low), (1.1 * self.half, low), annotation_clip=False, **axis)
+        ax.text(1.7 * self.half, low, "$x$", **NOTE)
+        ax.set_title(self.name, fontsize="small")
+        ax.axis("off")
+
+
+def side_views(case: Case, state: State) -> list[SideView]:
+    """The pads from the side where films have slopes; else none."""
+    found = geometry.surfaces(case, state, POINTS)
+    if not found.slope.any():
+        return []
+    radius, ratio = case["bearing"]["journal_radius"], geometry.of_pads(case, "pads%pivot_ratio")
+    scale = CLEARANCE / geometry.of_pads(case, "bearing%assembled_clearance").min()
+    outward, pitches = geometry.seen_by_pads(case, state)[1], "pitch" in case["pads"]["motion"]
+    offset = geometry.of_pads(case, "pads%pivot_axial_offset") if pitches else np.zeros(len(ratio))
+    fixed, views = case["pads"]["motion"] == "fixed", []
+    for k, half in enumerate(geometry.half_widths(case)):
+        x = np.array([-half, half])
+        middle, slope = (np.interp(1 - ratio[k], np.linspace(0, 1, POINTS), each[k])
+                         for each in (found.thickness, found.slope))  # fmt: skip
+        name = f"pad {k + 1}: slope {1e6 * outward[k]:.0f}"
+        name += f", pitch {1e6 * state.pitch[k]:.0f} µrad" if pitches else " µrad"
+        up = 1 if np.sin(found.pivot[k]) > 1e-9 else -1
+        films, journal = middle + slope * x, scale * outward[k] * x
+        pivot = None if fixed else offset[k] / radius
+        views.append(SideView(name, half / radius, films, scale, journal, pivot, up))
+    return views
 
 
 class Drawing:

@@ -148,18 +148,20 @@ def turning_of(run: Run) -> str:
 
 @layout.of_several
 def waveform(runs: Sequence[Run], last: float | None = None, pad: int | None = None) -> Figure:
-    """Journal, tilt and tilt rate over the last revolutions; of fixed pads film and pressure."""
+    """Journal, tilt and tilt rate over the last revolutions; of fixed pads film and pressure.
+
+    Where slopes count, the pitch of pads that have it and the films at both ends, too.
+    """
     last = last or 5
     pads = layout.shown_pads(runs, pad)
     of_pads = plots.PHASE if plots.all_tilt(runs) else plots.FILM
-    fig, panels = layout.stacked(["journal_y", "journal_z", *of_pads])
+    fig, panels = layout.stacked(["journal_y", "journal_z", *of_pads, *plots.of_slopes(runs)])
     for i, run in enumerate(runs):
         for name, ax in panels.items():
             for k, p in layout.drawn(run, name, pads):
                 plots.waveform(run, ax, name, last, pad=p, **layout.look(i, k, runs))
     longest = max(signals.turned(run, signals.last_revolutions(run, last)) for run in runs)
-    if of_pads == plots.FILM:
-        plots.label_films(panels)
+    plots.label_films(panels)
     for ax in panels.values():
         ax.set_xlim(0, longest)
     if len(runs) == 1:

@@ -16,13 +16,18 @@ from tiltpad.files.units import SHOWN, digits
 
 #: Of more pads around a bearing only the first has a word beside its number.
 MOST_NAMED = 12
+#: Places over half the width at which thicknesses are drawn where slopes count, and their dashes.
+ENDS = {"end of lower $x$": (-1, "--"), "middle of the width": (0, "-"), "end of higher $x$": (1, ":")}
+#: Points across the width among which the highest pressure is.
+ACROSS = 41
 
 
 @layout.of_several
 def pressure(runs: Sequence[Run], pad: int | None = None, time: float | None = None) -> Figure:
     """Film pressure over the unrolled pads, a panel each, at one instant (None: at the equilibrium).
 
-    All have one scale of colours; the highest pressure of each pad is a number above it.
+    All have one scale of colours; the highest pressure of each pad is a number above it. Where slopes count,
+    dashed lines are those of one film thickness.
     """
     pads = layout.shown_pads(runs, pad)
     columns = min(2, len(pads))
@@ -54,7 +59,8 @@ def pressure(runs: Sequence[Run], pad: int | None = None, time: float | None = N
         ax.label_outer() if len(runs) == 1 and len(pads) % columns == 0 and alike else None
     bar = {"label": SHOWN["pressure"].label, "aspect": 14 * rows, "fraction": 0.06}
     fig.colorbar(used[0].collections[0], ax=used, **bar)
-    fig.suptitle(layout.plain(instant(runs, time), layout.width(fig)))
+    lines = "; dashed lines: film thickness" if any(run.has_slopes for run in runs) else ""
+    fig.suptitle(layout.plain(instant(runs, time) + lines, layout.width(fig)))
     return fig
 
 
@@ -62,18 +68,26 @@ def pressure(runs: Sequence[Run], pad: int | None = None, time: float | None = N
 def film(runs: Sequence[Run], pad: int | None = None, time: float | None = None) -> Figure:
     """Thickness and pressure of the films around the bearing at one instant (None: at the equilibrium).
 
-    The pressure is that in the middle of the width. Pads of one bearing have their numbers.
+    The pressure is that in the middle of the width. Pads of one bearing have their numbers. Where slopes
+    count, the thickness at both ends has lines, too, and the pressure is the highest over the width.
     """
     pads = layout.shown_pads(runs, pad)
     fig, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(layout.PAGE, 3.8))
+    sloped = any(run.has_slopes for run in runs)
+    across = np.linspace(-1, 1, ACROSS) if sloped else np.zeros(1)
     for i, run in enumerate(runs):
         found = geometry.surfaces(run.in_operation, geometry.at_time(run, time))
-        around = library.pressure(run, time, along=found.angle.shape[1], across=np.zeros(1))
+        around = library.pressure(run, time, along=found.angle.shape[1], across=across)
+        half = geometry.half_widths(run.in_operation)
         for k in (k for k in pads if k <= run.pads):
-            line = layout.look(i, 0, runs) | {"linestyle": layout.DASHES[0]}
+            line = layout.look(i, 0, runs)
             x = np.degrees(found.angle[k - 1])
-            upper.plot(x, SHOWN["min_film_thickness"].factor * found.thickness[k - 1], **line)
-            lower.plot(x, SHOWN["pressure"].factor * around.pressure[k - 1, :, 0], **line)
+            for end, dashes in ENDS.values() if run.has_slopes else [ENDS["middle of the width"]]:
+                thickness = found.thickness[k - 1] + end * half[k - 1] * found.slope[k - 1]
+                y = SHOWN["min_film_thickness"].factor * thickness
+                upper.plot(x, y, **line | {"linestyle": dashes})
+            highest = around.pressure[k - 1].max(axis=1)
+            lower.plot(x, SHOWN["pressure"].factor * highest, **line | {"linestyle": layout.DASHES[0]})
     for k in (k for k in pads if len(bearings(runs)) == 1):
         place = {"xycoords": ("data", "axes fraction"), "ha": "center", "fontsize": "small", "color": "0.3"}
         name = f"pad {k}" if k == 1 or len(pads) <= MOST_NAMED else f"{k}"
@@ -85,12 +99,14 @@ def film(runs: Sequence[Run], pad: int | None = None, time: float | None = None)
     senses = {sense(run.input) for run in runs}
     moves = f"; the surface of the journal moves to the {'left' if senses == {1} else 'right'}"
     label = f"angle from $+z$ towards $+y$ (deg){moves if len(senses) == 1 else ''}"
-    lower.set(xlabel=label, ylabel="pressure in the\nmiddle (MPa)")
+    pressed = "highest pressure\nover the width" if sloped else "pressure in the\nmiddle"
+    lower.set(xlabel=label, ylabel=f"{pressed} (MPa)")
     lower.xaxis.set_major_locator(plt.MaxNLocator(12, steps=[1, 1.5, 3, 5, 10]))
+    marks = [(name, {"color": "0.3", "linestyle": dashes}) for name, (_, dashes) in ENDS.items() if sloped]
     if len(runs) > 1:
-        layout.legend(fig, runs, [])
+        layout.legend(fig, runs, marks)
     else:
-        fig.suptitle(layout.plain(instant(runs, time), layout.width(fig)))
+        layout.heading(fig, marks, instant(runs, time))
     return fig
 
 

@@ -33,6 +33,8 @@ BAND_FROM = 60
 ORBIT, PHASE, RISE = ("journal_z", "journal_y"), ("pad_tilt", "pad_tilt_rate"), ("journal_y", "journal_vy")
 #: What is drawn of pads that do not tilt.
 FILM = ("min_film_thickness", "max_pressure")
+#: What is drawn where slopes count: films at both ends.
+EDGES = ("start_film_thickness", "end_film_thickness")
 #: Revolutions of the path that is drawn under a Poincare section.
 PATH = 4
 #: Fewest and most revolutions of a window of a waterfall; more make sharper bands.
@@ -361,7 +363,7 @@ def waveform(
     part = signals.last_revolutions(run, last)
     turns, values = signals.revolutions(run, part), signals.series(run, name, part, pad)
     ax.plot(turns - turns[0], SHOWN[name].factor * values, **line)
-    if name == "min_film_thickness" and "asperity_force" in run:
+    if tells_contact(run, name):
         mark_contact(ax, turns - turns[0], signals.series(run, "asperity_force", part, pad))
     ax.set(xlabel="shaft revolutions", ylabel=SHOWN[name].label, xlim=(0, turns[-1] - turns[0]))
     return ax
@@ -383,7 +385,7 @@ def history(run: Run, ax: Axes, name: str = "journal_y", pad: int | None = None,
             (edge,) = ax.plot(middle, lower, **{**line, "linewidth": 0.6})
             ax.plot(middle, upper, **{**line, "color": edge.get_color(), "linewidth": 0.6})
             ax.fill_between(middle, lower, upper, facecolor=edge.get_color(), alpha=0.35, linewidth=0)
-    if name == "min_film_thickness" and "asperity_force" in run:
+    if tells_contact(run, name):
         middle, _, highest = signals.envelope(run, "asperity_force", cover=1)
         mark_contact(ax, middle, highest[column])
     ax.set(xlabel=SHOWN["time"].label, ylabel=shown.label, xlim=signals.ends(run, "time"))
@@ -402,8 +404,9 @@ def pressure(
     """Film pressure over an unrolled pad at the sample next to `time`, s, with its colour bar.
 
     Without `time` it is that of the equilibrium. The surface of the journal moves from right to left, from
-    the leading to the trailing edge. A `film` that is known already is not calculated again; with `levels`
-    there is no colour bar, as several pads share them.
+    the leading to the trailing edge. Where slopes count, dashed lines are those of one film thickness. A
+    `film` that is known already is not calculated again; with `levels` there is no colour bar, as several
+    pads share them.
     """
     column, film, shown = signals.pad_column(run, pad), film or library.pressure(run, time), SHOWN["pressure"]
     field = shown.factor * film.pressure[column].T
@@ -412,11 +415,26 @@ def pressure(
     filled = ax.contourf(x, y, field, **{"levels": levels, **contours})
     if "levels" not in contours:
         ax.figure.colorbar(filled, ax=ax, label=shown.label)
-    for x, edge in ((0.025, "trailing edge"), (0.975, "leading edge")):
+    for place, edge in ((0.025, "trailing edge"), (0.975, "leading edge")):
         note = {"rotation": 90, "ha": "center", "va": "center", "fontsize": "x-small", "color": "white"}
-        ax.text(x, 0.5, edge, transform=ax.transAxes, **note)
+        ax.text(place, 0.5, edge, transform=ax.transAxes, **note)
+    if run.has_slopes:
+        found = geometry.surfaces(run.in_operation, geometry.at_time(run, time), len(x))
+        thickness = found.thickness[column] + film.z[column][:, None] * found.slope[column]
+        look = {"colors": "white", "linewidths": 0.6, "linestyles": "--"}
+        # beside the words at the edges
+        part, height = slice(len(x) // 14, -(len(x) // 14)), SHOWN["min_film_thickness"].factor * thickness
+        lines = ax.contour(x[part], y, height[:, part], levels=6, **look)
+        ax.clabel(lines, fmt="%g µm", fontsize="x-small")
     ax.set(xlabel=SHOWN["phi"].label, ylabel=SHOWN["axial"].label)
     return ax
+
+
+def tells_contact(run: Run, name: str) -> bool:
+    """Whether contact of asperities is marked at this film: of both ends at the one that comes closer."""
+    if name in EDGES and "asperity_force" in run:
+        return name == min(EDGES, key=lambda each: run.values(each).min())
+    return name == "min_film_thickness" and "asperity_force" in run
 
 
 def mark_contact(ax: Axes, x: np.ndarray, force: np.ndarray) -> None:
@@ -442,11 +460,24 @@ def all_tilt(runs: Sequence[Run]) -> bool:
     return all(run.tilts for run in runs)
 
 
+def of_slopes(runs: Sequence[Run]) -> tuple[str, ...]:
+    """What is drawn, too, where slopes count in all runs: pitch of pads that have it, films at both ends."""
+    if not all(run.has_slopes for run in runs):
+        return ()
+    pitching = all("pitch" in run.input["pads"]["motion"] for run in runs)
+    return (*(("pad_pitch",) if pitching else ()), *EDGES)
+
+
 def label_films(panels: Mapping[str, Axes]) -> None:
-    """Labels in two lines, as long as a panel is high."""
-    for name, text in zip(FILM, ("minimum film\nthickness", "maximum\npressure"), strict=True):
+    """Labels in two lines, as long as a panel is high; films at both ends have one scale."""
+    edges = ("film, end of\nlower $x$", "film, end of\nhigher $x$")
+    texts = ("minimum film\nthickness", "maximum\npressure", *edges)
+    for name, text in zip((*FILM, *EDGES), texts, strict=True):
         if name in panels:
             panels[name].set_ylabel(f"{text} ({SHOWN[name].unit})")
+    if EDGES[0] in panels:
+        panels[EDGES[0]].sharey(panels[EDGES[1]])
+        panels[EDGES[0]].autoscale(axis="y")
 
 
 def shaft_frequency(run: Run) -> float:

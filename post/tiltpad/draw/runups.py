@@ -48,11 +48,13 @@ def mark_peak(ax: Axes, speed: np.ndarray, values: np.ndarray, quantity: str, co
 def runup(runs: Sequence[Run], pad: int | None = None) -> Figure:
     """Journal, tilt (unless pads are fixed) and film over the whole run, with the speed where it changes.
 
+    Where slopes count, the films at both ends stand for the film, and pads that pitch have their pitch.
     Marks along the bottom say where asperities touch the journal.
     """
     pads = layout.shown_pads(runs, pad)
     tilts = ["pad_tilt"] if plots.all_tilt(runs) else []
-    fig, panels = layout.stacked(["journal_y", "journal_z", *tilts, "min_film_thickness"])
+    films = plots.of_slopes(runs) or ("min_film_thickness",)
+    fig, panels = layout.stacked(["journal_y", "journal_z", *tilts, *films])
     for i, run in enumerate(runs):
         for name, ax in panels.items():
             for k, p in layout.drawn(run, name, pads):

@@ -51,6 +51,8 @@ SHOWN = {
     "journal_moment_z": Shown("moment on the journal, horizontal slope", 1, "N m"),
     "journal_slope_y": Shown("slope of the shaft in the bearing, vertical", 1e3, "mrad"),
     "journal_slope_z": Shown("slope of the shaft in the bearing, horizontal", 1e3, "mrad"),
+    "mean_moment_y": Shown("mean moment, vertical slope", 1, "N m"),
+    "mean_moment_z": Shown("mean moment, horizontal slope", 1, "N m"),
     "start_film_thickness": Shown("minimum film thickness, end of lower x", 1e6, "µm"),
     "end_film_thickness": Shown("minimum film thickness, end of higher x", 1e6, "µm"),
     "max_pressure_axial": Shown("axial place of the maximum pressure", 1e3, "mm"),
@@ -124,7 +126,8 @@ UNITS = {
     **{"inertia_pitch": "kg m²", "inertia_yaw": "kg m²", "pivot_axial_offset": "m", "slope": "rad"},
     "misalignment": "rad",
     **{"journal": "m", "journal_velocity": "m/s", "pad_tilt": "rad", "skew": "rad", "pad_tilt_rate": "rad/s"},
-    **{"pivot_deflection": "m", "pivot_deflection_rate": "m/s"},
+    **{"pivot_deflection": "m", "pivot_deflection_rate": "m/s", "pad_yaw": "rad", "pad_yaw_rate": "rad/s"},
+    **{"pad_pitch": "rad", "pad_pitch_rate": "rad/s"},
     **dict.fromkeys(("offset", "length", "contact_length", "diameter", "bore", "displacement"), "m"),
     **{"polar_inertia": "kg m²", "diametral_inertia": "kg m²", "moment": "kg m", "force": "N"},
     **{"amplitude": "N", "start": "s", "end": "s", "position": "m"},
@@ -156,9 +159,13 @@ def named(name: str) -> tuple[str, str]:
 
 
 def shown(text: str, unit: str, values: Sequence[float] | np.ndarray) -> Shown:
-    """The unit in which values of an input variable are shown: µm for lengths up to a millimetre."""
-    if unit == "m" and np.nanmax(np.abs(values), initial=0) <= 1e-3:
+    """The unit in which values of an input variable are shown: µm for lengths up to a millimetre, mrad for
+    angles in rad up to 0.01."""
+    largest = np.nanmax(np.abs(values), initial=0)
+    if unit == "m" and largest <= 1e-3:
         return Shown(text, 1e6, "µm")
+    if unit == "rad" and largest <= 1e-2:
+        return Shown(text, 1e3, "mrad")
     return Shown(text, 1, "" if unit == "1" else unit)
 
 
