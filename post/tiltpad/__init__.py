@@ -15,6 +15,7 @@ from typing import Any
 from tiltpad.calculate.coefficients import Coefficients, coefficients
 from tiltpad.calculate.critical_speeds import CriticalSpeed, critical_speeds, write_critical_speeds
 from tiltpad.calculate.deviations import deviations
+from tiltpad.calculate.geometry import film_thickness
 from tiltpad.calculate.heat import HeatBalance, heat_balance
 from tiltpad.calculate.impedance import impedance
 from tiltpad.calculate.library import (
@@ -109,6 +110,7 @@ __all__ = [
     "critical_speeds",
     "deviations",
     "envelope",
+    "film_thickness",
     "fit",
     "friction_coefficient",
     "friction_force",

@@ -169,7 +169,7 @@ contains
          end if
          if (allocated(static%films)) call put_film_temperatures(file, static%films(1))
          if (.not. shown) return
-         call print_equilibrium(title, static, bearing%tilting(), held_by()//ending)
+         call print_equilibrium(title, static, bearing, held_by()//ending)
          call print_figures(inputs, figures)
          if (allocated(figures%oil)) call print_temperatures(figures%oil, static%oil%viscosity)
          if (bearing%changes_shape()) call print_shape(bearing, run%shapes(b))
@@ -202,19 +202,21 @@ contains
    end subroutine print_shaft
 
    !> An equilibrium of a bearing, behind this title; `ending` ends its first line.
-   subroutine print_equilibrium(title, static, tilting, ending)
+   subroutine print_equilibrium(title, static, bearing, ending)
       character(len=*), intent(in) :: title, ending
       type(equilibrium_type), intent(in) :: static
-      logical, intent(in) :: tilting
+      type(bearing_type), intent(in) :: bearing
       character(len=:), allocatable :: pivot
       integer :: i
       print '(a)', title//filled('journal y {u.2}, z {u.2} um', static%rotor(:2))//ending
       do i = 1, size(static%pads)
          pivot = ''
-         if (tilting) pivot = filled('tilt {m.3} mrad, pivot deflection {u.2} um, contact {.1} N, ', &
+         if (bearing%tilting()) pivot = filled('tilt {m.3} mrad, pivot deflection {u.2} um, contact {.1} N, ', &
             & [static%pads(i)%x(tilt), static%pads(i)%x(pivot_deflection), static%pivot_load(i)])
-         if (allocated(static%slopes)) pivot = pivot//filled('pitch {m.4}, yaw {m.4} mrad, films at both ends {u.2}, ' &
-            & //'{u.2} um, ', [static%pads(i)%x([pitch, yaw]), static%slopes(i)%edge_films])
+         if (bearing%pitching()) pivot = pivot//filled('pitch {m.4} mrad, ', static%pads(i)%x([pitch]))
+         if (bearing%yawing()) pivot = pivot//filled('yaw {m.4} mrad, ', static%pads(i)%x([yaw]))
+         if (allocated(static%slopes)) pivot = pivot//filled('films at both ends {u.2}, {u.2} um, ', &
+            & static%slopes(i)%edge_films)
          print '(a)', filled('  pad {}: '//pivot//'minimum film thickness {u.2} um, maximum pressure {M.3} MPa', &
             & [real(wp) :: i, static%min_film_thickness(i), static%max_pressure(i)])
       end do

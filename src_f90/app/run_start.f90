@@ -205,8 +205,10 @@ contains
       do b = 1, size(inputs%bearings)
          associate (own => inputs%bearings(b))
             tilts = ''
-            if (own%tilting()) tilts = ', tilts ' &
-               & //list_text(1e3_wp*pads(before + 1:before + own%pad_count())%x(tilt), 4)//' mrad'
+            associate (its => pads(before + 1:before + own%pad_count()))
+               if (own%tilting()) tilts = ', tilts '//list_text(1e3_wp*its%x(tilt), 4)//' mrad'
+               if (own%pitching()) tilts = tilts//', pitch '//list_text(1e3_wp*its%x(pitch), 4)//' mrad'
+            end associate
             before = before + own%pad_count()
             print '(a)', 'start from '''//inputs%start%from//''': '//own%title()//filled('journal y {u.3}, z {u.3} ' &
                & //'um', journals(2*b - 1:2*b))//tilts

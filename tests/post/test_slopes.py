@@ -21,6 +21,8 @@ def test_films_are_where_the_program_has_them(run, tiltpad_set, rotation):
     for name, x in zip(ENDS, (-0.05, 0.05), strict=True):
         least = (found.thickness + x * found.slope).min(axis=1)
         np.testing.assert_allclose(least, case[name][100], rtol=1e-6)
+    ends = tiltpad.film_thickness(case, case.time[100], 4001, np.array([-1.0, 1.0])).min(axis=1)
+    np.testing.assert_allclose(ends.T, [case[name][100] for name in ENDS], rtol=1e-6)
     assert np.abs(case[ENDS[0]][100] / case[ENDS[1]][100] - 1).max() > 0.05
 
 

@@ -19,7 +19,7 @@ Case = Mapping[str, Mapping[str, Any]]
 
 
 class State(NamedTuple):
-    """Journal (y, z), and what pads do, (pad,) each, at a time, s (None: at rest)."""
+    """Journal (y, z) and its slopes, and what pads do, (pad,) each, at a time, s (None: at rest)."""
 
     time: float | None
     journal: np.ndarray
@@ -27,6 +27,7 @@ class State(NamedTuple):
     pivot_deflection: np.ndarray
     pitch: np.ndarray
     yaw: np.ndarray
+    slope: np.ndarray
 
 
 class Surfaces(NamedTuple):
@@ -46,7 +47,7 @@ def of_pads(case: Case, name: str) -> np.ndarray:
 def centred(case: Case) -> State:
     """The journal in the middle of the bearing, pads without tilt and pivot deflection."""
     none = np.zeros(len(of_pads(case, "pads%pivot_angle_deg")))
-    return State(None, np.zeros(2), none, none, none, none)
+    return State(None, np.zeros(2), none, none, none, none, library.given_slope(case))
 
 
 def at_rest(run: Run) -> State:
@@ -60,7 +61,8 @@ def at_rest(run: Run) -> State:
 def at_time(run: Run, time: float | None) -> State:
     """The sample next to `time`, s; None: the equilibrium."""
     at, journal, pads = library.state(run, time)
-    return State(at, journal[:2], *(each[0] for each in pads))
+    tilt, pivot_deflection, pitch, yaw = (each[0] for each in pads)
+    return State(at, journal[:2], tilt, pivot_deflection, pitch, yaw, library.journal_slope(run, at))
 
 
 def samples(run: Run, part: slice) -> list[State]:
@@ -69,17 +71,35 @@ def samples(run: Run, part: slice) -> list[State]:
     none = np.zeros((len(times), run.pads))
     own = (run.values(name, part) if name in run else none for name in library.OF_PADS)
     journal = np.column_stack([run.values(name, part) for name in ("journal_y", "journal_z")])
-    return [State(*each) for each in zip(times.tolist(), journal, *own, strict=True)]
+    slopes = library.journal_slopes(run, part)
+    return [State(*each) for each in zip(times.tolist(), journal, *own, slopes, strict=True)]
 
 
-def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:
-    """The surfaces of the pads from the trailing to the leading edge, and the film on them."""
+def film_thickness(
+    run: Run, time: float | None = None, along: int | np.ndarray = 121, across: int | np.ndarray = 41
+) -> np.ndarray:
+    """Film thickness of every pad where `tiltpad.pressure` has the pressure, (pad, phi, z), m.
+
+    It follows from the state at the sample next to `time`, s (None: at the equilibrium), with the slopes of
+    journal and pads; `along` and `across` are as for `tiltpad.pressure`.
+    """
+    case = run.in_operation
+    found = surfaces(case, at_time(run, time), along)
+    x = np.outer(half_widths(case), library.shares(across, -1, "half the width"))
+    return found.thickness[:, :, None] + found.slope[:, :, None] * x[:, None, :]
+
+
+def surfaces(case: Case, state: State, points: int | np.ndarray = 91) -> Surfaces:
+    """The surfaces of the pads from the trailing to the leading edge, and the film on them.
+
+    `points` is their number along the arc, or the points themselves as shares of the arc.
+    """
     radius, pivot = case["bearing"]["journal_radius"], np.radians(of_pads(case, "pads%pivot_angle_deg"))
     arc, ratio = np.radians(of_pads(case, "pads%arc_deg")), of_pads(case, "pads%pivot_ratio")
     assembled, machined = (of_pads(case, f"bearing%{name}_clearance") for name in ("assembled", "machined"))
     back = of_pads(case, "pads%pivot_distance")
     turning = sense(case)
-    phi = np.linspace(-(1 - ratio) * arc, ratio * arc, points).T
+    phi = np.outer(arc, library.shares(points, 0, "the arc")) - ((1 - ratio) * arc)[:, None]
     # the journal from the pivot, in the pad's own directions (docs/theory/film.md), or in a mirror
     own, reach = pivot - turning * state.tilt, radius + assembled + back + state.pivot_deflection
     y = state.journal[0] - reach * np.sin(pivot)
@@ -98,7 +118,7 @@ def surfaces(case: Case, state: State, points: int = 91) -> Surfaces:
 def seen_by_pads(case: Case, state: State) -> tuple[np.ndarray, np.ndarray]:
     """Slopes of the journal along each pad and outward, (pad,)."""
     own = np.radians(of_pads(case, "pads%pivot_angle_deg")) - sense(case) * state.tilt
-    y, z = case["bearing"].get("slope", (0.0, 0.0))
+    y, z = state.slope
     return sense(case) * (y * np.cos(own) - z * np.sin(own)), y * np.sin(own) + z * np.cos(own)
 
 

@@ -8,11 +8,13 @@ text is read and checked as by the program; a variable that it leaves out has it
 refuses the input, LibraryError has the message of the program.
 """
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tiltpad.calculate import signals
+from tiltpad.files import namelist
 from tiltpad.files.archive import not_in_run, reading
 from tiltpad.files.read import Run
 
@@ -27,6 +29,8 @@ PAPER = "&case /"
 
 #: Position and velocity of the journal.
 JOURNAL = ("journal_y", "journal_z", "journal_vy", "journal_vz")
+#: Slopes of an elastic shaft in the bearing.
+SLOPES = ("journal_slope_y", "journal_slope_z")
 #: What pads do, as the library takes it.
 OF_PADS = ("pad_tilt", "pivot_deflection", "pad_pitch", "pad_yaw")
 
@@ -124,8 +128,9 @@ def pressure(
     at, journal, pads = state(run, time)
     points = shares(along, 0, "the arc"), shares(across, -1, "half the width")
     when = 0.0 if at is None else at
+    inclined = namelist.with_values(run.operating_text, {"slope": journal_slope(run, at)})
     phi, z, field, force, max_pressure, min_film_thickness = called(
-        "film_pressure", run, *oil(run, at), when, journal, np.stack(pads, axis=1), *points
+        "film_pressure", run, *oil(run, at), when, journal, np.stack(pads, axis=1), *points, text=inclined
     )
     return Pressure(at, field.T, phi.T, z.T, force.T, max_pressure, min_film_thickness)
 
@@ -199,6 +204,26 @@ def state(run: Run, time: float | None) -> tuple[float | None, np.ndarray, tuple
     return float(run.values("time", k)), sample(*JOURNAL), tuple(pads(name) for name in OF_PADS)
 
 
+def given_slope(groups: Mapping[str, Any]) -> np.ndarray:
+    """The slopes dy/dx and dz/dx that the input gives the journal, (2,)."""
+    return np.array(groups["bearing"].get("slope", (0.0, 0.0)), float)
+
+
+def journal_slope(run: Run, time: float | None) -> np.ndarray:
+    """Slopes of the journal that count in films, (2,), at the time of a sample, s (None: equilibrium)."""
+    if time is not None:
+        at = run.first("time", time)
+        return journal_slopes(run, slice(at, at + 1))[0]
+    return given_slope(run.input) + [run["equilibrium"].get(name, 0.0) for name in SLOPES]
+
+
+def journal_slopes(run: Run, part: slice) -> np.ndarray:
+    """The same of the samples `part`, (time, 2)."""
+    still = np.zeros(len(run.values("time", part)))
+    shaft = [run.values(name, part) if name in run else still for name in SLOPES]
+    return given_slope(run.input) + np.column_stack(shaft)
+
+
 def shares(points: int | np.ndarray, first: float, of: str) -> np.ndarray:
     """Shares `of` something as they are given, or a number of them, evenly spaced from `first` to 1."""
     if isinstance(points, int | np.integer):
@@ -260,9 +285,13 @@ def elementwise(name: str, case: Run | str, pad: int, *arguments: float | np.nda
     return [each.reshape(arrays[0].shape) for each in results]
 
 
-def called(name: str, case: Run | str, *arguments: Any) -> list[Any]:
-    """The results of a routine of the library for a case; an error of the library is raised."""
-    text, source = (case.operating_text, case.path) if isinstance(case, Run) else (case, "case")
+def called(name: str, case: Run | str, *arguments: Any, text: str | None = None) -> list[Any]:
+    """The results of a routine of the library for a case; an error of the library is raised.
+
+    `text` is the case where it is not that of the run.
+    """
+    own, source = (case.operating_text, case.path) if isinstance(case, Run) else (case, "case")
+    text = text or own
     if compiled is None:
         built = "`make python` builds it, and `make wheel` packs it"
         raise MissingLibraryError(f"the compiled part of the package tiltpad is missing ({missing}): {built}")

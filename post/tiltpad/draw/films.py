@@ -17,7 +17,8 @@ from tiltpad.files.units import SHOWN, digits
 #: Of more pads around a bearing only the first has a word beside its number.
 MOST_NAMED = 12
 #: Places over half the width at which thicknesses are drawn where slopes count, and their dashes.
-ENDS = {"end of lower $x$": (-1, "--"), "middle of the width": (0, "-"), "end of higher $x$": (1, ":")}
+MIDDLE = (0, "-")
+ENDS = {"end of lower $x$": (-1, "--"), "middle of the width": MIDDLE, "end of higher $x$": (1, ":")}
 #: Points across the width among which the highest pressure is.
 ACROSS = 41
 
@@ -76,14 +77,14 @@ def film(runs: Sequence[Run], pad: int | None = None, time: float | None = None)
     sloped = any(run.has_slopes for run in runs)
     across = np.linspace(-1, 1, ACROSS) if sloped else np.zeros(1)
     for i, run in enumerate(runs):
-        found = geometry.surfaces(run.in_operation, geometry.at_time(run, time))
-        around = library.pressure(run, time, along=found.angle.shape[1], across=across)
-        half = geometry.half_widths(run.in_operation)
+        angle = geometry.surfaces(run.in_operation, geometry.at_time(run, time)).angle
+        around = library.pressure(run, time, along=angle.shape[1], across=across)
+        ends = ENDS.values() if run.has_slopes else [MIDDLE]
+        films = geometry.film_thickness(run, time, angle.shape[1], np.array([end for end, _ in ends]))
         for k in (k for k in pads if k <= run.pads):
             line = layout.look(i, 0, runs)
-            x = np.degrees(found.angle[k - 1])
-            for end, dashes in ENDS.values() if run.has_slopes else [ENDS["middle of the width"]]:
-                thickness = found.thickness[k - 1] + end * half[k - 1] * found.slope[k - 1]
+            x = np.degrees(angle[k - 1])
+            for (_, dashes), thickness in zip(ends, films[k - 1].T, strict=True):
                 y = SHOWN["min_film_thickness"].factor * thickness
                 upper.plot(x, y, **line | {"linestyle": dashes})
             highest = around.pressure[k - 1].max(axis=1)

@@ -419,8 +419,10 @@ def pressure(
         note = {"rotation": 90, "ha": "center", "va": "center", "fontsize": "x-small", "color": "white"}
         ax.text(place, 0.5, edge, transform=ax.transAxes, **note)
     if run.has_slopes:
-        found = geometry.surfaces(run.in_operation, geometry.at_time(run, time), len(x))
-        thickness = found.thickness[column] + film.z[column][:, None] * found.slope[column]
+        sizes = ("pads%arc_deg", "pads%pivot_ratio", "bearing%axial_length")
+        arc, ratio, length = (geometry.of_pads(run.input, name)[column] for name in sizes)
+        shares = np.clip(x / arc + 1 - ratio, 0, 1), np.clip(2 * film.z[column] / length, -1, 1)
+        thickness = geometry.film_thickness(run, time, *shares)[column].T
         look = {"colors": "white", "linewidths": 0.6, "linestyles": "--"}
         # beside the words at the edges
         part, height = slice(len(x) // 14, -(len(x) // 14)), SHOWN["min_film_thickness"].factor * thickness
