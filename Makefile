@@ -201,7 +201,7 @@ help:
 	@echo 'make bench    measures run time against error, and other programs, a quarter of an hour; writes docs/benchmarks.md'
 	@echo 'make speed OLD=COMMIT   compares the speed with that of an older commit, in pairs of runs, twenty minutes'
 	@echo 'make whirl    runs the commands of docs/whirl.md and draws its pictures, some minutes'
-	@echo 'make misalignment  the same of docs/misalignment.md, half a minute'
+	@echo 'make misalignment  the same of docs/misalignment.md, a minute'
 	@echo 'make paper    makes the figures and checks the claims of the paper, a minute or two; writes docs/paper'
 	@echo 'make build    builds build/bin/tiltpad          (MODE=debug: build/debug/bin/tiltpad)'
 	@echo 'make deps     installs missing packages (as root or with sudo; otherwise prints the list and stops)'

@@ -12,6 +12,13 @@ from commands import follow
 
 #: Studies of the slope, and what the page calls their pads.
 PADS = {"tilting": "tilt only", "pitching": "pitch freely", "held": "held by friction"}
+#: Runs of the slender rotor, and what the page says of their films.
+FILMS = {
+    "ignored": "ignore slopes",
+    "bent": "know slopes, pads cannot pitch",
+    "pitch": "pads pitch",
+    "yaw": "pads pitch and yaw",
+}
 #: Pitch from which the pads start, and what counts as released, rad.
 START, RELEASED = 40e-6, 2e-6
 
@@ -29,6 +36,15 @@ def over_slopes(folder: Path) -> Iterator[str]:
             yield f"| {slope} urad | {words} | {film:.1f} | {pressure:.2f} | {shown} |"
 
 
+def thresholds(folder: Path) -> Iterator[str]:
+    """Rows of the table of thresholds."""
+    for name, words in FILMS.items():
+        with tiltpad.read(folder / f"{name}.h5") as run:
+            free, stuck = (tiltpad.modes(run, pivots).threshold_rpm for pivots in ("free", "stuck"))
+        found = f"{free:.0f}" if np.isfinite(free) else "above 10000"
+        yield f"| {words} | {found} | {stuck:.0f} |"
+
+
 def figures(folder: Path) -> Iterator[str]:
     """The words of the page with figures, as the runs have them now."""
     yield from over_slopes(folder)
@@ -42,7 +58,7 @@ def figures(folder: Path) -> Iterator[str]:
     yield f"{bears}, which is {pitch[0]:.0f} and {pitch[1]:.0f} urad of pitch"
     with tiltpad.read(folder / "still.h5") as still:
         yield f"stays at {1e6 * still['pad_pitch'][-1, 0]:.1f} urad"
-    for name in ("slow", "fast"):
+    for name in ("slow", "paper", "fast"):
         with tiltpad.read(folder / f"{name}.h5") as run:
             above = np.flatnonzero(np.abs(run["pad_pitch"]).max(axis=1) > RELEASED)
             unbalance = run.input["rotor"]["unbalance"]
@@ -56,6 +72,7 @@ def figures(folder: Path) -> Iterator[str]:
     with tiltpad.read(folder / "groove.h5") as run:
         end = run.input["bearing"]["axial_length"][0] / 2
         yield f"{1e3 * (end + run['equilibrium/max_pressure_axial'][0]):.0f} mm from the end"
+    yield from thresholds(folder)
 
 
 if __name__ == "__main__":

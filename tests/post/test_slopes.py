@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-import tiltpad
+import tiltpad as package
 from tiltpad import figures
 from tiltpad.calculate import differences, geometry
 from tiltpad.draw import bearing
@@ -21,7 +21,7 @@ def test_films_are_where_the_program_has_them(run, tiltpad_set, rotation):
     for name, x in zip(ENDS, (-0.05, 0.05), strict=True):
         least = (found.thickness + x * found.slope).min(axis=1)
         np.testing.assert_allclose(least, case[name][100], rtol=1e-6)
-    ends = tiltpad.film_thickness(case, case.time[100], 4001, np.array([-1.0, 1.0])).min(axis=1)
+    ends = package.film_thickness(case, case.time[100], 4001, np.array([-1.0, 1.0])).min(axis=1)
     np.testing.assert_allclose(ends.T, [case[name][100] for name in ENDS], rtol=1e-6)
     assert np.abs(case[ENDS[0]][100] / case[ENDS[1]][100] - 1).max() > 0.05
 
@@ -43,7 +43,7 @@ def test_films_at_both_ends_are_drawn(run):
 def test_pressures_have_lines_of_thickness(run):
     case = run("pitching")
     for of, lines in ((case, 1), (run("none"), 0)):
-        ax = tiltpad.plots.pressure(of)
+        ax = package.plots.pressure(of)
         drawn = [text.get_text() for text in ax.texts if text.get_text().endswith("µm")]
         assert len(ax.collections) == 1 + lines
         assert bool(drawn) == bool(lines)
@@ -88,7 +88,7 @@ def test_figures_of_the_last_revolution(run):
     for name in ("pad_pitch", "pad_yaw"):
         np.testing.assert_array_equal(case[f"summary/{name}_max"], case[name][last].max(axis=0))
         np.testing.assert_array_equal(case[f"summary/{name}_min"], case[name][last].min(axis=0))
-    page = tiltpad.report.report(case)
+    page = package.report.report(case)
     assert "<td>highest pitch</td>" in page
     assert "<td>minimum film thickness at the end of lower x</td>" in page
     assert "summary/mean_moment_y" not in run("none")
@@ -97,3 +97,19 @@ def test_figures_of_the_last_revolution(run):
 def test_runs_with_other_pads_are_named_by_what_these_can_do(run):
     names = differences.differences([run("pitching").input, run("none").input])
     assert "inertia" not in "".join(names)
+
+
+def test_films_on_a_shaft_that_bends(tiltpad, root, opened, tmp_path):
+    """Its slopes in the bearing are those of the file, also for the pressures that the library solves."""
+    words = (root / "input/examples/slender.nml", "-q", "-o", "a.h5")
+    tiltpad(*words, overrides=("case%task=equilibrium",), cwd=tmp_path, status=0)
+    case = opened(tmp_path / "a.h5").bearings["front"]
+    assert case.has_slopes
+    ends = package.film_thickness(case, None, 4001, np.array([-1.0, 1.0])).min(axis=1)
+    np.testing.assert_allclose(ends.T, [case[f"equilibrium/{name}"] for name in ENDS], rtol=1e-6)
+    found = package.pressure(case)
+    np.testing.assert_allclose(found.min_film_thickness, case["equilibrium/min_film_thickness"], rtol=1e-6)
+    np.testing.assert_allclose(found.max_pressure, case["equilibrium/max_pressure"], rtol=1e-3)
+    y, z = (case[f"equilibrium/journal_slope_{axis}"] for axis in "yz")
+    # the pad stands at -45 degrees
+    assert f"slope {1e6 * (z - y) / np.sqrt(2):.0f}" in bearing.bearing(case).axes[2].get_title()

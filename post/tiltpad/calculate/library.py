@@ -128,9 +128,9 @@ def pressure(
     at, journal, pads = state(run, time)
     points = shares(along, 0, "the arc"), shares(across, -1, "half the width")
     when = 0.0 if at is None else at
-    inclined = namelist.with_values(run.operating_text, {"slope": journal_slope(run, at)})
+    known = (*oil(run, at), when, journal, np.stack(pads, axis=1))
     phi, z, field, force, max_pressure, min_film_thickness = called(
-        "film_pressure", run, *oil(run, at), when, journal, np.stack(pads, axis=1), *points, text=inclined
+        "film_pressure", run, *known, *points, slope=journal_slope(run, at)
     )
     return Pressure(at, field.T, phi.T, z.T, force.T, max_pressure, min_film_thickness)
 
@@ -139,8 +139,8 @@ def losses(run: Run, last: float | None = None) -> Losses:
     """Load, power loss and oil flow of every pad over the last revolutions, from the archived states.
 
     The film of each sample is solved anew, whatever solver the run had: some microseconds for a pad with a
-    full film, a millisecond where it cavitates. A sample whose film is closed has no numbers. Raises
-    NotInRunError for a run that was not marched.
+    full film, a millisecond where it cavitates. A sample whose film is closed has no numbers. An elastic
+    shaft has its mean slopes. Raises NotInRunError for a run that was not marched.
     """
     part = signals.last_revolutions(run, last)
     time = run.values("time", part)
@@ -153,7 +153,8 @@ def losses(run: Run, last: float | None = None) -> Losses:
         return np.moveaxis(np.array(values), 1, -1)
 
     states = np.stack([motion(name) for name in OF_PADS], axis=1)
-    (found,) = called("power_losses", run, *oil(run, time.mean()), time, np.array(journal), states)
+    known, slope = oil(run, time.mean()), journal_slopes(run, part).mean(axis=0)
+    (found,) = called("power_losses", run, *known, time, np.array(journal), states, slope=slope)
     load, couette, pressure, boundary, *others = np.moveaxis(found, -1, 1)
     return Losses(time, load, couette + pressure + boundary, couette, pressure, boundary, *others)
 
@@ -285,13 +286,14 @@ def elementwise(name: str, case: Run | str, pad: int, *arguments: float | np.nda
     return [each.reshape(arrays[0].shape) for each in results]
 
 
-def called(name: str, case: Run | str, *arguments: Any, text: str | None = None) -> list[Any]:
+def called(name: str, case: Run | str, *arguments: Any, slope: np.ndarray | None = None) -> list[Any]:
     """The results of a routine of the library for a case; an error of the library is raised.
 
-    `text` is the case where it is not that of the run.
+    With `slope` the journal has these slopes instead of those of the case.
     """
-    own, source = (case.operating_text, case.path) if isinstance(case, Run) else (case, "case")
-    text = text or own
+    text, source = (case.operating_text, case.path) if isinstance(case, Run) else (case, "case")
+    if slope is not None:
+        text = namelist.with_values(text, {"slope": slope})
     if compiled is None:
         built = "`make python` builds it, and `make wheel` packs it"
         raise MissingLibraryError(f"the compiled part of the package tiltpad is missing ({missing}): {built}")

@@ -33,7 +33,7 @@ ON_SHAFTS = ("disc", "unbalance", "bow", "load", "element", "impeller", "support
 SEVERAL = (*OF_BEARINGS, *ON_SHAFTS)
 #: Groups and variables of a machine that a case of one bearing has not.
 OF_MACHINES = ("shaft", "reduction", "rotor", "lateral", *ON_SHAFTS)
-OF_PLACES = ("name", "kind", "station", "offset")
+OF_PLACES = ("name", "kind", "station", "offset", "misalignment")
 #: The least mass, kg, that a rotor may have.
 LEAST_MASS = 1e-6
 
@@ -106,7 +106,7 @@ def bearing_names(groups: Mapping[str, Any]) -> list[str]:
 def of_bearing(text: str, name: str, load: Sequence[float] = (0, 0)) -> str:
     """The namelist text of one bearing of a machine, as a case of its own under this load (y, z), N.
 
-    Its rotor is the mass that the bearing carries, and what else the load is.
+    Its rotor is the mass that the bearing carries, and what else the load is, on a journal without slope.
     """
     gravity = parse(text).get("rotor", {}).get("gravity", 0)
     mass = max(LEAST_MASS, -load[0] / gravity) if gravity > 0 else LEAST_MASS
@@ -118,7 +118,7 @@ def of_bearing(text: str, name: str, load: Sequence[float] = (0, 0)) -> str:
         if group not in OF_MACHINES and (not of_any or name in (own.get("name"), own.get("bearing"))):
             places = (*OF_PLACES, "bearing") if of_any else ()
             lines = (line for line in block.splitlines() if line.split("=")[0].strip() not in places)
-            kept.append("\n".join(lines) + "\n")
+            kept.append(re.sub("shaft_slope = .*", "slope = 0.0, 0.0", "\n".join(lines)) + "\n")
     return "".join(kept)
 
 

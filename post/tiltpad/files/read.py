@@ -334,8 +334,8 @@ class Run(Archive):
     def has_slopes(self) -> bool:
         """True where slopes of journal or shaft count in the films, as where pads pitch."""
         asked = self.task == "coefficients" and self.input["coefficients"].get("slopes", False)
-        bearing = self.input["bearing"]
-        inclined = any(bearing.get("slope", ())) or bearing.get("shaft_slope") == "film"
+        shaft = any(f"{group}journal_slope_y" in self for group in ("", "equilibrium/"))
+        inclined = any(self.input["bearing"].get("slope", ())) or shaft
         return bool("pitch" in self.input["pads"]["motion"] or inclined or asked)
 
     def is_cold(self, name: str) -> bool:
