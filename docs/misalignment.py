@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import tiltpad
-from commands import follow
+from page_commands import follow
 
 #: Studies of the slope, and what the page calls their pads.
 PADS = {"tilting": "tilt only", "pitching": "pitch freely", "held": "held by friction"}

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import tiltpad
-from commands import follow
+from page_commands import follow
 from tiltpad.calculate.basins import basin
 from tiltpad.calculate.branches import bifurcations
 
