@@ -142,31 +142,30 @@ contains
       logical, intent(in) :: cavitates
       real(wp), intent(in) :: e, root, w(2)
       real(wp), intent(out) :: second(2, 2), third(2, 2)
-      real(wp) :: i(7), middle, reach, part
-      middle = 0
-      reach = pi
-      part = 1
+      !> Of cos^2, cos sin, sin^2, then of cos^3, cos^2 sin, cos sin^2, sin^3 of the angle from u, over powers of root.
+      real(wp) :: p(7), along(2)
       if (cavitates .and. norm2(w) > 0) then
-         middle = atan2(w(2), w(1))
-         reach = pi/2
-      else if (cavitates) then
-         part = 0.5_wp
-      end if
-      ! of cos^2, cos sin, sin^2 and of cos^3, cos^2 sin, cos sin^2, sin^3
-      i = part*(primitives(middle + reach) - primitives(middle - reach))/root**[5, 4, 3, 7, 6, 5, 4]
-      second = reshape(i([1, 2, 2, 3]), [2, 2])
-      third = 3*(w(1)*reshape(i([4, 5, 5, 6]), [2, 2]) + w(2)*reshape(i([5, 6, 6, 7]), [2, 2]))
-   contains
-      !> Of the integrands in Sommerfeld's angle s, at the angle a.
-      pure function primitives(a) result(p)
-         real(wp), intent(in) :: a
-         real(wp) :: p(7), s, sine, cosine
-         ! tan(s/2) = sqrt((1 + e)/(1 - e)) tan(a/2), without leaps
-         associate (ratio => e/(1 + root))
-            s = a + 2*atan2(ratio*sin(a), 1 - ratio*cos(a))
+         ! the limits are b +- pi/2 with b of this cosine and sine
+         along = w/norm2(w)
+         associate (h => [1 + e*along(2), 1 - e*along(2)])
+            p = primitives(pi + 2*atan(e/root*along(1)), root*along(1)/h(1), -(along(2) + e)/h(1)) &
+               & - primitives(0.0_wp, -root*along(1)/h(2), (along(2) - e)/h(2))
          end associate
-         sine = sin(s)
-         cosine = cos(s)
+      else
+         p = primitives(merge(pi, 2*pi, cavitates), 0.0_wp, -1.0_wp) - primitives(0.0_wp, 0.0_wp, -1.0_wp)
+      end if
+      second(:, 1) = [p(1)/root, p(2)]
+      second(:, 2) = [p(2), p(3)*root]
+      second = second/root**4
+      third(:, 1) = [w(1)*p(4) + w(2)*p(5)*root, (w(1)*p(5) + w(2)*p(6)*root)*root]
+      third(:, 2) = [third(2, 1), (w(1)*p(6) + w(2)*p(7)*root)*root**2]
+      third = 3*third/root**7
+   contains
+      !> Of the integrands in Sommerfeld's angle s, of which these are sine and cosine: (cos a - e)/(1 - e cos a) is the
+      !> cosine where a is the angle, and root sin a/(1 - e cos a) the sine.
+      pure function primitives(s, sine, cosine) result(p)
+         real(wp), intent(in) :: s, sine, cosine
+         real(wp) :: p(7)
          p = [(s + sine*cosine)/2 + 2*e*sine + e**2*s, sine**2/2 - e*cosine, (s - sine*cosine)/2, &
             & sine - sine**3/3 + 1.5_wp*e*(s + sine*cosine) + 3*e**2*sine + e**3*s, -(cosine + e)**3/3, &
             & sine**3/3 + e/2*(s - sine*cosine), cosine**3/3 - cosine]
