@@ -35,6 +35,7 @@ module elastic_rotor
       procedure :: newton_right
       procedure :: row_accelerations
       procedure :: has_own_frequencies
+      procedure :: whirl_ends
       procedure :: whirl_changes
    end type elastic_rotor_type
 
@@ -298,27 +299,44 @@ contains
       if (allocated(self%matrices%elements)) has_own_frequencies = any(self%matrices%elements%own_frequency)
    end function has_own_frequencies
 
-   !> What a whirl at another frequency than that of the speed, both in rad/s, changes of its matrices.
-   pure subroutine whirl_changes(self, speed, whirl, stiffness, damping, mass)
+   !> The elements that depend on the frequency of a whirl.
+   pure function of_own_frequency(self) result(chosen)
+      class(elastic_rotor_type), intent(in) :: self
+      integer, allocatable :: chosen(:)
+      integer :: i
+      allocate (chosen(0))
+      if (self%has_own_frequencies()) chosen = pack([(i, i=1, self%elements)], self%matrices%elements%own_frequency)
+   end function of_own_frequency
+
+   !> What the displacements of the rotor are between the ends of these elements, (two of each, displacement).
+   pure function whirl_ends(self) result(ends)
+      class(elastic_rotor_type), intent(in) :: self
+      real(wp), allocatable :: ends(:, :)
+      integer :: i
+      associate (chosen => of_own_frequency(self))
+         allocate (ends(2*size(chosen), self%positions))
+         do i = 1, size(chosen)
+            ends(2*i - 1:2*i, :) = self%matrices%elements(chosen(i))%ends
+         end do
+      end associate
+   end function whirl_ends
+
+   !> What a whirl at another frequency than that of the speed, both in rad/s, changes of stiffness, damping and mass
+   !> between these ends.
+   pure function whirl_changes(self, speed, whirl) result(changes)
       class(elastic_rotor_type), intent(in) :: self
       real(wp), intent(in) :: speed, whirl
-      real(wp), intent(out), dimension(:, :) :: stiffness, damping, mass
-      real(wp) :: c(2, 2, 3)
+      real(wp), allocatable :: changes(:, :, :)
       integer :: i
-      stiffness = 0
-      damping = 0
-      mass = 0
-      if (.not. self%has_own_frequencies()) return
-      do i = 1, size(self%matrices%elements)
-         associate (e => self%matrices%elements(i))
-            if (.not. e%own_frequency) cycle
-            c = e%coefficients(speed, whirl) - e%coefficients(speed)
-            stiffness = stiffness + e%onto_rotor(c(:, :, 1))
-            damping = damping + e%onto_rotor(c(:, :, 2))
-            mass = mass + e%onto_rotor(c(:, :, 3))
-         end associate
-      end do
-   end subroutine whirl_changes
+      associate (chosen => of_own_frequency(self))
+         allocate (changes(2*size(chosen), 2*size(chosen), 3), source=0.0_wp)
+         do i = 1, size(chosen)
+            associate (e => self%matrices%elements(chosen(i)), at => [2*i - 1, 2*i])
+               changes(at, at, :) = e%coefficients(speed, whirl) - e%coefficients(speed)
+            end associate
+         end do
+      end associate
+   end function whirl_changes
 
    !> P = 1: forces.
    pure function newton_rows(self, forces) result(rows)
