@@ -75,7 +75,7 @@ contains
       !> Temperatures in the films, where these have some.
       type(warm_films_type), allocatable, intent(out), optional :: films(:)
       type(equilibrium_type) :: static
-      call seek_equilibrium(run, static, error)
+      call seek_equilibrium(run, static, error, settles=.true.)
       if (allocated(error)) return
       call make_fine(run%model, fine)
       if (run%inputs%held%is_wanted()) then
@@ -94,17 +94,18 @@ contains
       if (present(films) .and. allocated(static%films)) films = static%films
    end subroutine find_converged_equilibrium
 
-   !> Creates the file and finds the equilibrium.
-   subroutine seek_equilibrium(run, static, error)
+   !> Creates the file and finds the equilibrium (`settles` of find_equilibrium).
+   subroutine seek_equilibrium(run, static, error, settles)
       type(case_run_type), intent(inout) :: run
       type(equilibrium_type), intent(out) :: static
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(in), optional :: settles
       call create_file(run, error)
       if (allocated(error)) return
       if (run%inputs%held%is_wanted()) then
          call find_held_equilibrium(run%model, run%inputs, static, error)
       else
-         call find_equilibrium(run%model, static, error)
+         call find_equilibrium(run%model, static, error, settles)
       end if
       call say_nothing_computed(error)
       if (.not. allocated(error)) call take_shapes(run, static%shapes)

@@ -12,7 +12,7 @@ module equilibrium
    use state_layout, only: pad_state, of_journal
    use equations_of_motion, only: machine_model, new_machine_model
    use force_balance, only: bearing_derivatives, part_derivatives
-   use equilibrium_record, only: equilibrium_type, describe_with_stability
+   use equilibrium_record, only: equilibrium_type, describe, describe_with_stability
    use static_model, only: solve_equilibrium, make_static
    use film_network, only: warm_films_type
    use thermal_equilibrium, only: solve_warm_films, solve_thermal_equilibrium, solve_shape
@@ -59,12 +59,13 @@ module equilibrium
 contains
 
    !> The equilibrium of a static model of a machine, which then has the viscosities of its oil. `known`: found is an
-   !> equilibrium of films that differ a little, from which it starts.
-   subroutine share_loads(model, found, error, known)
+   !> equilibrium of films that differ a little, from which it starts; `settles`: another model settles it, so that its
+   !> stability is not asked.
+   subroutine share_loads(model, found, error, known, settles)
       type(machine_model), intent(inout) :: model
       type(equilibrium_type), intent(inout) :: found
       type(error_type), allocatable, intent(out) :: error
-      logical, intent(in), optional :: known
+      logical, intent(in), optional :: known, settles
       type(rotor_at_rest) :: rotor
       type(share_type) :: shares(size(model%bearings))
       real(wp) :: loads(2*size(shares))
@@ -248,7 +249,12 @@ contains
             if (.not. allocated(error) .and. .not. present(known) .and. any(model%layout%elements%of_rotor &
                & > of_journal)) call solve_thermal_equilibrium(model, y, found%residual, error)
          end if
-         if (.not. allocated(error)) call describe_with_stability(model, y, found, error)
+         if (allocated(error)) return
+         if (present(settles)) then
+            call describe(model, y, found)
+         else
+            call describe_with_stability(model, y, found, error)
+         end if
       end subroutine join
    end subroutine share_loads
 
@@ -404,17 +410,18 @@ contains
 
    !> The equilibrium of a model under its loads at its initial speed, stable or of oscillatory instability, with the
    !> temperatures of warm oil; an error where none is found, or, of status `stopped`, where its `give_up`, asked
-   !> between evaluations of the films, says so.
-   subroutine find_equilibrium(model, found, error)
+   !> between evaluations of the films, says so. `settles`: settle_equilibrium follows, and finds its stability.
+   subroutine find_equilibrium(model, found, error, settles)
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(in), optional :: settles
       type(machine_model) :: static
       real(wp), allocatable :: y(:)
       logical :: by_heat
       if (.not. model%inputs%rotor%is_rigid()) then
          call make_static(model, model%point%cavitation, static)
-         call share_loads(static, found, error)
+         call share_loads(static, found, error, settles=settles)
       else
          call find_bearing_equilibrium(model, found, error, by_heat)
          if (by_heat) then
