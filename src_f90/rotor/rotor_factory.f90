@@ -56,6 +56,8 @@ contains
       call new_elastic_rotor(matrices, inputs%unbalance(), inputs%operation%speed_rpm*rpm, elastic, ok)
       if (.not. ok) then
          refusal = 'machine: nothing holds its shaft: stiffness of bearings and elements leave it free in a direction'
+      else if (elastic%elements > 0 .and. .not. is_positive_definite(matrices%mass)) then
+         refusal = 'element%mass: takes away more mass in a direction than the machine has'
       else if (any(inputs%excitations%station > elastic%stations)) then
          refusal = 'excitation: station = '//to_text(maxval(inputs%excitations%station))//': the rotor has '// &
             & to_text(elastic%stations)//' stations'
@@ -63,6 +65,19 @@ contains
          allocate (rotor, source=elastic)
       end if
    end subroutine make_rotor
+
+   !> Of a square matrix its symmetric part, by Cholesky's factor.
+   logical function is_positive_definite(matrix)
+      real(wp), intent(in) :: matrix(:, :)
+      real(wp) :: band(size(matrix, 1), size(matrix, 1))
+      integer :: info, j, n
+      n = size(matrix, 1)
+      do j = 1, n
+         band(n - j + 1:, j) = (matrix(:j, j) + matrix(j, :j))/2
+      end do
+      call dpbtrf('U', n, n - 1, band, n, info)
+      is_positive_definite = info == 0
+   end function is_positive_definite
 
    !> Highest speed of a task, rad/s, with those of a branch over the speed and of a search of threshold speeds.
    pure real(wp) function highest_speed(inputs)

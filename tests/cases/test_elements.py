@@ -159,6 +159,7 @@ FILE_REFUSED = {
 }
 
 REFUSED = {
+    "&element station=3, mass=-1e3,0,0,-1e3 /": "element%mass: takes away more mass in a direction than the",
     "&element stiffness=4*1e6 /": "element(1)%station: must be given, 1 to 16",
     "&element station=17 /": "element(1)%station = 17: must be 1 to 16",
     "&element station=3, to_station=20 /": "element(1)%to_station = 20: must be 1 to 16",
