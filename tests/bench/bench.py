@@ -17,6 +17,7 @@ from pathlib import Path
 
 from cases import cases
 from diagram import diagram, ladder
+from elements import elements
 from figures import draw
 from films import films, pads
 from growth import growth
@@ -54,6 +55,7 @@ PARTS = {
     "warm": warm,
     "turbulent": turbulent,
     "machines": machines,
+    "elements": elements,
 }
 
 

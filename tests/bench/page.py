@@ -1,6 +1,7 @@
 """The page of the benchmark: its words. Every number in it comes from the rows."""
 
 import costs
+import elements
 import growth
 import limits
 import machines
@@ -288,6 +289,14 @@ film of *Peers* and is extrapolated from there; its error is the largest deviati
 this film.
 
 {machines}
+
+## Seals and dampers
+
+The examples `compressor.nml`, with ten labyrinths and a balance piston over speed and frequency, and `aero.nml`, the
+processor time of the fastest of several runs: modes over the speed; stability level I with the least and the largest
+clearance of the bearings; a march in two squeeze film dampers, beside the same without.
+
+{elements}
 """
 
 
@@ -352,4 +361,5 @@ def page(rows: dict[str, list[Row]], machine: str, speed: str) -> str:
         machine_speed=machines.SPEED,
         machine_span=machines.SPAN,
         machines=machines.compared(rows["machines"]),
+        elements=elements.compared(rows["elements"]),
     )
