@@ -2,8 +2,8 @@
 
 Each line of standard input is a question in JSON: bearing (file), points (pairs of whirl frequency and
 speed, rad/s), mass (kg), unbalance (kg m), phase (rad, from x), speeds (rad/s);
-or turbine, a speed for a rotor of its own; or machine, a rotor in bearings. A line of its output that
-begins with { answers one in JSON: stiffness and damping at the points, and the synchronous motion of the
+or turbine, a speed for a rotor of its own; or machine, a rotor in bearings; or damper, a squeeze film damper
+on a centred circular orbit. A line of its output that begins with { answers one in JSON: stiffness and damping at the points, and the synchronous motion of the
 journal along x and y, real and imaginary parts. One process answers all, as ROSS takes seconds to start.
 The rotor is a mass in the middle of a stiff shaft without weight, which two such bearings carry; each bears
 half of it.
@@ -34,6 +34,9 @@ def answer(asked: dict) -> dict:
         return turbine(asked["turbine"])
     if "machine" in asked:
         return machine(**asked["machine"])
+    if "damper" in asked:
+        damper = ross.SqueezeFilmDamper(n=0, lubricant="ISOVG32", **asked["damper"])
+        return {"stiffness": damper.kxx[0], "damping": damper.cxx[0], "viscosity": damper.lubricant}
     bearing = ross.BearingElement.load(asked["bearing"])
     found = {
         name: [matrix(frequency, speed)[:2, :2].tolist() for frequency, speed in asked["points"]]
