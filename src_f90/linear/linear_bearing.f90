@@ -70,14 +70,14 @@ module linear_bearing
    !> What the modes of rotor and pads answer to forces between the ends of the elements that depend on the frequency of
    !> a whirl: with such forces f on the elements the part of mode k in a vibration exp(value t) is `driven(k, :)` f
    !> over values(k) - value.
-   type :: modal_answer_type
+   type :: mode_answer_type
       complex(wp), allocatable :: values(:), shapes(:, :)
       !> What the displacements of the rotor, and the shapes, are between the ends, (end, position) and (end, mode).
       real(wp), allocatable :: ends(:, :)
       complex(wp), allocatable :: at_ends(:, :), driven(:, :)
       !> Whether the modes are a basis of all motions.
       logical :: ok = .false.
-   end type modal_answer_type
+   end type mode_answer_type
 
    !> Parts in which the elements' own frequencies come in; most rounds of Newton's method for each, and the last change
    !> of an eigenvalue, over itself.
@@ -389,7 +389,7 @@ contains
       integer, intent(in) :: kept(:)
       complex(wp), intent(inout) :: values(:), shapes(:, :)
       type(error_type), allocatable, intent(inout) :: error
-      type(modal_answer_type) :: answer
+      type(mode_answer_type) :: answer
       complex(wp) :: value, shape(size(kept))
       logical :: ok
       integer :: i, k
@@ -421,7 +421,7 @@ contains
       type(linear_bearing_type), intent(in) :: bearing
       integer, intent(in) :: kept(:)
       complex(wp), intent(in) :: values(:), shapes(:, :)
-      type(modal_answer_type), intent(out) :: answer
+      type(mode_answer_type), intent(out) :: answer
       real(wp), allocatable :: accelerations(:, :)
       complex(wp), allocatable :: states(:, :)
       integer :: k
@@ -453,7 +453,7 @@ contains
       real(wp), intent(in) :: speed
       type(linear_bearing_type), intent(in) :: bearing
       integer, intent(in) :: kept(:), i
-      type(modal_answer_type), intent(in) :: answer
+      type(mode_answer_type), intent(in) :: answer
       complex(wp), intent(out) :: value, shape(:)
       logical, intent(out) :: ok
       complex(wp), dimension(size(answer%values)) :: weight

@@ -1,4 +1,4 @@
-"""What stands on shafts beside bearings: a compressor with seals, its stability levels, a rotor in dampers."""
+"""What shafts have beside bearings: a compressor with seals, its stability levels, a rotor in dampers."""
 
 import re
 from collections.abc import Iterator
@@ -32,7 +32,9 @@ def elements(runner: Runner) -> Iterator[Row]:
     yield timed(runner, MAP, f"{bare}\n&sweep operation%speed_rpm = {speeds} /\n")
     # seals are of level 2
     level_i = without(compressor, "element")
-    rows = [timed(runner, LEVEL, level_i, f"bearing%assembled_clearance={78e-6 + each!r}") for each in CLEARANCES]
+    rows = [
+        timed(runner, LEVEL, level_i, f"bearing%assembled_clearance={78e-6 + each!r}") for each in CLEARANCES
+    ]
     rows[0].work_seconds = sum(row.work_seconds or 0 for row in rows)
     rows[0].note = rows[0].note or rows[1].note
     yield rows[0]

@@ -292,9 +292,9 @@ this film.
 
 ## Seals and dampers
 
-The examples `compressor.nml`, with ten labyrinths and a balance piston over speed and frequency, and `aero.nml`, the
-processor time of the fastest of several runs: modes over the speed; stability level I with the least and the largest
-clearance of the bearings; a march in two squeeze film dampers, beside the same without.
+The examples `compressor.nml`, with ten labyrinths and a balance piston over speed and frequency, and
+`aero.nml`, processor time of the fastest of several runs: modes over the speed; stability level I with the
+least and the largest clearance of the bearings; a march in two squeeze film dampers, beside the same without.
 
 {elements}
 """

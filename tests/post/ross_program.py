@@ -2,9 +2,10 @@
 
 Each line of standard input is a question in JSON: bearing (file), points (pairs of whirl frequency and
 speed, rad/s), mass (kg), unbalance (kg m), phase (rad, from x), speeds (rad/s);
-or turbine, a speed for a rotor of its own; or machine, a rotor in bearings; or damper, a squeeze film damper
-on a centred circular orbit. A line of its output that begins with { answers one in JSON: stiffness and damping at the points, and the synchronous motion of the
-journal along x and y, real and imaginary parts. One process answers all, as ROSS takes seconds to start.
+or turbine, a speed for a rotor of its own; or machine, a rotor in bearings; or damper, a squeeze film
+damper on a centred circle. A line of its output that begins with { answers one in JSON: stiffness and
+damping at the points, and the synchronous motion of the journal along x and y, real and imaginary parts.
+One process answers all, as ROSS takes seconds to start.
 The rotor is a mass in the middle of a stiff shaft without weight, which two such bearings carry; each bears
 half of it.
 """

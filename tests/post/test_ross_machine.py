@@ -64,8 +64,8 @@ def test_a_seal_with_a_table_is_that_of_ross(program, ross, tmp_path):
     assert farthest(vibrating(values, HIGHEST), without) > 1e-3
 
 
-#: Film and lands of a damper, and what ROSS calls it: with a groove it cavitates in two lands of half the length;
-#: unbalances, kg m, that drive the ring to 0.2 to 0.6 of its clearance.
+#: Film and lands of a damper, and what ROSS calls it: with a groove it cavitates in two lands of half the
+#: length; unbalances, kg m, that drive the ring to 0.2 to 0.6 of its clearance.
 DAMPERS = {
     ("pi", 1): ("groove-end_seals", True, 3e-3),
     ("full", 1): ("groove-end_seals", False, 5e-3),
@@ -92,7 +92,9 @@ def test_a_damper_on_a_circle_is_that_of_ross(program, ross, tmp_path, film):
     words |= {f"unbalance({k})%moment": unbalance for k in (1, 2)}
     words |= {f"damper%{name}": value for name, value in damper.items()}
     command = [program, ROOT / "input/examples/aero.nml", "--quiet", "--output", tmp_path / "aero.h5"]
-    subprocess.run([*command, *(w for each in words.items() for w in ("--set", "{}={}".format(*each)))], check=True)
+    subprocess.run(
+        [*command, *(w for each in words.items() for w in ("--set", "{}={}".format(*each)))], check=True
+    )
     with h5py.File(tmp_path / "aero.h5") as file:
         u, force = (file[f"{n}_y"][()] + 1j * file[f"{n}_z"][()] for n in ("element", "element_force"))
         front = file["rotor/element_name"][()].tolist().index(b"damper:front")
