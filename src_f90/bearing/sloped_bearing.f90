@@ -164,8 +164,8 @@ contains
       real(wp), intent(inout) :: moment(of_journal)
       integer :: i
       do i = 1, size(self%pads)
-         associate (of => self%sloped%response(i), load => load_of(self%sloped%response(i)%film%force, &
-            & self%sloped%response(i)%moment, self%sloped%asperity(i)))
+         associate (load => load_of(self%sloped%response(i)%film%force, self%sloped%response(i)%moment, &
+            & self%sloped%asperity(i)))
             moment = moment + to_global(self%frame(i), load(3:4))
          end associate
       end do

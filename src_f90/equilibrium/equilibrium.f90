@@ -86,8 +86,9 @@ contains
             shares(b)%alone = bearing_alone(model, b, loads(2*b - 1:2*b), found%rotor)
             shares(b)%found = part_of(model, found, b)
          else
-            ! its films are open on a straight shaft
-            shares(b)%alone = bearing_alone(model, b, loads(2*b - 1:2*b), spread(0.0_wp, 1, model%rotor%positions))
+            ! films are open on a straight shaft, or where pads follow the shaft that they leave as it is
+            shares(b)%alone = bearing_alone(model, b, loads(2*b - 1:2*b), merge([0*loads, rotor%bent], 0.0_wp, &
+               & model%inputs%bearings(b)%pitching()))
          end if
       end do
       call bear(shares, loads)

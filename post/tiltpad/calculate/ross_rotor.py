@@ -42,8 +42,9 @@ def from_ross(rotor: Any, path: str | os.PathLike, elements: Iterable[Any] | Non
     count, nodes = rotor.number_dof, len(rotor.nodes)
     places = rotor.shaft_elements[0].dof_mapping()
     every = np.ravel([[count * k + places[f"{name}_0"] for name in BENDING] for k in range(nodes)])
-    # the displacements are -x, y, alpha and beta of each node, so that those of a station are z and y
-    signs = np.tile([-1.0, 1.0, 1.0, 1.0], nodes)
+    # the displacements are -x, y, -alpha and -beta of each node, so that those of a station are z and y, and
+    # its slopes dy/dx and dz/dx
+    signs = np.tile([-1.0, 1.0, -1.0, -1.0], nodes)
     matrices = {"mass": rotor.M0, "damping": rotor.C0, "gyroscopic": rotor.G0, "stiffness": rotor.K0}
     kept = {name: np.asarray(matrix)[np.ix_(every, every)] for name, matrix in matrices.items()}
     found = {name: signs[:, None] * matrix * signs for name, matrix in kept.items()}
@@ -51,9 +52,8 @@ def from_ross(rotor: Any, path: str | os.PathLike, elements: Iterable[Any] | Non
     k = np.arange(nodes)
     station[2 * k, 4 * k + 1] = 1
     station[2 * k + 1, 4 * k] = 1
-    # dy/dx is -alpha, dz/dx is -beta
-    slope[2 * k, 4 * k + 2] = -1
-    slope[2 * k + 1, 4 * k + 3] = -1
+    slope[2 * k, 4 * k + 2] = 1
+    slope[2 * k + 1, 4 * k + 3] = 1
     upward = station[::2].sum(axis=0)
     found |= {"station": station, "slope": slope, "weighed": found["mass"] @ upward}
     found |= {"total_mass": np.array(upward @ found["weighed"])}
