@@ -11,8 +11,8 @@ module stability_levels
    use equations_of_motion, only: machine_model
    use elastic_rotor, only: elastic_rotor_type
    use force_balance, only: mode_name, position_lengths
-   use linear_bearing, only: linear_bearing_type, bearing_coefficients_type, vibration_modes_type, find_modes, &
-      & follow_mode
+   use linear_bearing, only: linear_bearing_type, bearing_coefficients_type, vibration_modes_type, find_modes
+   use own_frequencies, only: follow_mode
    use rotor_response, only: synchronous_rotor
    implicit none (type, external)
    private
@@ -199,8 +199,7 @@ contains
          eigenvalue(k) = modes%eigenvalue(i)
          shapes(:, k) = modes%shape(kept, i)
          do i = 1, size(parts)
-            call follow_mode(rotor, model%point%speed(0.0_wp), with(q(k)), kept, own*parts(i), eigenvalue(k), &
-               & shapes(:, k), error)
+            call take_frequency(with(q(k)), own*parts(i), eigenvalue(k), shapes(:, k), error)
          end do
          ok = .not. allocated(error)
       end subroutine find_forward
@@ -220,7 +219,7 @@ contains
          do while (abs(stiffness - at) > 0)
             next = value
             moved = shape
-            call follow_mode(rotor, model%point%speed(0.0_wp), with(at + step), kept, own, next, moved, error)
+            call take_frequency(with(at + step), own, next, moved, error)
             if (abs(dot_product(shape, moved)) < alike*norm2(abs(shape))*norm2(abs(moved)) .or. allocated(error)) then
                step = step/2
                if (allocated(error)) deallocate (error)
@@ -237,6 +236,16 @@ contains
             step = stiffness - at
          end do
       end subroutine go_on
+
+      !> Brings a mode of the rotor on its bearings to its own frequency, or this part of what that changes.
+      subroutine take_frequency(all, part, value, shape, error)
+         type(linear_bearing_type), intent(in) :: all
+         real(wp), intent(in) :: part
+         complex(wp), intent(inout) :: value, shape(:)
+         type(error_type), allocatable, intent(inout) :: error
+         call follow_mode(rotor, model%point%speed(0.0_wp), all%stiffness(kept, kept), all%damping(kept, kept), &
+            & all%mass(kept, kept), part, value, shape, error)
+      end subroutine take_frequency
 
       !> The rotor on its bearings with a cross-coupled stiffness.
       type(linear_bearing_type) function with(stiffness)

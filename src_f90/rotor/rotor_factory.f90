@@ -37,7 +37,7 @@ contains
       type(elastic_rotor_type) :: elastic
       type(error_type), allocatable :: error
       integer, allocatable :: modes
-      logical :: ok
+      logical :: ok, has_mass
       if (inputs%rotor%is_rigid()) then
          allocate (rotor, source=new_rigid_rotor(inputs%rotor%mass))
          return
@@ -54,9 +54,11 @@ contains
          return
       end if
       call new_elastic_rotor(matrices, inputs%unbalance(), inputs%operation%speed_rpm*rpm, elastic, ok)
+      has_mass = .true.
+      if (ok .and. elastic%elements > 0) has_mass = is_positive_definite(matrices%mass)
       if (.not. ok) then
          refusal = 'machine: nothing holds its shaft: stiffness of bearings and elements leave it free in a direction'
-      else if (elastic%elements > 0 .and. .not. is_positive_definite(matrices%mass)) then
+      else if (.not. has_mass) then
          refusal = 'element%mass: takes away more mass in a direction than the machine has'
       else if (any(inputs%excitations%station > elastic%stations)) then
          refusal = 'excitation: station = '//to_text(maxval(inputs%excitations%station))//': the rotor has '// &

@@ -12,8 +12,8 @@ from fixed_bearings import FIXED_ABOVE  # noqa: E402
 from realistic import draw  # noqa: E402
 
 SEED = 1
-#: Unloaded pads that tilt (13, 14, 21, 87, 116) or rub (143), pads that flutter (160), loaded pads (111), three lobes
-#: whose journals whirl (20024, 20059).
+#: Unloaded pads that tilt (13, 14, 21, 87, 116) or rub (143), pads that flutter (160), loaded pads (111),
+#: three lobes whose journals whirl (20024, 20059).
 SAMPLE = (13, 14, 21, 87, 111, 116, 143, 160, 20024, 20059)
 #: Largest errors of the default settings, those of fixed pads, and most steps a revolution.
 LARGEST = {"journal": 2e-3, "tilt_loaded": 2e-2, "tilt_unloaded": 2e-2}
