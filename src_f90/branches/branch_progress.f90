@@ -209,7 +209,8 @@ contains
       character(len=:), allocatable :: digits
       character(len=24) :: buffer
       write (buffer, '(ss,g0.10)') x
-      digits = trim(buffer)
+      if (abs(x) > 0 .and. abs(x) < 0.1_wp) write (buffer, '(ss,es15.9)') x
+      digits = trim(adjustl(buffer))
    end function precise
 
    !> Takes the problem to a point.

@@ -193,14 +193,17 @@ contains
       type(bearing_file_type), intent(in) :: file
       character(len=:), allocatable :: said
       real(wp), dimension(bearing%pad_count()) :: first, last
+      character(len=:), allocatable :: follow
       said = ''
+      follow = ''
+      if (bearing%tilting()) follow = '; pads that pitch (pads%motion) follow'
       if (bearing%pitching() .or. .not. file%has('equilibrium/start_film_thickness')) return
       call file%get_list('equilibrium/start_film_thickness', first)
       call file%get_list('equilibrium/end_film_thickness', last)
       associate (part => 0.5_wp*abs(first - last)/min(first, last))
          said = line_if(any(part > steep_slope), 'the slope of the journal changes the film of '//listed(part &
-            & > steep_slope)//' by up to {ci} % of its minimum thickness from the middle to an end; pads that pitch ' &
-            & //'(pads%motion) follow', [maxval(part)])
+            & > steep_slope)//' by up to {ci} % of its minimum thickness from the middle to an end' &
+            & //follow, [maxval(part)])
       end associate
    end function on_slope
 
