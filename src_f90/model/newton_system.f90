@@ -222,37 +222,35 @@ contains
       real(wp), intent(inout) :: u(:)
       associate (rows => self%elements(e), group => self%matrix%groups(e), corner => self%matrix%corner, &
          & own => self%layout%elements(e)%first_position(part), y => self%layout%elements(e)%journal(1))
-         ! sizes that the compiler knows are faster
+         ! a size that the compiler knows is faster
          if (rows%on > of_journal) then
-            call put(rows%on, rows%m, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, &
-               & self%layout%elements(e)%slopes(1), group%across(:, :, part), group%down(:, :, part), &
-               & group%block(:, :, part), group%corner)
+            call put_inclined(rows%over_positions(:, :, part), rows%over_rates(:, :, part), group%across(:, :, part), &
+               & group%down(:, :, part), group%block(:, :, part), group%corner)
          else if (rows%m == usual) then
-            call put(of_journal, usual, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, 0, &
+            call put(usual, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, &
                & group%across(:, :, part), group%down(:, :, part), group%block(:, :, part), corner(:, :, group%pair))
          else
-            call put(of_journal, rows%m, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, 0, &
+            call put(rows%m, rows%over_positions(:, :, part), rows%over_rates(:, :, part), own, y, &
                & group%across(:, :, part), group%down(:, :, part), group%block(:, :, part), corner(:, :, group%pair))
          end if
       end associate
 
    contains
 
-      !> The same with m displacements, of which those of the part itself begin at `own`, those of the pair at y, and
-      !> its slopes, where the part knows `on` = 4 of the rotor's, at s.
-      subroutine put(on, m, linear, linear_rates, own, y, s, across, down, block, corner)
-         integer, value :: on, m, own, y, s
+      !> The same with m displacements, of which those of the part itself begin at `own`, and those of the pair at y.
+      subroutine put(m, linear, linear_rates, own, y, across, down, block, corner)
+         integer, value :: m, own, y
          real(wp), intent(in) :: linear(m, m), linear_rates(m, m)
-         real(wp), intent(out) :: across(on, m - on), down(m - on, on), block(m - on, m - on)
-         real(wp), intent(inout) :: corner(on, on)
+         real(wp), intent(out) :: across(of_journal, m - of_journal), down(m - of_journal, of_journal), &
+            & block(m - of_journal, m - of_journal)
+         real(wp), intent(inout) :: corner(of_journal, of_journal)
          real(wp) :: over_positions(m, m), over_rates(m, m), over_bristle(m - of_journal), known(m), of_part(m)
          integer :: k
          over_positions = linear
          over_rates = linear_rates
          call element%add_late(part, m, .true., over_positions, over_rates, over_bristle)
          of_part(:of_journal) = x(y:y + of_journal - 1)
-         if (on > of_journal) of_part(of_journal + 1:on) = x(s:s + of_journal - 1)
-         of_part(on + 1:) = x(own:own + m - on - 1)
+         of_part(of_journal + 1:) = x(own:own + m - of_journal - 1)
          known = 0
          do k = 1, m
             known = known + over_positions(:, k)*of_part(k)
@@ -260,16 +258,42 @@ contains
          end do
          if (self%layout%elements(e)%bristles) then
             known(of_journal + 1:) = known(of_journal + 1:) + over_bristle*bristle(1)
-            over_rates(of_journal + 1:, on + 1) = over_rates(of_journal + 1:, on + 1) + over_bristle*bristle(2)
+            over_rates(of_journal + 1:, of_journal + 1) = over_rates(of_journal + 1:, of_journal + 1) &
+               & + over_bristle*bristle(2)
          end if
          u(y:y + of_journal - 1) = u(y:y + of_journal - 1) + gamma*known(:of_journal)
-         if (on > of_journal) u(s:s + of_journal - 1) = u(s:s + of_journal - 1) + gamma*known(of_journal + 1:on)
-         u(own:own + m - on - 1) = u(own:own + m - on - 1) + gamma*known(on + 1:)
-         corner = corner + over_rates(:on, :on)
-         down = over_rates(on + 1:, :on)
-         across = over_rates(:on, on + 1:)
-         block = over_rates(on + 1:, on + 1:)
+         u(own:own + m - of_journal - 1) = u(own:own + m - of_journal - 1) + gamma*known(of_journal + 1:)
+         corner = corner + over_rates(:of_journal, :of_journal)
+         down = over_rates(of_journal + 1:, :of_journal)
+         across = over_rates(:of_journal, of_journal + 1:)
+         block = over_rates(of_journal + 1:, of_journal + 1:)
       end subroutine put
+
+      !> The same where the part knows slopes of the journal, too.
+      subroutine put_inclined(linear, linear_rates, across, down, block, corner)
+         real(wp), intent(in) :: linear(:, :), linear_rates(:, :)
+         real(wp), intent(out) :: across(:, :), down(:, :), block(:, :)
+         real(wp), intent(inout) :: corner(:, :)
+         real(wp), dimension(size(linear, 1), size(linear, 1)) :: over_positions, over_rates
+         real(wp) :: over_bristle(size(linear, 1) - of_journal), known(size(linear, 1))
+         over_positions = linear
+         over_rates = linear_rates
+         call element%add_late(part, size(known), .true., over_positions, over_rates, over_bristle)
+         associate (layout => self%layout%elements(e), on => self%layout%elements(e)%of_rotor, &
+            & at => self%layout%elements(e)%positions_of(part))
+            known = matmul(over_positions, x(at))
+            over_rates = over_rates + gamma*over_positions
+            if (layout%bristles) then
+               known(of_journal + 1:) = known(of_journal + 1:) + over_bristle*bristle(1)
+               over_rates(of_journal + 1:, on + 1) = over_rates(of_journal + 1:, on + 1) + over_bristle*bristle(2)
+            end if
+            u(at) = u(at) + gamma*known
+            corner = corner + over_rates(:on, :on)
+            down = over_rates(on + 1:, :on)
+            across = over_rates(:on, on + 1:)
+            block = over_rates(on + 1:, on + 1:)
+         end associate
+      end subroutine put_inclined
    end subroutine put_part
 
    !> Puts the bristles of a part with several into the matrix on the rates, where its derivatives already are.
