@@ -2,8 +2,8 @@
 !> of cavitation (weighted_film has the equation, film_grid the volumes of a film without slopes).
 !>
 !> Columns of cells lie along the arc from the leading to the trailing edge, rows across the width, narrow at the sides
-!> as those of film_grid. Cells are numbered row by row, then column by column: the matrix is a band as wide as there
-!> are rows, and its factor stays what it was up to the first column whose cells change.
+!> as those of film_grid. Columns are eliminated from the leading edge on, each by the inverse of a small dense block,
+!> which stays what it was up to the first column whose cells change.
 !>
 !> Which cells are cavitated by the condition of Reynolds is found as an active set (elimination_film). Derivatives are
 !> those of a film that ends between its cells: there the pressure leaves zero with a slope of zero, so that a change of
@@ -14,6 +14,8 @@ module sloped_volumes
    use film_solver, only: film_law_type, film_counters, film_not_converged, cavitation_none, cavitation_gumbel, &
       & cavitation_reynolds
    use film_law, only: law_at_nodes
+   use column_elimination, only: invert
+   use linear_algebra, only: padded, apply
    use film_losses, only: film_loss
    use pad_gap, only: pad_gap_type
    use sloped_gap, only: sloped_motion, sloped_response, driving_velocity, add_rotation, find_highest
@@ -50,8 +52,8 @@ module sloped_volumes
       real(wp) :: speed = 0, scale = 0, wedge = 0
       !> Cells of the film: 1, others 0; pressures above that of cavitation, Pa, with those of the edges around.
       real(wp), allocatable :: film(:, :), p(:, :)
-      !> The factor L D L^T, (0:2 rows, cell): 1/D, L D, and zeros; columns in which it holds, and for which cells.
-      real(wp), allocatable :: factor(:, :), factored(:, :)
+      !> Inverses of the blocks of columns, (padded row, row, column); the columns in which they hold, for which cells.
+      real(wp), allocatable :: inverse(:, :, :), factored(:, :)
       integer :: valid = 0
    contains
       procedure :: set_motion
@@ -78,7 +80,7 @@ contains
          allocate (self%along(m, 0:n), self%across(0:m, n), self%source(m, n), self%along_turn(m, 0:n), &
             & self%across_turn(0:m, n), self%h(m, n), self%h_face(m, 0:n))
          allocate (self%shear(m, n), self%sliding(m, n), self%sliding_face(m, 0:n), self%film(m, n), source=1.0_wp)
-         allocate (self%p(0:m + 1, 0:n + 1), self%factor(0:2*m, m*n), self%factored(m, n), source=0.0_wp)
+         allocate (self%p(0:m + 1, 0:n + 1), self%inverse(padded(m), m, n), self%factored(m, n), source=0.0_wp)
       end associate
       half = rows/2
       self%z_face(half) = 0
@@ -202,12 +204,12 @@ contains
       if (condition == cavitation_none) self%film = before
    end subroutine evaluate
 
-   !> Factor of the equations of the cells of the film, from the first column that has changed on.
+   !> Inverses of the blocks of columns of the cells of the film, from the first that has changed on.
    pure subroutine factorise(self, more)
       type(sloped_volumes_type), intent(inout) :: self
-      !> Added to the diagonal, (row, column); the factor does not hold for others then.
+      !> Added to the diagonal, (row, column); the inverses do not hold for others then.
       real(wp), intent(in), optional :: more(:, :)
-      real(wp) :: column(0:2*self%rows)
+      real(wp) :: mask(size(self%inverse, 1))
       integer :: first, i, r
       associate (film => self%film, m => self%rows, n => self%columns)
          do first = 1, self%valid
@@ -216,104 +218,54 @@ contains
                if (any(more(:, first) > 0)) exit
             end if
          end do
-         ! the column before has what joins it to this one
-         if (first > 1) first = first - 1
-         column = 0
+         mask = 0
          do i = first, n
-            do r = 1, m
-               column(0) = 1
-               column(1:m) = 0
-               if (film(r, i) > 0) then
-                  column(0) = self%along(r, i - 1) + self%along(r, i) + self%across(r - 1, i) + self%across(r, i)
-                  if (present(more)) column(0) = column(0) + more(r, i)
-                  if (r < m) column(1) = -self%across(r, i)*film(r + 1, i)
-                  if (i < n) column(m) = -self%along(r, i)*film(r, i + 1)
-               end if
-               call eliminate(m, m*(i - 1) + r, column, self%factor)
-            end do
+            associate (block => self%inverse(:, :, i), join => self%along(:, i - 1))
+               block = 0
+               do r = 1, m
+                  if (i > 1) block(:m, r) = -join(r)*join*self%inverse(:m, r, i - 1)
+                  block(r, r) = block(r, r) + join(r) + self%along(r, i) + self%across(r - 1, i) + self%across(r, i)
+                  if (present(more)) block(r, r) = block(r, r) + more(r, i)
+                  if (r > 1) block(r - 1, r) = block(r - 1, r) - self%across(r - 1, i)
+                  if (r < m) block(r + 1, r) = block(r + 1, r) - self%across(r, i)
+               end do
+               mask(:m) = film(:, i)
+               call invert(size(mask), m, mask, block)
+            end associate
          end do
          self%factored = film
          self%valid = merge(0, n, present(more))
       end associate
    end subroutine factorise
 
-   !> Column j of the factor of a band from that of the matrix and the columns before it.
-   pure subroutine eliminate(m, j, column, factor)
-      integer, intent(in) :: m, j
-      real(wp), intent(inout) :: column(0:2*m), factor(0:2*m, *)
-      real(wp) :: t
-      integer :: d, l
-      do d = 1, min(m, j - 1)
-         t = factor(d, j - d)*factor(0, j - d)
-         !$omp simd
-         do l = 0, m - 1
-            column(l) = column(l) - t*factor(l + d, j - d)
+   !> The solution for a load of all cells in its place, (padded row, column).
+   pure subroutine solve(self, b)
+      type(sloped_volumes_type), intent(in) :: self
+      real(wp), intent(inout) :: b(:, :)
+      integer :: i
+      associate (m => self%rows, n => self%columns, padded_rows => size(b, 1))
+         do i = 1, n
+            if (i > 1) b(:m, i) = b(:m, i) + self%along(:, i - 1)*b(:m, i - 1)
+            b(:, i) = apply(padded_rows, m, self%inverse(:, :, i), b(:m, i))
          end do
-      end do
-      factor(0, j) = 1/column(0)
-      factor(1:m, j) = column(1:m)
-   end subroutine eliminate
-
-   !> The solution for a load of all cells, with m zeros behind them, in its place.
-   pure subroutine solve(m, n, factor, b)
-      integer, intent(in) :: m, n
-      real(wp), intent(in) :: factor(0:2*m, n)
-      real(wp), intent(inout) :: b(n + m)
-      real(wp) :: x
-      integer :: j, d
-      do j = 1, n
-         x = b(j)*factor(0, j)
-         !$omp simd
-         do d = 1, m
-            b(j + d) = b(j + d) - factor(d, j)*x
+         do i = n - 1, 1, -1
+            b(:, i) = b(:, i) + apply(padded_rows, m, self%inverse(:, :, i), self%along(:, i)*b(:m, i + 1))
          end do
-      end do
-      do j = n, 1, -1
-         x = b(j)
-         !$omp simd reduction(+:x)
-         do d = 1, m
-            x = x - factor(d, j)*b(j + d)
-         end do
-         b(j) = x*factor(0, j)
-      end do
+      end associate
    end subroutine solve
-
-   !> The same for four loads.
-   pure subroutine solve_four(m, n, factor, b)
-      integer, intent(in) :: m, n
-      real(wp), intent(in) :: factor(0:2*m, n)
-      real(wp), intent(inout) :: b(4, n + m)
-      real(wp) :: x(4)
-      integer :: j, d
-      do j = 1, n
-         x = b(:, j)*factor(0, j)
-         do d = 1, m
-            b(:, j + d) = b(:, j + d) - factor(d, j)*x
-         end do
-      end do
-      do j = n, 1, -1
-         x = b(:, j)
-         do d = 1, m
-            x = x - factor(d, j)*b(:, j + d)
-         end do
-         b(:, j) = x*factor(0, j)
-      end do
-   end subroutine solve_four
 
    !> The pressures of the cells of the film.
    pure subroutine solve_film(self)
       type(sloped_volumes_type), intent(inout) :: self
-      real(wp) :: b(self%rows, self%columns + 1)
+      real(wp) :: b(size(self%inverse, 1), self%columns)
       associate (m => self%rows, n => self%columns, p => self%p)
-         b(:, :n) = self%source
-         b(:, n + 1) = 0
-         b(:, 1) = b(:, 1) + self%along(:, 0)*p(1:m, 0)
-         b(:, n) = b(:, n) + self%along(:, n)*p(1:m, n + 1)
-         b(1, :n) = b(1, :n) + self%across(0, :)*p(0, 1:n)
-         b(m, :n) = b(m, :n) + self%across(m, :)*p(m + 1, 1:n)
-         b(:, :n) = b(:, :n)*self%film
-         call solve(m, m*n, self%factor, b)
-         p(1:m, 1:n) = b(:, :n)
+         b(:m, :) = self%source
+         b(:m, 1) = b(:m, 1) + self%along(:, 0)*p(1:m, 0)
+         b(:m, n) = b(:m, n) + self%along(:, n)*p(1:m, n + 1)
+         b(1, :) = b(1, :) + self%across(0, :)*p(0, 1:n)
+         b(m, :) = b(m, :) + self%across(m, :)*p(m + 1, 1:n)
+         call solve(self, b)
+         p(1:m, 1:n) = b(:m, :)
       end associate
    end subroutine solve_film
 
@@ -387,25 +339,28 @@ contains
       type(sloped_volumes_type), intent(inout) :: self
       integer, intent(in) :: condition
       type(sloped_response), intent(inout) :: response
-      real(wp) :: b(4, self%rows, self%columns + 1), more(self%rows, self%columns)
-      integer :: i, r
+      real(wp) :: b(size(self%inverse, 1), self%columns, 4), more(self%rows, self%columns)
+      integer :: i, k
       if (condition == cavitation_reynolds .and. .not. all(self%film > 0)) then
          call find_more(self, more)
          call factorise(self, more)
       end if
-      b(:, :, self%columns + 1) = 0
-      do i = 1, self%columns
-         do r = 1, self%rows
-            b(1:2, r, i) = -self%radius*self%height(r)*self%film(r, i)*self%integral(:, i)
-            b(3:4, r, i) = self%z(r)*b(1:2, r, i)
+      associate (m => self%rows)
+         do i = 1, self%columns
+            do k = 1, 2
+               b(:m, i, k) = -self%radius*self%integral(k, i)*self%height*self%film(:, i)
+               b(:m, i, k + 2) = self%z(1:m)*b(:m, i, k)
+            end do
          end do
+      end associate
+      do k = 1, 4
+         call solve(self, b(:, :, k))
       end do
-      call solve_four(self%rows, self%rows*self%columns, self%factor, b)
       call multiply(self, b, response%derivatives)
       call add_rotation(self%gap, self%speed, response%derivatives)
    end subroutine differentiate
 
-   !> Derivatives at constant (w, v) from the adjoints, (force, row, column): those of conductances, of what slides
+   !> Derivatives at constant (w, v) from the adjoints, (padded row, column, force): those of conductances, of what slides
    !> through faces, and of sources.
    pure subroutine multiply(self, adjoint, d)
       type(sloped_volumes_type), intent(in) :: self
@@ -414,7 +369,9 @@ contains
       real(wp) :: a(4, 0:self%rows + 1, 0:self%columns + 1), drop, even(4), odd(4)
       integer :: i, r
       a = 0
-      a(:, 1:self%rows, 1:self%columns) = adjoint(:, :, :self%columns)
+      do i = 1, 4
+         a(i, 1:self%rows, 1:self%columns) = adjoint(:self%rows, :, i)
+      end do
       d = 0
       associate (p => self%p, z => self%z)
          do i = 0, self%columns
