@@ -5,7 +5,7 @@ module march_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use kinds, only: wp, pi, degree
    use rising_numbers, only: number_up_to
-   use case_groups, only: bearing_type, mount_type, pivot_type
+   use case_groups, only: bearing_type, mount_type
    use case_inputs, only: case_type
    use loops, only: path_integral, harmonic, slow_share, integral_over_way
    use pad_behaviour, only: pad_behaviour_type, behaviour_of, whirl_of, evenly
@@ -70,7 +70,7 @@ contains
          call put_harmonics(file, tilting, whole, int(revolutions + rounding))
          if (tilting .and. bearing%friction%model /= 'none') call put_friction(file, bearing, time(1, :), &
             & (angle(1, n) - angle(1, 1))/(2*pi))
-         if (tilting .and. bearing%pivot%wear_coefficient > 0) call put_wear(file, bearing%pivot, time(1, :))
+         if (tilting .and. bearing%pivot%wear_coefficient > 0) call put_wear(file, bearing, time(1, :))
          n = file%run%last_revolutions(inputs%output%spectrum_revolutions)
          call put_revolutions(file, tilting, n, inputs%output%spectrum_revolutions)
          if (inputs%about%task /= 'march' .or. .not. inputs%is_steady()) return
@@ -551,23 +551,24 @@ contains
 
    !> The rates at which the pivots wear in the last samples, at these times, s: volume, and depth over the area of the
    !> contact under the mean pivot load. What LuGre's bristles give back is not slid.
-   subroutine put_wear(file, pivot, time)
+   subroutine put_wear(file, bearing, time)
       type(bearing_file_type), intent(inout) :: file
-      type(pivot_type), intent(in) :: pivot
+      type(bearing_type), intent(in) :: bearing
       real(wp), intent(in) :: time(:)
-      real(wp), allocatable :: tilt(:, :), load(:, :), bristle(:, :)
-      real(wp), dimension(size(pivot%socket_radius)) :: volume, depth
+      real(wp) :: steps(bearing%pad_count(), size(time) - 1)
+      real(wp), allocatable :: load(:, :)
+      real(wp), dimension(bearing%pad_count()) :: volume, depth
       class(contact_law_type), allocatable :: law
       type(contact_point) :: contact
       integer :: i
-      call file%last_samples('pad_tilt', size(time), tilt)
       call file%last_samples('pivot_load', size(time), load)
-      allocate (bristle, source=0*tilt)
-      if (file%has_series('bristle_deflection')) call file%last_samples('bristle_deflection', size(time), bristle)
-      associate (lasted => time(size(time)) - time(1))
+      steps = 0
+      call add_steps('tilt', 'bristle_deflection')
+      if (bearing%pitching()) call add_steps('pitch', 'bristle_deflection_pitch')
+      if (bearing%yawing()) call add_steps('yaw', 'bristle_deflection_yaw')
+      associate (pivot => bearing%pivot, lasted => time(size(time)) - time(1))
          do i = 1, size(volume)
-            volume(i) = pivot%wear_coefficient*integral_over_way((pivot%socket_radius(i) &
-               & - pivot%radius_difference(i))*tilt(i, :) - bristle(i, :), load(i, :))/lasted
+            volume(i) = pivot%wear_coefficient*integral_over_way(steps(i, :), load(i, :))/lasted
             depth(i) = 0
             if (.not. volume(i) > 0) cycle
             call make_law(pivot, i, law)
@@ -579,5 +580,20 @@ contains
       end associate
       call put_figure(file, 'pad_wear_rate', volume, 'm^3/s', 'worn volume of the pivot in a second')
       call put_figure(file, 'pad_wear_depth_rate', depth, 'm/s', 'depth worn off the pivot in a second')
+   contains
+      !> Adds, as one more direction, what a rotation slides between samples, m.
+      subroutine add_steps(rotation, bristles)
+         character(len=*), intent(in) :: rotation, bristles
+         real(wp), allocatable :: way(:, :), deflection(:, :)
+         call file%last_samples('pad_'//rotation, size(time), way)
+         associate (pivot => bearing%pivot)
+            way = spread(pivot%socket_radius - pivot%radius_difference, 2, size(time))*way
+         end associate
+         if (file%has_series(bristles)) then
+            call file%last_samples(bristles, size(time), deflection)
+            way = way - deflection
+         end if
+         steps = hypot(steps, way(:, 2:) - way(:, :size(time) - 1))
+      end subroutine add_steps
    end subroutine put_wear
 end module march_figures

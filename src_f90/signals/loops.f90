@@ -29,12 +29,12 @@ contains
       path_integral = 0.5_wp*sum((x(2:) - x(:n - 1))*(y(2:) + y(:n - 1)))
    end function path_integral
 
-   !> Integral of y over the way that x goes to and fro, by the trapezoidal rule.
-   pure real(wp) function integral_over_way(x, y)
-      real(wp), intent(in) :: x(:), y(:)
+   !> Integral of y over a way of steps of these lengths between its values, by the trapezoidal rule.
+   pure real(wp) function integral_over_way(steps, y)
+      real(wp), intent(in) :: steps(:), y(:)
       integer :: n
-      n = size(x)
-      integral_over_way = 0.5_wp*sum(abs(x(2:) - x(:n - 1))*(y(2:) + y(:n - 1)))
+      n = size(y)
+      integral_over_way = 0.5_wp*sum(steps*(y(2:) + y(:n - 1)))
    end function integral_over_way
 
    !> The part of values that turns with the order: amplitude times exp(i phase). The values are the real part of it

@@ -127,12 +127,16 @@ MARCH = """&pads motion = 'tilting_radial_pitch_yaw' /
 &bearing slope = {slope}, 1e-4 /
 &operation duration = 0.01 /
 &film cavitation = 'none' /
+&pivot wear_coefficient = 1e-15 /
+&start pad_pitch = {slope} /
 """
 
 
 @pytest.mark.parametrize("friction", ["none", "bengisu_akay", "lugre"])
 def test_marches(tiltpad, tmp_path, friction):
-    """With its ends exchanged a shaft moves in the same way; no friction is larger than its limit."""
+    """With its ends exchanged a shaft moves in the same way; no friction is larger than its limit; all
+    rotations wear the pivots (Archard).
+    """
     series = {}
     for slope in (2e-4, -2e-4):
         (tmp_path / "case.nml").write_text(
@@ -141,7 +145,18 @@ def test_marches(tiltpad, tmp_path, friction):
         tiltpad("case.nml", "-q", "--overwrite", "-o", "run.h5", cwd=tmp_path, status=0)
         with h5py.File(tmp_path / "run.h5") as file:
             series[slope] = {name: file[name][()] for name in file if isinstance(file[name], h5py.Dataset)}
+            series[slope]["wear"] = file["summary/pad_wear_rate"][()]
     here, there = series.values()
+    slid = [
+        (13e-3 - 15e-6) * here[f"pad_{name}"] - here.get("bristle_deflection" + end, 0)
+        for name, end in (("tilt", ""), ("pitch", "_pitch"), ("yaw", "_yaw"))
+    ]
+    ways = np.abs(np.diff(slid, axis=1))[:, -360:]
+    loads = 0.5 * (here["pivot_load"][1:] + here["pivot_load"][:-1])[-360:]
+    per_time = 1e-15 / (here["time"][-1] - here["time"][-361])
+    worn = per_time * np.sum(np.linalg.norm(ways, axis=0) * loads, axis=0)
+    np.testing.assert_allclose(here["wear"], worn, rtol=1e-9)
+    assert np.all(here["wear"] > 1.2 * per_time * np.sum(ways[0] * loads, axis=0))
     np.testing.assert_allclose(here["journal_y"], there["journal_y"], rtol=0, atol=1e-9)
     np.testing.assert_allclose(here["pad_pitch"], -there["pad_pitch"], rtol=0, atol=2e-8)
     np.testing.assert_allclose(here["start_film_thickness"], there["end_film_thickness"], rtol=0, atol=2e-9)

@@ -25,7 +25,7 @@ module sloped_film
    !> Share of the last functions in the power up to which a level does.
    real(wp), parameter :: enough = 2e-3_wp
    !> Of films that have to be close: the first level; columns and rows of volumes, and those of a march.
-   integer, parameter :: close_level = 3, close_volumes(2) = [48, 16], march_volumes(2) = [24, 8]
+   integer, parameter :: close_level = 3, close_volumes(2) = [48, 16], march_volumes(2) = [24, 12]
    !> How far below the cavitation pressure a full film may fall, over its highest pressure, before it counts as
    !> cavitated (direct_film): as much as weighted functions err beside edges.
    real(wp), parameter :: slight_tension = 2e-3_wp

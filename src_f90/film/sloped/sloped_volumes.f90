@@ -360,8 +360,8 @@ contains
       call add_rotation(self%gap, self%speed, response%derivatives)
    end subroutine differentiate
 
-   !> Derivatives at constant (w, v) from the adjoints, (padded row, column, force): those of conductances, of what slides
-   !> through faces, and of sources.
+   !> Derivatives at constant (w, v) from the adjoints, (padded row, column, force): those of conductances, of what
+   !> slides through faces, and of sources.
    pure subroutine multiply(self, adjoint, d)
       type(sloped_volumes_type), intent(in) :: self
       real(wp), intent(in) :: adjoint(:, :, :)
