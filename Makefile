@@ -121,6 +121,7 @@ wrapper := post/wrap/library.f90
 sources := $(sort $(shell find src_f90 tests -name '*.[fF]90')) $(wrapper)
 c_sources := $(sort $(shell find src_f90 -name '*.c'))
 object = $(patsubst %,$(B)/obj/%.o,$1)
+interface = $(patsubst %,$(B)/mod/%.mod,$1)
 # what a program is linked from: the modules that it uses (linked.NAME), so that a test builds what it needs alone;
 # C of src_f90/app is the main program's alone
 objects_of = $(call object,$(linked.$1) $(basename $(notdir $(filter-out src_f90/app/%,$(c_sources))))) $(B)/lib/unused.o
@@ -405,11 +406,15 @@ $(programs): $$(call objects_of,$$(@F))
 
 $(B)/bin/tiltpad: $(B)/obj/program_start.o
 
-$(B)/obj/%.o: %.f90 $$(call object,$$(uses.$$*)) $(B)/flags | build/deps-checked
+$(B)/obj/%.o: %.f90 $$(call interface,$$(uses.$$*)) $(B)/flags | build/deps-checked
 	$(COMPILE) -c $< -o $@
 
-$(B)/obj/%.o: %.F90 $$(call object,$$(uses.$$*)) $(B)/flags | build/deps-checked
+$(B)/obj/%.o: %.F90 $$(call interface,$$(uses.$$*)) $(B)/flags | build/deps-checked
 	$(COMPILE) -c $< -o $@
+
+# the compiler leaves a module file that does not change: what uses a module is compiled anew for its interface alone
+$(B)/mod/%.mod: $(B)/obj/%.o ;
+.PRECIOUS: $(B)/mod/%.mod
 
 $(B)/obj/%.o: %.c $(B)/flags | build/deps-checked
 	$(CC) -O2 -fPIC -Wall -Wextra -c $< -o $@
