@@ -57,8 +57,9 @@ module film_energy
    type :: film_heat_type
       !> Density times specific heat of the oil, J/(m^3 K); conductivities of oil and pad, W/(m K).
       real(wp) :: capacity = 0, conductivity = 0, pad_conductivity = 0
-      !> Pad thickness, m; film coefficient at back and ends of the pad, W/(m^2 K); temperature there, C.
-      real(wp) :: thickness = 0, back_coefficient = 0, back_temperature = 0
+      !> Radius of the bore and thickness of the pad, m; film coefficient at back and ends of the pad, W/(m^2 K);
+      !> temperature there, C.
+      real(wp) :: radius = 0, thickness = 0, back_coefficient = 0, back_temperature = 0
       !> Of the layers, 0 (pad) to 1 (journal).
       real(wp), allocatable :: zeta(:)
    end type film_heat_type
@@ -205,10 +206,10 @@ contains
       !> Flow downstream through the layers of each face, m^3/s, and heat made in the layers of each station, W.
       real(wp) :: flow(size(heat%zeta) - 1, 0:size(profiles)), own(size(heat%zeta) - 1, size(profiles))
       !> Conductances of a station, W/K: across the film, between the middles of layers, and from the middle of the
-      !> layer at a wall to the wall (layers and eddies are symmetric); from the middle of a layer of the pad to its
-      !> surface; out of the back; out of an end, of one layer.
-      real(wp) :: across(size(heat%zeta) - 2, size(profiles)), to_wall(size(profiles))
-      real(wp) :: to_surface, out_of_back, out_of_end
+      !> layer at a wall to the wall (layers and eddies are symmetric); from the middle of the last layer of the pad to
+      !> its surface; out of the back; of each layer of the pad to the next one, to the next station, and out of an end.
+      real(wp) :: across(size(heat%zeta) - 2, size(profiles)), to_wall(size(profiles)), to_surface, out_of_back
+      real(wp), dimension(solid_layers) :: to_next, along, out_of_end
       integer :: layers, stations, rows, i
       layers = size(heat%zeta) - 1
       stations = size(profiles)
@@ -238,8 +239,9 @@ contains
          unknown = (i - 1)*rows + layer
       end function unknown
 
+      !> The pad is a part of a ring: its back is longer than its bore.
       subroutine find_conductances()
-         real(wp) :: middle(layers), still(size(profiles))
+         real(wp) :: middle(layers), still(size(profiles)), outer(solid_layers), within(solid_layers), arc
          integer :: i
          middle = (heat%zeta(1:layers) + heat%zeta(2:))/2
          still = heat%conductivity*max(stream%filled, least_filled)*stream%step*stream%width/stream%h
@@ -253,13 +255,19 @@ contains
                across(:, i) = all(2:layers)
             end associate
          end do
-         to_surface = heat%pad_conductivity*stream%step*stream%width/(heat%thickness/solid_layers/2)
-         out_of_back = 0
-         out_of_end = 0
-         if (.not. heat%back_coefficient > 0) return
-         out_of_back = 1/(1/to_surface + 1/(heat%back_coefficient*stream%step*stream%width))
-         out_of_end = stream%width*heat%thickness/solid_layers &
-            & /(stream%step/2/heat%pad_conductivity + 1/heat%back_coefficient)
+         arc = stream%step/heat%radius
+         associate (layer => heat%thickness/solid_layers, k_pad => heat%pad_conductivity)
+            outer = heat%radius + [((solid_layers + 1 - i)*layer, i=1, solid_layers)]
+            within = outer - layer/2
+            to_surface = k_pad*arc*stream%width/log(within(solid_layers)/heat%radius)
+            to_next = k_pad*arc*stream%width/log(within/(within - layer))
+            along = k_pad*stream%width/arc*log(outer/(outer - layer))
+            out_of_back = 0
+            out_of_end = 0
+            if (.not. heat%back_coefficient > 0) return
+            out_of_back = arc*stream%width/(log(outer(1)/within(1))/k_pad + 1/(heat%back_coefficient*outer(1)))
+            out_of_end = stream%width*layer/(within*arc/2/k_pad + 1/heat%back_coefficient)
+         end associate
       end subroutine find_conductances
 
       !> Conduction across the film, to the shaft, and in the pad, to the film and out of its back and both ends.
@@ -271,20 +279,16 @@ contains
             end do
             call system%leave(unknown(i, rows), to_wall(i), 1.0_wp, by_shaft)
          end do
-         associate (layer => heat%thickness/solid_layers, step => stream%step, width => stream%width, &
-            & k_pad => heat%pad_conductivity)
-            do i = 1, stations
-               do k = 1, solid_layers
-                  if (k < solid_layers) call system%join(unknown(i, k), unknown(i, k + 1), k_pad*step*width/layer)
-                  if (i < stations) call system%join(unknown(i, k), unknown(i + 1, k), k_pad*layer*width/step)
-                  if (i == 1 .or. i == stations) call system%leave(unknown(i, k), out_of_end, heat%back_temperature, &
-                     & by_nothing)
-               end do
-               call system%leave(unknown(i, 1), out_of_back, heat%back_temperature, by_nothing)
-               call system%join(unknown(i, solid_layers), unknown(i, solid_layers + 1), &
-                  & 1/(1/to_wall(i) + 1/to_surface))
+         do i = 1, stations
+            do k = 1, solid_layers
+               if (k < solid_layers) call system%join(unknown(i, k), unknown(i, k + 1), to_next(k))
+               if (i < stations) call system%join(unknown(i, k), unknown(i + 1, k), along(k))
+               if (i == 1 .or. i == stations) call system%leave(unknown(i, k), out_of_end(k), heat%back_temperature, &
+                  & by_nothing)
             end do
-         end associate
+            call system%leave(unknown(i, 1), out_of_back, heat%back_temperature, by_nothing)
+            call system%join(unknown(i, solid_layers), unknown(i, solid_layers + 1), 1/(1/to_wall(i) + 1/to_surface))
+         end do
       end subroutine add_conduction
 
       !> By shear, and evenly across the film by friction of asperities.
@@ -332,8 +336,8 @@ contains
          end do
          do k = 1, solid_layers
             do i = 1, stations, max(1, stations - 1)
-               found%to_back = found%to_back + out_of_end*found%field(k, i, :)
-               found%to_back(by_nothing) = found%to_back(by_nothing) - out_of_end*heat%back_temperature
+               found%to_back = found%to_back + out_of_end(k)*found%field(k, i, :)
+               found%to_back(by_nothing) = found%to_back(by_nothing) - out_of_end(k)*heat%back_temperature
             end do
          end do
       end subroutine find_ends

@@ -97,7 +97,8 @@ contains
          if (.not. allocated(films%heat)) allocate (films%heat(bearing%pad_count()))
          do i = 1, size(films%heat)
             films%heat(i) = film_heat_type(oil%density*oil%specific_heat, oil%conductivity, pads%conductivity(i), &
-               & pads%thickness(i), oil%back_coefficient, oil%supply_temperature, layer_faces(layers))
+               & bearing%journal_radius + bearing%machined_clearance(i), pads%thickness(i), oil%back_coefficient, &
+               & oil%supply_temperature, layer_faces(layers))
          end do
          if (is_set(oil%back_temperature)) films%heat%back_temperature = oil%back_temperature
       end associate
@@ -220,16 +221,18 @@ contains
       end subroutine find_ends
    end subroutine solve_network
 
-   !> The highest of values at equal steps, of the parabola through three.
+   !> The highest of values in the middles of equal steps: of the parabola through three, which goes on to the end where
+   !> the last one is the highest, as in a film that is heated most at its trailing edge.
    pure real(wp) function highest(values)
       real(wp), intent(in) :: values(:)
-      real(wp) :: bend
+      real(wp) :: slope, bend, at
       integer :: i
-      i = maxloc(values, 1)
-      highest = values(i)
-      if (i == 1 .or. i == size(values)) return
+      i = min(max(maxloc(values, 1), 2), size(values) - 1)
+      slope = (values(i + 1) - values(i - 1))/2
       bend = values(i + 1) - 2*values(i) + values(i - 1)
-      if (bend < 0) highest = values(i) - (values(i + 1) - values(i - 1))**2/(8*bend)
+      at = sign(1.5_wp, slope)
+      if (abs(slope) < -bend*abs(at)) at = -slope/bend
+      highest = values(i) + at*(slope + at*bend/2)
    end function highest
 
    !> Begins with the temperatures of these films.

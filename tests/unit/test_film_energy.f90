@@ -18,7 +18,8 @@ program test_film_energy
 
    integer, parameter :: layers = 12, stations = 40
    !> J/(m^3 K), W/(m K), m, W/(m^2 K), C.
-   type(film_heat_type), parameter :: usual = film_heat_type(1.7e6_wp, 0.13_wp, 50.0_wp, 14e-3_wp, 100.0_wp, 40.0_wp)
+   type(film_heat_type), parameter :: usual = film_heat_type(1.7e6_wp, 0.13_wp, 50.0_wp, 50e-3_wp, 14e-3_wp, &
+      & 100.0_wp, 40.0_wp)
    !> A loaded film, and one that cavitates.
    type(film_motion), parameter :: loaded = film_motion(clearance*[-0.25_wp, 0.35_wp]), &
       & diverging = film_motion(clearance*[0.05_wp, 0.4_wp])
@@ -164,7 +165,8 @@ contains
       end associate
    end function offset_pad_radius
 
-   !> A film in which nothing moves: heat goes from the shaft through film and pad to its back, in a row of resistances.
+   !> A film in which nothing moves: heat goes from the shaft through film and pad to its back, in a row of resistances,
+   !> that of the pad a ring's.
    subroutine conducted()
       type(film_stream) :: stream
       type(film_heat_type) :: heat
@@ -178,8 +180,10 @@ contains
       profiles(1) = new_profile(heat%zeta, spread(50.0_wp, 1, layers))
       call solve_energy(heat, stream, profiles, 0.0_wp, found)
       call expect(found%solved, 'solved')
-      flux = (shaft - heat%back_temperature)/(h/heat%conductivity + heat%thickness/heat%pad_conductivity &
-         & + 1/heat%back_coefficient)
+      associate (bore => heat%radius, back => heat%radius + heat%thickness)
+         flux = (shaft - heat%back_temperature)/(h/heat%conductivity + bore*log(back/bore)/heat%pad_conductivity &
+            & + bore/back/heat%back_coefficient)
+      end associate
       associate (to_shaft => found%to_shaft(by_nothing) + shaft*found%to_shaft(by_shaft))
          ! both ends take as much more as their area is to that of the back
          call expect_close(-to_shaft, flux*stream%step*stream%width, 2*heat%thickness/stream%step*flux*stream%step &
