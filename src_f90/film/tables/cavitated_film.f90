@@ -234,7 +234,8 @@ contains
       node%ok = last > 0
       if (.not. node%ok) then
          self%cost = self%cost + film_cost(class_of(place(3)))
-         if (self%is_closer) call self%cavitated_film_type%look_up(place, want_slopes, last, counters, node)
+         if (self%is_closer .or. (self%fixed .and. .not. self%drive%acts)) call self%cavitated_film_type%look_up( &
+            & place, want_slopes, last, counters, node)
          return
       end if
       associate (cell => self%store%cells(last), value => node%data(:, 1), slope => node%data(:, 2:))
