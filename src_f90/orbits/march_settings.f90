@@ -1,7 +1,7 @@
 !> How a rotor is marched: the tolerances of its input, and what pivots and friction of its bearings ask for; and the
 !> march that brings a periodic orbit near, period after period, and the last one as intervals of a collocation.
 module march_settings
-   use kinds, only: wp, i8, pi
+   use kinds, only: wp, i8, pi, rpm
    use marching, only: march_options
    use state_layout, only: tilt, pivot_deflection
    use abstract_element, only: element_pointer
@@ -83,17 +83,20 @@ contains
    end function march_settings_of
 
    !> Whether there are light vibrations about the state y at time t, s: faster than the shaft, and they lose or gain
-   !> less than a factor e in a revolution, so that what the integrator raises of them stays.
+   !> less than a factor e in a revolution, so that what the integrator raises of them stays. In a run-up each may be so
+   !> at another speed: it passes them.
    logical function has_light_vibrations(model, t, y)
       type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: t, y(:)
-      real(wp) :: rates(size(y)), jacobian(size(y), size(y)), speed
+      real(wp) :: rates(size(y)), jacobian(size(y), size(y))
       complex(wp) :: values(size(y))
       logical :: ok
       call model%rhs_and_jacobian(t, y, rates, jacobian, ok)
       if (ok) call find_eigenvalues(jacobian, values, ok)
-      speed = model%inputs%highest_speed()
-      has_light_vibrations = ok .and. any(abs(values%im) > fast*speed .and. abs(values%re) < speed/(2*pi))
+      associate (operation => model%inputs%operation, highest => model%inputs%highest_speed())
+         has_light_vibrations = ok .and. any(abs(values%im) > fast*min(operation%speed_rpm, operation%final_speed_rpm) &
+            & *rpm .and. abs(values%re) < highest/(2*pi))
+      end associate
    end function has_light_vibrations
 
    !> How to march for a mesh, where a march would be so, and a revolution takes this time, s.

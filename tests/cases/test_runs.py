@@ -119,6 +119,16 @@ def test_run_up_ends_in_the_steady_orbit(march):
         assert size == pytest.approx(reference, rel=0.01)
 
 
+def test_a_run_up_through_a_resonance_keeps_its_accuracy(march):
+    """It passes a light vibration, which the integrator raises: after it the orbit erred by 4e-3."""
+    usual = march("examples/run_up")
+    close = march("examples/run_up", "integration%relative_tolerance=1e-6")
+    last = last_revolution(close)
+    for name in ("journal_y", "journal_z"):
+        # of 5 % of the clearance, as in docs/benchmarks.md
+        assert np.abs(usual[name][last] - close[name][last]).max() < 1e-3 * 0.05 * 80e-6
+
+
 def test_friction_none_is_lugre_without_grip(march):
     """With coefficients of 1e-6 the bristles hold nothing: the frictionless orbit."""
     span = "operation%duration=0.1"
