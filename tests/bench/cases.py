@@ -29,13 +29,17 @@ def cases(runner: Runner) -> Iterator[Row]:
 
 
 def compare(runner: Runner, case: Case, row: Row, path: Path, core: int) -> None:
-    """Enters the error of the defaults, and how far the reference still moves; removes the result files."""
+    """Enters the error of the defaults, and how far the reference still moves; removes the result files.
+
+    Where the load moves no revolution stands for the others: the whole run counts.
+    """
     runs = [runner.run(case, "", *each, timed=False, core=core) for each in REFINED]
     failed = [f"{each.setting}: {each.note}" for each, _ in runs if each.note]
     if not (row.note or failed):
         (_, coarse), (_, reference) = runs
-        row.compare(deviations(path, reference))
-        row.reference_moved = deviations(coarse, reference).largest
+        whole = "&excitation" in (ROOT / case.input_file).read_text()
+        row.compare(deviations(path, reference, whole))
+        row.reference_moved = deviations(coarse, reference, whole).largest
     row.note = "; ".join(filter(None, (row.note, *failed)))
     for each in (path, *(path for _, path in runs)):
         each.unlink(missing_ok=True)

@@ -19,18 +19,18 @@ PAGE = """\
 # Benchmarks
 
 `make bench` writes this page from its own runs; [benchmarks.csv](benchmarks.csv) contains every run. Only
-the figures to reach were typed in.
+the figures to reach, and why a case errs by more, were typed in.
 
 {machine}
 
 Wall times are those of the whole process, including the result file, on one core of a machine that runs
 nothing else. For runs below 2 s the page gives the minimum of two or three runs. Memory is the maximum of
 the process. The **error** of a run is the maximum deviation of journal y, journal z, pad tilt and friction
-moment in the last revolution from a converged run of the same case. Each deviation is over the
-peak-to-peak of its signal, or over 5 % of the signal's characteristic scale (bearing clearance; clearance
-over pad radius) if the peak-to-peak is smaller. The error must stay below {allowed:g}. That is
-said of the cases of this page alone: bearings with unloaded pads may err by more, as `make realistic`
-counts.
+moment in the last revolution, with `&excitation` over the whole run, from a converged run of the same case.
+Each deviation is over the peak-to-peak of its signal, or over 5 % of the signal's characteristic scale
+(bearing clearance; clearance over pad radius) if the peak-to-peak is smaller. The error must stay below
+{allowed:g}. That is said of the cases of this page alone: bearings with unloaded pads may err by more, as
+`make realistic` counts.
 
 A signal that jumps is compared by two numbers, by one rule for all cases. Where the converged signal
 changes by more than {jump:.0%} of its peak-to-peak from one sample to the next, a deviation tells when the
