@@ -196,8 +196,9 @@ contains
       damped = ''
       associate (error => file%get_real('rotor/damping_error'))
          if (error > 0) damped = filled(' and by {} by their damping', [error])
-         print '(a)', filled('rotor: {.1} kg, '//modes//'; amplitudes err by {} by modes left out', &
-            & [file%get_real('rotor/total_mass'), file%get_real('rotor/truncation_error')])//damped
+         print '(a)', filled('rotor: {.1} kg, '//modes//'; amplitudes err by {} by modes left out (all stations: {})', &
+            & [file%get_real('rotor/total_mass'), file%get_real('rotor/truncation_error'), &
+            & file%get_real('rotor/station_error')])//damped
       end associate
    end subroutine print_shaft
 

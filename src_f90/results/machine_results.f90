@@ -111,7 +111,9 @@ contains
          call file%put(group//'left_out_frequency', m%left_out_frequency, 'Hz', &
             & 'frequency of the first mode that is left out; 0: none is')
          call file%put(group//'truncation_error', m%truncation_error, '1', &
-            & 'relative error of amplitudes by the modes that are left out; 0: not estimated')
+            & 'relative error of amplitudes of journals and discs by the modes that are left out')
+         call file%put(group//'station_error', m%station_error, '1', &
+            & 'relative error of amplitudes of all stations by the modes that are left out')
          call file%put(group//'damped_above', m%damped_above, 'Hz', &
             & 'frequency above which a march damps modes of the shaft')
          call file%put(group//'damping_error', m%damping_error, '1', &

@@ -19,9 +19,10 @@ module rotor_reduction
    type :: vibration_type
       real(wp) :: speed = 0
       complex(wp) :: rate = 0
-      !> (n, loads), and displacements that matter: observed%times(q).
+      !> (n, loads), and where the stations are: observed%times(q); rows of those by which modes are chosen.
       real(wp), allocatable :: loads(:, :)
       type(sparse_matrix_type) :: observed
+      integer, allocatable :: chosen_by(:)
       !> Displacements of the journals, and the dynamic stiffness of their bearings, N/m.
       integer, allocatable :: journals(:)
       complex(wp), allocatable :: bearings(:)
@@ -43,11 +44,12 @@ module rotor_reduction
       real(wp), allocatable, dimension(:, :) :: mass, damping, gyroscopic, stiffness, circulatory
    end type projection_type
 
-   !> Modes kept in a plane, and errors of amplitudes at the highest speed, relative to the largest one: of leaving out
-   !> the others, and, in a motion, of damping those above a frequency, Hz; 0 where the number of modes was given.
+   !> Modes kept in a plane, and errors of amplitudes at the highest speed, relative to the largest one: of journals and
+   !> discs by leaving out the others and, in a motion, by damping those above a frequency, Hz; of all stations by
+   !> leaving out the others.
    type :: mode_selection_type
       integer :: modes = 0
-      real(wp) :: truncation_error = 0, damping_error = 0, damped_above = 0
+      real(wp) :: truncation_error = 0, damping_error = 0, damped_above = 0, station_error = 0
    end type mode_selection_type
 
    !> The modes are chosen for this error of amplitudes, and include all below this multiple of the highest speed, and
@@ -134,7 +136,7 @@ contains
          reduced = whole%reduced(component, fixed%basis(tried))
          do
             found = reduced%amplitudes(size(border) + fixed%planes*modes)
-            selection%truncation_error = amplitude_error(found, exact)
+            selection%truncation_error = amplitude_error(found(whole%chosen_by, :), exact(whole%chosen_by, :))
             if (given .or. modes == most .or. selection%truncation_error <= target_error) exit
             modes = modes + 1
             if (modes <= tried) cycle
@@ -143,6 +145,7 @@ contains
             call fixed%find_modes(tried)
             reduced = whole%reduced(component, fixed%basis(tried))
          end do
+         selection%station_error = amplitude_error(found, exact)
          if (.not. inputs%moves()) return
          damping = mode_damping(inputs%rotor%elastic%reduction%damping_ratio, fixed, selection)
          do i = 1, size(damping)
@@ -150,13 +153,14 @@ contains
                element = element + whole%rate*damping(i)
             end associate
          end do
-         selection%damping_error = amplitude_error(reduced%amplitudes(size(border) + size(damping)), found)
+         exact = reduced%amplitudes(size(border) + size(damping))
+         selection%damping_error = amplitude_error(exact(whole%chosen_by, :), found(whole%chosen_by, :))
       end associate
    end subroutine select_modes
 
    !> Vibration of a rotor at a speed, rad/s: the loads are its mass along y, as of an even eccentricity,
-   !> and its unbalances. Amplitudes are those of journals and discs: a force in between also deflects the shaft
-   !> just where it acts, which takes many modes. The bearings are springs and dampers that resist the journals as
+   !> and its unbalances. Modes are chosen by journals and discs: a force in between also deflects the shaft just
+   !> where it acts, which takes many modes. The bearings are springs and dampers that resist the journals as
    !> much as the rotor itself does, where both matter most.
    function new_vibration(inputs, component, fixed, border, speed) result(vibration)
       type(case_type), intent(in) :: inputs
@@ -183,8 +187,8 @@ contains
          if (size(inputs%rotor%elastic%bows) > 0) vibration%loads = reshape([vibration%loads, bow_forces( &
             & inputs%rotor%elastic, mounts%station, component)], [station%columns, 4])
          rows = [mounts%station, inputs%rotor%elastic%discs%station]
-         rows = [2*rows - 1, 2*rows]
-         vibration%observed = station%part(rows)
+         vibration%chosen_by = [2*rows - 1, 2*rows]
+         vibration%observed = station
       end associate
    end function new_vibration
 

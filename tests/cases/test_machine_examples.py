@@ -215,6 +215,37 @@ def test_below_the_threshold_a_march_comes_to_the_orbit_and_above_to_a_limit_cyc
         assert np.ptp(y) > 10 * unstable
 
 
+def complex_of(group, name):
+    """Of free pivots."""
+    return group[f"{name}_real"][0] + 1j * group[f"{name}_imag"][0]
+
+
+def test_modes_left_out_cost_what_is_said(tiltpad, root, tmp_path):
+    """Response and modes of three bearings beside those with all modes of the shaft.
+
+    Bare shaft between discs errs by more than journals and discs, and modes by more, the closer they come to
+    those that are left out.
+    """
+    found = {}
+    for name, more in (("usual", ()), ("all", ("reduction%frequency=1e5",))):
+        overrides = ("case%task=coefficients", *more)
+        case = root / "input/examples/three_bearings.nml"
+        tiltpad(case, "-q", "-o", f"{name}.h5", cwd=tmp_path, overrides=overrides, status=0)
+        with h5py.File(tmp_path / f"{name}.h5") as file:
+            response = [complex_of(file["response"], axis) for axis in "yz"]
+            modes = complex_of(file["modes"], "eigenvalue")
+            estimates = file["rotor/truncation_error"][()], file["rotor/station_error"][()]
+        found[name] = np.array(response), modes[np.isfinite(modes)], estimates
+    (usual, modes, (at_discs, anywhere)), (exact, every, _) = found.values()
+    errors = np.abs(usual - exact).max(axis=0) / np.abs(exact).max()
+    discs = np.array([2, 4, 6, 9, 11]) - 1
+    assert at_discs < errors[discs].max() < 4 * at_discs
+    assert anywhere < errors.max() < 4 * anywhere
+    rates = [(abs(mode), np.abs(every - mode).min() / abs(mode)) for mode in modes]
+    assert max(error for size, error in rates if size < 2 * np.pi * 500) < 1e-3
+    assert max(error for size, error in rates if size < 2 * np.pi * 600) < 1e-2
+
+
 def test_two_bearings_share_the_weight_by_the_levers(examples):
     with h5py.File(examples / "overhung.h5") as run:
         rotor, loads = run["rotor"], -run["equilibrium/bearing_load_y"][:]

@@ -349,6 +349,7 @@ def test_names_are_those_of_the_documents(machine):
         "rotor/mode_frequency": (("rotor/mode",), "Hz"),
         "rotor/left_out_frequency": ((), "Hz"),
         "rotor/truncation_error": ((), "1"),
+        "rotor/station_error": ((), "1"),
         "rotor/damped_above": ((), "Hz"),
         "rotor/damping_error": ((), "1"),
         "rotor/station_position": (("station",), "m"),

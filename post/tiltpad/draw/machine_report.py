@@ -19,7 +19,10 @@ from tiltpad.files.units import SHOWN, Shown, described, digits, fitted, numbers
 #: Pictures of the machine as a whole; those of the bearings are beside them.
 WHOLE = ("shaft", "stations", "shapes", "multipliers", "stability")
 #: What the rotor is, in the order of the table.
-ROTOR = ("total_mass", "left_out_frequency", "truncation_error", "damped_above", "damping_error")
+ROTOR = (
+    *("total_mass", "left_out_frequency", "truncation_error", "station_error"),
+    *("damped_above", "damping_error"),
+)
 #: Loads of the bearings along y and z.
 LOADS = ("equilibrium/bearing_load_y", "equilibrium/bearing_load_z")
 #: Heads of the columns of a mode.
