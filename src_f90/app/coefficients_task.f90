@@ -120,6 +120,7 @@ contains
       type(bearing_file_type) :: part
       type(rotor_response_type) :: response
       type(stability_levels_type) :: levels
+      real(wp) :: left_out
       integer :: b
       do b = 1, size(fine%bearings)
          part = run%bearing(b)
@@ -144,16 +145,20 @@ contains
       call put_modes(run%file, found, response%of_reduction > mostly)
       call put_thresholds(run%file, found)
       if (run%quiet) return
-      call print_coefficients(found, run%inputs, response%of_reduction > mostly)
+      left_out = 0
+      if (run%file%has('rotor/left_out_frequency')) left_out = run%file%get_real('rotor/left_out_frequency')
+      call print_coefficients(found, run%inputs, response%of_reduction > mostly, left_out)
       if (allocated(response%unbalance)) call print_response(found, response, run%inputs)
       if (allocated(levels%zero)) call print_levels(found, levels, run%inputs)
    end subroutine write_coefficients
 
-   subroutine print_coefficients(found, inputs, of_reduction)
+   subroutine print_coefficients(found, inputs, of_reduction, left_out)
       type(bearing_coefficients_type), intent(in) :: found
       type(case_type), intent(in) :: inputs
       !> Whether the damping of a mode in a march is that of the reduction, (mode, pivot).
       logical, intent(in) :: of_reduction(:, :)
+      !> Frequency, Hz, of the first mode that the reduction leaves out; 0: none is.
+      real(wp), intent(in) :: left_out
       character(len=:), allocatable :: kept
       integer :: b, i, k
       kept = ''
@@ -176,7 +181,7 @@ contains
             end do
             if (size(ratios) > most) print '(a)', '  and '//to_text(size(ratios) - most) &
                & //' whirl frequencies more, in the file'
-            call print_modes(found%modes(i), of_reduction(:size(found%modes(i)%eigenvalue), i))
+            call print_modes(found%modes(i), of_reduction(:size(found%modes(i)%eigenvalue), i), left_out)
             if (.not. allocated(found%thresholds)) cycle
             ! where an eigenvalue crosses the axis next
             associate (threshold => found%thresholds(i), speed => inputs%operation%speed_rpm)
@@ -307,20 +312,23 @@ contains
    end function other_decrements
 
    !> What modes of the rotor, and those of pads, say of stability, and the least damped ones that vibrate or grow.
-   subroutine print_modes(modes, of_reduction)
+   subroutine print_modes(modes, of_reduction, left_out)
       type(vibration_modes_type), intent(in) :: modes
       logical, intent(in) :: of_reduction(:)
+      real(wp), intent(in) :: left_out
       logical :: of_rotor(size(modes%name))
       of_rotor = is_of_rotor(modes%name)
       call print_kind(modes, of_rotor, of_reduction, trim(merge('the shaft  ', 'the journal', &
-         & any(index(modes%name, 'shaft') == 1)))//' is')
-      call print_kind(modes, .not. of_rotor, of_reduction, 'the pads are')
+         & any(index(modes%name, 'shaft') == 1)))//' is', left_out)
+      call print_kind(modes, .not. of_rotor, of_reduction, 'the pads are', 0.0_wp)
    end subroutine print_modes
 
-   subroutine print_kind(modes, of_kind, of_reduction, who)
+   subroutine print_kind(modes, of_kind, of_reduction, who, left_out)
       type(vibration_modes_type), intent(in) :: modes
       logical, intent(in) :: of_kind(:), of_reduction(:)
       character(len=*), intent(in) :: who
+      real(wp), intent(in) :: left_out
+      character(len=:), allocatable :: rough
       integer, allocatable :: shown(:)
       integer :: i, k
       if (.not. any(of_kind)) return
@@ -331,9 +339,12 @@ contains
       do k = 1, min(most, size(shown))
          i = shown(k)
          associate (value => modes%eigenvalue(i), title => '    mode '//to_text(i)//' ('//trim(modes%name(i))//'): ')
+            rough = ''
+            if (left_out > 0 .and. value%im > 2*pi*left_out) rough = filled('; rough, as modes from {.1} Hz on are ' &
+               & //'left out (reduction%frequency)', [left_out])
             if (value%im > 0) then
                print '(a)', title//filled('{.2} Hz, damping ratio {.4}, logarithmic decrement {.3}', &
-                  & [value%im/(2*pi), modes%damping_ratio(i), modes%log_decrement(i)])
+                  & [value%im/(2*pi), modes%damping_ratio(i), modes%log_decrement(i)])//rough
             else
                print '(a)', title//filled('grows without vibration, {.3} 1/s', [value%re])
             end if

@@ -244,6 +244,10 @@ def test_modes_left_out_cost_what_is_said(tiltpad, root, tmp_path):
     rates = [(abs(mode), np.abs(every - mode).min() / abs(mode)) for mode in modes]
     assert max(error for size, error in rates if size < 2 * np.pi * 500) < 1e-3
     assert max(error for size, error in rates if size < 2 * np.pi * 600) < 1e-2
+    slow = ("case%task=coefficients", "operation%speed_rpm=1000")
+    said = tiltpad(case, "-o", "slow.h5", cwd=tmp_path, overrides=slow, status=0).stdout
+    rough = re.findall(r"(\d+)\.\d+ Hz,.*; rough, as modes from 772\.4 Hz on are left out", said)
+    assert rough == ["1198", "1224", "1209"]
 
 
 def test_two_bearings_share_the_weight_by_the_levers(examples):
