@@ -7,7 +7,6 @@ VERSION := 0.1.0
 # FC, FFLAGS           compiler and its optimisation flags
 # PREFIX               where make install puts things; PLOTS=no: only the program, without Python
 # SUNDIALS_PREFIX, HDF5_PREFIX, FFTW_PREFIX   libraries of a cluster; nothing is installed then
-# ROSS=no              make test leaves out what needs ROSS, a gigabyte of Python packages
 # LAPACK               how to link LAPACK; ARCHIVES=no: shared libraries only (src_f90/libraries.sh)
 MODE   ?= release
 PREFIX ?= /usr/local
@@ -183,7 +182,7 @@ VENV := build/venv
 venv_python := $(VENV)/bin/python
 ross := build/venv-ross
 
-.PHONY: help run build deps python again wheel test test-slurm test-debian13 stress realistic fuzz faults \
+.PHONY: help run build deps python again wheel test ross test-slurm test-debian13 stress realistic fuzz faults \
         bench speed whirl misalignment paper site site-if-mkdocs unit test-programs debug-programs lint format docs install uninstall clean
 .DELETE_ON_ERROR:
 .SECONDEXPANSION:
@@ -195,6 +194,7 @@ help:
 	@echo 'make test-slurm   tries the job scripts of input/slurm on a real Slurm of one node, two minutes (as root)'
 	@echo 'make test-debian13   tries make run, make test and the wheel on an empty Debian 13, ten minutes (as root);'
 	@echo '                     make test-debian-sid: on another release'
+	@echo 'make ross     installs ROSS, a gigabyte of Python packages, and asks it anew what make test compares with'
 	@echo 'make stress   runs random cases, half an hour; writes docs/stability.md (CASES=300 SEED=1)'
 	@echo 'make realistic   marches bearings as they are built, 25 minutes; writes docs/realistic.md (BEARINGS=200 SEED=1)'
 	@echo 'make fuzz     tries random cases and arguments, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'
@@ -223,7 +223,7 @@ run: build python
 	   $(venv_python) $(VENV)/bin/tiltpad-plot $$plot build/run/steady_lugre.h5 -o build/run/$$plot.png || exit 1; \
 	   echo "picture: build/run/$$plot.png"; done
 
-test: build python $(VENV)/compiled build/deps-test $(if $(filter no,$(ROSS)),,$(ross)/ready) $(B)/stress/global_search \
+test: build python $(VENV)/compiled build/deps-test $(B)/stress/global_search \
       debug-programs site-if-mkdocs
 	@TILTPAD="$$PWD/$(B)/bin/tiltpad" $(venv_python) tests/run_all.py $(addprefix build/debug/tests/,$(test_names))
 
@@ -244,6 +244,11 @@ test-debian13:
 	@$(MAKE) --no-print-directory test-debian-trixie
 test-debian-%: build/deps-debian
 	@tests/debian/try_suite $* build/debian/$*
+
+# asks ROSS what tests compare with, and keeps the answers for make test (tests/post/ross_answers.json.gz)
+ross: build python $(ross)/ready
+	@TILTPAD="$$PWD/$(B)/bin/tiltpad" TILTPAD_ROSS=ask $(venv_python) -m pytest -q -p no:cacheprovider \
+	   tests/post/test_ross*.py tests/post/test_tutorial.py
 
 # random cases; CASES and SEED choose them
 CASES ?= 300
@@ -387,14 +392,14 @@ $(VENV)/ready-bench: tests/bench/requirements.txt $(VENV)/ready
 	@touch $@
 
 # ROSS, in an environment of its own. It asks for a later Python than it needs; what it uses is installed as usual.
-# Where it cannot be installed, its tests are skipped. Of its packages only what it loads is compiled.
+# Of its packages only what it loads is compiled.
 $(ross)/ready: tests/post/ross_requirements.txt | build/deps-checked
-	@($(PYTHON) -m venv $(ross) && \
-	   $(ross)/bin/python -m pip install -q --disable-pip-version-check --no-compile -r $< && \
-	   $(ross)/bin/python -m pip install -q --disable-pip-version-check --no-compile --no-deps --ignore-requires-python \
-	   ross-rotordynamics==3.1.0 && touch $@ && \
-	   { PYTHONDONTWRITEBYTECODE= $(ross)/bin/python -c 'import ross' >/dev/null 2>&1 || true; }) || \
-	   echo 'no ROSS: its tests are skipped'
+	$(PYTHON) -m venv $(ross)
+	$(ross)/bin/python -m pip install -q --disable-pip-version-check --no-compile -r $<
+	$(ross)/bin/python -m pip install -q --disable-pip-version-check --no-compile --no-deps --ignore-requires-python \
+	   ross-rotordynamics==3.1.0
+	@PYTHONDONTWRITEBYTECODE= $(ross)/bin/python -c 'import ross' >/dev/null 2>&1 || true
+	@touch $@
 
 # ---- build -------------------------------------------------------------------------------------
 build: $(B)/bin/tiltpad

@@ -120,8 +120,8 @@ COMPILED = [
     (re.compile(word, re.IGNORECASE), term, excuse and re.compile(excuse, re.IGNORECASE))
     for term, (word, excuse) in WORDS.items()
 ]
-#: What a whole text in small letters has where one of its lines has the word: without the starts of words, which
-#: make the search slow.
+#: What a whole text in small letters has where one of its lines has the word: without the starts of words,
+#: which make the search slow.
 START = re.compile(r"\\b\\w\*|(?<![^|(:])\\b")
 HINTS = [re.compile(START.sub("", word).lower(), re.MULTILINE) for word, _ in WORDS.values()]
 

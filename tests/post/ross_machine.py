@@ -1,7 +1,9 @@
 """Machines in ROSS and in the program on the same bearings: for tests and docs/verify_machines.py."""
 
+import gzip
 import json
 import subprocess
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,6 +14,9 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 #: The file that is there when ROSS is installed.
 READY = ROOT / "build/venv-ross/ready"
+#: What ROSS answered when `make ross` last asked it, with its version; how close a question must be to one of
+#: these, as a share of the largest number of an array.
+RECORD, SAME = ROOT / "tests/post/ross_answers.json.gz", 1e-7
 #: Place of the pivots that are locked, whose bearings couple y and z as strongly as they resist.
 LOCKED = 1
 #: All modes of the shaft, without damping: the equations of ROSS.
@@ -36,7 +41,7 @@ ROTORS = {
 
 @contextmanager
 def questions() -> Iterator:
-    """answer(bearing=..., points=...): what ROSS answers to ross_program.py."""
+    """answer(bearing=..., points=...): what ROSS answers to ross_program.py; answer.close: how well."""
     words = [READY.parent / "bin/python", ROOT / "tests/post/ross_program.py"]
     with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
 
@@ -47,7 +52,60 @@ def questions() -> Iterator:
             assert said, "ROSS ended without an answer"
             return {name: np.array(values) for name, values in json.loads(said).items()}
 
+        answer.close = 0.0
         yield answer
+
+
+@contextmanager
+def recording() -> Iterator:
+    """As questions(), and writes questions and answers into the record."""
+    told = []
+    with questions() as ask:
+
+        def answer(**asked) -> dict[str, np.ndarray]:
+            found = ask(**asked)
+            told.append([completed(asked), {name: values.tolist() for name, values in found.items()}])
+            return found
+
+        answer.close = ask.close
+        version = str(ask(version=True)["version"])
+        yield answer
+    content = json.dumps({"version": version, "answers": told}, separators=(",", ":"))
+    RECORD.write_bytes(gzip.compress(content.encode(), mtime=0))
+
+
+@contextmanager
+def recorded() -> Iterator:
+    """As questions(), from the record. A question that is not there ends the test."""
+    told = json.loads(gzip.decompress(RECORD.read_bytes()))["answers"]
+
+    def answer(**asked) -> dict[str, np.ndarray]:
+        wanted = completed(asked)
+        found = next((found for question, found in told if same(question, wanted)), None)
+        assert found, f"ROSS was never asked this, or another bearing: make ross asks it ({RECORD.name})"
+        return {name: np.array(values) for name, values in found.items()}
+
+    answer.close = SAME
+    yield answer
+
+
+def completed(asked):
+    """A question as JSON has it, with what is in files in place of their names."""
+    if isinstance(asked, dict):
+        return {name: completed(each) for name, each in asked.items()}
+    if isinstance(asked, str) and asked.endswith(".toml"):
+        return tomllib.loads(Path(asked).read_text())
+    return json.loads(json.dumps(asked))
+
+
+def same(one, other):
+    """Whether a question is another but for the rounding of its numbers."""
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(same(one[name], other[name]) for name in one)
+    if isinstance(one, (dict, str)) or isinstance(other, (dict, str)):
+        return one == other
+    a, b = np.array(one, dtype=float), np.array(other, dtype=float)
+    return a.shape == b.shape and np.allclose(a, b, rtol=0, atol=SAME * np.abs(a).max(initial=0))
 
 
 def in_ross(matrix):
@@ -91,8 +149,11 @@ def linear(program, folder, rotor, unbalance, speed):
     return values[np.isfinite(values)], np.transpose(moved), matrices
 
 
-def by_ross(ross, discs, unbalance, speed, matrices, seal=""):
-    """ROSS's rotor on the same matrices. Its nodes count from 0; +y is a quarter turn ahead of its x."""
+def by_ross(ross, discs, unbalance, speed, matrices, seal="", described=False):
+    """ROSS's rotor on the same matrices, and `described` its own.
+
+    Its nodes count from 0; +y is a quarter turn ahead of its x.
+    """
     return ross(
         machine={
             "length": LENGTH,
@@ -102,6 +163,7 @@ def by_ross(ross, discs, unbalance, speed, matrices, seal=""):
             "speed": speed * np.pi / 30,
             "unbalance": [unbalance - 1, 0.02, np.pi / 2],
             "seal": str(seal),
+            "described": described,
             **{name: [in_ross(each).tolist() for each in values] for name, values in matrices.items()},
         }
     )

@@ -2,17 +2,22 @@
 
 Each line of standard input is a question in JSON: bearing (file), points (pairs of whirl frequency and
 speed, rad/s), mass (kg), unbalance (kg m), phase (rad, from x), speeds (rad/s);
-or turbine, a speed for a rotor of its own; or machine, a rotor in bearings; or damper, a squeeze film
-damper on a centred circle. A line of its output that begins with { answers one in JSON: stiffness and
-damping at the points, and the synchronous motion of the journal along x and y, real and imaginary parts.
+or script, lines of Python to be run where the file of the bearing is; or turbine, a speed for a rotor of
+its own; or machine, a rotor in bearings; or damper, a squeeze film damper on a centred circle; or version.
+A line of its output that begins with { answers one in JSON: stiffness and damping at the points, and the
+synchronous motion of the journal along x and y, real and imaginary parts.
 One process answers all, as ROSS takes seconds to start.
 The rotor is a mass in the middle of a stiff shaft without weight, which two such bearings carry; each bears
 half of it.
 """
 
 import json
+import os
 import sys
 import warnings
+from contextlib import redirect_stdout
+from importlib.metadata import version
+from io import StringIO
 
 import numpy as np
 
@@ -31,6 +36,10 @@ def main() -> None:
 
 def answer(asked: dict) -> dict:
     """The answer to a question."""
+    if "version" in asked:
+        return {"version": f"ROSS {version('ross-rotordynamics')}, NumPy {np.__version__}"}
+    if "script" in asked:
+        return printed(asked["script"], os.path.dirname(asked["bearing"]))
     if "turbine" in asked:
         return turbine(asked["turbine"])
     if "machine" in asked:
@@ -48,6 +57,14 @@ def answer(asked: dict) -> dict:
     return found
 
 
+def printed(script: str, folder: str) -> dict:
+    """What lines of Python print in a folder."""
+    os.chdir(folder)
+    with redirect_stdout(StringIO()) as said:
+        exec(script, {})
+    return {"printed": said.getvalue()}
+
+
 def turbine(speed: float) -> dict:
     """A rotor with an overhung disk on springs: ROSS's matrices, and its whirl at a speed."""
     shaft = [ross.ShaftElement(L=0.2, idl=0, odl=0.1, material=ross.materials.steel) for _ in range(6)]
@@ -57,7 +74,7 @@ def turbine(speed: float) -> dict:
     ]
     bearings = [ross.BearingElement(n=n, kxx=3e7, kyy=5e7, cxx=0, cyy=0, kzz=1e6) for n in (0, 4)]
     rotor = ross.Rotor(shaft, disks, bearings)
-    found = described(rotor)
+    found = description(rotor)
     # synchronously to the unbalance at node 6: its motion along x and y
     moved = rotor.run_unbalance_response(
         node=6, unbalance_magnitude=1e-3, unbalance_phase=0, speed_range=np.array([speed])
@@ -66,7 +83,7 @@ def turbine(speed: float) -> dict:
     return found | {"moved": [[moved[k][0].real, moved[k][0].imag] for k in rows]}
 
 
-def described(rotor: ross.Rotor) -> dict:
+def description(rotor: ross.Rotor) -> dict:
     """Matrices without bearings, and how their rows are counted."""
     found = {name: getattr(rotor, name).tolist() for name in ("M0", "C0", "G0", "K0")}
     found |= {"dof": rotor.number_dof, "nodes": len(rotor.nodes), "mass": rotor.m}
@@ -76,11 +93,12 @@ def described(rotor: ross.Rotor) -> dict:
 
 def machine(
     length: list, diameter: list, discs: list, nodes: list, stiffness: list, damping: list, speed: float,
-    unbalance: list, seal: str = "",
+    unbalance: list, seal: str, described: bool,
 ) -> dict:  # fmt: skip
     """A shaft of steel with discs (node, mass, diametral and polar inertia) in bearings, each with matrices
-    at a speed: ROSS's matrices, its eigenvalues without those of torsion and axial vibration, and its whirl,
-    x and y of each node, under an unbalance (node, moment, phase). A seal is read from a file.
+    at a speed: ROSS's matrices where they are to be described, its eigenvalues without those of torsion and
+    axial vibration, and its whirl, x and y of each node, under an unbalance (node, moment, phase). A seal is
+    read from a file.
     """
     steel = ross.Material("steel", rho=7850, E=2.1e11, Poisson=0.3)
     shaft = [
@@ -102,7 +120,7 @@ def machine(
         bearings.append(ross.SealElement.load(seal))
     rotor = ross.Rotor(shaft, disks, bearings)
     # bending is coupled with neither torsion nor axial vibration
-    places = described(rotor)["places"]
+    places = description(rotor)["places"]
     bending = [rotor.number_dof * n + each for n in range(len(rotor.nodes)) for each in places]
     bending = [*bending, *(rotor.ndof + each for each in bending)]
     values = np.linalg.eigvals(rotor.A(speed)[np.ix_(bending, bending)])
@@ -111,7 +129,7 @@ def machine(
         node=node, unbalance_magnitude=moment, unbalance_phase=phase, speed_range=np.array([speed])
     ).forced_resp[:, 0]
     rows = [[rotor.number_dof * n + each for each in (0, 1)] for n in range(len(rotor.nodes))]
-    return described(rotor) | {
+    return (description(rotor) if described else {}) | {
         "eigenvalues": [[z.real, z.imag] for z in values],
         "moved": [[[moved[k].real, moved[k].imag] for k in row] for row in rows],
     }

@@ -1,6 +1,9 @@
-"""Bearings for ROSS, in ROSS itself (make test installs it into an environment of its own)."""
+"""Bearings for ROSS, in ROSS itself: in what it answered when make ross last asked it."""
 
+import itertools
 import json
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -31,9 +34,24 @@ def test_ross_reads_the_tables(ross, study, run, tmp_path, over):
     axes = tiltpad.to_ross(source, tmp_path / "bearing.toml", over=over, pivot="stuck")
     speeds = axes["speed"] if over != "frequency" else np.array([6500 * np.pi / 30])
     whirls = np.tile(axes["frequency"], (len(speeds), 1)) if over != "speed" else speeds[:, None]
-    near(ross, source, tmp_path / "bearing.toml", speeds, whirls, 1e-12)
+    near(ross, source, tmp_path / "bearing.toml", speeds, whirls, max(1e-12, ross.close))
+    near(read_at, source, tmp_path / "bearing.toml", speeds, whirls, 1e-12)
     if over == "both":
         near(ross, source, tmp_path / "bearing.toml", speeds, (whirls[:, 1:] + whirls[:, :-1]) / 2, 1e-3)
+
+
+def read_at(bearing, points):
+    """Stiffness and damping in the file's own tables, which have these points one after another."""
+    (table,) = tomllib.loads(Path(bearing).read_text()).values()
+    named = [name in table for name in ("speed", "frequency")]
+    rows = itertools.product(*(table[name] for name in itertools.compress(("speed", "frequency"), named)))
+    assert list(rows) == [tuple(itertools.compress((speed, whirl), named)) for whirl, speed in points]
+    return {
+        name: np.transpose([np.ravel(table[letter + axes]) for axes in ("xx", "xy", "yx", "yy")]).reshape(
+            -1, 2, 2
+        )
+        for name, letter in (("stiffness", "k"), ("damping", "c"))
+    }
 
 
 def near(ross, source, bearing, speeds, whirls, within):

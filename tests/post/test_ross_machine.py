@@ -36,9 +36,8 @@ def test_a_rotor_of_ross_is_the_shaft_itself(program, ross, tmp_path, name):
     """Matrices that ROSS made, written by from_ross and read in place of shaft and discs."""
     discs, unbalance = ROTORS[name]
     values, moved, matrices = linear(program, tmp_path, shaft(discs), unbalance, SPEEDS[-1])
-    package.from_ross(
-        seen_from_outside(by_ross(ross, discs, unbalance, SPEEDS[-1], matrices)), tmp_path / "rotor.h5"
-    )
+    theirs = by_ross(ross, discs, unbalance, SPEEDS[-1], matrices, described=True)
+    package.from_ross(seen_from_outside(theirs), tmp_path / "rotor.h5")
     given, whirl, _ = linear(program, tmp_path, "&rotor file = 'rotor.h5' /", unbalance, SPEEDS[-1])
     slow = values[abs(values) < 1e4]
     assert farthest(slow, given) < 1e-7
