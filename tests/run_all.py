@@ -21,6 +21,10 @@ ONLY = os.environ.get("ONLY", "")
 SLOWEST, SHORT = 25, 0.5
 #: Files of tests that one process runs: starting Python and pytest takes as long as many tests do.
 TOGETHER = 6
+#: Files that take longest: each is a job of its own and starts first, so that none is left alone at the end.
+LONG = ("cases/test_blocks", "post/test_tutorial", "cases/test_command_faults", "cases/test_fault_sample",
+        "cases/test_checkpoint", "cases/test_branch_stops", "post/test_damaged", "post/test_hostile",
+        "post/test_fit")  # fmt: skip
 #: A test that hangs shows where, and ends the others of its process.
 PYTEST = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=0", f"--durations-min={SHORT}",
           "-o", "faulthandler_timeout=900", "-o", "faulthandler_exit_on_timeout=true"]  # fmt: skip
@@ -33,12 +37,15 @@ COUNTS = re.compile(r"(\d+) passed, (\d+) failed")
 def jobs(programs):
     """Each job's name and command; programs, which are the shortest, come last."""
     python = [sys.executable, *PYTEST, *(["-k", ONLY] if ONLY else [])]
+    groups = [[TESTS / f"{name}.py"] for name in LONG]
     for folder in ("cases", "post"):
-        files = sorted(TESTS.glob(f"{folder}/test_*.py"), key=lambda file: -file.stat().st_size)
+        files = [file for file in TESTS.glob(f"{folder}/test_*.py") if [file] not in groups]
+        files.sort(key=lambda file: -file.stat().st_size)
         count = -(-len(files) // TOGETHER)
-        for first in range(count):
-            names = [str(file.relative_to(TESTS.parent)) for file in files[first::count]]
-            yield " ".join(names), [*python, *names]
+        groups += [files[first::count] for first in range(count)]
+    for group in groups:
+        names = [str(file.relative_to(TESTS.parent)) for file in group]
+        yield " ".join(names), [*python, *names]
     for program in programs:
         yield Path(program).name, [program]
 
