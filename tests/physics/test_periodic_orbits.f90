@@ -145,7 +145,7 @@ contains
       do round = 1, 12
          call newton_round(model, orbit, error, values)
          call expect_no_error(error, 'a round')
-         if (orbit%correction < 1e-10_wp) exit
+         if (orbit%correction < 1e-9_wp) exit
       end do
       call expect(orbit%correction < 1e-9_wp, 'it converges to '//to_text(orbit%correction))
    end function refined
