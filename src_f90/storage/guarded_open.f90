@@ -55,7 +55,7 @@ contains
       character(len=*), intent(in) :: path
       type(hdf5_type) :: file
       character(len=*), parameter :: texts(*) = [character(len=11) :: 'program', 'input', 'reason', 'history', &
-         & 'sweep', 'study_marks']
+         & 'sweep', 'study_marks', 'task']
       character(len=:), allocatable :: text
       type(record_type) :: results
       integer :: i
@@ -69,8 +69,8 @@ contains
       end do
       if (allocated(file%failure)) call end_child(1)
       call read_group(file, '/')
-      ! what a run reads that goes on
-      call read_record(file, results)
+      ! what a run reads that goes on; a study has a child of its own for its rows
+      if (text /= 'study') call read_record(file, results)
       call file%close()
    end subroutine read_all
 

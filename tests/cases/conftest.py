@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import cache
 from pathlib import Path
 
 import h5py
@@ -82,7 +83,8 @@ def wait_for(condition, process=None, seconds=TIMEOUT):
     while not condition():
         assert process is None or process.poll() is None, process.communicate()
         assert time.monotonic() < end
-        time.sleep(0.001)
+        # many of these conditions open a file
+        time.sleep(0.005)
 
 
 def publication(path):
@@ -192,31 +194,31 @@ def start(program):
             process.kill()
 
 
-@pytest.fixture
-def loaded(tmp_path):
+@pytest.fixture(scope="session")
+def loaded(tmp_path_factory):
     """loaded(FAST_CLOCK): the environment in which these functions stand for the system's."""
 
-    def environment(source, **variables):
-        library = tmp_path / "own.so"
+    @cache
+    def library(source):
+        path = tmp_path_factory.mktemp("loaded") / "own.so"
         compiler = shutil.which("cc") or shutil.which("gcc")
         if not compiler:
             pytest.skip("no C compiler")
         subprocess.run(
-            [compiler, "-shared", "-fPIC", "-w", "-x", "c", "-", "-o", library, "-ldl"],
+            [compiler, "-shared", "-fPIC", "-w", "-x", "c", "-", "-o", path, "-ldl"],
             input=HEAD + source, text=True, check=True,
         )  # fmt: skip
-        return {**os.environ, "LD_PRELOAD": str(library), **variables}
+        return str(path)
 
-    return environment
+    return lambda source, **variables: {**os.environ, "LD_PRELOAD": library(source), **variables}
 
 
-@pytest.fixture
-def failing(tmp_path):
+@pytest.fixture(scope="session")
+def failing(tmp_path_factory):
     """failing("write", 12, "ENOSPC"): the environment in which it fails; `always`: and all after it."""
     if not (shutil.which("cc") or shutil.which("gcc")):
         pytest.skip("no C compiler")
-    library = tmp_path / "injector"
-    library.mkdir()
+    library = tmp_path_factory.mktemp("injector")
     injector = Injector(library)
 
     def environment(*fault, always=False, folder=None):

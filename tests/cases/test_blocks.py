@@ -59,8 +59,9 @@ def times(path):
 
 
 # ---- blocks that end well ----------------------------------------------------------------------------
-@pytest.mark.parametrize("text", [QUICK.format(last=1100), MIXED], ids=["equilibria", "marches"])
-@pytest.mark.parametrize("of", [2, 5, 13])
+@pytest.mark.parametrize(
+    ("text", "of"), [(QUICK.format(last=1040), 5), (MIXED, 3)], ids=["equilibria", "marches"]
+)
 def test_blocks_at_once_are_the_whole_study(tiltpad, start, case, text, of):
     """In any order; a block whose runs fail has their status, and the others have none."""
     folder = case(text)
@@ -85,7 +86,7 @@ def counted(done):
 
 def test_sizes_and_names(tiltpad, case):
     folder = case(QUICK.format(last=1007))
-    sizes = {3: (2, 2), 4: (1, 2), 10: (0, 1), 100: (0, 1)}
+    sizes = {3: (2, 2), 4: (1, 2), 10: (0, 1)}
     for of, allowed in sizes.items():
         found = []
         for k in range(1, of):
@@ -276,7 +277,7 @@ def test_bytes_of_a_block_that_are_others(tiltpad, case):
     path = folder / "case.2of3.h5"
     there = path.read_bytes()
     refused = 0
-    for place in range(0, len(there) - 8, len(there) // 40):
+    for place in range(0, len(there) - 8, len(there) // 12):
         path.write_bytes(
             there[:place] + bytes(byte ^ 255 for byte in there[place : place + 8]) + there[place + 8 :]
         )
@@ -340,7 +341,7 @@ def test_overwrite_of_an_old_study(tiltpad, case):
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_a_block_that_is_stopped_goes_on(tiltpad, start, case, loaded, number):
     """No row of a checkpoint is lost or run again."""
-    folder = case(QUICK.format(last=1900))
+    folder = case(QUICK.format(last=1300))
     expected = whole(tiltpad, folder)
     tiltpad("case.nml", "-q", "--block", "1/2", cwd=folder, status=0)
     path = folder / "case.2of2.h5"
@@ -349,7 +350,7 @@ def test_a_block_that_is_stopped_goes_on(tiltpad, start, case, loaded, number):
     process.send_signal(number)
     process.communicate(timeout=TIMEOUT)
     done = times(path)
-    assert 0 < len(done) < 450
+    assert 0 < len(done) < 150
     # the whole study takes what there is, and so does the block
     for name in os.listdir(folder):
         if name.startswith("case.") and name.endswith(".h5"):
@@ -381,20 +382,19 @@ def test_a_block_that_is_written(tiltpad, start, case):
 @pytest.mark.parametrize(
     ("kind", "stride", "action"),
     [
-        *[("open", 3, "killall"), ("write", 31, "killall"), ("sync", 1, "killall"), ("rename", 1, "killall")],
-        *[("delete", 1, "killall"), ("write", 29, "ENOSPC"), ("sync", 2, "EIO"), ("rename", 1, "EIO")],
+        *[("open", 5, "killall"), ("write", 41, "killall"), ("sync", 1, "killall"), ("rename", 1, "killall")],
+        *[("delete", 1, "killall"), ("write", 37, "ENOSPC"), ("sync", 2, "EIO"), ("rename", 1, "EIO")],
     ],
 )
 def test_a_kill_or_failure_at_each_step(tiltpad, program, case, failing, kind, stride, action):
     """Of the last block: the next to run completes the study; no run is lost or run twice."""
-    folder = case("&case task='equilibrium' /\n&sweep rotor%mass=1001:1006:1 /\n")
+    folder = case("&case task='equilibrium' /\n&sweep rotor%mass=1001:1004:1 /\n")
     expected = whole(tiltpad, folder)
     made = folder / "made"
     made.mkdir()
-    for k in (1, 2):
-        tiltpad("case.nml", "-q", "--block", f"{k}/3", "-o", "made/case", cwd=folder, status=0)
+    tiltpad("case.nml", "-q", "--block", "1/2", "-o", "made/case", cwd=folder, status=0)
     before = {path.name: path.read_bytes() for path in made.iterdir()}
-    there = times(made / "case.1of3.h5") | times(made / "case.2of3.h5")
+    there = times(made / "case.1of2.h5")
     killed = 0
     for step in itertools.count(1, stride):
         for path in made.iterdir():
@@ -402,7 +402,7 @@ def test_a_kill_or_failure_at_each_step(tiltpad, program, case, failing, kind, s
         for name, content in before.items():
             (made / name).write_bytes(content)
         environment = failing(kind, step, action, folder=made)
-        command = [program, "case.nml", "-q", "--block", "3/3", "--jobs", "1", "-o", str(made / "case")]
+        command = [program, "case.nml", "-q", "--block", "2/2", "--jobs", "1", "-o", str(made / "case")]
         own = {"cwd": folder, "env": environment, "start_new_session": True, "timeout": TIMEOUT}
         status = subprocess.run(command, **own, check=False).returncode
         if status == 0:
@@ -414,7 +414,7 @@ def test_a_kill_or_failure_at_each_step(tiltpad, program, case, failing, kind, s
         for path in made.glob("case*.h5"):
             kept |= times(path)
         assert kept | there == kept
-        again = (("--block", "2/3"), ("--block", "3/3")) if killed % 2 else ((),)
+        again = (("--block", "1/2"), ("--block", "2/2")) if killed % 2 else ((),)
         for words in again:
             tiltpad("case.nml", "-q", *words, "-o", "made/case", cwd=folder, status=0)
         found = times(made / "case.h5")
@@ -428,7 +428,7 @@ def test_two_blocks_that_end_at_once(tiltpad, start, case):
     """Many times: both end well, and the study is there once and whole."""
     folder = case("&case task='equilibrium' /\n&sweep rotor%mass=1001:1008:1 /\n")
     expected = whole(tiltpad, folder)
-    for _ in range(6):
+    for _ in range(3):
         started = [start(folder, "-q", "case.nml", "--block", f"{k}/4", "--jobs", "1") for k in (1, 2, 3, 4)]
         for process in started:
             assert process.communicate(timeout=TIMEOUT) == ("", "")
@@ -440,7 +440,7 @@ def test_two_blocks_that_end_at_once(tiltpad, start, case):
 
 def test_a_disk_that_is_full_while_blocks_are_joined(tiltpad, program, case):
     """One line; all rows stay in the files of the blocks, and with more room the study follows."""
-    folder = case(QUICK.format(last=1600))
+    folder = case(QUICK.format(last=1200))
     expected = whole(tiltpad, folder)
     (folder / "made").mkdir()
     for k in (1, 2):

@@ -107,7 +107,7 @@ def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, name
     """Slices that end after this many requests; one without a new point is followed by a longer one."""
     run(SLICED[name], more=("-o", "whole.h5"))
     path, library = tmp_path / "case.h5", loaded(AT_A_REQUEST, SIGNAL=str(int(number)))
-    requests, points, stops, status = 20000, 0, 0, None
+    requests, points, stops, status = 25000, 0, 0, None
     while status != 0:
         done = tiltpad(
             "--resume", "case.h5", "case.nml", "-q", *EVERY_STEP,
@@ -118,7 +118,7 @@ def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, name
         assert done.stderr.count("\n") == (status == 4)
         stops += status != 0
         reached = len(arrays(path)["point"]) if path.exists() else 0
-        requests = requests + 997 if reached > points else requests * 5 // 4
+        requests = requests + 997 if reached > points else requests * 3 // 2
         points = reached
     assert stops > 5
     check_same(path, tmp_path / "whole.h5")

@@ -394,10 +394,10 @@ def test_a_reader_keeps_what_it_opened(start, case):
 # ---- disks -------------------------------------------------------------------------------------
 def test_a_full_disk_keeps_the_last_checkpoint(program, case, whole):
     """Whatever is written when the disk is full; room made, the run goes on."""
-    for size in (6, 8, 9, 11):
+    for size in (1900, 2500, 2900, 3500):
         done = in_a_mount_namespace(
             """
-            mkdir -p $FOLDER/disk; mount -t tmpfs -o size=${SIZE}m tmpfs $FOLDER/disk; cd $FOLDER/disk
+            mkdir -p $FOLDER/disk; mount -t tmpfs -o size=${SIZE}k tmpfs $FOLDER/disk; cd $FOLDER/disk
             status=0; $PROGRAM -q ../case.nml $MORE || status=$?
             ls >&2; test $status = 3
             cp case.h5 ../full.h5
@@ -407,7 +407,7 @@ def test_a_full_disk_keeps_the_last_checkpoint(program, case, whole):
             """,
             FOLDER=case,
             PROGRAM=program,
-            MORE="--set operation%duration=1 --set output%checkpoint_seconds=1e-3",
+            MORE="--set operation%duration=0.25 --set output%checkpoint_seconds=1e-3",
             SIZE=size,
         )
         assert done.returncode == 0, done.stderr

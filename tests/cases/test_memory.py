@@ -44,7 +44,7 @@ def test_no_memory_at_any_request(tiltpad, tmp_path, failing, task, once):
         refused += 1
         call = 1 + 1.2 * call
     assert refused > 40
-    assert sorted(os.listdir(tmp_path)) == ["case.h5", "case.nml", "injector"]
+    assert sorted(os.listdir(tmp_path)) == ["case.h5", "case.nml"]
 
 
 def test_no_memory_for_a_run_of_a_study(tiltpad, tmp_path, failing):

@@ -17,7 +17,7 @@ from stress_cases import text  # noqa: E402
 
 SEED = 7
 #: Revolutions in which unloaded pads leave zero tilt and flutter.
-REVOLUTIONS = 20
+REVOLUTIONS = 12
 REFUSED = (40, 713)
 #: What may be the cause: which of them is found hangs on rounding.
 CAUSE = (

@@ -169,14 +169,14 @@ def test_a_study_grows(tiltpad, case):
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_killed_again_and_again(tiltpad, start, case, loaded, number):
     """No row of a checkpoint is lost or run again, and the rest is that of a study that was not killed."""
-    folder = case(QUICK.format(last=1600))
+    folder = case(QUICK.format(last=1300))
     tiltpad("case.nml", "-q", "-o", "whole", cwd=folder, status=0)
     done = {}
     for attempt in range(100):
         process = start(folder, "-q", "--jobs", "2", "case.nml", env=loaded(FAST_CLOCK))
         # the last ones are left alone
         while process.poll() is None and (attempt > 6 or known(folder / "case.h5") <= len(done)):
-            time.sleep(0.001)
+            time.sleep(0.01)
         assert len([name for name in os.listdir(folder) if name.startswith("case.h5")]) <= 4
         process.send_signal(number)
         process.communicate(timeout=TIMEOUT)
@@ -188,9 +188,9 @@ def test_killed_again_and_again(tiltpad, start, case, loaded, number):
         done = times
         if process.returncode == 0:
             break
-    assert len(done) == 600
+    assert len(done) == 300
     assert attempt >= 3
-    assert sorted(os.listdir(folder)) == ["case.h5", "case.nml", "own.so", "whole.h5"]
+    assert sorted(os.listdir(folder)) == ["case.h5", "case.nml", "whole.h5"]
     expect_same(rows(folder / "whole.h5"), rows(folder / "case.h5"))
 
 
@@ -216,7 +216,7 @@ def test_a_signal_stops_runs_without_files(start, case):
 
 def test_a_full_disk(tiltpad, start, case, loaded):
     """One line; the last checkpoint stays, and the study goes on from it."""
-    folder = case(QUICK.format(last=2500))
+    folder = case(QUICK.format(last=1500))
     tiltpad("case.nml", "-q", "-o", "whole", cwd=folder, status=0)
     size = (folder / "whole.h5").stat().st_size
     limit = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size // 2, size // 2))}
@@ -224,7 +224,7 @@ def test_a_full_disk(tiltpad, start, case, loaded):
     assert "case.h5" in one_error(process, 3)
     assert sorted(name for name in os.listdir(folder) if name.startswith("case.h5"))[-1] == "case.h5.rows"
     with package.read_study(folder / "case.h5") as study:
-        assert 0 < study.done.sum() < 2500
+        assert 0 < study.done.sum() < 500
         there = dict(zip(study.run[study.done], study.wall_seconds[study.done], strict=True))
     tiltpad("case.nml", "-q", cwd=folder, status=0)
     with package.read_study(folder / "case.h5") as study:
@@ -234,7 +234,7 @@ def test_a_full_disk(tiltpad, start, case, loaded):
 
 def test_a_small_disk(tiltpad, program, case):
     """However much room there is: one line, no row of a checkpoint is lost, and with more room it goes on."""
-    folder = case(QUICK.format(last=2000))
+    folder = case(QUICK.format(last=1300))
     tiltpad("case.nml", "-q", "-o", "whole", cwd=folder, status=0)
     checkpoints = 0
     for part in (0.3, 0.9, 1.5):
@@ -267,19 +267,17 @@ def test_a_small_disk(tiltpad, program, case):
 
 
 # ---- the log ----------------------------------------------------------------------------------------
-def test_a_killed_study_is_read_whole(tiltpad, start, case):
+def test_a_killed_study_is_read_whole(tiltpad, start, case, failing):
     """All rows that its log has, by Python, by --table, and by the study that goes on."""
-    folder = case(QUICK.format(last=2500).replace("1e-9", "1000"))
-    process = start(folder, "-q", "--jobs", "2", "case.nml")
+    folder = case(QUICK.format(last=1200).replace("1e-9", "1000"))
     log = folder / "case.h5.rows"
-    wait_for(lambda: log.exists() and log.stat().st_size > 100_000, process)
-    process.kill()
-    process.communicate(timeout=TIMEOUT)
+    killed = {"env": failing("write", 100, "killall", folder=folder), "start_new_session": True}
+    start(folder, "-q", "--jobs", "2", "case.nml", **killed).communicate(timeout=TIMEOUT)
     assert sorted(os.listdir(folder)) == ["case.h5.lock", "case.h5.rows", "case.nml"]
     with package.read_study(folder / "case.h5") as study:
         done = np.flatnonzero(study.done)
         seconds = study.wall_seconds[done]
-    assert 0 < len(done) < 1500
+    assert 10 < len(done) < 200
     tiltpad("--table", "case.h5.rows", "-o", "copy.h5", cwd=folder, status=0)
     np.testing.assert_array_equal(np.flatnonzero(status(folder / "copy.h5") == 0), done)
     log.write_bytes(log.read_bytes() + b"R   cut off")
