@@ -45,7 +45,7 @@ CASES = {
     "film_temperatures": "--set oil%grade=46 --set thermal%model='film' --set operation%duration=0.1",
     "bent": "--set pads%bending='elastic' --set operation%duration=0.1",
 }
-KILLS = 10
+KILLS = 6
 
 
 @pytest.fixture

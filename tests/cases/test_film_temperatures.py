@@ -232,6 +232,7 @@ def test_oil_that_boils_names_its_pad(tiltpad, tmp_path):
 def test_oil_that_runs_against_the_rotation_names_its_pad(tiltpad, tmp_path, motion):
     """Pressures beside slow pads above that of the supply press oil out of the leading edges."""
     text = REST + f"&bearing ambient_pressure=1e6 /\n&pads motion='{motion}' /\n&operation speed_rpm=20 /\n"
+    text += "&film circumferential_cells=40, axial_cells=5 /\n"
     (tmp_path / "case.nml").write_text(text.replace("grade=46", "grade=46, shaft_temperature=45"))
     refused = tiltpad("case.nml", cwd=tmp_path, status=2).stderr
     said = r"around pad (\d) drive its oil against the rotation .* over (\d+) % of its arc"

@@ -7,7 +7,7 @@ import pytest
 
 TESTS = Path(__file__).parents[1]
 sys.path[:0] = [str(TESTS / "stress"), str(TESTS / "realistic")]
-from bearing_runs import Bearing, compare, settle  # noqa: E402
+from bearing_runs import SETTINGS, Bearing, compare, settle  # noqa: E402
 from fixed_bearings import FIXED_ABOVE  # noqa: E402
 from realistic import draw  # noqa: E402
 
@@ -22,7 +22,9 @@ MOST_STEPS = 2000
 
 
 @pytest.mark.parametrize("number", SAMPLE)
-def test_default_settings(program, tmp_path, number):
+def test_default_settings(program, tmp_path, monkeypatch, number):
+    # nothing is asked of it here
+    monkeypatch.delitem(SETTINGS, "direct")
     bearing = Bearing(number, draw(SEED, number))
     settle(Path(program), bearing, tmp_path)
     compare(Path(program), bearing, tmp_path, curve=False)
