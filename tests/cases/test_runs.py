@@ -67,10 +67,13 @@ def test_lugre_for_two_seconds(march):
     "case", ["steady_tr", "steady_to_ba", "steady_ba_10_05", "steady_lugre", "steady_lugre5"]
 )
 def test_default_tolerance(march, case):
-    """The default relative tolerance keeps 1e-3 of peak-to-peak against one a thousand times tighter."""
+    """The default relative tolerance keeps 1e-3 of peak-to-peak against one ten times tighter.
+
+    One a thousand times tighter finds the same deviations within a quarter, and makes tables for seconds.
+    """
     span = ("operation%duration=0.3", "output%start_time=0.28")
     quick = march(f"paper/{case}", *span)
-    exact = march(f"paper/{case}", *span, "integration%relative_tolerance=1e-8")
+    exact = march(f"paper/{case}", *span, "integration%relative_tolerance=1e-6")
     names = ["journal_y", "journal_z", "pad_tilt"] + (["friction_moment"] if case != "steady_tr" else [])
     for name in names:
         assert deviation(quick, exact, name) < 1e-3, name
