@@ -107,7 +107,7 @@ def test_slices_of_a_branch_join_to_the_bit(run, tiltpad, tmp_path, loaded, name
     """Slices that end after this many requests; one without a new point is followed by a longer one."""
     run(SLICED[name], more=("-o", "whole.h5"))
     path, library = tmp_path / "case.h5", loaded(AT_A_REQUEST, SIGNAL=str(int(number)))
-    requests, points, stops, status = 25000, 0, 0, None
+    requests, points, stops, status = 20000, 0, 0, None
     while status != 0:
         done = tiltpad(
             "--resume", "case.h5", "case.nml", "-q", *EVERY_STEP,
