@@ -128,7 +128,6 @@ MARCH = """&pads motion = 'tilting_radial_pitch_yaw' /
 &operation duration = 0.01 /
 &film cavitation = 'none' /
 &pivot wear_coefficient = 1e-15 /
-&start pad_pitch = {slope} /
 """
 
 
@@ -142,7 +141,8 @@ def test_marches(tiltpad, tmp_path, friction):
         (tmp_path / "case.nml").write_text(
             MARCH.format(friction=friction, slope=slope).replace(", 1e-4", f", {np.sign(slope) * 1e-4}")
         )
-        tiltpad("case.nml", "-q", "--overwrite", "-o", "run.h5", cwd=tmp_path, status=0)
+        start = (f"start%pad_pitch={slope}",)
+        tiltpad("case.nml", "-q", "--overwrite", "-o", "run.h5", overrides=start, cwd=tmp_path, status=0)
         with h5py.File(tmp_path / "run.h5") as file:
             series[slope] = {name: file[name][()] for name in file if isinstance(file[name], h5py.Dataset)}
             series[slope]["wear"] = file["summary/pad_wear_rate"][()]

@@ -589,6 +589,7 @@ def test_a_file_system_without_times_of_birth(start, tiltpad, case, loaded):
     """The part of a killed run is known by its inode alone."""
     environment = loaded(NO_BIRTHS)
     for copied in (False, True):
+        (case / "case.h5").unlink(missing_ok=True)
         run = start(case, "-q", "case.nml", *ENDLESS, env=environment)
         wait_for(lambda: (case / "case.h5").exists() and (case / "case.h5.part").exists(), run)
         run.kill()
