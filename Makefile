@@ -201,7 +201,7 @@ help:
 	@echo 'make realistic   marches bearings as they are built, 25 minutes; writes docs/realistic.md (BEARINGS=200 SEED=1)'
 	@echo 'make fuzz     tries random cases and arguments, right and wrong; writes docs/fuzzing.md (MINUTES=5 SEED=1)'
 	@echo 'make faults   injects faults from outside into all commands, 20 minutes; writes docs/faults.md (FAULTS=1500 SEED=1)'
-	@echo 'make bench    measures run time against error, and other programs, a quarter of an hour; writes docs/benchmarks.md'
+	@echo 'make bench    measures run time against error, and other programs, half an hour; writes docs/benchmarks.md'
 	@echo 'make speed OLD=COMMIT   compares the speed with that of an older commit, in pairs of runs, twenty minutes'
 	@echo 'make whirl    runs the commands of docs/whirl.md and draws its pictures, some minutes'
 	@echo 'make misalignment  the same of docs/misalignment.md, a minute'
