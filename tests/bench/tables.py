@@ -216,9 +216,8 @@ def cases_notes(rows: list[Row]) -> str:
 
 #: Why cases err by more.
 REASONS = {
-    "five_pads": ": pad 3 flutters at a frequency of its own, and its phase drifts, by 1.2 degrees of the "
-    "shaft in the end; by the measure of realistic.md, which leaves it out, the journal errs by 3e-4, tilts "
-    "by 7e-4"
+    "five_pads": ": pad 3 flutters at a frequency of its own, and its phase drifts, which the measure of "
+    "[realistic.md](realistic.md) leaves out"
 }
 
 
