@@ -21,6 +21,8 @@ DOCS = Path(__file__).resolve().parent
 FIT = "Which friction coefficient has my machine?"
 #: Inputs of the tolerances that the page speaks of.
 NAMES = ("assembled_clearance", "preload", "bristle_stiffness")
+#: Place of the pivots that stick, behind free ones.
+STUCK = 1
 
 
 def commands(page: str) -> list[str]:
@@ -69,7 +71,11 @@ def figures(folder: Path) -> Iterator[str]:
     with tiltpad.read_study(folder / "tolerances.h5") as study:
         low, *_, high = 100 * tiltpad.percentiles(study, "least_damping_ratio", pivot="stuck").values[0]
         yield f"the damping ratio is {low:.0f} to {high:.0f} % in nine of ten"
-        yield f"{100 * tiltpad.outcomes(study, 'stuck').unstable.share:.0f} % of them are unstable"
+        shafts, pads = (
+            tiltpad.outcomes(study, "stuck").unstable.share,
+            study["pads_damping_ratio"][:, STUCK] < 0,
+        )
+        yield f"the shaft is unstable in {100 * shafts:.0f} % of them, and a pad in {100 * pads.mean():.0f} %"
         locked, stuck = (
             tiltpad.sensitivity(study, "threshold_rpm", pivot=own) for own in ("locked", "stuck")
         )
