@@ -103,7 +103,7 @@ contains
       type(error_type), allocatable :: error
       is_readable = is_regular(path)
       if (.not. is_readable) return
-      call read_result(path, found, error)
+      call read_result(path, found, error, texts_alone=.true.)
       is_readable = .not. allocated(error)
    end function is_readable
 end module study_folder

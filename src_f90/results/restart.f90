@@ -54,16 +54,20 @@ contains
       if (.not. allocated(error)) call found%refuse_end(path, error)
    end subroutine read_restart
 
-   !> Reads a result file, however its run ended.
-   subroutine read_result(path, found, error)
+   !> Reads a result file, however its run ended; with `texts_alone` only whose it is: its case, its place in a study.
+   subroutine read_result(path, found, error, texts_alone)
       character(len=*), intent(in) :: path
       type(restart_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
+      logical, intent(in), optional :: texts_alone
       type(hdf5_type) :: file
       character(len=:), allocatable :: input, task, of_paper
       integer :: complete
+      logical :: briefly
       task = ''
-      call open_result(path, file, error, found%older)
+      briefly = .false.
+      if (present(texts_alone)) briefly = texts_alone
+      call open_result(path, file, error, found%older, texts_alone)
       if (allocated(error)) return
       if (file%has_attribute('task')) call file%get_text('task', task)
       if (task == 'study') then
@@ -76,8 +80,10 @@ contains
       found%files = ''
       if (file%has_attribute(marks_name)) call file%get_text(marks_name, found%files)
       if (file%has_attribute('of_paper')) call file%get_text('of_paper', of_paper)
-      found%checkpoint = file%has('checkpoint/time')
-      if (file%has('summary/'//states_figure)) found%verified_states = file%get_real('summary/'//states_figure)
+      if (.not. briefly) then
+         found%checkpoint = file%has('checkpoint/time')
+         if (file%has('summary/'//states_figure)) found%verified_states = file%get_real('summary/'//states_figure)
+      end if
       found%reason = ''
       if (file%has_attribute('exit_status')) call file%get_flag('exit_status', found%status)
       if (found%status /= 0) call file%get_text('reason', found%reason)
@@ -151,12 +157,14 @@ contains
    end subroutine refuse_end
 
    !> Opens the file for reading if it is a result that this program knows.
-   subroutine open_result(path, file, error, older)
+   subroutine open_result(path, file, error, older, texts_alone)
       character(len=*), intent(in) :: path
       class(hdf5_type), intent(inout) :: file
       type(error_type), allocatable, intent(out) :: error
       !> True where it is refused because an earlier version wrote it.
       logical, intent(out), optional :: older
+      !> Where nothing but its texts will be read (guarded_open).
+      logical, intent(in), optional :: texts_alone
       character(len=:), allocatable :: refusal
       logical :: exists
       if (present(older)) older = .false.
@@ -169,7 +177,7 @@ contains
          call raise(error, system_error, path//': a directory, device or pipe, not a result file')
          return
       end if
-      call try_reading(path, refusal)
+      call try_reading(path, refusal, texts_alone)
       if (refusal /= '') then
          call raise(error, system_error, path//': '//refusal)
       else

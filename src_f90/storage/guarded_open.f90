@@ -19,12 +19,13 @@ module guarded_open
 
 contains
 
-   !> Why the file cannot be read; empty where reading all of its structure, its texts, and the end of each dataset
-   !> does not fail, crash or take too long. What is missing, or refused before it is read, will be told when it is
-   !> needed.
-   subroutine try_reading(path, refusal)
+   !> Why the file cannot be read; empty where reading all of its structure, its texts, and the end of each dataset,
+   !> or with `texts_alone` no more than its texts, does not fail, crash or take too long. What is missing, or refused
+   !> before it is read, will be told when it is needed.
+   subroutine try_reading(path, refusal, texts_alone)
       character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(out) :: refusal
+      logical, intent(in), optional :: texts_alone
       integer :: child
       if (.not. is_readable(path)) then
          refusal = 'cannot be read: '//system_reason()
@@ -35,7 +36,7 @@ contains
          refusal = 'not looked at, as no process could be started for it: '//system_reason()
          return
       else if (child == 0) then
-         call read_all(path)
+         call read_all(path, texts_alone)
          call end_child(0)
       end if
       refusal = ''
@@ -51,11 +52,12 @@ contains
       if (child == 0) call limit_child(seconds, work, room)
    end function new_reader
 
-   subroutine read_all(path)
+   subroutine read_all(path, texts_alone)
       character(len=*), intent(in) :: path
+      logical, intent(in), optional :: texts_alone
       type(hdf5_type) :: file
       character(len=*), parameter :: texts(*) = [character(len=11) :: 'program', 'input', 'reason', 'history', &
-         & 'sweep', 'study_marks', 'task']
+         & 'sweep', 'study_marks', 'file_marks', 'of_paper', 'task']
       character(len=:), allocatable :: text
       type(record_type) :: results
       integer :: i
@@ -68,6 +70,9 @@ contains
          if (i == 1 .and. text /= 'tiltpad') exit
       end do
       if (allocated(file%failure)) call end_child(1)
+      if (present(texts_alone)) then
+         if (texts_alone) return
+      end if
       call read_group(file, '/')
       ! what a run reads that goes on; a study has a child of its own for its rows
       if (text /= 'study') call read_record(file, results)

@@ -291,7 +291,7 @@ class Archive:
         claimed = kind.itemsize * max(math.prod(found.shape), math.prod(found.chunks or (0,)))
         if claimed > self.most(name, found):
             raise ValueError(f"it claims {claimed} bytes, more than the file holds")
-        scales = self._scales(name, found)
+        scales = self.over[name] = self._scales(name, found)
         if scales == (name,):
             fits(found.shape[1:], ())
         else:
