@@ -73,8 +73,8 @@ default settings.
 ## Default settings against tight ones
 
 The table gives the maximum deviation in the last revolution, over the peak-to-peak or, where a pad hardly
-moves, over 5 % of the characteristic scale (bearing clearance; clearance over pad radius). The tight settings
-are {tight}.
+moves, over 5 % of the characteristic scale (bearing clearance; clearance over pad radius; the moment at which
+the pivot slides). The tight settings are {tight}.
 
 | case | journal y | journal z | tilt | friction moment |
 |---|---|---|---|---|

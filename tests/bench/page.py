@@ -28,9 +28,9 @@ nothing else. For runs below 2 s the page gives the minimum of two or three runs
 the process. The **error** of a run is the maximum deviation of journal y, journal z, pad tilt and friction
 moment in the last revolution, with `&excitation` over the whole run, from a converged run of the same case.
 Each deviation is over the peak-to-peak of its signal, or over 5 % of the signal's characteristic scale
-(bearing clearance; clearance over pad radius) if the peak-to-peak is smaller. The error must stay below
-{allowed:g}. That is said of the cases of this page alone: bearings with unloaded pads may err by more, as
-`make realistic` counts.
+(bearing clearance; clearance over pad radius; the moment at which the pivot slides) if the peak-to-peak is
+smaller. The error must stay below {allowed:g}. That is said of the cases of this page alone: bearings with
+unloaded pads may err by more, as `make realistic` counts.
 
 A signal that jumps is compared by two numbers, by one rule for all cases. Where the converged signal
 changes by more than {jump:.0%} of its peak-to-peak from one sample to the next, a deviation tells when the

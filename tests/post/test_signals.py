@@ -87,6 +87,9 @@ def test_deviations_are_over_peak_to_peak_or_natural_scale(run):
     still = tiltpad.deviations(case, other, slice(part.stop - 1, part.stop))
     last = abs(case.journal_y[-1] - other.journal_y[-1])
     assert still["journal_y"] == pytest.approx(last / (0.05 * other.clearance))
+    # a socket of 13 mm, 15 um larger than its ball, and f_s = 0.1
+    sliding = 0.1 * (13e-3 - 15e-6) * case.pivot_load[tiltpad.last_revolutions(case)].max()
+    assert deviations.characteristic_scale(case, "friction_moment") == pytest.approx(sliding)
 
 
 def test_deviations_need_the_same_samples(run):

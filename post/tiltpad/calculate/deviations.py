@@ -17,8 +17,14 @@ STEADY = 0.05
 
 
 def characteristic_scale(run: Run, name: str) -> float:
-    """Bearing clearance for journal positions, clearance over pad radius for tilts; 0 for others."""
+    """Bearing clearance for journal positions, clearance over pad radius for tilts, and for friction moments
+    that at which the pivot with the highest load of the last revolution slides; 0 for others.
+    """
     case = run.in_operation
+    if name == "friction_moment" and case["friction"]["model"] != "none":
+        ball = np.subtract(of_pads(case, "pivot%socket_radius"), of_pads(case, "pivot%radius_difference"))
+        load = run.values("pivot_load", last_revolutions(run)).max(axis=0)
+        return float((of_pads(case, "friction%static_coefficient") * ball * load).max())
     radius = case["bearing"]["journal_radius"] + min(of_pads(case, "bearing%machined_clearance"))
     return {"journal": run.clearance, "pad": run.clearance / radius}.get(name.split("_")[0], 0.0)
 
