@@ -233,6 +233,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(parametric_ode_type), target :: ode
       type(orbit_problem_type) :: problem
+      character(len=:), allocatable :: how
       real(wp) :: extent, away
       call begin_problem(model, found, ode, problem)
       call linearize_along(problem, found%refined_orbit_type, error)
@@ -241,9 +242,10 @@ contains
       extent = extent_of(model, found%orbit)
       away = repetition%change(1)/max(1 - min(abs(found%multipliers(1)), repetition%decay()), epsilon(away))
       if (away > allowed_distance*extent) then
-         call raise(error, numerics_error, 'Newton''s method does not close it, and the march is still ' &
-            & //to_text(100*away/extent)//' % of the orbit away from where it leads: begin at the end of a longer ' &
-            & //'march (start%from = ''file'')')
+         how = 'is still '//to_text(100*away/extent)//' % of the orbit away from where it leads'
+         if (away > extent) how = 'changes by ever the same from period to period'
+         call raise(error, numerics_error, 'Newton''s method does not close it, and the march '//how &
+            & //': begin at the end of a longer march (start%from = ''file'')')
          return
       end if
       found%closed = .false.
