@@ -168,7 +168,7 @@ contains
       complete = .false.
       run%resumed = .false.
       if (.not. is_regular(run%path)) return
-      call read_result(run%path, found, error)
+      call read_result(run%path, found, error, texts_alone=.not. go_on)
       if (allocated(error)) then
          if (found%older .and. overwrite) then
             deallocate (error)

@@ -54,7 +54,7 @@ contains
       if (.not. allocated(error)) call found%refuse_end(path, error)
    end subroutine read_restart
 
-   !> Reads a result file, however its run ended; with `texts_alone` only whose it is: its case, its place in a study.
+   !> Reads a result file, however its run ended; with `texts_alone` all but its verified states, and much faster.
    subroutine read_result(path, found, error, texts_alone)
       character(len=*), intent(in) :: path
       type(restart_type), intent(out) :: found
@@ -80,8 +80,8 @@ contains
       found%files = ''
       if (file%has_attribute(marks_name)) call file%get_text(marks_name, found%files)
       if (file%has_attribute('of_paper')) call file%get_text('of_paper', of_paper)
+      found%checkpoint = file%has('checkpoint/time')
       if (.not. briefly) then
-         found%checkpoint = file%has('checkpoint/time')
          if (file%has('summary/'//states_figure)) found%verified_states = file%get_real('summary/'//states_figure)
       end if
       found%reason = ''

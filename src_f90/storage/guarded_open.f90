@@ -20,8 +20,8 @@ module guarded_open
 contains
 
    !> Why the file cannot be read; empty where reading all of its structure, its texts, and the end of each dataset,
-   !> or with `texts_alone` no more than its texts, does not fail, crash or take too long. What is missing, or refused
-   !> before it is read, will be told when it is needed.
+   !> or with `texts_alone` no more than its texts and whether it has a checkpoint, does not fail, crash or take too
+   !> long. What is missing, or refused before it is read, will be told when it is needed.
    subroutine try_reading(path, refusal, texts_alone)
       character(len=*), intent(in) :: path
       character(len=:), allocatable, intent(out) :: refusal
@@ -61,6 +61,7 @@ contains
       character(len=:), allocatable :: text
       type(record_type) :: results
       integer :: i
+      logical :: there
       call file%open(path, writing=.false.)
       if (file%id < 0) return
       text = ''
@@ -70,6 +71,7 @@ contains
          if (i == 1 .and. text /= 'tiltpad') exit
       end do
       if (allocated(file%failure)) call end_child(1)
+      there = file%has('checkpoint/time')
       if (present(texts_alone)) then
          if (texts_alone) return
       end if
