@@ -42,7 +42,7 @@ contains
          call note_bearing(run, run%model, static, 1, 'equilibrium: ', .not. run%quiet, '; ' &
             & //stability_text(static%stability, 'journal', run%inputs%bearings(1)%tilting()))
          call put_stability(run%file, static)
-         call run%note_remarks(shown=.true.)
+         if (.not. run%quiet) call run%note_remarks(shown=.true.)
          return
       end if
       call put_stability(run%file, static)
@@ -63,7 +63,7 @@ contains
          call note_misalignment(run, static, slopes(b), b, as == b .and. .not. run%quiet)
          if (as < b .and. .not. run%quiet) print '(a)', title//'all else as of '//run%inputs%bearings(as)%label()
       end do
-      call run%note_remarks(shown=.true.)
+      if (.not. run%quiet) call run%note_remarks(shown=.true.)
    end subroutine note_equilibrium
 
    !> What acts on a machine beside its films: forces of elements, and where the rings of dampers are.

@@ -108,7 +108,7 @@ contains
       do i = 1, table%count
          if (allocated(error)) return
          associate (list => table%variables(i))
-            if (list%counts == '') cycle
+            if (list%counts == '' .or. .not. any(at == i)) cycle
             call fill_variable(parsed, at == i, list, error)
             do k = 1, table%count
                associate (v => table%variables(k))

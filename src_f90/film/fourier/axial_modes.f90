@@ -61,15 +61,15 @@ contains
       self%square(:solved) = (x(:solved)*self%first)**2
       nodes = log(x)
       places = log(order)
-      do k = 1, modes
-         if (k <= first_solved .or. solved == modes) then
-            self%of_slot(k, k) = 1
-         else
-            do j = first_solved + 1, solved
-               self%of_slot(j, k) = lagrange(nodes(first_solved + 1:solved), j - first_solved, places(k))
-            end do
-         end if
+      do k = 1, merge(modes, first_solved, solved == modes)
+         self%of_slot(k, k) = 1
       end do
+      if (solved < modes) then
+         do j = first_solved + 1, solved
+            self%of_slot(j, first_solved + 1:) = lagrange(nodes(first_solved + 1:solved), j - first_solved, &
+               & places(first_solved + 1:))
+         end do
+      end if
       c = 8*gap%axial_length/(order*pi)**2
       self%c = matmul(self%of_slot, c)
       do j = 1, 3
@@ -86,14 +86,15 @@ contains
       points = [(sqrt(a*b)*(a/b)**(0.5_wp*cos((i - 0.5_wp)*pi/n)), i=1, n)]
    end function chebyshev
 
-   !> The polynomial that is 1 at x(j) and 0 at the other x, at a place.
-   pure real(wp) function lagrange(x, j, place)
-      real(wp), intent(in) :: x(:), place
+   !> The polynomial that is 1 at x(j) and 0 at the other x, at some places.
+   pure function lagrange(x, j, places)
+      real(wp), intent(in) :: x(:), places(:)
       integer, intent(in) :: j
+      real(wp) :: lagrange(size(places))
       integer :: i
       lagrange = 1
       do i = 1, size(x)
-         if (i /= j) lagrange = lagrange*(place - x(i))/(x(j) - x(i))
+         if (i /= j) lagrange = lagrange*(places - x(i))/(x(j) - x(i))
       end do
    end function lagrange
 
