@@ -386,7 +386,9 @@ contains
       type(usual_type) :: usual
       integer :: i
       line = ''
-      if (v%is_text) return
+      ! what has no unit has no usual size
+      if (v%is_text .or. v%unit == '1') return
+      if (.not. any(is_set(v%values) .and. abs(v%values) > 0)) return
       name = v%group//'%'//v%name
       usual = usual_size(name, v%unit)
       i = findloc(is_set(v%values) .and. abs(v%values) > 0 .and. (abs(v%values) < usual%low &
