@@ -17,7 +17,7 @@ from tiltpad import figures
 from tiltpad.draw import bearing, report, study_report
 from tiltpad.draw.plots import STYLE
 
-pytestmark = pytest.mark.usefixtures("closed_figures")
+pytestmark = pytest.mark.usefixtures("quick_pictures")
 
 #: A title, a name of a file without its ending, that of its folder, and another text.
 TITLE, STEM, FOLDER, OTHER = r"Ж$\no{x}$ 5", "_Ж$a_$b^^$ $", "Ж$c_{$d", r"Ж\$c_{$d$"
