@@ -24,7 +24,8 @@ TOGETHER = 6
 #: Files that take longest: each is a job of its own and starts first, so that none is left alone at the end.
 LONG = ("cases/test_blocks", "post/test_tutorial", "cases/test_command_faults", "cases/test_fault_sample",
         "cases/test_checkpoint", "cases/test_branch_stops", "post/test_damaged", "post/test_hostile",
-        "post/test_literal_texts", "post/test_machine", "post/test_fit", "cases/test_realistic_refusals")  # fmt: skip
+        "post/test_literal_texts", "post/test_machine", "post/test_fit",
+        "cases/test_realistic_refusals")  # fmt: skip
 #: A test that hangs shows where, and ends the others of its process.
 PYTEST = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "--durations=0", f"--durations-min={SHORT}",
           "-o", "faulthandler_timeout=900", "-o", "faulthandler_exit_on_timeout=true"]  # fmt: skip
