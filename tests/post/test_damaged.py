@@ -63,12 +63,15 @@ def test_a_damage_is_read_or_refused(small, study, program, root):
         )
         for script, *words in calls
     ]  # fmt: skip
+    outcomes = []
     for each, (_, _, count, *_) in zip(started, calls, strict=True):
         said = each.communicate()[0].splitlines()
         assert said[-1].endswith(", 0 faulty"), "\n".join(said)
-        read, refused = (int(part.split()[0]) for part in said[-1].split(", ")[:2])
-        assert read + refused == count
-        assert min(read, refused) > 0.1 * count
+        outcomes.append([int(part.split()[0]) for part in said[-1].split(", ")[:2]])
+        assert sum(outcomes[-1]) == count
+    # what is drawn depends on the bytes of the files, so that of one file few may be read
+    read, refused = np.sum(outcomes, axis=0)
+    assert min(read, refused) > 0.1 * (read + refused)
 
 
 def refused(capsys, name: str, arguments: list, path: Path) -> str:
