@@ -99,8 +99,8 @@ def compare(
             best = list(map(min, best, times))
         ratio, noise = best[2] / min(best[:2]), max(best[:2]) / min(best[:2])
         bad, told = ratio > noise + SAME_TIME, ""
-        if count:
-            counts = [count(emptied([program, *command], folder)) for program in (old, new)]
+        counts = [count(emptied([program, *command], folder)) for program in (old, new)] if count else []
+        if counts and all(counts):
             instructions = counts[1] / counts[0]
             bad, told = bad or instructions > SAME_INSTRUCTIONS, f"{instructions:.4f}"
         return f"{ratio:6.3f} {noise:6.3f} {told:>13} {best[2]:8.4f}", bad
@@ -140,10 +140,14 @@ def by_perf(command: list[str]) -> int:
 
 
 def by_valgrind(command: list[str]) -> int:
-    """Of all processes; a forked one counts on from where it began, in both programs."""
+    """Of all processes; a forked one counts on from where it began, in both programs.
+
+    0 where valgrind does not know the processor's instructions, and ends the program.
+    """
     words = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null", *command]
-    found = re.findall(r"I\s+refs:\s+([\d,]+)", launch(words).said)
-    return sum(int(each.replace(",", "")) for each in found)
+    done = launch(words)
+    found = re.findall(r"I\s+refs:\s+([\d,]+)", done.said)
+    return 0 if done.status else sum(int(each.replace(",", "")) for each in found)
 
 
 if __name__ == "__main__":
