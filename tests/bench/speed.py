@@ -114,7 +114,7 @@ def seconds(program: Path, command: list, folder: Path, repeats: int) -> float:
     for _ in range(repeats):
         done = launch(emptied([program, *command], folder))
         if done.status:
-            raise RuntimeError(done.said[-100:])
+            raise RuntimeError(done.said.replace(f"{ROOT}/", "").strip().splitlines()[-1])
         total += done.work
     return total / repeats
 
