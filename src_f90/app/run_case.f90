@@ -143,7 +143,7 @@ contains
       logical, intent(out) :: complete
       type(error_type), allocatable, intent(out) :: error
       ! before the lock, as a complete file may be in a place that cannot be written
-      call look_at_file(run, go_on, overwrite, complete, error)
+      call look_at_file(run, go_on, overwrite, .false., complete, error)
       if (complete .and. run%verified_states == 0) call clear_leftovers(run%path)
       if (complete .or. allocated(error)) return
       call run%file%hdf5%claim(run%path, error)
@@ -153,22 +153,23 @@ contains
             & //'ended'
       end associate
       ! and behind it, as another run may have written meanwhile
-      call look_at_file(run, go_on, overwrite, complete, error)
+      call look_at_file(run, go_on, overwrite, .not. go_on, complete, error)
       if (allocated(error) .or. complete) call run%file%abandon()
    end subroutine open_file
 
    !> What is there under the name of the file: a result to continue, `run%resumed`, a complete one, one to replace, or
    !> an error: something that must stay.
-   subroutine look_at_file(run, go_on, overwrite, complete, error)
+   subroutine look_at_file(run, go_on, overwrite, texts_alone, complete, error)
       type(case_run_type), intent(inout) :: run
-      logical, intent(in) :: go_on, overwrite
+      !> The last: of a file that is to be replaced, and has been looked at (restart).
+      logical, intent(in) :: go_on, overwrite, texts_alone
       logical, intent(out) :: complete
       type(error_type), allocatable, intent(out) :: error
       type(restart_type) :: found
       complete = .false.
       run%resumed = .false.
       if (.not. is_regular(run%path)) return
-      call read_result(run%path, found, error, texts_alone=.not. go_on)
+      call read_result(run%path, found, error, texts_alone)
       if (allocated(error)) then
          if (found%older .and. overwrite) then
             deallocate (error)

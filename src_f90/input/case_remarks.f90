@@ -388,11 +388,12 @@ contains
       line = ''
       ! what has no unit has no usual size
       if (v%is_text .or. v%unit == '1') return
-      if (.not. any(is_set(v%values) .and. abs(v%values) > 0)) return
-      name = v%group//'%'//v%name
-      usual = usual_size(name, v%unit)
-      i = findloc(is_set(v%values) .and. abs(v%values) > 0 .and. (abs(v%values) < usual%low &
-         & .or. abs(v%values) > usual%high), .true., dim=1)
+      associate (counts => is_set(v%values) .and. abs(v%values) > 0)
+         if (.not. any(counts)) return
+         name = v%group//'%'//v%name
+         usual = usual_size(name, v%unit)
+         i = findloc(counts .and. (abs(v%values) < usual%low .or. abs(v%values) > usual%high), .true., dim=1)
+      end associate
       if (usual%told .and. i > 0) line = name//' = '//to_text(v%values(i))//': seldom so in '//trim(v%unit) &
          & //in_other_units(v%values(i), name, v%unit, v%low, v%high)//newline
    end function remark_on_number

@@ -243,7 +243,7 @@ contains
       away = repetition%change(1)/max(1 - min(abs(found%multipliers(1)), repetition%decay()), epsilon(away))
       if (away > allowed_distance*extent) then
          how = 'is still '//to_text(100*away/extent)//' % of the orbit away from where it leads'
-         if (away > extent) how = 'changes by ever the same from period to period'
+         if (away > extent) how = 'changes in each period by nearly as much as in the one before'
          call raise(error, numerics_error, 'Newton''s method does not close it, and the march '//how &
             & //': begin at the end of a longer march (start%from = ''file'')')
          return

@@ -39,7 +39,7 @@ contains
       integer(i8) :: at
       integer :: b
       rotor = 0
-      call read_result(path, found, error)
+      call read_result(path, found, error, texts_alone=.false.)
       if (.not. allocated(error)) call open_result(path, file, error)
       if (allocated(error)) return
       call refuse_other_rotor(path, found%inputs, inputs, error)

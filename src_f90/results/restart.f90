@@ -50,7 +50,7 @@ contains
       character(len=*), intent(in) :: path
       type(restart_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
-      call read_result(path, found, error)
+      call read_result(path, found, error, texts_alone=.false.)
       if (.not. allocated(error)) call found%refuse_end(path, error)
    end subroutine read_restart
 
@@ -59,14 +59,11 @@ contains
       character(len=*), intent(in) :: path
       type(restart_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
-      logical, intent(in), optional :: texts_alone
+      logical, intent(in) :: texts_alone
       type(hdf5_type) :: file
       character(len=:), allocatable :: input, task, of_paper
       integer :: complete
-      logical :: briefly
       task = ''
-      briefly = .false.
-      if (present(texts_alone)) briefly = texts_alone
       call open_result(path, file, error, found%older, texts_alone)
       if (allocated(error)) return
       if (file%has_attribute('task')) call file%get_text('task', task)
@@ -81,7 +78,7 @@ contains
       if (file%has_attribute(marks_name)) call file%get_text(marks_name, found%files)
       if (file%has_attribute('of_paper')) call file%get_text('of_paper', of_paper)
       found%checkpoint = file%has('checkpoint/time')
-      if (.not. briefly) then
+      if (.not. texts_alone) then
          if (file%has('summary/'//states_figure)) found%verified_states = file%get_real('summary/'//states_figure)
       end if
       found%reason = ''

@@ -287,9 +287,10 @@ def test_a_march_that_creeps_to_its_orbit_goes_on(run, tmp_path):
     slower = ("periodic%max_iterations=1", "operation%speed_rpm=4000")
     done = run(CREEPING, PERIODIC, *slower, name="slower", status=2)
     assert "% of the orbit away from where it leads: begin at the end of a longer march" in done.stderr
-    # by no number that says anything
+    # where changes hardly fall, the distance from where they lead is a number without meaning
     done = run(CREEPING, PERIODIC, *slower, "friction%critical_velocity=1e-8", name="stuck", status=2)
-    assert "the march changes by ever the same from period to period: begin at the end" in done.stderr
+    hardly = "the march changes in each period by nearly as much as in the one before: begin at the end"
+    assert hardly in done.stderr
 
 
 def test_a_vibration_that_lasts_is_seen(run, tmp_path):
