@@ -29,6 +29,10 @@ module kinematics
       logical :: mirrored
    end type pad_frame
 
+   !> Angle, rad, up to which the first terms of Taylor's series that are left out, x^8/9! and x^8/8! of the sine and
+   !> the cosine, are below the last bit.
+   real(wp), parameter :: small_angle = 0.02_wp
+
 contains
 
    !> A vector along global y and z as it is seen in the mirror, or back; where there is none it stays.
@@ -48,12 +52,31 @@ contains
       real(wp) :: r(2)
       r = in_mirror(position%mirrored, journal%position) &
          & - (position%pivot_radius + pad%x(pivot_deflection))*[position%sin_angle, position%cos_angle]
-      frame%s = sin(position%angle - pad%x(tilt))
-      frame%c = cos(position%angle - pad%x(tilt))
+      call turn(position, pad%x(tilt), frame%s, frame%c)
       frame%along = r(1)*frame%c - r(2)*frame%s
       frame%outward = r(1)*frame%s + r(2)*frame%c
       frame%mirrored = position%mirrored
    end function frame_of
+
+   !> Sine and cosine of theta - delta: pads tilt so little that Taylor's series give sine and cosine of delta to
+   !> the last bit.
+   elemental subroutine turn(position, angle, s, c)
+      type(pad_position), intent(in) :: position
+      !> delta, rad.
+      real(wp), intent(in) :: angle
+      real(wp), intent(out) :: s, c
+      real(wp) :: square, sine, cosine
+      if (abs(angle) > small_angle) then
+         s = sin(position%angle - angle)
+         c = cos(position%angle - angle)
+         return
+      end if
+      square = angle**2
+      sine = angle*(1 - square/6*(1 - square/20*(1 - square/42)))
+      cosine = 1 - square/2*(1 - square/12*(1 - square/30))
+      s = position%sin_angle*cosine - position%cos_angle*sine
+      c = position%cos_angle*cosine + position%sin_angle*sine
+   end subroutine turn
 
    !> The motion of the journal seen from the pad.
    pure type(film_motion) function motion_of(position, frame, journal, pad) result(motion)

@@ -20,6 +20,7 @@ program test_kinematics
    do i = 1, size(angles)
       if (runs('against_geometry')) call against_geometry(place_at(angles(i)))
       if (runs('rates')) call rates(place_at(angles(i)))
+      if (runs('directions')) call directions(place_at(angles(i)))
    end do
    if (runs('points')) call points()
    call report()
@@ -54,6 +55,19 @@ contains
    pure real(wp) function rounding()
       rounding = 20*epsilon(1.0_wp)*0.1_wp
    end function rounding
+
+   !> Of the frame of a pad, at tilts below and above the one up to which series serve.
+   subroutine directions(place)
+      type(pad_position), intent(in) :: place
+      real(wp), parameter :: tilts(*) = [0.0_wp, 1e-9_wp, -3e-4_wp, 0.01_wp, -0.0199_wp, 0.0201_wp, -0.3_wp]
+      integer :: k
+      do k = 1, size(tilts)
+         associate (frame => frame_of(place, journal_motion(), pad_state(tilts(k))), a => place%angle - tilts(k))
+            call expect_close(frame%s, sin(a), 4*epsilon(a), 'sine at a tilt of '//to_text(tilts(k)))
+            call expect_close(frame%c, cos(a), 4*epsilon(a), 'cosine at a tilt of '//to_text(tilts(k)))
+         end associate
+      end do
+   end subroutine directions
 
    !> The gap measured in the plane, between a point of the bore and the journal's circle, with the pad
    !> turned about its pivot. It differs from the thickness by e**2/(2 R_J) and less.
