@@ -32,6 +32,11 @@ module cvode_integrator
       real(wp), allocatable :: values(:, :)
       !> Where the last point stands, and how many there are.
       integer :: last = highest_order, points = 0
+      !> Of the polynomial through the last point and this number of points before it, -1 where none is ready: one over
+      !> the products of each point's distances from the others, and where the points stand, the last one first.
+      integer, private :: degree = -1
+      real(wp), private :: per_apart(0:highest_order)
+      integer, private :: point(0:highest_order)
    contains
       procedure :: add
       procedure :: at
@@ -387,32 +392,51 @@ contains
       self%values(:size(states), self%last) = states
       self%values(size(states) + 1:, self%last) = outputs
       self%points = min(self%points, highest_order) + 1
+      self%degree = -1
    end subroutine add
+
+   !> Readies the polynomial of a degree.
+   pure subroutine ready(self, degree)
+      class(step_history_type), intent(inout) :: self
+      integer, intent(in) :: degree
+      real(wp) :: apart
+      integer :: i, k
+      self%degree = degree
+      self%per_apart = 1
+      do i = 0, degree
+         self%point(i) = self%last - i
+         if (self%point(i) < 0) self%point(i) = self%point(i) + highest_order + 1
+         do k = 0, i - 1
+            apart = self%time(self%point(k)) - self%time(self%point(i))
+            self%per_apart(k) = self%per_apart(k)*apart
+            self%per_apart(i) = -self%per_apart(i)*apart
+         end do
+      end do
+      self%per_apart = 1/self%per_apart
+   end subroutine ready
 
    !> Values at a time in the last step, which was of this order.
    pure subroutine at(self, t, order, values)
-      class(step_history_type), intent(in) :: self
+      class(step_history_type), intent(inout) :: self
       real(wp), intent(in) :: t
       integer, intent(in) :: order
       real(wp), intent(out), contiguous :: values(:)
+      !> t less each point's time, s; products of these over all newer points, and over all older ones.
       real(wp), dimension(0:highest_order) :: back, weight
-      real(wp) :: ahead, apart
-      integer :: i, j, k, point(0:highest_order), n
+      real(wp) :: newer(0:highest_order + 1), older
+      integer :: i, j, n
       n = min(order, self%points - 1)
+      if (n /= self%degree) call ready(self, n)
+      newer(0) = 1
       do i = 0, n
-         point(i) = modulo(self%last - i, highest_order + 1)
-         back(i) = t - self%time(point(i))
+         back(i) = t - self%time(self%point(i))
+         newer(i + 1) = newer(i)*back(i)
       end do
       weight = 0
-      do i = 0, n
-         ahead = 1
-         apart = 1
-         do k = 0, n
-            if (k == i) cycle
-            ahead = ahead*back(k)
-            apart = apart*(back(k) - back(i))
-         end do
-         weight(point(i)) = ahead/apart
+      older = 1
+      do i = n, 0, -1
+         weight(self%point(i)) = newer(i)*older*self%per_apart(i)
+         older = older*back(i)
       end do
       associate (w => weight, v => self%values)
          !$omp simd
