@@ -34,6 +34,8 @@ module recorder
       !> Forces of the excitations, (2, excitation), and of other elements, N, and the displacements of these, m,
       !> (2, element, force and displacement), in the last sample.
       real(wp), allocatable, private :: excitations(:, :), elements(:, :, :)
+      !> All values of a sample.
+      real(wp), allocatable, private :: values(:)
       integer(i8), private :: samples = 0
    contains
       procedure :: sample
@@ -143,7 +145,7 @@ contains
          self%elements(:, :, 2) = element_positions(self%run%model, y)
       end if
       call add_sample(self%run%file, self%run%model%point, t, self%bearings, self%taken, self%stations, &
-         & self%excitations, self%elements, error)
+         & self%excitations, self%elements, self%values, error)
       self%run%reached = t
       associate (limit => self%run%inputs%integration%stop_when_periodic)
          if (limit > 0) then

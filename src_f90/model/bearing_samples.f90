@@ -51,7 +51,7 @@ contains
             allocate (sample%states(of%pads), sample%loads(of%pads))
             if (allocated(bearing%sloped)) allocate (sample%slopes(of%pads))
          end if
-         sample%states(:) = of%pad_states(y)
+         call of%take_pads(y, sample%states)
          call bearing%take_samples(sample%journal, sample%states, sample%speed, &
             & output(model%pad_outputs*(of%first_pad - 1) + 1:model%pad_outputs*of%last_pad), sample%loads, &
             & sample%slopes)

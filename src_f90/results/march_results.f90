@@ -31,16 +31,19 @@ contains
    !> Adds a sample at time t, s, of all bearings, in the files of these, of where the stations of a shaft are,
    !> (2, station), m, of the forces of the excitations, (2, excitation), N, and of forces and displacements of other
    !> elements, (2, element, both), N and m.
-   subroutine add_sample(file, point, t, bearings, samples, stations, excitations, elements, error)
+   subroutine add_sample(file, point, t, bearings, samples, stations, excitations, elements, values, error)
       type(run_file_type), intent(inout) :: file
       type(operating_point_type), intent(in) :: point
       real(wp), intent(in) :: t
       type(bearing_file_type), intent(in) :: bearings(:)
       type(bearing_sample), intent(in) :: samples(:)
       real(wp), intent(in), contiguous :: stations(:, :), excitations(:, :), elements(:, :, :)
+      !> Memory for the values, which is used again.
+      real(wp), allocatable, intent(inout) :: values(:)
       type(error_type), allocatable, intent(out) :: error
-      real(wp) :: values(most_values(samples) + size(stations) + size(excitations) + size(elements))
       integer :: n, b
+      if (.not. allocated(values)) allocate (values(most_values(samples) + size(stations) + size(excitations) &
+         & + size(elements)))
       if (.not. file%hdf5%declared) call declare_samples(file, bearings, samples, size(stations, 2), &
          & size(excitations, 2), size(elements, 2))
       values(:of_shaft) = [t, point%shaft_angle(t), point%speed(t)]
@@ -260,6 +263,8 @@ contains
       !> Between samples, s.
       real(wp), intent(in) :: interval
       real(wp), allocatable, dimension(:, :) :: y, z, tilt, signals, amplitudes
+      !> Lines of the spectra, Hz, from that of the fastest backward whirl to that of the fastest forward one.
+      real(wp), allocatable :: line(:)
       real(wp), allocatable :: means(:), full(:)
       real(wp) :: step
       integer :: revolutions, n, k
@@ -271,9 +276,12 @@ contains
       end associate
       if (revolutions == 0 .or. n < 2) return
       step = 1/(n*interval)
-      call put('frequency', [(k*step, k=0, n/2)], 'Hz', 'frequency', 'frequency')
-      call put('order', [(k*step, k=0, n/2)]*2*pi/inputs%highest_speed(), '1', 'frequency over shaft frequency', &
-         & 'frequency')
+      allocate (line(-((n - 1)/2):n/2))
+      do k = lbound(line, 1), n/2
+         line(k) = k*step
+      end do
+      call put('frequency', line(0:), 'Hz', 'frequency', 'frequency')
+      call put('order', line(0:)*2*pi/inputs%highest_speed(), '1', 'frequency over shaft frequency', 'frequency')
       call file%last_samples('journal_y', n, y)
       call file%last_samples('journal_z', n, z)
       allocate (signals(n, 2), source=reshape([y, z], [n, 2]))
@@ -291,8 +299,7 @@ contains
       if (size(signals, 2) > 2) call file%put('spectrum/pad_tilt', amplitudes(:, 3:), 'rad', 'amplitude of pad_tilt', &
          & 'pad spectrum/frequency')
       ! at k/T with k = -((n-1)/2) .. n/2
-      call put('full_frequency', [(k*step, k=-((n - 1)/2), n/2)], 'Hz', 'frequency, positive for forward whirl', &
-         & 'full_frequency')
+      call put('full_frequency', line, 'Hz', 'frequency, positive for forward whirl', 'full_frequency')
       full = full_amplitude(cmplx(signals(:, 1), inputs%sense()*signals(:, 2), wp))
       if (under_window) full(lbound(full, 1) + (n - 1)/2) = norm2(means(:2))
       call put('journal_full', full, 'm', 'amplitude of journal_y + i journal_z, or - i journal_z where the shaft ' &

@@ -62,6 +62,7 @@ module state_layout
       procedure :: all_positions
       procedure :: all_pads
       procedure :: pad_states
+      procedure :: take_pads
       procedure :: put_pads
    end type element_layout_type
 
@@ -282,6 +283,14 @@ contains
       class(element_layout_type), intent(in) :: self
       real(wp), intent(in) :: y(:)
       type(pad_state) :: pads(self%pads)
+      call self%take_pads(y, pads)
+   end function pad_states
+
+   !> Sets those states of pads that y has; what the element has not stays.
+   pure subroutine take_pads(self, y, pads)
+      class(element_layout_type), intent(in) :: self
+      real(wp), intent(in) :: y(:)
+      type(pad_state), intent(inout) :: pads(:)
       integer :: i, k, o
       do i = 1, self%pads
          o = self%before(i)
@@ -296,7 +305,7 @@ contains
             pads(i)%bristle(k) = y(o + k)
          end do
       end do
-   end function pad_states
+   end subroutine take_pads
 
    !> Puts those states of the pads into y that the element has.
    pure subroutine put_pads(self, pads, y)

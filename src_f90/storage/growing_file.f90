@@ -222,16 +222,16 @@ contains
    subroutine arrange(self, from, to)
       class(growing_file_type), intent(inout) :: self
       integer, intent(in) :: from, to
-      integer :: first, i, j, k, n
+      integer :: first, j, k, m, n, at
       if (.not. allocated(self%arranged)) allocate (self%arranged(size(self%values, 1)*self%room))
       n = to - from + 1
       do first = from, to, together
          do k = 1, size(self%series)
             associate (before => self%series(k)%before, width => self%series(k)%width)
+               m = min(together, to - first + 1)
                do j = 1, width
-                  do i = first, min(first + together - 1, to)
-                     self%arranged(before*n + (i - from)*width + j) = self%values(before + j, i)
-                  end do
+                  at = before*n + (first - from)*width + j
+                  self%arranged(at:at + (m - 1)*width:width) = self%values(before + j, first:first + m - 1)
                end do
             end associate
          end do

@@ -411,6 +411,7 @@ contains
       type(case_type) :: inputs
       real(wp), allocatable :: y(:), values(:, :)
       real(wp) :: none(2, 0), no_elements(2, 0, 2)
+      real(wp), allocatable :: room(:)
       character(len=:), allocatable :: path
       integer :: k
       logical :: ok
@@ -428,7 +429,7 @@ contains
       do k = 1, 2
          call take_sample(model, 1e-3_wp*k, k*y, model%output(0*y), 1, sample(1))
          call add_sample(file, model%point, 1e-3_wp*k, [new_bearing_file(file, inputs%bearings(1))], sample, none, &
-            & none, no_elements, error)
+            & none, no_elements, room, error)
          call expect_no_error(error, 'a sample, '//motion)
       end do
       associate (x => displaced(model))
