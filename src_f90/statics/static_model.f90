@@ -179,7 +179,7 @@ contains
       !> Largest unbalanced force, N, and the next; longest move of a step, in bearing clearances.
       real(wp) :: time_step, force, next, move
       real(wp), allocatable :: step(:)
-      logical :: ok, stuck, free(model%layout%n_positions())
+      logical :: ok, stuck, differentiated, free(model%layout%n_positions())
       integer :: iterations, limit
       limit = max_iterations
       if (present(most)) limit = min(limit, most)
@@ -188,7 +188,8 @@ contains
       time_step = 1/model%point%speed(0.0_wp)
       if (present(first_step)) time_step = first_step*time_step
       residual = huge(residual)
-      call model%evaluate(0.0_wp, y, .false., ok)
+      differentiated = .true.
+      call model%evaluate(0.0_wp, y, differentiated, ok)
       if (.not. ok) call raise(error, numerics_error, model%refusal//' at the start')
       if (.not. ok) return
       force = unbalanced(model, y, free)
@@ -226,7 +227,8 @@ contains
       subroutine find_step()
          real(wp), dimension(size(free), size(free)) :: stiffness, damping
          move = 0
-         call model%evaluate(0.0_wp, y, .true., ok)
+         ok = .true.
+         if (.not. differentiated) call model%evaluate(0.0_wp, y, .true., ok)
          if (ok) call static_derivatives(model, stiffness, damping)
          do while (ok)
             call newton_step(stiffness, damping, forces(model, 0.0_wp, y), free, time_step, step, ok)
@@ -241,8 +243,9 @@ contains
             & //shown(model, force))
       end subroutine find_step
 
-      !> Moves y by the step, or by a part of it that the model admits, and evaluates the model there. An error where it
-      !> admits none.
+      !> Moves y by the step, or by a part of it that the model admits, and evaluates the model there, with the
+      !> derivatives that the next step needs: there is hardly one after a step whose square, as the error after a step
+      !> of Newton's method, is below the limit of the residual. An error where the model admits none.
       subroutine take_step()
          real(wp) :: trial(model%n)
          integer, allocatable :: x(:)
@@ -250,7 +253,8 @@ contains
          do
             trial = y
             trial(x) = y(x) + step
-            call model%evaluate(0.0_wp, trial, .false., ok)
+            differentiated = move**2 > residual_limit
+            call model%evaluate(0.0_wp, trial, differentiated, ok)
             if (ok) exit
             step = 0.5_wp*step
             time_step = 0.5_wp*time_step
