@@ -196,6 +196,10 @@ contains
       character(len=:), allocatable :: string
       real(wp) :: back
       integer :: digits, first
+      if (abs(x) > 0 .and. abs(x) < 1e6_wp .and. abs(x - anint(x)) <= 0) then
+         string = integer_text(nint(x))
+         return
+      end if
       ! normal numbers of up to fifteen digits are these, with zeros
       first = merge(precision(x), 6, abs(x) >= tiny(x))
       ! rounded to fewer digits the largest numbers would be infinite

@@ -1,7 +1,7 @@
 !> A table of all input variables with their values. The list of variables (case_fields) fills it from a case, or the
 !> case from it; what reads, writes, describes or changes a case goes along the table.
 module variable_table
-   use kinds, only: wp
+   use kinds, only: wp, i8
    use text, only: to_text, exact_text, newline, replaced
    use case_groups, only: is_set
    use assignments, only: token_type, value_text, group_heading
@@ -306,15 +306,18 @@ contains
    pure function lines_of(v, mark) result(text)
       type(variable_type), intent(in) :: v
       character(len=*), intent(in) :: mark
-      character(len=:), allocatable :: text, list
+      character(len=:), allocatable :: text, list, one
       integer :: i
       text = ''
       if (v%is_text) then
          if (v%word /= '' .or. v%choices == '') call add(v%name, word_text(v))
       else if (all(is_set(v%values))) then
-         list = exact(v, 1)
-         do i = 2, size(v%values)
-            list = list//', '//exact(v, i)
+         list = ''
+         do i = 1, size(v%values)
+            if (i > 1) list = list//', '
+            ! of equal pads once
+            if (.not. repeats(i)) one = exact(v, i)
+            list = list//one
          end do
          call add(v%name, list)
       else
@@ -331,6 +334,13 @@ contains
          if (mark /= '') text = text//repeat(' ', max(2, column - len('  '//name//' = '//value)))//mark
          text = text//newline
       end subroutine add
+
+      !> Whether a number has the bits of the one before it.
+      pure logical function repeats(k)
+         integer, intent(in) :: k
+         repeats = k > 1
+         if (repeats) repeats = transfer(v%values(k), 1_i8) == transfer(v%values(k - 1), 1_i8)
+      end function repeats
    end function lines_of
 
    !> The word of a text, or its lines, in quotes, which a logical value does not need.
