@@ -22,14 +22,15 @@ module axial_modes
       integer :: modes, blocks
       !> (R lambda)^2 of the `simd_width`, idle ones 0.
       real(wp), allocatable :: square(:)
+      !> Whether every mode is a slot.
+      logical :: all_solved = .false.
       !> How much of each mode's solution is that of a slot, (slot, mode).
       real(wp), allocatable :: of_slot(:, :)
       !> By slot c_k = (L/2) b_k^2, m; sums over the modes left out of c_k/Lambda_k^j, j = 1, 2, 3, m.
       real(wp), allocatable :: c(:)
       real(wp) :: tail(3)
    contains
-      procedure :: profile
-      procedure :: left_out
+      procedure :: across
    end type axial_modes_type
 
 contains
@@ -52,19 +53,20 @@ contains
          solved = first_solved + 8*ceiling(log(order(modes)/(2*first_solved + 1))/log(4.0_wp))
          solved = min(solved, modes)
       end if
+      self%all_solved = solved == modes
       self%blocks = (solved + simd_width - 1)/simd_width
       allocate (self%square(simd_width*self%blocks), self%c(simd_width*self%blocks), source=0.0_wp)
       allocate (self%of_slot(simd_width*self%blocks, modes), source=0.0_wp)
       x = order
-      if (solved < modes) x(first_solved + 1:solved) = chebyshev(solved - first_solved, order(first_solved + 1), &
-         & order(modes))
+      if (.not. self%all_solved) x(first_solved + 1:solved) = chebyshev(solved - first_solved, &
+         & order(first_solved + 1), order(modes))
       self%square(:solved) = (x(:solved)*self%first)**2
       nodes = log(x)
       places = log(order)
-      do k = 1, merge(modes, first_solved, solved == modes)
+      do k = 1, merge(modes, first_solved, self%all_solved)
          self%of_slot(k, k) = 1
       end do
-      if (solved < modes) then
+      if (.not. self%all_solved) then
          do j = first_solved + 1, solved
             self%of_slot(j, first_solved + 1:) = lagrange(nodes(first_solved + 1:solved), j - first_solved, &
                & places(first_solved + 1:))
@@ -98,27 +100,27 @@ contains
       end do
    end function lagrange
 
-   !> b_k cos(lambda_k Z) by slot, at Z over half the width.
-   pure function profile(self, position)
+   !> At Z over half the width: b_k cos(lambda_k Z) by slot, and the sum of b_k cos(lambda_k Z)/Lambda_k^2 over the
+   !> modes left out.
+   pure subroutine across(self, position, profile, left_out)
       class(axial_modes_type), intent(in) :: self
       real(wp), intent(in) :: position
-      real(wp) :: profile(size(self%square))
+      real(wp), intent(out) :: profile(:), left_out
+      real(wp) :: modes(self%modes)
       integer :: k
-      profile = matmul(self%of_slot, [(of_mode(k, position), k=1, self%modes)])
-   end function profile
+      modes = [(of_mode(k, position), k=1, self%modes)]
+      if (self%all_solved) then
+         profile = 0
+         profile(:self%modes) = modes
+      else
+         profile = matmul(self%of_slot, modes)
+      end if
+      left_out = self%width**2*(1 - position**2)/8 - sum(modes/[((2*k - 1)*self%first, k=1, self%modes)]**2)
+   end subroutine across
 
    elemental real(wp) function of_mode(k, position)
       integer, intent(in) :: k
       real(wp), intent(in) :: position
       of_mode = -4*(-1)**k/((2*k - 1)*pi)*cos((2*k - 1)*pi/2*position)
    end function of_mode
-
-   !> Sum of b_k cos(lambda_k Z)/Lambda_k^2 over the modes left out, at Z over half the width.
-   pure real(wp) function left_out(self, position)
-      class(axial_modes_type), intent(in) :: self
-      real(wp), intent(in) :: position
-      integer :: k
-      left_out = self%width**2*(1 - position**2)/8 &
-         & - sum([(of_mode(k, position)/((2*k - 1)*self%first)**2, k=1, self%modes)])
-   end function left_out
 end module axial_modes

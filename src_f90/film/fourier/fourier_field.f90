@@ -49,8 +49,7 @@ contains
          rise = gap%supply_pressure - gap%ambient_pressure
          position = abs(z)/(0.5_wp*gap%axial_length)
          do j = 1, size(z)
-            profile(:, j) = pad%axial%profile(position(j))
-            narrow(j) = pad%axial%left_out(position(j))
+            call pad%axial%across(position(j), profile(:, j), narrow(j))
          end do
          smooth = 0
          do i = 0, n - 1

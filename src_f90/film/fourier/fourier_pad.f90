@@ -87,13 +87,13 @@ contains
       pad%n = n
       pad%radius = gap%pad_radius()
       associate (blocks => pad%axial%blocks)
-         allocate (pad%across(gauss, simd_width*blocks), pad%look(looks, simd_width*blocks))
+         allocate (pad%across(gauss, simd_width*blocks), pad%look(looks, simd_width*blocks), &
+            & profile(simd_width*blocks))
          do i = 1, all_points
-            profile = pad%axial%profile(points(i))
+            call pad%axial%across(points(i), profile, pad%point_tail(i))
             if (i <= gauss) pad%across(i, :) = profile
             if (i > gauss) pad%look(i - gauss, :) = profile
             if (i == middle) pad%at_middle = profile
-            pad%point_tail(i) = pad%axial%left_out(points(i))
          end do
          allocate (pad%weight(0:n), pad%h(0:n), pad%sine(0:n), pad%cosine(0:n), pad%s(0:n), pad%narrow(0:n), &
             & pad%base(0:n), pad%rate(0:n), pad%load(0:n), pad%lift(0:n))
