@@ -20,8 +20,18 @@ module hdf5_file
    real(wp), parameter :: largest_chunk = 2.0_wp**26
    integer, parameter :: most_dimensions = 32
 
+   !> A scale that is open, and its name.
+   type :: open_scale_type
+      integer(hid_t) :: id = -1
+      character(len=:), allocatable :: name
+   end type open_scale_type
+
    type, extends(hdf5_base_type) :: hdf5_type
+      !> The scales of each dimension that were attached last: opening one takes as long as attaching it.
+      type(open_scale_type), private :: scales(2)
    contains
+      procedure :: close => close_with_scales
+      procedure :: delete
       !> Writes a dataset as a record has it; one of the name and size is overwritten. Its scales are named slowest
       !> dimension first, as h5py shows them, separated by blanks; a dataset whose only scale is itself becomes that
       !> scale.
@@ -237,7 +247,6 @@ contains
       class(hdf5_type), intent(inout) :: self
       integer(hid_t), intent(in) :: dataset
       character(len=*), intent(in) :: units, long_name, scales, path
-      integer(hid_t) :: scale
       integer :: status, k
       if (allocated(self%failure)) return
       call self%write_attribute(dataset, 'units', units)
@@ -248,12 +257,50 @@ contains
          return
       end if
       do k = 1, scale_count(scales)
-         call h5dopen_f(self%id, scale_name(scales, k), scale, status)
-         call h5dsattach_scale_f(dataset, scale, k, status)
+         call open_scale(self, self%scales(min(k, size(self%scales))), scale_name(scales, k))
+         call h5dsattach_scale_f(dataset, self%scales(min(k, size(self%scales)))%id, k, status)
          call self%check(status, 'attach '//scale_name(scales, k)//' to '//path)
-         call h5dclose_f(scale, status)
       end do
    end subroutine describe
+
+   !> Opens a scale, unless it is the one that is open here.
+   subroutine open_scale(self, scale, name)
+      class(hdf5_type), intent(in) :: self
+      type(open_scale_type), intent(inout) :: scale
+      character(len=*), intent(in) :: name
+      integer :: status
+      if (scale%id >= 0) then
+         if (scale%name == name) return
+         call h5dclose_f(scale%id, status)
+      end if
+      call h5dopen_f(self%id, name, scale%id, status)
+      if (status < 0) scale%id = -1
+      scale%name = name
+   end subroutine open_scale
+
+   subroutine close_scales(self)
+      class(hdf5_type), intent(inout) :: self
+      integer :: k, status
+      do k = 1, size(self%scales)
+         if (self%scales(k)%id >= 0) call h5dclose_f(self%scales(k)%id, status)
+         self%scales(k)%id = -1
+      end do
+   end subroutine close_scales
+
+   !> HDF5 closes no file with open scales.
+   subroutine close_with_scales(self)
+      class(hdf5_type), intent(inout) :: self
+      call close_scales(self)
+      call self%hdf5_base_type%close()
+   end subroutine close_with_scales
+
+   !> A scale may be among what is deleted.
+   subroutine delete(self, path)
+      class(hdf5_type), intent(inout) :: self
+      character(len=*), intent(in) :: path
+      call close_scales(self)
+      call self%hdf5_base_type%delete(path)
+   end subroutine delete
 
    !> The k-th of scales whose names are separated by blanks; empty where there are fewer.
    pure function scale_name(names, k) result(name)
