@@ -81,9 +81,11 @@ contains
    pure real(wp) function least_film(self, edges)
       class(dimensionless_pad_type), intent(in) :: self
       real(wp), intent(in) :: edges(2)
-      type(pad_gap_type) :: whole
-      whole = self%gap(0.0_wp)
-      least_film = whole%min_film_thickness(film_motion(self%position(edges)), whole%directions())
+      real(wp) :: e(2)
+      e = self%position(edges)
+      least_film = minval(edges)
+      ! where it lies inside the arc
+      if (e(2) > norm2(e)*self%cosine) least_film = 1 - norm2(e)
    end function least_film
 
    !> Derivatives over the film thicknesses at the edges from those over the position of the journal.

@@ -12,7 +12,6 @@ module force_ratio
    use film_solver, only: film_motion, film_response, film_counters, film_ok
    use dimensionless_pad, only: dimensionless_pad_type
    use rotation_drive, only: rotation_drive_type
-   use film_grid, only: new_film_grid
    use elimination_film, only: elimination_film_type, new_elimination_film
    use fourier_film, only: fourier_film_type, converged_film
    implicit none (type, external)
@@ -207,12 +206,12 @@ contains
       end function over_t
    end function by_volumes
 
-   !> The grid with these angles between its columns, and a part of the columns and rows.
+   !> Places the columns of a grid, which has a part of the columns and rows, between these angles.
    subroutine set_grid(self, line, part)
       class(force_ratio_solver), intent(inout) :: self
       real(wp), intent(in) :: line(0:)
       integer, intent(in) :: part
-      self%grids(part)%grid = new_film_grid(self%drive%gap, self%columns/part, self%rows/part, line)
+      call self%grids(part)%grid%place_columns(line)
       call self%grids(part)%start_from()
    end subroutine set_grid
 

@@ -155,7 +155,9 @@ contains
       self%film(:self%grid%rows, :) = 1
       if (.not. present(coarse)) return
       do i = 1, self%grid%columns
-         self%film(:self%grid%rows, i) = coarse%film([((k + 1)/2, k=1, self%grid%rows)], (i + 1)/2)
+         do k = 1, self%grid%rows
+            self%film(k, i) = coarse%film((k + 1)/2, (i + 1)/2)
+         end do
       end do
    end subroutine start_from
 

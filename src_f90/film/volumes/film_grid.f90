@@ -59,6 +59,7 @@ module film_grid
       !> Right-hand side of a column: in every row, and what the side adds in the edge row.
       real(wp), allocatable :: source(:), edge_source(:)
    contains
+      procedure :: place_columns
       procedure :: set_motion
       procedure :: force
       procedure :: weight
@@ -78,7 +79,7 @@ contains
       real(wp), intent(in), optional :: angles(0:)
       type(film_grid_type) :: grid
       !> Faces between the rows over their mean height; mean of the square from the middle plane in a row.
-      real(wp) :: face(0:rows), square(rows), conductance(0:rows), line(0:columns)
+      real(wp) :: face(0:rows), square(rows), conductance(0:rows)
       integer :: i
       grid%gap = gap
       grid%directions = gap%directions()
@@ -97,30 +98,49 @@ contains
       grid%to_middle = middle_shares(face)
       grid%supply = gap%supply_pressure - gap%cavitation_pressure
       grid%ambient = gap%ambient_pressure - gap%cavitation_pressure
-      allocate (grid%along(0:columns), grid%between(0:columns), grid%h_face(0:columns))
-      allocate (grid%middle(0:columns + 1), grid%sin_face(0:columns), grid%cos_face(0:columns))
-      allocate (grid%width(columns), source=1.0_wp)
-      grid%between(:) = 1
-      line = [(i*grid%d_phi - gap%trailing_angle, i=0, columns)]
-      grid%middle(:) = [-gap%trailing_angle, [((i - 0.5_wp)*grid%d_phi - gap%trailing_angle, i=1, columns)], &
-         & gap%leading_angle]
-      if (present(angles)) then
-         line = angles
-         grid%middle(1:columns) = 0.5_wp*(angles(:columns - 1) + angles(1:))
-         grid%width(:) = (angles(1:) - angles(:columns - 1))/grid%d_phi
-         grid%between(1:columns - 1) = (grid%middle(2:columns) - grid%middle(1:columns - 1))/grid%d_phi
-      end if
-      ! the boundary lies half a cell away
-      grid%between(0) = 0.5_wp*grid%width(1)
-      grid%between(columns) = 0.5_wp*grid%width(columns)
-      grid%sin_cell = sin(grid%middle(1:columns))
-      grid%cos_cell = cos(grid%middle(1:columns))
-      grid%sin_face(:) = sin(line)
-      grid%cos_face(:) = cos(line)
+      allocate (grid%width(columns), grid%middle(0:columns + 1), grid%between(0:columns), grid%along(0:columns))
+      allocate (grid%sin_cell(columns), grid%cos_cell(columns), grid%sin_face(0:columns), grid%cos_face(0:columns))
       allocate (grid%h_cell(columns), grid%beside(columns), grid%source(columns), grid%edge_source(columns))
-      allocate (grid%mobility_cell(columns), grid%sliding_cell(columns), grid%shear_cell(columns), source=1.0_wp)
-      allocate (grid%mobility_face(0:columns), grid%sliding_face(0:columns), source=1.0_wp)
+      allocate (grid%mobility_cell(columns), grid%sliding_cell(columns), grid%shear_cell(columns))
+      allocate (grid%h_face(0:columns), grid%mobility_face(0:columns), grid%sliding_face(0:columns))
+      if (present(angles)) then
+         call grid%place_columns(angles)
+      else
+         call grid%place_columns([(i*grid%d_phi - gap%trailing_angle, i=0, columns)])
+         ! to the last bit
+         grid%width(:) = 1
+         grid%between(1:columns - 1) = 1
+      end if
    end function new_film_grid
+
+   !> Places the columns between these angles from the pivot, rad, (0:columns), from the trailing to the leading edge.
+   pure subroutine place_columns(self, angles)
+      class(film_grid_type), intent(inout) :: self
+      real(wp), intent(in) :: angles(0:)
+      real(wp) :: middle(0:size(angles))
+      associate (n => self%columns)
+         middle = [-self%gap%trailing_angle, 0.5_wp*(angles(:n - 1) + angles(1:)), self%gap%leading_angle]
+         self%middle(:) = middle
+         self%width(:) = (angles(1:) - angles(:n - 1))/self%d_phi
+         self%between(1:n - 1) = (middle(2:n) - middle(1:n - 1))/self%d_phi
+         ! the boundary lies half a cell away
+         self%between(0) = 0.5_wp*self%width(1)
+         self%between(n) = 0.5_wp*self%width(n)
+         self%sin_cell(:) = sin(middle(1:n))
+         self%cos_cell(:) = cos(middle(1:n))
+      end associate
+      self%sin_face(:) = sin(angles)
+      self%cos_face(:) = cos(angles)
+      ! no law has been there
+      self%varies = .false.
+      self%numbers = 0
+      if (allocated(self%power_face)) deallocate (self%power_face, self%power_cell)
+      self%mobility_cell(:) = 1
+      self%sliding_cell(:) = 1
+      self%shear_cell(:) = 1
+      self%mobility_face(:) = 1
+      self%sliding_face(:) = 1
+   end subroutine place_columns
 
    !> Shares of the rows' means in the value at 0 of the even polynomial, of the fourth degree, with the means of the
    !> first three rows between these faces; of a parabola between two.
