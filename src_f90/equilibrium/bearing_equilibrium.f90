@@ -59,12 +59,14 @@ contains
    !> The equilibrium of a model under its load at its initial speed, stable or of oscillatory instability, with the
    !> temperatures of warm oil; an error where none is found, or, of status `stopped`, where its `give_up`, asked
    !> between evaluations of the films, says so.
-   recursive subroutine find_bearing_equilibrium(model, found, error, by_heat)
+   recursive subroutine find_bearing_equilibrium(model, found, error, by_heat, settles)
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
       type(error_type), allocatable, intent(out) :: error
       !> Whether the error is that of the temperatures: with oil that keeps its viscosities there is an equilibrium.
       logical, intent(out), optional :: by_heat
+      !> Whether `settle` follows, by a model with converged films.
+      logical, intent(in), optional :: settles
       type(machine_model) :: warm, static
       type(search_traces) :: traces
       real(wp), allocatable :: y(:)
@@ -124,7 +126,7 @@ contains
             call solve_warm_films(static, y, films, found%residual, error)
             if (.not. allocated(error)) call move_alloc(films, found%films)
          else
-            call solve_thermal_equilibrium(static, y, found%residual, error, films=found%films)
+            call solve_thermal_equilibrium(static, y, found%residual, error, films=found%films, settles=settles)
             if (allocated(error) .and. .not. allocated(found%films)) call name_start()
          end if
          with_pads = with_pads .or. allocated(found%films)

@@ -411,7 +411,7 @@ contains
 
    !> The equilibrium of a model under its loads at its initial speed, stable or of oscillatory instability, with the
    !> temperatures of warm oil; an error where none is found, or, of status `stopped`, where its `give_up`, asked
-   !> between evaluations of the films, says so. `settles`: settle_equilibrium follows, and finds its stability.
+   !> between evaluations of the films, says so. `settles`: settle_equilibrium follows, with converged films.
    subroutine find_equilibrium(model, found, error, settles)
       type(machine_model), intent(in) :: model
       type(equilibrium_type), intent(out) :: found
@@ -424,7 +424,7 @@ contains
          call make_static(model, model%point%cavitation, static)
          call share_loads(static, found, error, settles=settles)
       else
-         call find_bearing_equilibrium(model, found, error, by_heat)
+         call find_bearing_equilibrium(model, found, error, by_heat, settles)
          if (by_heat) then
             if (error%status /= stopped) call offer_branch(model, error)
          end if

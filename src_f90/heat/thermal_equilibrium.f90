@@ -36,8 +36,9 @@ module thermal_equilibrium
    end type oil_field_type
 
    !> Residual of the logarithms of viscosities; the same where temperatures along and across the films follow, which
-   !> are changed by ten times as much; where it jumps; longest step.
-   real(wp), parameter :: agreement = 1e-8_wp, rough = 1e-2_wp, jump = 1e-4_wp, longest = 1
+   !> are changed by ten times as much, and where an equilibrium of converged films follows, from which the films of a
+   !> march differ as much (docs/benchmarks.md, *Film solvers*); where it jumps; longest step.
+   real(wp), parameter :: agreement = 1e-8_wp, rough = 1e-2_wp, nearly = 1e-4_wp, jump = 1e-4_wp, longest = 1
 
    !> A static model whose pads are in equilibrium or held where they are.
    type, extends(balance_type) :: static_balance
@@ -67,12 +68,16 @@ contains
    ! The oil of pads as a coupled field: the logarithms of the viscosities of their films, for which the heat balance of
    ! losses and flows wants others.
 
-   !> Begins with the viscosities of a model, and with temperatures of grooves and shaft that are kept, if some are.
-   subroutine begin(self, model, kept)
+   !> Begins with the viscosities of a model, and with temperatures of grooves and shaft that are kept, if some are;
+   !> `settles` as in solve_thermal_equilibrium.
+   subroutine begin(self, model, kept, settles)
       class(oil_field_type), intent(inout) :: self
       type(machine_model), intent(in) :: model
       type(oil_temperatures_type), intent(in), optional :: kept(:)
-      self%agreement = merge(rough, agreement, model%inputs%thermal%model == 'film')
+      logical, intent(in), optional :: settles
+      self%agreement = agreement
+      if (present(settles)) self%agreement = merge(nearly, agreement, settles)
+      if (model%inputs%thermal%model == 'film') self%agreement = rough
       self%jump = jump
       self%longest = longest
       self%parts = model%layout%pads
@@ -165,7 +170,7 @@ contains
 
    !> Brings a state that is near equilibrium to equilibrium, as solve_equilibrium does, and the oil, where it is warm,
    !> to the temperatures of this equilibrium: the model then has its viscosities.
-   subroutine solve_thermal_equilibrium(model, y, residual, error, held, kept, films)
+   subroutine solve_thermal_equilibrium(model, y, residual, error, held, kept, films, settles)
       type(machine_model), intent(inout), target :: model
       real(wp), intent(inout) :: y(:)
       real(wp), intent(out) :: residual
@@ -176,6 +181,8 @@ contains
       type(oil_temperatures_type), intent(in), optional :: kept(:)
       !> The temperatures of the films of each bearing, where the case wants them along and across.
       type(warm_films_type), allocatable, intent(out), optional :: films(:)
+      !> Whether a model with converged films settles it.
+      logical, intent(in), optional :: settles
       type(warm_films_type), allocatable :: found(:)
       type(oil_field_type), target :: pads
       type(field_reference) :: fields(1)
@@ -187,7 +194,7 @@ contains
       end if
       ! one temperature for each pad leads to those along and across
       model%oil = even_oil(model%oil%viscosity)
-      call pads%begin(model, kept)
+      call pads%begin(model, kept, settles)
       fields(1)%field => pads
       call settle_fields(model, y, fields, residual, error, held)
       if (allocated(error) .or. model%inputs%thermal%model /= 'film') return
