@@ -493,15 +493,19 @@ contains
       type(machine_model) :: trial
       type(case_type) :: less
       type(equilibrium_type) :: found
-      real(wp) :: value
+      character(len=:), allocatable :: offered
+      real(wp) :: value, first
       integer :: k
       associate (name => inputs%branch%parameter)
          call find_parameter(inputs, name, parameter, refused)
          if (allocated(refused)) return
          value = parameter%value(inputs)
          do k = 1, size(parts)
+            ! what is offered, to its last digit: beside it may be none
+            offered = to_text(parts(k)*value)
+            read (offered, *) first
             less = inputs
-            call parameter%set(parts(k)*value, less, refused)
+            call parameter%set(first, less, refused)
             if (.not. allocated(refused)) then
                trial = model
                call trial%adopt(less, .true.)
@@ -511,7 +515,7 @@ contains
             if (allocated(refused)) cycle
             error%message = error%message//'; a branch of equilibria shows how far there are some: ' &
                & //'--set case%task=branch --set branch%of=equilibrium --set '//quoted('branch%parameter='//name) &
-               & //' --set '//quoted(name//'='//to_text(parts(k)*value))//' --set branch%last='//to_text(value)
+               & //' --set '//quoted(name//'='//offered)//' --set branch%last='//to_text(value)
             return
          end do
       end associate
