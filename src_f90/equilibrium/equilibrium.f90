@@ -67,10 +67,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
       logical, intent(in), optional :: known, settles
       type(rotor_at_rest) :: rotor
-      type(share_type) :: shares(size(model%bearings))
-      real(wp) :: loads(2*size(shares))
+      type(share_type), allocatable :: shares(:)
+      real(wp) :: loads(2*size(model%bearings))
       logical :: ok
       integer :: b
+      allocate (shares(size(model%bearings)))
       call condense()
       if (.not. ok) then
          call raise(error, numerics_error, 'the stiffness of the rotor is singular')
@@ -101,7 +102,7 @@ contains
       !> A step is shortened until the next one is shorter (natural monotonicity test, Deuflhard 2004, section 2.1):
       !> forces alone would tell of a stiff shaft what rounding leaves.
       subroutine find_loads()
-         type(share_type) :: trial(size(shares))
+         type(share_type), allocatable :: trial(:)
          real(wp) :: step(size(loads)), next(size(loads)), part
          integer :: round
          call find_step(shares, loads, step)
@@ -113,7 +114,7 @@ contains
             if (.not. allocated(error)) then
                call find_step(trial, loads + part*step, next)
                if (norm2(next) < norm2(step)) then
-                  shares = trial
+                  call move_alloc(trial, shares)
                   loads = loads + part*step
                   step = next
                   part = min(1.0_wp, 2*part)

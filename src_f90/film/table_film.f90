@@ -30,6 +30,11 @@ module table_film
    !> films that the rotation drives besides are three times as large.
    integer, parameter :: most_full = 16000, most_cavitated = 100000
 
+   !> The table of one shape of wide arcs.
+   type :: wide_shape
+      class(wide_arc_table_type), allocatable :: table
+   end type wide_shape
+
    type, extends(direct_film_type) :: table_film_type
       private
       type(table_pad_type), allocatable :: tabulated(:)
@@ -37,7 +42,7 @@ module table_film
       type(shape_tables), allocatable :: shapes(:)
       !> The same for pads of wide arcs.
       type(wide_arc_pad_type), allocatable :: wide_arcs(:)
-      type(wide_arc_table_type), allocatable :: wide_shapes(:)
+      type(wide_shape), allocatable :: wide_shapes(:)
       !> Whether films come from tables, all of their cells are built, and pads are fixed; error of what cavitation
       !> changes and of full films, over the force.
       logical :: in_tables, filled = .false., fixed = .false.
@@ -92,20 +97,22 @@ contains
    subroutine add_wide_arcs(self)
       type(table_film_type), intent(inout) :: self
       logical :: gumbel
-      integer :: i, k
+      integer :: i, k, shapes
       gumbel = self%own_condition == cavitation_gumbel
       self%wide_arcs = [(new_wide_arc_pad(self%gaps(i)), i=1, size(self%gaps))]
-      allocate (self%wide_shapes(0))
+      allocate (self%wide_shapes(size(self%gaps)))
+      shapes = 0
       if (.not. (self%in_tables .and. (gumbel .or. self%own_condition == cavitation_reynolds))) return
       do i = 1, size(self%gaps)
-         associate (pad => new_dimensionless_pad(self%gaps(i)), shapes => self%wide_shapes)
+         associate (pad => new_dimensionless_pad(self%gaps(i)))
             if (self%tabulated(i)%shape > 0 .or. .not. self%tabulated(i)%even_pressure) cycle
             if (gumbel .and. pad%half_arc < least_gumbel_half_arc) cycle
-            do k = 1, size(shapes)
-               if (same(self%wide_shapes(k)%pad, pad)) exit
+            do k = 1, shapes
+               if (same(self%wide_shapes(k)%table%pad, pad)) exit
             end do
-            if (k > size(shapes)) self%wide_shapes = [self%wide_shapes, new_wide_arc_table(pad, gumbel, &
-               & self%tolerance, most_cavitated/size(self%gaps))]
+            if (k > shapes) allocate (self%wide_shapes(k)%table, source=new_wide_arc_table(pad, gumbel, &
+               & self%tolerance, most_cavitated/size(self%gaps)))
+            shapes = max(shapes, k)
             self%wide_arcs(i)%shape = k
          end associate
       end do
@@ -199,7 +206,7 @@ contains
       real(wp), intent(in) :: speed
       logical, intent(in) :: want_derivatives
       type(film_response), intent(inout) :: response
-      associate (pad => self%wide_arcs(i), tables => self%wide_shapes(self%wide_arcs(i)%shape))
+      associate (pad => self%wide_arcs(i), tables => self%wide_shapes(self%wide_arcs(i)%shape)%table)
          if (.not. oil%varies .and. self%condition == self%own_condition) call pad%look_up(tables, motion, oil, speed, &
             & want_derivatives, self%counters, response)
       end associate
@@ -222,8 +229,8 @@ contains
          if (.not. response(i)%lacks_pressures .or. response(i)%status /= film_ok) cycle
          k = self%wide_arcs(i)%shape
          if (k > 0) then
-            call self%wide_arcs(i)%look_up_pressures(self%wide_shapes(k), motion(i), oil(i), speed, self%counters, &
-               & response(i))
+            call self%wide_arcs(i)%look_up_pressures(self%wide_shapes(k)%table, motion(i), oil(i), speed, &
+               & self%counters, response(i))
          else
             k = tables_of(self, i, oil(i))
             call self%tabulated(i)%look_up_pressures(self%shapes(k), motion(i), oil(i), speed, self%cavitates(), &
