@@ -14,7 +14,7 @@ program test_film_accuracy
    use fourier_film, only: fourier_film_type, new_fourier_film, converged_film
    use sor_film, only: sor_film_type, sor_options, new_sor_film
    use direct_film, only: direct_film_type, new_direct_film
-   use table_film, only: table_film_type, new_table_film
+   use table_film, only: new_table_film
    use random_films, only: film_state, random_film, volumes_type, new_volumes, extrapolated, field_points, &
       & shown, shaft_speed
    use paper_bearing, only: paper_oil
@@ -165,7 +165,7 @@ contains
       logical, intent(in) :: clips, supplied
       type(film_state) :: state
       type(fourier_film_type) :: film
-      type(table_film_type) :: tables
+      class(film_solver_type), allocatable :: tables
       type(volumes_type) :: expected
       type(error_type) :: modes, looked_up
       character(len=:), allocatable :: name
@@ -202,7 +202,7 @@ contains
       type(film_state), intent(in) :: state
       integer, intent(in) :: condition
       real(wp), intent(in) :: tolerance
-      type(table_film_type) :: tables
+      class(film_solver_type), allocatable :: tables
       tables = new_table_film(new_direct(state, 1, condition), .true., tolerance)
    end function new_tables
 
@@ -256,7 +256,7 @@ contains
       type(fourier_film_type) :: modes
       type(direct_film_type) :: direct
       type(sor_film_type) :: sor
-      type(table_film_type) :: tables
+      class(film_solver_type), allocatable :: tables
       real(wp) :: missing(size(names))
       integer :: range, i, k
       !> What sine and cosine leave over a cell, and the points; of `auto` with the condition of Reynolds, what the
@@ -322,7 +322,7 @@ contains
       type(film_state) :: state
       type(direct_film_type) :: direct
       type(sor_film_type) :: sor
-      type(table_film_type) :: tables
+      class(film_solver_type), allocatable :: tables
       type(volumes_type) :: grids(0:2), expected
       type(error_type) :: of_direct(2), of_sor(2), looked_up
       real(wp) :: change

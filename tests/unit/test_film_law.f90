@@ -9,7 +9,7 @@ program test_film_law
    use fourier_film, only: fourier_film_type, new_fourier_film, converged_film
    use elimination_film, only: elimination_film_type, new_elimination_film
    use direct_film, only: new_direct_film
-   use table_film, only: table_film_type, new_table_film
+   use table_film, only: new_table_film
    use sor_film, only: new_sor_film, sor_options
    use film_losses, only: film_losses_type, film_loss, new_film_losses
    use film_differences, only: difference
@@ -167,7 +167,7 @@ contains
 
    !> Full and cavitated films from tables of the law.
    subroutine tables()
-      type(table_film_type) :: table
+      class(film_solver_type), allocatable :: table
       type(fourier_film_type) :: modes
       type(film_response) :: found(1), solved
       table = new_table_film(new_direct_film([offset_pad()], 40, 16, 80, 8, cavitation_reynolds, 1e-4_wp), .true., &

@@ -3,13 +3,13 @@
 program test_table_film
    use kinds, only: wp, degree
    use text, only: to_text
-   use film_solver, only: film_motion, film_response, film_ok, film_closed, none => cavitation_none, &
+   use film_solver, only: film_solver_type, film_motion, film_response, film_ok, film_closed, none => cavitation_none, &
       & gumbel => cavitation_gumbel, reynolds => cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use film_resolution, only: enough_cells, enough_modes
    use fourier_film, only: fourier_film_type, new_fourier_film
    use direct_film, only: direct_film_type, new_direct_film
-   use table_film, only: table_film_type, new_table_film
+   use table_film, only: new_table_film
    use film_differences, only: difference
    use paper_bearing, only: paper_oil, paper_pad, offset_pad, speed, clearance
    use check, only: runs, expect, expect_close, between, report
@@ -41,14 +41,21 @@ program test_table_film
 contains
 
    !> A solver with tables, and those that stand in.
-   function tables(gaps, condition) result(film)
+   subroutine make_tables(gaps, condition, film)
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: condition
-      type(table_film_type) :: film
+      class(film_solver_type), allocatable, intent(out) :: film
       film = new_table_film(solver(gaps, condition), .true., tolerance)
-   end function tables
+   end subroutine make_tables
 
    !> Films without tables.
+   subroutine make_solver(gaps, condition, film)
+      type(pad_gap_type), intent(in) :: gaps(:)
+      integer, intent(in) :: condition
+      class(film_solver_type), allocatable, intent(out) :: film
+      film = solver(gaps, condition)
+   end subroutine make_solver
+
    function solver(gaps, condition) result(film)
       type(pad_gap_type), intent(in) :: gaps(:)
       integer, intent(in) :: condition
@@ -90,7 +97,7 @@ contains
    !> within both tolerances.
    subroutine full_films()
       type(pad_gap_type) :: gaps(4)
-      type(table_film_type) :: film
+      class(film_solver_type), allocatable :: film
       type(fourier_film_type) :: fine
       type(film_motion) :: motion
       type(film_response) :: found(4), expected(4)
@@ -98,7 +105,7 @@ contains
       integer :: trial, k
       gaps = [offset_pad(), offset_pad(length=0.07_wp), offset_pad([3e6_wp, 1e5_wp, 0.0_wp]), &
          & offset_pad([1e5_wp, 2e5_wp, -1e5_wp])]
-      film = tables(gaps, none)
+      call make_tables(gaps, none, film)
       fine = new_fourier_film(gaps, 96, 32, .false., 1e-6_wp)
       worst = 0
       worst_slope = 0
@@ -121,8 +128,8 @@ contains
    !> Arcs of 5 to 175 degrees, of which those beyond 149 have no table, cavitated and not.
    subroutine arcs()
       real(wp), parameter :: angles(7) = [5.0_wp, 20.0_wp, 60.0_wp, 120.0_wp, 148.0_wp, 150.0_wp, 175.0_wp]
-      type(table_film_type) :: film
-      type(direct_film_type) :: exact
+      class(film_solver_type), allocatable :: film
+      class(film_solver_type), allocatable :: exact
       type(pad_gap_type) :: gap
       type(film_motion) :: motion
       type(film_response) :: found(1), expected(1)
@@ -132,7 +139,7 @@ contains
          gap = paper_pad()
          gap%leading_angle = 0.5_wp*angles(k)*degree
          gap%trailing_angle = gap%leading_angle
-         film = tables([gap], gumbel)
+         call make_tables([gap], gumbel, film)
          exact = new_direct_film([gap], 384, 64, 80, 8, gumbel)
          motion%position = clearance*[-0.3_wp, 0.3_wp]
          motion%velocity = clearance*speed*[0.02_wp, -0.1_wp]
@@ -147,12 +154,12 @@ contains
 
    !> T >= 1, exactly and beyond: a film that opens everywhere has no force and no slopes.
    subroutine no_force_left()
-      type(table_film_type) :: film
+      class(film_solver_type), allocatable :: film
       type(film_response) :: found(1)
       type(film_motion) :: motion
       integer :: k, condition
       do condition = gumbel, reynolds
-         film = tables([offset_pad()], condition)
+         call make_tables([offset_pad()], condition, film)
          do k = 1, 5
             motion = film_motion(clearance*[between(-0.4_wp, 0.4_wp), between(-0.4_wp, 0.4_wp)], &
                & -clearance*speed*[0.0_wp, 2.0_wp])
@@ -167,15 +174,15 @@ contains
 
    !> w_1 = 0 exactly, and next to 0 on both sides: the film closes or opens as a whole.
    subroutine straight_squeeze()
-      type(table_film_type) :: film
-      type(direct_film_type) :: exact
+      class(film_solver_type), allocatable :: film
+      class(film_solver_type), allocatable :: exact
       type(film_response) :: found(1), expected(1)
       type(film_motion) :: motion
       real(wp), parameter :: along(5) = [-1e-12_wp, -tiny(1.0_wp), 0.0_wp, tiny(1.0_wp), 1e-12_wp]
       integer :: k, condition
       do condition = none, reynolds
-         film = tables([paper_pad()], condition)
-         exact = solver([paper_pad()], condition)
+         call make_tables([paper_pad()], condition, film)
+         call make_solver([paper_pad()], condition, exact)
          do k = 1, size(along)
             motion = film_motion(clearance*[0.2_wp, 0.3_wp], [along(k), 0.01_wp])
             call film%evaluate([motion], [paper_oil], 0.0_wp, .true., found)
@@ -196,12 +203,12 @@ contains
    !> Slopes are those of the force, whole and cavitated, both ways of motion: against differences over 1e-6.
    subroutine slopes(condition)
       integer, intent(in) :: condition
-      type(table_film_type) :: film
+      class(film_solver_type), allocatable :: film
       type(film_response) :: found(1)
       type(film_motion) :: motion
       real(wp) :: unit, expected(2)
       integer :: trial, k
-      film = tables([offset_pad()], condition)
+      call make_tables([offset_pad()], condition, film)
       do trial = 1, 5
          motion = film_motion(clearance*[between(-0.4_wp, 0.4_wp), between(-0.2_wp, 0.4_wp)], &
             & clearance*speed*[between(-0.5_wp, 0.5_wp), between(-0.2_wp, 0.2_wp)])
@@ -220,11 +227,11 @@ contains
    subroutine repeats(condition)
       integer, intent(in) :: condition
       integer, parameter :: n = 8
-      type(table_film_type) :: film, copy
+      class(film_solver_type), allocatable :: film, copy
       type(film_motion) :: motions(n)
       type(film_response) :: forth(n), back(1)
       integer :: k
-      film = tables([offset_pad()], condition)
+      call make_tables([offset_pad()], condition, film)
       do k = 1, n
          motions(k) = film_motion(clearance*[between(-0.4_wp, 0.4_wp), between(-0.2_wp, 0.4_wp)], &
             & clearance*speed*[between(-0.5_wp, 0.5_wp), between(-0.2_wp, 0.2_wp)])
@@ -246,15 +253,15 @@ contains
    subroutine unequal_pressures()
       real(wp), parameter :: around(3, 3) = reshape([3e5_wp, 1e5_wp, 1e5_wp, 1e5_wp, 1e5_wp, 0.0_wp, 1e5_wp, 2e5_wp, &
          & 0.0_wp], [3, 3])
-      type(table_film_type) :: film
-      type(direct_film_type) :: exact
+      class(film_solver_type), allocatable :: film
+      class(film_solver_type), allocatable :: exact
       type(film_response) :: found(1), expected(1)
       type(film_motion) :: motion
       integer :: k, condition
       do condition = gumbel, reynolds
          do k = 1, size(around, 2)
-            film = tables([paper_pad(around(:, k))], condition)
-            exact = solver([paper_pad(around(:, k))], condition)
+            call make_tables([paper_pad(around(:, k))], condition, film)
+            call make_solver([paper_pad(around(:, k))], condition, exact)
             motion = film_motion(clearance*[0.2_wp, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
             call film%evaluate([motion], [paper_oil], speed, .true., found)
             call exact%evaluate([motion], [paper_oil], speed, .true., expected)
@@ -277,9 +284,9 @@ contains
 
    !> A film that nearly closes between its edges has no cell: it is solved, and its pressures with it.
    subroutine solved_once()
-      type(table_film_type) :: film
+      class(film_solver_type), allocatable :: film
       type(film_response) :: found(1), again(1)
-      film = tables([paper_pad()], reynolds)
+      call make_tables([paper_pad()], reynolds, film)
       associate (motion => film_motion(clearance*[0.0_wp, 0.999_wp]))
          call film%evaluate([motion], [paper_oil], speed, .true., found)
          again = found
@@ -292,15 +299,15 @@ contains
 
    !> The same pressure all around and inside, of any size, only presses from outside.
    subroutine ambient()
-      type(table_film_type) :: film, dry
-      type(direct_film_type) :: exact, exact_dry
+      class(film_solver_type), allocatable :: film, dry
+      class(film_solver_type), allocatable :: exact, exact_dry
       type(film_response) :: found(1), without(1), expected(1), expected_without(1)
       type(film_motion) :: motion
       integer :: k
-      film = tables([offset_pad([4e5_wp, 4e5_wp, 4e5_wp])], reynolds)
-      dry = tables([offset_pad()], reynolds)
-      exact = solver([offset_pad([4e5_wp, 4e5_wp, 4e5_wp])], reynolds)
-      exact_dry = solver([offset_pad()], reynolds)
+      call make_tables([offset_pad([4e5_wp, 4e5_wp, 4e5_wp])], reynolds, film)
+      call make_tables([offset_pad()], reynolds, dry)
+      call make_solver([offset_pad([4e5_wp, 4e5_wp, 4e5_wp])], reynolds, exact)
+      call make_solver([offset_pad()], reynolds, exact_dry)
       do k = 1, 3
          ! cavitated, whole, empty
          motion = film_motion(clearance*[0.2_wp, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
@@ -324,12 +331,12 @@ contains
 
    !> Pads of the same shape share what is built, and answer the same.
    subroutine alike()
-      type(table_film_type) :: film, alone
+      class(film_solver_type), allocatable :: film, alone
       type(film_response) :: found(6), expected(1)
       type(film_motion) :: motions(6)
       integer :: k
-      film = tables([(offset_pad(), k=1, 6)], reynolds)
-      alone = tables([offset_pad()], reynolds)
+      call make_tables([(offset_pad(), k=1, 6)], reynolds, film)
+      call make_tables([offset_pad()], reynolds, alone)
       do k = 1, 6
          motions(k) = film_motion(clearance*[-0.02_wp*k, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
       end do
@@ -345,14 +352,14 @@ contains
 
    !> A journal that touches, beyond and just not: at an edge and between them.
    subroutine closed()
-      type(table_film_type) :: film
-      type(direct_film_type) :: exact
+      class(film_solver_type), allocatable :: film
+      class(film_solver_type), allocatable :: exact
       type(film_response) :: found(1), expected(1)
       type(film_motion) :: motion
       real(wp) :: error
       integer :: k
-      film = tables([paper_pad()], reynolds)
-      exact = solver([paper_pad()], reynolds)
+      call make_tables([paper_pad()], reynolds, film)
+      call make_solver([paper_pad()], reynolds, exact)
       do k = -2, 0
          motion = film_motion([0.0_wp, (1 - 0.1_wp*k)*clearance], [0.0_wp, 0.0_wp])
          call film%evaluate([motion], [paper_oil], speed, .true., found)
@@ -372,12 +379,12 @@ contains
 
    !> Cavitation forbidden and allowed again; a solver made without it keeps without it.
    subroutine set_cavitation()
-      type(table_film_type) :: film, whole
+      class(film_solver_type), allocatable :: film, whole
       type(film_response) :: first(1), found(1), expected(1)
       type(film_motion) :: motion
       motion = film_motion(clearance*[0.2_wp, 0.3_wp], clearance*speed*[0.0_wp, 0.01_wp])
-      film = tables([paper_pad()], reynolds)
-      whole = tables([paper_pad()], none)
+      call make_tables([paper_pad()], reynolds, film)
+      call make_tables([paper_pad()], none, whole)
       call expect(film%cavitates() .and. .not. whole%cavitates(), 'as they were made')
       call film%evaluate([motion], [paper_oil], speed, .true., first)
       call whole%evaluate([motion], [paper_oil], speed, .true., expected)
@@ -402,7 +409,7 @@ contains
    subroutine pressures()
       integer, parameter :: n = 400
       real(wp), parameter :: middle(1, 1) = 0
-      type(table_film_type) :: film
+      class(film_solver_type), allocatable :: film
       type(fourier_film_type) :: fine
       type(pad_gap_type) :: gap
       type(film_response) :: found(1)
@@ -413,7 +420,7 @@ contains
          ! -1: Guembel's condition
          gap = offset_pad([max(0, supply)*1e6_wp, 0.0_wp, 0.0_wp])
          phi(:, 1) = [(-gap%trailing_angle + (k - 0.5_wp)/n*gap%arc(), k=1, n)]
-         film = tables([gap], merge(gumbel, none, supply < 0))
+         call make_tables([gap], merge(gumbel, none, supply < 0), film)
          fine = new_fourier_film([gap], 192, 32, .false.)
          worst = 0
          do trial = 1, 20
@@ -439,14 +446,14 @@ contains
    !> Guembel's condition, whose force ends with a bend within a cell: up to 2 % of the floor of its table, 1e-2.
    subroutine pushes(condition)
       integer, intent(in) :: condition
-      type(table_film_type) :: film
+      class(film_solver_type), allocatable :: film
       type(pad_gap_type) :: gap
       type(film_motion) :: motion
       type(film_response) :: found
       real(wp) :: allowed
       integer :: trial, pushing
       gap = offset_pad()
-      film = tables([gap], condition)
+      call make_tables([gap], condition, film)
       pushing = 0
       do trial = 1, 400
          motion%position = clearance*[between(-1.2_wp, 1.2_wp), between(-1.0_wp, 0.95_wp)]

@@ -14,7 +14,7 @@ program test_turbulent_film
    use turbulent_film, only: turbulent_film_type
    use fourier_film, only: fourier_film_type, new_fourier_film, converged_film
    use direct_film, only: new_direct_film
-   use table_film, only: table_film_type, new_table_film
+   use table_film, only: new_table_film
    use elimination_film, only: elimination_film_type, new_elimination_film
    use sor_film, only: sor_film_type, new_sor_film, sor_options
    use film_losses, only: film_losses_type, film_loss, new_film_losses
@@ -167,7 +167,7 @@ contains
          & over_velocity(4), tolerance, of_derivatives
       integer, intent(in) :: condition
       type(pad_gap_type) :: gap
-      type(table_film_type) :: solver
+      class(film_solver_type), allocatable :: solver
       type(turbulent_film_type) :: law
       type(film_response) :: film(1)
       gap = pad(leading)
@@ -279,7 +279,7 @@ contains
 
    !> Full and cavitated films from tables.
    subroutine tables()
-      type(table_film_type) :: table
+      class(film_solver_type), allocatable :: table
       type(fourier_film_type) :: modes
       type(film_response) :: found(1), solved
       type(elimination_film_type) :: grid

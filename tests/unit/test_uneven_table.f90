@@ -4,11 +4,12 @@
 program test_uneven_table
    use kinds, only: wp
    use text, only: to_text
-   use film_solver, only: film_motion, film_oil, film_response, film_counters, film_ok, cavitation_reynolds
+   use film_solver, only: film_solver_type, film_motion, film_oil, film_response, film_counters, film_ok, &
+      & cavitation_reynolds
    use pad_gap, only: pad_gap_type
    use film_resolution, only: enough_cells, enough_modes
-   use direct_film, only: direct_film_type, new_direct_film
-   use table_film, only: table_film_type, new_table_film
+   use direct_film, only: new_direct_film
+   use table_film, only: new_table_film
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
    use rotation_drive, only: rotation_drive_type, new_rotation_drive
    use force_ratio, only: force_ratio_solver, force_ratio_type, new_force_ratio_solver
@@ -150,8 +151,7 @@ contains
 
    !> Films from tables, and the same solved more finely.
    subroutine make_solvers(table, fine)
-      type(table_film_type), intent(out) :: table
-      type(direct_film_type), intent(out) :: fine
+      class(film_solver_type), allocatable, intent(out) :: table, fine
       type(pad_gap_type) :: gap
       gap = offset_pad()
       table = new_table_film(new_direct_film([gap], enough_cells([gap]), enough_modes([gap]), 80, 8, &
@@ -178,8 +178,7 @@ contains
       integer, intent(in) :: trials
       integer, intent(out) :: found
       real(wp), intent(out) :: worst
-      type(table_film_type) :: table
-      type(direct_film_type) :: fine
+      class(film_solver_type), allocatable :: table, fine
       type(film_response) :: film, exact, squeezed
       type(film_motion) :: motion
       integer :: trial, time
@@ -220,8 +219,7 @@ contains
 
    !> Derivatives from tables against differences of their forces, for full and cavitated films.
    subroutine derivatives()
-      type(table_film_type) :: table
-      type(direct_film_type) :: fine
+      class(film_solver_type), allocatable :: table, fine
       type(film_motion) :: motion, moved
       type(film_response) :: film, ahead, back
       real(wp) :: step(4), moves(4), found(2, 4)
@@ -252,8 +250,7 @@ contains
    !> a small part of the tolerance of the tables, which is 3.2e-5.
    subroutine even_weights()
       real(wp), parameter :: factor = 1.7_wp
-      type(table_film_type) :: table
-      type(direct_film_type) :: fine
+      class(film_solver_type), allocatable :: table, fine
       type(film_oil) :: weighted
       type(film_response) :: with, plain
       type(film_motion) :: motion
@@ -274,8 +271,7 @@ contains
 
    !> Another oil has tables of its own: bit by bit those of a solver that has known no other.
    subroutine another_oil()
-      type(table_film_type) :: table, other
-      type(direct_film_type) :: fine
+      class(film_solver_type), allocatable :: table, fine, other
       type(film_response) :: film, there
       type(film_oil) :: before
       integer :: time

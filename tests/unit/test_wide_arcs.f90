@@ -3,13 +3,14 @@ program test_wide_arcs
    use kinds, only: wp, pi, degree
    use text, only: to_text
    use pad_gap, only: pad_gap_type
-   use film_solver, only: film_motion, film_response, film_counters, film_ok, reynolds => cavitation_reynolds
+   use film_solver, only: film_solver_type, film_motion, film_response, film_counters, film_ok, &
+      & reynolds => cavitation_reynolds
    use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
    use strip_film, only: strip_film_type, find_strip, solve_strip, solve_clipped_strip, usual_steps
    use wide_arc_film, only: wide_arc_film_type, strip_force_type, new_wide_arc_film
    use wide_arc_table, only: wide_arc_table_type, new_wide_arc_table
    use direct_film, only: direct_film_type, new_direct_film
-   use table_film, only: table_film_type, new_table_film
+   use table_film, only: new_table_film
    use paper_bearing, only: paper_oil, speed, clearance
    use check, only: runs, expect, between, report
    implicit none (type, external)
@@ -334,7 +335,7 @@ contains
    !> Films of fixed pads from tables, with the ambient pressure around them: close to film-adapted grids, with
    !> slopes that are those of differences, and with their highest pressure.
    subroutine films()
-      type(table_film_type) :: tables
+      class(film_solver_type), allocatable :: tables
       type(direct_film_type) :: fine
       type(film_motion) :: motion(1), moved(1)
       type(film_response) :: found(1), exact(1), ahead(1), behind(1)
