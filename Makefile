@@ -287,10 +287,10 @@ speed: build python
 	@test -n "$$OLD" || { echo 'make speed OLD=COMMIT: which commit to compare with' >&2; exit 2; }
 	commit=$$(git rev-parse --short=12 --verify "$$OLD^{commit}") && older=build/speed/$$commit && mkdir -p $$older && \
 	   { test -e $$older/Makefile || git archive $$commit | tar -x -C $$older; } && \
-	   env -u MAKELEVEL -u MAKEFLAGS $(MAKE) -C $$older build && \
-	   mkdir -p $(B)/bench && \
-	   $(venv_python) tests/bench/speed.py $$older/build/bin/tiltpad $(B)/bin/tiltpad --commit $$commit \
-	   --keep $(B)/bench/speed.txt
+	   env -u MAKELEVEL -u MAKEFLAGS $(MAKE) -C $$older MODE=$(MODE) build && \
+	   mkdir -p build/bench && \
+	   $(venv_python) tests/bench/speed.py $$older/$(B)/bin/tiltpad $(B)/bin/tiltpad --commit $$commit \
+	   --keep build/bench/speed.txt
 
 # counterparts of the paper's figures, and its claims checked
 paper: build python
