@@ -5,7 +5,7 @@ module bearing_losses
    use case_groups, only: bearing_type
    use film_solver, only: film_motion, film_oil, film_law_type, film_ok
    use turbulent_film, only: turbulent_film_type
-   use pad_gap, only: pad_gap_type
+   use pad_gap, only: pad_gap_type, first_like
    use film_losses, only: film_losses_type, film_loss
    use sloped_gap, only: sloped_motion
    use sloped_film, only: sloped_film_type
@@ -102,7 +102,7 @@ contains
                motion = motion_of(pad%position, frame_of(pad%position, journal, pads(i)), journal, pads(i))
                call bearing%asperities%evaluate(pad%gap, pad%directions, motion, speed, asperity)
                if (asperity%touches) motion%position = asperity%film_position
-               call self%films(i)%find(motion, laws(i), speed, film)
+               call self%films(first_like(bearing%pads%gap, i))%find(motion, laws(i), speed, film)
             end if
             losses(i) = of_pad(pad, speed, film, asperity)
             losses(i)%mean_film_thickness = pad%gap%mean_film_thickness(motion, pad%directions)

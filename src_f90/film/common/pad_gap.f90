@@ -6,7 +6,7 @@ module pad_gap
    use kinds, only: wp
    implicit none (type, external)
    private
-   public :: pad_gap_type, pad_directions, film_motion, over_arc
+   public :: pad_gap_type, first_like, pad_directions, film_motion, over_arc
 
    !> Geometry and boundary pressures of one pad's film.
    type :: pad_gap_type
@@ -53,6 +53,15 @@ contains
             & gap%trailing_angle, gap%supply_pressure, gap%ambient_pressure, gap%cavitation_pressure]
       end function numbers
    end function differs
+
+   !> The number of the first of these gaps that is the same as the i-th.
+   pure integer function first_like(gaps, i) result(first)
+      type(pad_gap_type), intent(in) :: gaps(:)
+      integer, intent(in) :: i
+      do first = 1, i - 1
+         if (.not. gaps(i)%differs(gaps(first))) return
+      end do
+   end function first_like
 
    !> R = R_J + c_m, m.
    pure function pad_radius(self)

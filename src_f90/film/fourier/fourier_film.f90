@@ -17,7 +17,7 @@ module fourier_film
    use kinds, only: wp
    use film_solver, only: film_solver_type, film_motion, film_law_type, film_response, cavitation_none, &
       & cavitation_gumbel
-   use pad_gap, only: pad_gap_type
+   use pad_gap, only: pad_gap_type, first_like
    use clipped_quadrature, only: clipped_weights
    use film_resolution, only: resolution_type, new_resolution, most_levels, enough_cells, enough_modes
    use fourier_field, only: field_of_modes, edge_flows, add_layer_left_out
@@ -32,9 +32,10 @@ module fourier_film
    type, extends(film_solver_type) :: fourier_film_type
       private
       type(resolution_type), allocatable :: resolutions(:)
-      !> Every pad at every resolution that a film has asked for, (level, pad); the level of the last film.
+      !> Every pad at every resolution that a film has asked for, (level, pad); the level of the last film; the first
+      !> pad with the same gap, whose nodes and modes serve both.
       type(fourier_pad_type), allocatable :: pads(:, :)
-      integer, allocatable :: level(:)
+      integer, allocatable :: level(:), like(:)
    contains
       procedure :: solve
       procedure :: field_of_pad
@@ -54,8 +55,10 @@ contains
       type(fourier_film_type) :: solver
       integer :: i
       call solver%set_gaps(gaps, merge(cavitation_gumbel, cavitation_none, gumbel))
-      allocate (solver%resolutions(size(gaps)), solver%pads(most_levels, size(gaps)), solver%level(size(gaps)))
+      allocate (solver%resolutions(size(gaps)), solver%pads(most_levels, size(gaps)), solver%level(size(gaps)), &
+         & solver%like(size(gaps)))
       do i = 1, size(gaps)
+         solver%like(i) = first_like(gaps, i)
          solver%resolutions(i) = new_resolution(gaps(i), cells, modes, tolerance)
       end do
    end function new_fourier_film
@@ -84,8 +87,8 @@ contains
          & e => motion%position/self%gaps(i)%machined_clearance)
          along = span(e, directions%middle, directions%half)
          level = self%resolutions(i)%level(gap, directions, e, along)
-         if (self%pads(level, i)%n == 0) call self%resolutions(i)%make_pad(gap, level, self%pads(level, i))
-         associate (pad => self%pads(level, i))
+         associate (pad => self%pads(level, self%like(i)))
+            if (pad%n == 0) call self%resolutions(i)%make_pad(gap, level, pad)
             if (pad%clipped .neqv. clips) call set_weights(pad, clips)
             call set_motion(pad, motion, oil, speed, along)
             call solve_pad(pad, clips, want_derivatives, response)
@@ -122,7 +125,7 @@ contains
       real(wp), intent(out) :: pressure(:, :)
       type(film_response) :: response
       call self%evaluate_pad(i, motion, oil, speed, .false., response)
-      pressure = field_of_modes(self%pads(self%level(i), i), motion, oil, phi, z)
+      pressure = field_of_modes(self%pads(self%level(i), self%like(i)), motion, oil, phi, z)
       if (self%condition == cavitation_gumbel) pressure = max(pressure, self%gaps(i)%cavitation_pressure)
    end subroutine field_of_pad
 
