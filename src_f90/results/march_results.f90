@@ -284,11 +284,15 @@ contains
       call put('order', line(0:)*2*pi/inputs%highest_speed(), '1', 'frequency over shaft frequency', 'frequency')
       call file%last_samples('journal_y', n, y)
       call file%last_samples('journal_z', n, z)
-      allocate (signals(n, 2), source=reshape([y, z], [n, 2]))
       if (inputs%bearings(b)%tilting()) then
          call file%last_samples('pad_tilt', n, tilt)
-         signals = reshape([signals, transpose(tilt)], [n, 2 + size(tilt, 1)])
+      else
+         allocate (tilt(0, n))
       end if
+      allocate (signals(n, 2 + size(tilt, 1)))
+      signals(:, 1) = y(1, :)
+      signals(:, 2) = z(1, :)
+      signals(:, 3:) = transpose(tilt)
       under_window = inputs%about%task == 'march' .and. revolutions >= fewest_under_window
       means = sum(signals, 1)/n
       if (under_window) signals = windowed(signals)

@@ -188,10 +188,17 @@ contains
    subroutine add_dataset(self)
       class(record_type), intent(inout) :: self
       type(dataset_type), allocatable :: more(:)
+      real(wp), allocatable :: values(:)
+      integer :: k
       if (.not. allocated(self%datasets)) allocate (self%datasets(first_room))
       if (self%count == size(self%datasets)) then
          allocate (more(2*self%count))
-         more(:self%count) = self%datasets
+         do k = 1, self%count
+            ! they may be many
+            call move_alloc(self%datasets(k)%values, values)
+            more(k) = self%datasets(k)
+            call move_alloc(values, more(k)%values)
+         end do
          call move_alloc(more, self%datasets)
       end if
       self%count = self%count + 1
