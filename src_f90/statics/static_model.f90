@@ -132,9 +132,14 @@ contains
       integer :: i
       journal%position = place
       do i = 1, size(pads)
-         if (model%layout%elements(1)%has(pivot_deflection) .and. norm2(model%point%load) > 0) pads(i)%x( &
-            & pivot_deflection) = model%bearings(1)%pivots(i)%contact%law%pivot_deflection(norm2(model%point%load) &
-            & /size(pads))
+         if (model%layout%elements(1)%has(pivot_deflection) .and. norm2(model%point%load) > 0) then
+            if (repeats(i)) then
+               pads(i)%x(pivot_deflection) = pads(i - 1)%x(pivot_deflection)
+            else
+               pads(i)%x(pivot_deflection) = model%bearings(1)%pivots(i)%contact%law%pivot_deflection( &
+                  & norm2(model%point%load)/size(pads))
+            end if
+         end if
          associate (position => model%bearings(1)%pads(i)%position)
             frame = frame_of(position, journal, pads(i))
             pads(i)%x(tilt) = (frame%along + model%inputs%bearings(1)%machined_clearance(i)/3)/position%centre_distance
@@ -142,6 +147,15 @@ contains
          call align_pad(model%bearings(1), i, journal, pads(i))
       end do
       y = model%state(journal, pads)
+   contains
+      !> Whether a pad's pivot is that of the pad before.
+      pure logical function repeats(pad)
+         integer, intent(in) :: pad
+         repeats = pad > 1
+         associate (pivot => model%inputs%bearings(1)%pivot)
+            if (repeats) repeats = pivot%is_like(pad, pivot, pad - 1)
+         end associate
+      end function repeats
    end function placed
 
    !> The mean of the places, m, at which the journal lies in the middle of a pad's bore, among pads without tilt.
