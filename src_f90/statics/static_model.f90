@@ -129,16 +129,14 @@ contains
       type(journal_motion) :: journal
       type(pad_state) :: pads(model%layout%pads)
       type(pad_frame) :: frame
+      real(wp) :: deflection
       integer :: i
       journal%position = place
       do i = 1, size(pads)
          if (model%layout%elements(1)%has(pivot_deflection) .and. norm2(model%point%load) > 0) then
-            if (repeats(i)) then
-               pads(i)%x(pivot_deflection) = pads(i - 1)%x(pivot_deflection)
-            else
-               pads(i)%x(pivot_deflection) = model%bearings(1)%pivots(i)%contact%law%pivot_deflection( &
-                  & norm2(model%point%load)/size(pads))
-            end if
+            if (.not. repeats(i)) deflection = model%bearings(1)%pivots(i)%contact%law%pivot_deflection( &
+               & norm2(model%point%load)/size(pads))
+            pads(i)%x(pivot_deflection) = deflection
          end if
          associate (position => model%bearings(1)%pads(i)%position)
             frame = frame_of(position, journal, pads(i))
