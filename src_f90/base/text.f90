@@ -196,6 +196,7 @@ contains
       character(len=:), allocatable :: string
       real(wp) :: back
       integer :: digits, first
+      ! most are whole, and need no trial
       if (abs(x) > 0 .and. abs(x) < 1e6_wp .and. abs(x - anint(x)) <= 0) then
          string = integer_text(nint(x))
          return

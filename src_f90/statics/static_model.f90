@@ -262,10 +262,10 @@ contains
          real(wp) :: trial(model%n)
          integer, allocatable :: x(:)
          x = model%layout%positions()
+         differentiated = move**2 > residual_limit
          do
             trial = y
             trial(x) = y(x) + step
-            differentiated = move**2 > residual_limit
             call model%evaluate(0.0_wp, trial, differentiated, ok)
             if (ok) exit
             step = 0.5_wp*step

@@ -257,23 +257,25 @@ contains
          return
       end if
       do k = 1, scale_count(scales)
-         call open_scale(self, self%scales(min(k, size(self%scales))), scale_name(scales, k))
-         call h5dsattach_scale_f(dataset, self%scales(min(k, size(self%scales)))%id, k, status)
+         associate (scale => self%scales(min(k, size(self%scales))))
+            call open_scale(self%id, scale_name(scales, k), scale)
+            call h5dsattach_scale_f(dataset, scale%id, k, status)
+         end associate
          call self%check(status, 'attach '//scale_name(scales, k)//' to '//path)
       end do
    end subroutine describe
 
-   !> Opens a scale, unless it is the one that is open here.
-   subroutine open_scale(self, scale, name)
-      class(hdf5_type), intent(in) :: self
-      type(open_scale_type), intent(inout) :: scale
+   !> Opens the scale of this name in a file, unless it is the one that is open.
+   subroutine open_scale(file, name, scale)
+      integer(hid_t), intent(in) :: file
       character(len=*), intent(in) :: name
+      type(open_scale_type), intent(inout) :: scale
       integer :: status
       if (scale%id >= 0) then
          if (scale%name == name) return
          call h5dclose_f(scale%id, status)
       end if
-      call h5dopen_f(self%id, name, scale%id, status)
+      call h5dopen_f(file, name, scale%id, status)
       if (status < 0) scale%id = -1
       scale%name = name
    end subroutine open_scale
