@@ -290,7 +290,7 @@ speed: build python
 	   env -u MAKELEVEL -u MAKEFLAGS $(MAKE) -C $$older MODE=$(MODE) build && \
 	   mkdir -p build/bench && \
 	   $(venv_python) tests/bench/speed.py $$older/$(B)/bin/tiltpad $(B)/bin/tiltpad --commit $$commit \
-	   --keep build/bench/speed.txt
+	   --mode $(MODE) --keep build/bench/speed.txt
 
 # counterparts of the paper's figures, and its claims checked
 paper: build python

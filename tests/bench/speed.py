@@ -52,6 +52,7 @@ def main() -> int:
     parser.add_argument("new", type=Path)
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--commit", default="", help="of the old program, if it does not know it")
+    parser.add_argument("--mode", default="release", help="of both builds (MODE of make)")
     parser.add_argument("--keep", type=Path, help="file for what is printed, which make bench shows")
     options = parser.parse_args()
     count = counter()
@@ -61,7 +62,8 @@ def main() -> int:
         print(line, flush=True)
         lines.append(line)
 
-    say(f"{version(options.new)} against {options.commit or version(options.old)}")
+    builds = "" if options.mode == "release" else f", both built with MODE={options.mode}"
+    say(f"{version(options.new)} against {options.commit or version(options.old)}{builds}")
     say(f"{'case':20} {'time':>6} {'noise':>6} {'instructions':>13} {'s':>8}")
     verdicts: list[bool | None] = []
     with tempfile.TemporaryDirectory() as folder:
