@@ -24,8 +24,10 @@ module sloped_film
    real(wp), parameter :: thickness(levels) = [0.3_wp, 0.15_wp, 0.08_wp, 0.04_wp, 0.0_wp]
    !> Share of the last functions in the power up to which a level does.
    real(wp), parameter :: enough = 2e-3_wp
-   !> Of films that have to be close: the first level; columns and rows of volumes, and those of a march.
-   integer, parameter :: close_level = 3, close_volumes(2) = [48, 16], march_volumes(2) = [24, 12]
+   !> Of films that have to be close: the first level; columns and rows of volumes, those of a march, and those where
+   !> cavitation changes little in one: the more of the full film is kept, the more of the change is theirs.
+   integer, parameter :: close_level = 3, close_volumes(2) = [48, 16], march_volumes(2) = [24, 12], &
+      & slight_volumes(2) = [16, 8]
    !> How far below the cavitation pressure a full film may fall, over its highest pressure, before it counts as
    !> cavitated (direct_film): as much as weighted functions err beside edges.
    real(wp), parameter :: slight_tension = 2e-3_wp
@@ -39,7 +41,8 @@ module sloped_film
       !> Full films, made when they are asked for, (level, pad); the level of the last one, and the first to be tried.
       type(weighted_film_type), allocatable, private :: full(:, :)
       integer, private :: level = 1, first_level = 1
-      !> Volumes, made likewise, on two grids, the second twice as fine, (grid, pad); columns and rows of that one.
+      !> Volumes, made likewise, on two grids for slight cavitation and two others, the second of each twice as fine,
+      !> (grid, pad); columns and rows of the last one.
       type(sloped_volumes_type), allocatable, private :: volumes(:, :)
       integer, private :: cells(2) = march_volumes
    contains
@@ -62,7 +65,7 @@ contains
       self%directions = gaps%directions()
       self%own_condition = condition
       self%condition = condition
-      allocate (self%full(levels, size(gaps)), self%volumes(2, size(gaps)))
+      allocate (self%full(levels, size(gaps)), self%volumes(4, size(gaps)))
       if (.not. present(closely)) return
       if (closely) self%first_level = close_level
       if (closely) self%cells = close_volumes
@@ -164,12 +167,14 @@ contains
       logical, intent(in) :: want_derivatives
       type(sloped_response), intent(inout) :: response
       type(sloped_response) :: full, found
-      real(wp) :: weight
+      real(wp) :: weight, slight
       integer :: k
       self%counters%volumes = self%counters%volumes + 1
-      do k = 1, 2
-         weight = factor*merge(-1, 4, k == 1)/3
-         associate (film => self%volumes(k, i), cells => k*self%cells/2)
+      slight = merge(share, 0.0_wp, all(self%cells == march_volumes))
+      do k = 1, 4
+         weight = factor*merge(slight, 1 - slight, k <= 2)*merge(-1, 4, modulo(k, 2) == 1)/3
+         if (.not. abs(weight) > 0) cycle
+         associate (film => self%volumes(k, i), cells => merge(slight_volumes, self%cells, k <= 2)/(1 + modulo(k, 2)))
             if (film%rows == 0) film = new_sloped_volumes(self%gaps(i), cells(1), cells(2))
             call film%set_motion(following_angles(self%gaps(i), motion%middle, speed, cells(1)/2), motion, oil, speed)
             if (share > 0) call film%evaluate(cavitation_none, want_derivatives, self%counters, full)
@@ -179,11 +184,11 @@ contains
          end associate
          response%film%status = max(response%film%status, found%film%status)
       end do
-      response%place = found%place
       response%film%min_pressure = found%film%min_pressure
       response%film%max_pressure = response%film%max_pressure + factor*found%film%max_pressure
       if (share > 0) response%film%max_pressure = response%film%max_pressure &
          & - factor*share*full%film%max_pressure
+      if (share < 1) response%place = found%place
    end subroutine add_volumes
 
    !> Adds a share of another film to forces and derivatives.
