@@ -5,6 +5,7 @@ module bearing_construction
    use film_solver, only: film_solver_type, film_motion, film_law_type, film_response, film_not_converged
    use sloped_gap, only: sloped_motion, sloped_response
    use sloped_film, only: sloped_film_type
+   use small_slopes, only: small_slopes_type
    use asperity_contact, only: asperity_contact_type, asperity_load, sloped_asperity_load
    use friction, only: turning_friction
    use state_layout, only: pad_state, pivot_deflection
@@ -42,6 +43,8 @@ module bearing_construction
    type :: sloped_parts_type
       type(journal_slope) :: journal
       type(sloped_film_type) :: film
+      !> Of films that need not be close: tables of small slopes.
+      type(small_slopes_type), allocatable :: small
       !> Motions, and those at which the films are taken.
       type(sloped_motion), allocatable :: motion(:), film_motion(:)
       type(sloped_response), allocatable :: response(:)

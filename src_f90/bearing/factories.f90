@@ -9,6 +9,7 @@ module factories
    use fourier_film, only: new_fourier_film
    use film_resolution, only: enough_cells, enough_modes, usual_error
    use sloped_film, only: sloped_film_type, new_sloped_film
+   use small_slopes, only: small_slopes_type, new_small_slopes
    use direct_film, only: direct_film_type, new_direct_film
    use table_film, only: new_table_film
    use film_losses, only: film_losses_type, new_film_losses
@@ -123,14 +124,20 @@ contains
       end associate
    end subroutine make_film
 
-   !> The films of all pads where slopes of the journal count.
-   subroutine make_sloped_film(bearing, accuracy, film)
+   !> The films of all pads where slopes of the journal count, and tables of small slopes but where films are to be
+   !> close.
+   subroutine make_sloped_film(bearing, accuracy, film, small)
       type(bearing_type), intent(in) :: bearing
       !> One of the five above.
       integer, intent(in) :: accuracy
       type(sloped_film_type), intent(out) :: film
-      film = new_sloped_film(new_gaps(bearing), cavitation_of(bearing%film%cavitation), &
-         & closely=any(accuracy == [static_films, converged_films]))
+      type(small_slopes_type), allocatable, intent(inout) :: small
+      associate (closely => any(accuracy == [static_films, converged_films]), &
+         & condition => cavitation_of(bearing%film%cavitation))
+         film = new_sloped_film(new_gaps(bearing), condition, closely)
+         if (allocated(small)) deallocate (small)
+         if (.not. closely) small = new_small_slopes(new_gaps(bearing), condition)
+      end associate
    end subroutine make_sloped_film
 
    !> The laws of the films of this number of pads, unless they are these already.

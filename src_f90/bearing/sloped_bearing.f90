@@ -17,9 +17,9 @@ module sloped_bearing
    use factories, only: make_sloped_film
    implicit none (type, external)
    private
-   public :: make_sloped, sloped_films, sloped_loads, slopes_of, add_moments, find_inclined, add_late_sloped, &
-      & find_turning_bristles, sloped_output, take_sloped_samples, sampled_slopes, moment_on_journal, least_thickness, &
-      & align_pad
+   public :: make_sloped, sloped_films, take_sloped_pressures, sloped_loads, slopes_of, add_moments, find_inclined, &
+      & add_late_sloped, find_turning_bristles, sloped_output, take_sloped_samples, sampled_slopes, &
+      & moment_on_journal, least_thickness, align_pad
 
 contains
 
@@ -44,7 +44,7 @@ contains
          return
       end if
       counters = self%sloped%film%counters
-      call make_sloped_film(inputs%bearings(b), self%accuracy, self%sloped%film)
+      call make_sloped_film(inputs%bearings(b), self%accuracy, self%sloped%film, self%sloped%small)
       self%sloped%film%counters = counters
       call self%sloped%film%set_cavitation(cavitates)
       self%sloped%journal%slope = inputs%bearings(b)%slope
@@ -74,7 +74,12 @@ contains
                call self%asperities%evaluate_sloped(pad%gap, pad%directions, of%motion(i), speed, asperity)
                of%film_motion(i) = of%motion(i)
                if (asperity%touches) of%film_motion(i) = asperity%film_motion
-               call of%film%evaluate_pad(i, of%film_motion(i), self%laws(i), speed, want_derivatives, film)
+               if (allocated(of%small)) then
+                  call of%small%evaluate_pad(i, of%film_motion(i), self%laws(i), speed, want_derivatives, of%film, &
+                     & self%film, film)
+               else
+                  call of%film%evaluate_pad(i, of%film_motion(i), self%laws(i), speed, want_derivatives, film)
+               end if
                self%motion(i) = of%motion(i)%middle
                self%asperity(i) = asperity%asperity_load
                if (asperity%touches) then
@@ -87,6 +92,16 @@ contains
          end do
       end associate
    end subroutine sloped_films
+
+   !> Takes the highest pressures that the films evaluated last lack.
+   subroutine take_sloped_pressures(self)
+      class(constructed_bearing), intent(inout) :: self
+      associate (of => self%sloped)
+         if (.not. allocated(of%small)) return
+         call of%small%take_pressures(of%film_motion, self%laws, self%speed, of%film, self%film, of%response)
+         self%response%max_pressure = of%response%film%max_pressure
+      end associate
+   end subroutine take_sloped_pressures
 
    !> Sets the loads of a pad whose film was evaluated, and their derivatives where they are wanted.
    subroutine sloped_loads(self, i, journal, state, want_derivatives)

@@ -16,8 +16,8 @@ module tilting_pad_bearing
    use factories, only: make_film, make_laws, law_changes, new_asperities, new_pads, static_films, of_march, &
       & make_contacts, make_friction
    use bearing_construction, only: constructed_bearing, pad_sample, sloped_sample, pad_outputs, sloped_outputs
-   use sloped_bearing, only: make_sloped, sloped_films, sloped_loads, add_moments, find_inclined, add_late_sloped, &
-      & find_turning_bristles, sloped_output, take_sloped_samples
+   use sloped_bearing, only: make_sloped, sloped_films, take_sloped_pressures, sloped_loads, add_moments, &
+      & find_inclined, add_late_sloped, find_turning_bristles, sloped_output, take_sloped_samples
    implicit none (type, external)
    private
    public :: tilting_pad_bearing_type, pad_sample, sloped_sample, new_tilting_pad_bearing
@@ -491,6 +491,7 @@ contains
       integer :: i, k, o
       if (self%outputs > pad_outputs) output = 0
       if (allocated(self%sloped)) then
+         call take_sloped_pressures(self)
          do i = 1, size(self%pads)
             output(self%outputs*(i - 1) + 1:self%outputs*i) = sloped_output(self, i, layout, correction)
          end do
@@ -558,8 +559,11 @@ contains
       class(tilting_pad_bearing_type), intent(inout) :: self
       type(pad_sample) :: sampled(size(self%pads))
       integer :: i
-      if (.not. allocated(self%sloped)) call self%film%take_pressures(self%film_motion, self%laws, self%speed, &
-         & self%response)
+      if (allocated(self%sloped)) then
+         call take_sloped_pressures(self)
+      else
+         call self%film%take_pressures(self%film_motion, self%laws, self%speed, self%response)
+      end if
       do i = 1, size(self%pads)
          associate (film => self%response(i), loads => self%loads(i))
             sampled(i) = pad_sample(loads%contact, self%pads(i)%ball_radius*loads%friction%force, film%force, &

@@ -181,9 +181,9 @@ contains
       logical, intent(in) :: elastic
       type(machine_model) :: model
       if (elastic) then
-         model = new_machine_model(shaft_case(motion, friction))
+         model = new_machine_model(shaft_case(motion, friction), converged_films)
       else
-         model = new_machine_model(heavy_case(motion, friction))
+         model = new_machine_model(heavy_case(motion, friction), converged_films)
       end if
    end function model_of
 

@@ -35,6 +35,8 @@ module sloped_gap
       real(wp) :: edge_films(2) = 0
       !> Of the highest pressure: angle from the pivot, rad, and z, m.
       real(wp) :: place(2) = 0
+      !> Whether pressures are still those without slopes, and `place` is not set (sloped_film, take_pressures).
+      logical :: lacks_pressures = .false.
    end type sloped_response
 
 contains

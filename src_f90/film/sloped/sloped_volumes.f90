@@ -21,7 +21,7 @@ module sloped_volumes
    use sloped_gap, only: sloped_motion, sloped_response, driving_velocity, add_rotation, find_highest
    implicit none (type, external)
    private
-   public :: sloped_volumes_type, new_sloped_volumes
+   public :: sloped_volumes_type, new_sloped_volumes, end_between, solve, flow_into
 
    !> How much the rows' heights change (film_grid).
    real(wp), parameter :: grading = 0.85_wp
@@ -31,10 +31,9 @@ module sloped_volumes
    real(wp), parameter :: rounding = 1e-12_wp
 
    type :: sloped_volumes_type
-      private
       type(pad_gap_type) :: gap
       !> 0 before it is made.
-      integer, public :: rows = 0
+      integer :: rows = 0
       integer :: columns
       real(wp) :: radius
       !> Angles from the pivot, rad: of the edges and the middles of columns (0:columns + 1), and of faces (0:columns);
@@ -274,11 +273,19 @@ contains
       type(sloped_volumes_type), intent(in) :: self
       integer, intent(in) :: i
       real(wp) :: inflow(self%rows)
-      associate (p => self%p, m => self%rows)
-         inflow = self%along(:, i - 1)*(p(1:m, i - 1) - p(1:m, i)) + self%along(:, i)*(p(1:m, i + 1) - p(1:m, i)) &
-            & + self%across(:m - 1, i)*(p(:m - 1, i) - p(1:m, i)) + self%across(1:, i)*(p(2:, i) - p(1:m, i))
-      end associate
+      inflow = flow_into(self%p(:, i - 1:i + 1), self%along(:, i - 1:i), self%across(:, i))
    end function inflow
+
+   !> The same by pressures of a column, p(:, 2), and of those beside it, with the edges around, through faces with
+   !> these conductances: along, (row, side), and across.
+   pure function flow_into(p, along, across) result(inflow)
+      real(wp), intent(in) :: p(0:, :), along(:, :), across(0:)
+      real(wp) :: inflow(size(along, 1))
+      associate (m => size(along, 1))
+         inflow = along(:, 1)*(p(1:m, 1) - p(1:m, 2)) + along(:, 2)*(p(1:m, 3) - p(1:m, 2)) &
+            & + across(:m - 1)*(p(:m - 1, 2) - p(1:m, 2)) + across(1:)*(p(2:, 2) - p(1:m, 2))
+      end associate
+   end function flow_into
 
    !> Takes cells below the cavitation pressure out of the film, and puts those back that would fill. `grows_far`: what
    !> flows into a cell beyond what fills it is handed on along its row, away from the film (elimination_film).
@@ -339,12 +346,9 @@ contains
       type(sloped_volumes_type), intent(inout) :: self
       integer, intent(in) :: condition
       type(sloped_response), intent(inout) :: response
-      real(wp) :: b(size(self%inverse, 1), self%columns, 4), more(self%rows, self%columns)
+      real(wp) :: b(size(self%inverse, 1), self%columns, 4)
       integer :: i, k
-      if (condition == cavitation_reynolds .and. .not. all(self%film > 0)) then
-         call find_more(self, more)
-         call factorise(self, more)
-      end if
+      call end_between(self, condition)
       associate (m => self%rows)
          do i = 1, self%columns
             do k = 1, 2
@@ -359,6 +363,16 @@ contains
       call multiply(self, b, response%derivatives)
       call add_rotation(self%gap, self%speed, response%derivatives)
    end subroutine differentiate
+
+   !> Makes the blocks those of changes of the pressure in a film that ends between its cells.
+   pure subroutine end_between(self, condition)
+      type(sloped_volumes_type), intent(inout) :: self
+      integer, intent(in) :: condition
+      real(wp) :: more(self%rows, self%columns)
+      if (condition /= cavitation_reynolds .or. all(self%film > 0)) return
+      call find_more(self, more)
+      call factorise(self, more)
+   end subroutine end_between
 
    !> Derivatives at constant (w, v) from the adjoints, (padded row, column, force): those of conductances, of what
    !> slides through faces, and of sources.
