@@ -32,6 +32,7 @@ from production import production
 from runner import Row, Runner
 from settings import ROOT
 from skips import kernels, skips, visits
+from slopes import slopes
 from studies import studies
 from turbulent import turbulent
 from warm import warm
@@ -56,6 +57,7 @@ PARTS = {
     "turbulent": turbulent,
     "machines": machines,
     "elements": elements,
+    "slopes": slopes,
 }
 
 

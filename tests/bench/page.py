@@ -8,6 +8,7 @@ import machines
 import maps
 import orbits
 import settings
+import slopes
 import studies
 import tables
 import turbulent
@@ -297,6 +298,14 @@ The examples `compressor.nml`, with ten labyrinths and a balance piston over spe
 least and the largest clearance of the bearings; a march in two squeeze film dampers, beside the same without.
 
 {elements}
+
+## Pads that pitch
+
+The paper's bearing at 6500 rpm for 0.2 s, on a journal with a vertical slope: pads that pitch, and pitch and
+yaw, beside the same that only tilt, without a slope. Films with small slopes are from tables, the others are
+solved ([pads that pitch and yaw](theory/pitch_and_yaw.md)).
+
+{slopes}
 """
 
 
@@ -362,4 +371,5 @@ def page(rows: dict[str, list[Row]], machine: str, speed: str) -> str:
         machine_span=machines.SPAN,
         machines=machines.compared(rows["machines"]),
         elements=elements.compared(rows["elements"]),
+        slopes=slopes.compared(rows["slopes"]),
     )

@@ -113,7 +113,6 @@ contains
          if (.not. response%lacks_pressures) return
          call add(self%tables(self%table(i)), seen, speed, want_derivatives, response)
          response%film%min_film_thickness = minval(response%edge_films)
-         films%counters%looked_up = films%counters%looked_up + 1
          if (.not. seen%share < 1) return
          associate (share => seen%share)
             solved%film%force = share*response%film%force + (1 - share)*solved%film%force
