@@ -173,7 +173,7 @@ contains
          seen%amount = norm2(seen%w)
          if (.not. (least > 0 .and. seen%amount > 0)) return
          amount = max((1 - least/without)/largest_slope, norm2(u(3:))*half/(largest_drive*seen%amount))
-         if (amount >= 1) return
+         if (.not. amount < 1) return
          part = [diverging_part(d, u(:2) - half*u(3:)), diverging_part(d, u(:2)), diverging_part(d, u(:2) + half*u(3:))]
          seen%one_hill = self%condition /= cavitation_none .or. maxval(part) < 0.5_wp
          seen%part = merge(max(part(0), 0.0_wp), 0.0_wp, self%condition /= cavitation_none)
