@@ -25,7 +25,8 @@ module sloped_film
    !> Share of the last functions in the power up to which a level does.
    real(wp), parameter :: enough = 2e-3_wp
    !> Of films that have to be close: the first level; columns and rows of volumes, those of a march, and those where
-   !> cavitation changes little in one: the more of the full film is kept, the more of the change is theirs.
+   !> cavitation changes little in one: all of the change is theirs where three quarters of the full film are kept, and
+   !> nothing of it where one is.
    integer, parameter :: close_level = 3, close_volumes(2) = [48, 16], march_volumes(2) = [24, 12], &
       & slight_volumes(2) = [16, 8]
    !> How far below the cavitation pressure a full film may fall, over its highest pressure, before it counts as
@@ -170,7 +171,7 @@ contains
       real(wp) :: weight, slight
       integer :: k
       self%counters%volumes = self%counters%volumes + 1
-      slight = merge(share, 0.0_wp, all(self%cells == march_volumes))
+      slight = merge(min(1.0_wp, max(0.0_wp, 2*share - 0.5_wp)), 0.0_wp, all(self%cells == march_volumes))
       do k = 1, 4
          weight = factor*merge(slight, 1 - slight, k <= 2)*merge(-1, 4, modulo(k, 2) == 1)/3
          if (.not. abs(weight) > 0) cycle
