@@ -226,7 +226,7 @@ REASONS = {
     "[realistic.md](realistic.md) leaves out",
     "four_pads_reynolds": ": pad 4 carries nothing and moves at half the speed of the shaft; the size of "
     "this motion errs",
-    "inclined": ": it rests, starts with closer films than tables have, and bristles hold the difference",
+    "inclined": ": still, it starts with closer films than tables have, and bristles hold the difference",
 }
 
 
