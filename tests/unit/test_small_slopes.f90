@@ -1,5 +1,6 @@
-!> Tables of small slopes: against films with slopes that are solved closely, beside those of a march; films without
-!> slopes, in a mirror, derivatives, no leap where the tables end; what they do not know is solved.
+!> Tables of small slopes: against films with slopes that are solved closely, beside those of a march, of one pad and of
+!> random ones; films without slopes, in a mirror, derivatives, no leap where the tables end; what they do not know is
+!> solved.
 program test_small_slopes
    use kinds, only: wp, pi
    use text, only: to_text
@@ -9,6 +10,7 @@ program test_small_slopes
    use sloped_film, only: sloped_film_type, sloped_motion, sloped_response, new_sloped_film
    use small_slopes, only: small_slopes_type, new_small_slopes
    use paper_bearing, only: paper_oil, offset_pad, clearance
+   use random_films, only: film_state, random_film
    use check, only: runs, expect, between, report
    implicit none (type, external)
 
@@ -27,6 +29,8 @@ program test_small_slopes
    if (runs('accuracy')) call accuracy('full', none, cavitation_none)
    if (runs('accuracy')) call accuracy('reynolds', none, cavitation_reynolds)
    if (runs('accuracy')) call accuracy('ambient', ambient, cavitation_none)
+   if (runs('pads')) call random_pads('full', cavitation_none)
+   if (runs('pads')) call random_pads('reynolds', cavitation_reynolds)
    if (runs('aligned')) call aligned(cavitation_none)
    if (runs('aligned')) call aligned(cavitation_reynolds)
    if (runs('derivatives')) call derivatives(cavitation_none, 1e-5_wp)
@@ -81,41 +85,88 @@ contains
       integer, intent(in) :: condition
       integer, parameter :: films = 100
       type(pad_films) :: pad
-      type(sloped_film_type) :: closely, march
-      type(sloped_response) :: found, close, solved
-      type(sloped_motion) :: motion
-      real(wp) :: error(films, 5), scale(3)
-      integer :: n, k
+      real(wp) :: error(films, 5)
+      integer :: n
       logical :: known
       pad = new_films(offset_pad(pressures), condition)
-      closely = new_sloped_film([offset_pad(pressures)], condition, .true.)
-      march = new_sloped_film([offset_pad(pressures)], condition)
-      n = 0
-      do while (n < films)
-         motion = random_motion(between(0.0_wp, 1.0_wp))
-         call evaluate(pad, motion, found, known)
-         if (.not. known) cycle
-         call closely%evaluate_pad(1, motion, paper_oil, speed, .true., close)
-         ! nothing of it is left
-         if (.not. norm2(close%film%force) > 0) cycle
-         n = n + 1
-         call march%evaluate_pad(1, motion, paper_oil, speed, .false., solved)
-         scale = scales(motion, close)
-         error(n, :) = [norm2(found%film%force - close%film%force)/scale(1), norm2(found%moment - close%moment) &
-            & /scale(2), abs(found%film%max_pressure - close%film%max_pressure)/scale(3), &
-            & norm2(solved%film%force - close%film%force)/scale(1), norm2(solved%moment - close%moment)/scale(2)]
+      n = 1
+      do while (n <= films)
+         call find_errors(pad, offset_pad(pressures), condition, random_motion(between(0.0_wp, 1.0_wp)), error(n, :), &
+            & known)
+         if (known) n = n + 1
       end do
-      associate (nine => [(nine_tenths(error(:, k)), k=1, 5)])
-         call expect(nine(1) < 1e-3_wp + nine(4), name//': force '//to_text(nine(1))//' '//to_text(nine(4)))
-         call expect(nine(2) < 3e-3_wp + nine(5), name//': moment '//to_text(nine(2))//' '//to_text(nine(5)))
-         call expect(nine(3) < 1e-2_wp, name//': highest pressure '//to_text(nine(3)))
-      end associate
+      call expect_small(name, error, 1e-2_wp)
       call expect(maxval(error(:, 1)) < 1e-2_wp, name//': any force '//to_text(maxval(error(:, 1))))
    end subroutine accuracy
 
+   !> The same of pads of 20 to 120 degrees, a quarter to twice as long as wide, with films that are thin or thick, and
+   !> up to ten times as thick at one place as at another. The hill of pressure of long pads is flat: 2e-2.
+   subroutine random_pads(name, condition)
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: condition
+      integer, parameter :: films = 50
+      type(pad_films) :: pad
+      type(film_state) :: state
+      type(sloped_motion) :: motion
+      real(wp) :: error(films, 5)
+      integer :: n
+      logical :: known
+      n = 1
+      do while (n <= films)
+         state = random_film(1.0_wp, 10.0_wp, condition == cavitation_reynolds, .false.)
+         motion%middle = state%motion
+         motion%slope = between(0.0_wp, 0.6_wp)*state%thinnest/state%gap%axial_length*[between(-1.0_wp, 1.0_wp), &
+            & between(-1.0_wp, 1.0_wp)]
+         motion%slope_rate = between(0.0_wp, 0.3_wp)*speed*motion%slope
+         pad = new_films(state%gap, condition)
+         call find_errors(pad, state%gap, condition, motion, error(n, :), known)
+         if (known) n = n + 1
+      end do
+      call expect_small(name, error, 2e-2_wp)
+   end subroutine random_pads
+
+   !> Errors of force, moment and highest pressure of a film from tables against a closely solved one, and of force and
+   !> moment of that of a march that is solved; `known`: the tables know it, and something of it is left.
+   subroutine find_errors(pad, gap, condition, motion, error, known)
+      type(pad_films), intent(inout) :: pad
+      type(pad_gap_type), intent(in) :: gap
+      integer, intent(in) :: condition
+      type(sloped_motion), intent(in) :: motion
+      real(wp), intent(out) :: error(5)
+      logical, intent(out) :: known
+      type(sloped_film_type) :: closely, march
+      type(sloped_response) :: found, close, solved
+      call evaluate(pad, motion, found, known)
+      if (.not. known) return
+      closely = new_sloped_film([gap], condition, .true.)
+      march = new_sloped_film([gap], condition)
+      call closely%evaluate_pad(1, motion, paper_oil, speed, .true., close)
+      known = norm2(close%film%force) > 0
+      if (.not. known) return
+      call march%evaluate_pad(1, motion, paper_oil, speed, .false., solved)
+      associate (scale => scales(gap, motion, close))
+         error = [norm2(found%film%force - close%film%force)/scale(1), norm2(found%moment - close%moment)/scale(2), &
+            & abs(found%film%max_pressure - close%film%max_pressure)/scale(3), &
+            & norm2(solved%film%force - close%film%force)/scale(1), norm2(solved%moment - close%moment)/scale(2)]
+      end associate
+   end subroutine find_errors
+
+   !> Nine of ten errors are small, those of the highest pressure below this.
+   subroutine expect_small(name, error, pressure)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: error(:, :), pressure
+      integer :: k
+      associate (nine => [(nine_tenths(error(:, k)), k=1, 5)])
+         call expect(nine(1) < 1e-3_wp + nine(4), name//': force '//to_text(nine(1))//' '//to_text(nine(4)))
+         call expect(nine(2) < 3e-3_wp + nine(5), name//': moment '//to_text(nine(2))//' '//to_text(nine(5)))
+         call expect(nine(3) < pressure, name//': highest pressure '//to_text(nine(3)))
+      end associate
+   end subroutine expect_small
+
    !> Force, moment and pressure over which films are measured: their own, or, where these vanish, those that a third of
    !> the motion makes by damping and stiffness.
-   pure function scales(motion, film) result(scale)
+   pure function scales(gap, motion, film) result(scale)
+      type(pad_gap_type), intent(in) :: gap
       type(sloped_motion), intent(in) :: motion
       type(sloped_response), intent(in) :: film
       real(wp) :: scale(3)
@@ -126,8 +177,8 @@ contains
             scale(2) = max(norm2(film%moment), 0.3_wp*norm2(d(3:, 3:4))*norm2(g), 0.3_wp*norm2(d(3:, 7:8))*v)
          end associate
       end associate
-      ! over an area of some 0.1 m squared, a hill of pressure is twice its mean
-      scale(3) = max(film%film%max_pressure, 2*scale(1)/0.01_wp)
+      ! a hill of pressure is twice its mean
+      scale(3) = max(film%film%max_pressure, 2*scale(1)/(gap%axial_length*gap%pad_radius()*gap%arc()))
    end function scales
 
    !> The value that nine of ten do not exceed.
@@ -260,7 +311,7 @@ contains
       call again%small%evaluate_pad(2, motion, paper_oil, speed, .false., again%films, again%aligned, r)
       motion%middle%position = [-26e-6_wp, 52e-6_wp]
       call again%small%evaluate_pad(2, motion, paper_oil, speed, .false., again%films, again%aligned, r)
-      call expect(all(abs(r%moment - first%moment) <= 1e-12_wp*norm2(first%moment)), 'the same cell')
+      call expect(all(abs(r%moment - first%moment) <= 0), 'the same cell')
    end subroutine shared
 
    !> Of a film that diverges everywhere nothing is left.

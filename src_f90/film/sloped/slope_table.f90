@@ -2,11 +2,12 @@
 !> film thicknesses at both edges and the direction of w. In cells they are cubics along each of these, through values
 !> at nodes, which neighbours share. What is in a cell does not depend on what came before.
 module slope_table
-   use kinds, only: wp, pi
+   use kinds, only: wp, i8, pi
    use clock, only: wall_clock
    use film_solver, only: film_oil, film_ok, cavitation_none
    use pad_gap, only: pad_gap_type, pad_directions
    use following_film, only: following_angles
+   use dimensionless_pad, only: dimensionless_pad_type, new_dimensionless_pad
    use cell_index, only: cell_index_type, cell_key, interval, lower_end
    use sloped_gap, only: sloped_motion, sloped_response
    use sloped_film, only: sloped_film_type
@@ -16,24 +17,22 @@ module slope_table
    private
    public :: slope_table_type, new_slope_table, diverging_part
 
-   !> Nodes of a cell along each axis, and where they are; level of cells along the thicknesses (cell_index). Directions
-   !> of w in which a part of the film diverges, beside one edge and beside the other, and those between, in which none
-   !> or all of it does, have these numbers of cells, without cavitation and with the condition of Reynolds.
-   integer, parameter :: nodes = 4, level = 1, diverging(2) = [3, 8], between = 5
+   !> Nodes of a cell along each axis, and where they are; first and last level of cells along the thicknesses
+   !> (cell_index): they are halved until the film in them is as thick as they are long, as films change fast beside
+   !> those that close. Directions of w in which a part of the film diverges, beside one edge and beside the other, and
+   !> those between, in which none or all of it does, have these numbers of cells, without cavitation and with the
+   !> condition of Reynolds.
+   integer, parameter :: nodes = 4, first_level = 1, last_level = 5, diverging(2) = [3, 8], between = 5
    real(wp), parameter :: at(nodes) = [-1.0_wp, -0.5_wp, 0.5_wp, 1.0_wp]
    !> T of the last films that are solved.
    real(wp), parameter :: last_solved = 0.97_wp
    !> Columns and rows of the volumes at nodes, for all but changes of first order.
    integer, parameter :: cells_of_node(2) = [16, 8]
-   !> Cells that are built at the first visit; beyond, a cell is built once the films solved in it have cost about as
-   !> much as building does (full_film).
-   integer, parameter :: built_at_once = 100, visits_of_cell = nodes**3
 
    type :: cell_type
       real(wp) :: middle(3) = 0, per_half(3) = 0
-      integer :: visits = 0
-      !> Whether it has been tried to build it; there is a film at all nodes.
-      logical :: tried = .false., good = .false.
+      !> Whether there is a film at all nodes.
+      logical :: good = .false.
       !> At the nodes, the last axis first.
       real(wp), allocatable :: loads(:, :, :, :), pressures(:, :, :, :)
    end type cell_type
@@ -47,9 +46,10 @@ module slope_table
       !> Without pressures around it.
       type(pad_gap_type) :: gap
       type(pad_directions) :: directions
+      type(dimensionless_pad_type), private :: pad
       integer :: condition
       !> Cells of directions in which a part of the film diverges; most cells: when they are used up all are forgotten.
-      integer, private :: diverging, most, built = 0
+      integer, private :: diverging, most
       type(cell_index_type), private :: cell_index, node_index
       type(cell_type), allocatable, private :: cells(:)
       type(node_type), allocatable, private :: nodes(:)
@@ -70,6 +70,7 @@ contains
       table%gap%ambient_pressure = 0
       table%gap%cavitation_pressure = 0
       table%directions = gap%directions()
+      table%pad = new_dimensionless_pad(gap)
       table%condition = condition
       table%most = most
       table%diverging = merge(diverging(1), diverging(2), condition == cavitation_none)
@@ -77,8 +78,8 @@ contains
    end function new_slope_table
 
    !> The cell at a place: film thicknesses at the leading and the trailing edge over the clearance, and direction of w
-   !> from that of the film in the middle, rad, from minus half the arc on. It is built if that is due, with films that
-   !> solve those of this pad. `number`: that of the cell of the place before; 0: none has the place.
+   !> from that of the film in the middle, rad, from minus half the arc on. It is built where it was not, with films
+   !> that solve those of this pad. `number`: that of the cell of the place before; 0: there is none.
    subroutine find_cell(self, pad, place, films, number)
       class(slope_table_type), intent(inout) :: self
       integer, intent(in) :: pad
@@ -86,12 +87,15 @@ contains
       class(sloped_film_type), intent(inout) :: films
       integer, intent(inout) :: number
       type(cell_type), allocatable :: more(:)
-      integer :: at_cell(3)
+      integer :: level, at_cell(3)
       if (number > 0 .and. number <= self%cell_index%count) then
          associate (cell => self%cells(number))
             if (cell%good .and. all(abs(place - cell%middle)*cell%per_half <= 1)) return
          end associate
       end if
+      level = level_at(self, place(:2))
+      number = 0
+      if (level > last_level) return
       at_cell = [interval(place(:2), level), sector_cell(self, place(3))]
       associate (key => cell_key(level, at_cell(1), at_cell(2), at_cell(3), 0))
          number = self%cell_index%find(key)
@@ -106,19 +110,11 @@ contains
                more(:size(self%cells)) = self%cells
                call move_alloc(more, self%cells)
             end if
-            self%cells(number) = cell_type()
+            call build(self, pad, level, at_cell, films, self%cells(number))
             call self%cell_index%add(key, number)
          end if
       end associate
-      associate (cell => self%cells(number))
-         cell%visits = cell%visits + 1
-         if (.not. cell%tried) then
-            if (self%built < built_at_once .or. cell%visits >= visits_of_cell) then
-               call build(self, pad, at_cell, films, cell)
-            end if
-         end if
-         if (.not. cell%good) number = 0
-      end associate
+      if (.not. self%cells(number)%good) number = 0
    end subroutine find_cell
 
    !> The coefficients of force and moment in a cell at a place, and, if they are wanted, their derivatives over the
@@ -186,6 +182,21 @@ contains
       end do
    end function contracted
 
+   !> The level of the cell with these thicknesses at the edges; beyond the last, there is none.
+   pure integer function level_at(self, edges) result(level)
+      type(slope_table_type), intent(in) :: self
+      real(wp), intent(in) :: edges(2)
+      real(wp) :: lower(2), upper(2)
+      do level = first_level, last_level
+         lower = lower_end(interval(edges, level), level)
+         upper = lower_end(interval(edges, level) + 1, level)
+         associate (least => min(self%pad%least_film(lower), self%pad%least_film([lower(1), upper(2)]), &
+            & self%pad%least_film([upper(1), lower(2)])))
+            if (least >= maxval(upper - lower)) return
+         end associate
+      end do
+   end function level_at
+
    !> The number, from 0, of the cell along a direction of w.
    pure integer function sector_cell(self, angle) result(number)
       type(slope_table_type), intent(in) :: self
@@ -212,11 +223,11 @@ contains
    end function lower_angle
 
    !> Builds the cell at a place, with films of this pad.
-   subroutine build(self, pad, place, films, cell)
+   subroutine build(self, pad, level, place, films, cell)
       class(slope_table_type), intent(inout) :: self
-      integer, intent(in) :: pad, place(3)
+      integer, intent(in) :: pad, level, place(3)
       class(sloped_film_type), intent(inout) :: films
-      type(cell_type), intent(inout) :: cell
+      type(cell_type), intent(out) :: cell
       real(wp) :: lower(3), upper(3), started
       type(node_type) :: node
       integer :: i, j, k
@@ -225,16 +236,15 @@ contains
       upper = [lower_end(place(:2) + 1, level), lower_angle(self, place(3) + 1)]
       cell%middle = 0.5_wp*(lower + upper)
       cell%per_half = 2/(upper - lower)
-      cell%tried = .true.
-      self%built = self%built + 1
       films%counters%cells = films%counters%cells + 1
       allocate (cell%loads(coefficients, nodes, nodes, nodes), cell%pressures(of_pressure, nodes, nodes, nodes))
       nodes_of_cell: do i = 1, nodes
          do j = 1, nodes
             do k = 1, nodes
                associate (number => (nodes - 1)*place + [i, j, k] - 1)
-                  call find_node(self, pad, [number(:2), modulo(number(3), (nodes - 1)*2*(self%diverging + between))], &
-                     & cell%middle + at([i, j, k])/cell%per_half, films, node)
+                  call find_node(self, pad, cell_key(level, number(1), number(2), modulo(number(3), &
+                     & (nodes - 1)*2*(self%diverging + between)), 0), cell%middle + at([i, j, k])/cell%per_half, &
+                     & films, node)
                end associate
                if (.not. node%good) exit nodes_of_cell
                cell%loads(:, k, j, i) = node%loads
@@ -246,29 +256,28 @@ contains
       films%counters%building = films%counters%building + wall_clock() - started
    end subroutine build
 
-   !> The node of this number along each axis, at this place.
-   subroutine find_node(self, pad, number, place, films, node)
+   !> The node with this key, at this place.
+   subroutine find_node(self, pad, key, place, films, node)
       type(slope_table_type), intent(inout) :: self
-      integer, intent(in) :: pad, number(3)
+      integer, intent(in) :: pad
+      integer(i8), intent(in) :: key
       real(wp), intent(in) :: place(3)
       class(sloped_film_type), intent(inout) :: films
       type(node_type), intent(out) :: node
       type(node_type), allocatable :: more(:)
       integer :: found
-      associate (key => cell_key(level, number(1), number(2), number(3), 0))
-         found = self%node_index%find(key)
-         if (found == 0) then
-            found = self%node_index%count + 1
-            if (found > size(self%nodes)) then
-               allocate (more(2*size(self%nodes)))
-               more(:size(self%nodes)) = self%nodes
-               call move_alloc(more, self%nodes)
-            end if
-            call solve_node(self, pad, place, films, self%nodes(found))
-            call self%node_index%add(key, found)
+      found = self%node_index%find(key)
+      if (found == 0) then
+         found = self%node_index%count + 1
+         if (found > size(self%nodes)) then
+            allocate (more(2*size(self%nodes)))
+            more(:size(self%nodes)) = self%nodes
+            call move_alloc(more, self%nodes)
          end if
-         node = self%nodes(found)
-      end associate
+         call solve_node(self, pad, place, films, self%nodes(found))
+         call self%node_index%add(key, found)
+      end if
+      node = self%nodes(found)
    end subroutine find_node
 
    !> The coefficients at a place.
@@ -284,10 +293,9 @@ contains
       type(sloped_response) :: response, coarse
       real(wp) :: along, outward, room
       node%good = .false.
-      associate (l => self%directions%leading, t => self%directions%trailing, m => self%directions%middle, &
-         & h => self%directions%half, closer => 1 - place(:2), c => self%gap%machined_clearance)
-         motion%middle%position = c*[closer(1)*t(2) - closer(2)*l(2), closer(2)*l(1) - closer(1)*t(1)] &
-            & /(l(1)*t(2) - l(2)*t(1))
+      associate (m => self%directions%middle, h => self%directions%half, &
+         & e => self%gap%machined_clearance*self%pad%position(place(:2)))
+         motion%middle%position = [e(1)*m(2) + e(2)*m(1), e(2)*m(2) - e(1)*m(1)]
          along = cos(place(3))
          outward = sin(place(3))
          ! of a film that is nearly empty the coefficients are those of one with a little more of it

@@ -35,7 +35,7 @@ module sloped_gap
       real(wp) :: edge_films(2) = 0
       !> Of the highest pressure: angle from the pivot, rad, and z, m.
       real(wp) :: place(2) = 0
-      !> Whether pressures are still those without slopes, and `place` is not set (sloped_film, take_pressures).
+      !> Whether pressures are still those without slopes, and `place` is not set (small_slopes).
       logical :: lacks_pressures = .false.
    end type sloped_response
 
