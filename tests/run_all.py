@@ -19,8 +19,8 @@ TESTS = Path(__file__).parent
 ONLY = os.environ.get("ONLY", "")
 #: How many of the slowest tests are listed; shorter ones than this, s, never are.
 SLOWEST, SHORT = 25, 0.5
-#: Files of tests that one process runs: starting Python and pytest takes as long as many tests do.
-TOGETHER = 6
+#: Files of tests that one process runs: starting Python and runs that tests share take as long as many tests.
+TOGETHER = 12
 #: Files that take longest: each is a job of its own and starts first, so that none is left alone at the end.
 LONG = ("cases/test_blocks", "post/test_tutorial", "cases/test_command_faults", "cases/test_fault_sample",
         "cases/test_checkpoint", "cases/test_branch_stops", "post/test_damaged", "post/test_hostile",
