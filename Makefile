@@ -138,7 +138,7 @@ heaped := $(filter-out $(short),$(basename $(notdir $(sources))))
 # of a march. Tests, which take longer to compile than the modules under test, have it with the checks alone.
 plain := $(filter-out excitations growing_file march_results summary_group recorder,\
          $(call modules_of,$(addprefix src_f90/,system case input storage results app equilibrium branches)) \
-         factories film_comparison own_frequencies rotor_factory stability_levels \
+         factories film_comparison rotor_factory stability_levels \
          $(if $(filter debug,$(MODE)),$(call modules_of,tests)))
 plain_flags := $(if $(filter file override,$(origin FFLAGS)),$($(family).plain_$(if $(filter debug,$(MODE)),debug,release)))
 # loops over nodes and matrices: more than half of the time of the test programs, which have their checks all the same
