@@ -313,7 +313,7 @@ contains
          if (allocated(oil)) call b%equilibria%temperatures(oil, viscosity)
       end if
       call add_point(run%file, run%model, b, point, figures, error, oil, viscosity)
-      call run%file%beat(int(wall_clock() - run%started))
+      call run%file%heartbeat(int(wall_clock() - run%started))
    end subroutine record
 
    !> Begins a checkpoint; a branch has no time.

@@ -95,7 +95,7 @@ contains
          else
             if (is_made_anew(place, path)) cycle
          end if
-         call table%working%beat(int(wall_clock()))
+         call table%working%heartbeat(int(wall_clock()))
          call table%take(study, path, other, error)
          if (allocated(error)) then
             call refuse(other, place%overwrite, way_out, error)

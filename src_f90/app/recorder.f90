@@ -182,7 +182,7 @@ contains
       real(wp) :: now
       now = wall_clock()
       call self%progress%report(t, steps, now)
-      call self%run%file%beat(int(now - self%run%started))
+      call self%run%file%heartbeat(int(now - self%run%started))
       self%checkpoint_due = self%run%wants_checkpoint(now)
    end subroutine report
 

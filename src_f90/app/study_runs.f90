@@ -100,7 +100,7 @@ contains
          call look(children, pipe(1), table, runner, tally)
          call progress%report_runs(tally%done + tally%failed, tally%failed)
          now = wall_clock()
-         call table%working%beat(int(now))
+         call table%working%heartbeat(int(now))
          if (.not. allocated(error)) call table%checkpoint_if_due(now, min(checkpoint_seconds, longest_loss), error)
       end do
       do i = 1, size(children)

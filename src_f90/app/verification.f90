@@ -127,7 +127,7 @@ contains
             return
          end if
          call comparison%compare(run%model, time(k), run%model%state(journal, pads), found(:, k))
-         call file%beat(int(wall_clock() - run%started))
+         call file%heartbeat(int(wall_clock() - run%started))
       end do
    end subroutine verify_samples
 

@@ -40,7 +40,7 @@ module run_file
       procedure :: finish
       procedure :: publish
       procedure :: abandon
-      procedure :: beat
+      procedure :: heartbeat
       !> What has gone wrong with the file so far.
       procedure :: error_of
    end type run_file_type
@@ -248,11 +248,11 @@ contains
    end subroutine abandon
 
    !> Shows other programs that this one lives; to be called often with a clock, s.
-   subroutine beat(self, now)
+   subroutine heartbeat(self, now)
       class(run_file_type), intent(inout) :: self
       integer, intent(in) :: now
-      if (self%filed) call self%hdf5%working%beat(now)
-   end subroutine beat
+      if (self%filed) call self%hdf5%working%heartbeat(now)
+   end subroutine heartbeat
 
    subroutine error_of(self, error)
       class(run_file_type), intent(in) :: self

@@ -32,8 +32,8 @@ module working_file
       !> True once this run has published; true where the part could not be renamed and is kept.
       logical :: published = .false., stranded = .false.
       type(file_lock_type) :: lock
-      !> Clock of the last beat, s.
-      integer, private :: last_beat = 0
+      !> Clock of the last heartbeat, s.
+      integer, private :: last_heartbeat = 0
    contains
       !> Locks the name; no other run writes under it until `release`.
       procedure :: claim
@@ -44,7 +44,7 @@ module working_file
       procedure :: publish
       !> Shows other programs that this one lives, and has the system begin to write the part to the disk; to be called
       !> often with a clock, s.
-      procedure :: beat
+      procedure :: heartbeat
       !> Deletes the part if it is the one that this run has made.
       procedure :: drop_part => delete_part
       !> The same, and frees the lock, whose file stays where the part does.
@@ -243,14 +243,14 @@ contains
       ok = sync_file(self%path(:index(self%path, '/', back=.true.))//'.')
    end subroutine publish
 
-   subroutine beat(self, now)
+   subroutine heartbeat(self, now)
       class(working_file_type), intent(inout) :: self
       integer, intent(in) :: now
-      if (now == self%last_beat) return
-      self%last_beat = now
-      call self%lock%beat(now)
+      if (now == self%last_heartbeat) return
+      self%last_heartbeat = now
+      call self%lock%heartbeat(now)
       call begin_sync(self%part)
-   end subroutine beat
+   end subroutine heartbeat
 
    !> What stays stays in the lock.
    subroutine delete_part(self)

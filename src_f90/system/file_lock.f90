@@ -1,9 +1,9 @@
 !> A lock that keeps a second writer off a file: a file NAME.lock beside it that is locked (fcntl) and says who
-!> holds it: "host process beats", and the identities of the files that the holder has made beside it.
+!> holds it: "host process heartbeats", and the identities of the files that the holder has made beside it.
 !>
 !> The system frees the lock of a process that ended, however it ended. Whether locks reach across machines depends
-!> on the file system (NFS 4: yes; Lustre, BeeGFS: as mounted; some: not at all). A holder therefore counts beats in
-!> the file while it runs; if the beats of one on another machine stand still, it is taken for dead.
+!> on the file system (NFS 4: yes; Lustre, BeeGFS: as mounted; some: not at all). A holder therefore counts
+!> heartbeats in the file while it runs; if those of one on another machine stand still, it is taken for dead.
 !>
 !> Only a lock file is opened for writing or deleted: an ordinary file with one name that says the above, or nothing,
 !> as the fall of a machine can leave it.
@@ -19,8 +19,8 @@ module file_lock
    private
    public :: file_lock_type
 
-   !> Seconds in which a living holder beats.
-   integer, parameter :: beat_seconds = 10
+   !> Seconds from one heartbeat of a living holder to the next.
+   integer, parameter :: heartbeat_seconds = 10
    !> Characters of a lock file.
    integer, parameter :: longest = 300
    !> What an attempt found; `foreign`: something else has the name of the lock file.
@@ -31,10 +31,10 @@ module file_lock
       character(len=:), allocatable :: path
       !> Of the open lock file; negative where it is not open.
       integer(c_int) :: descriptor = -1
-      integer :: beats = 0, last_beat = 0
+      integer :: heartbeats = 0, last_heartbeat = 0
       !> Seconds for which a holder on another machine is watched where its lock is free or locks are not known
       !> here, and where its lock is held (a dead NFS client's is freed after 90 s).
-      integer, public :: watch_free = 3*beat_seconds, watch_held = 120
+      integer, public :: watch_free = 3*heartbeat_seconds, watch_held = 120
       !> The dead process whose lock was taken, "process 12 on node1"; empty where there was none.
       character(len=:), allocatable, public :: taken_from
       !> Who has the lock where it was refused for that; else empty.
@@ -47,7 +47,7 @@ module file_lock
       !> Notes the identities of the files that the holder has made, separated by blanks.
       procedure :: note_files
       !> Shows that the holder lives; to be called often.
-      procedure :: beat
+      procedure :: heartbeat
       procedure :: release
       procedure :: is_ours
    end type file_lock_type
@@ -139,8 +139,8 @@ contains
          ! the lock says so until there are files of ours
          self%files = self%files_left
       end if
-      self%beats = 0
-      if (.not. write_beat(self)) then
+      self%heartbeats = 0
+      if (.not. write_heartbeat(self)) then
          call delete_file(self%path)
          call close_lock(self)
          call raise(error, system_error, 'cannot write '//path//': '//no_lock_reason(path))
@@ -159,7 +159,7 @@ contains
       if (.not. exists) reason = 'there is no folder '//folder
    end function no_lock_reason
 
-   !> Seconds for which the holder's beats are watched.
+   !> Seconds for which the holder's heartbeats are watched.
    integer function watch_time(self, found, holder) result(watched)
       class(file_lock_type), intent(in) :: self
       integer, intent(in) :: found
@@ -264,16 +264,16 @@ contains
    end function identity
 
    !> Cheap: writes only every ten seconds. `now` is a clock, s.
-   subroutine beat(self, now)
+   subroutine heartbeat(self, now)
       class(file_lock_type), intent(inout) :: self
       integer, intent(in) :: now
       logical :: ignored
-      if (now - self%last_beat < beat_seconds) return
+      if (now - self%last_heartbeat < heartbeat_seconds) return
       if (.not. self%is_ours()) return
-      self%last_beat = now
-      self%beats = self%beats + 1
-      ignored = write_beat(self)
-   end subroutine beat
+      self%last_heartbeat = now
+      self%heartbeats = self%heartbeats + 1
+      ignored = write_heartbeat(self)
+   end subroutine heartbeat
 
    subroutine note_files(self, identities, noted)
       class(file_lock_type), intent(inout) :: self
@@ -283,20 +283,20 @@ contains
       ok = self%is_ours()
       if (ok) then
          self%files = trim(adjustl(identities))
-         ok = write_beat(self)
+         ok = write_heartbeat(self)
       end if
       if (present(noted)) noted = ok
    end subroutine note_files
 
    !> True if it could be written.
-   logical function write_beat(self) result(ok)
+   logical function write_heartbeat(self) result(ok)
       class(file_lock_type), intent(in) :: self
       character(len=longest) :: line
       ! of one length, so that it replaces what is there and needs no room on the disk
-      line = trim(identity()//to_text(self%beats)//' '//self%files)
+      line = trim(identity()//to_text(self%heartbeats)//' '//self%files)
       line(longest:) = achar(10)
       ok = write_start(self%descriptor, line)
-   end function write_beat
+   end function write_heartbeat
 
    !> Frees the lock, and deletes its file if it is ours and no file that it notes is left.
    subroutine release(self, files_left)

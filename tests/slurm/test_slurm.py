@@ -47,7 +47,7 @@ def begun(cluster, path: Path) -> None:
 
 
 def writer(path: Path) -> int:
-    """The process that writes a result; its lock says "host process beats"."""
+    """The process that writes a result; its lock says "host process heartbeats"."""
     return int((path.parent / f"{path.name}.lock").read_text().split()[1])
 
 

@@ -292,12 +292,12 @@ contains
       call write_bytes(lock_file, text//newline)
    end subroutine write_lock
 
-   !> The lock file says that this process holds it, with these beats and files.
-   subroutine expect_ours(beats, what)
-      character(len=*), intent(in) :: beats, what
+   !> The lock file says that this process holds it, with these heartbeats and files.
+   subroutine expect_ours(heartbeats, what)
+      character(len=*), intent(in) :: heartbeats, what
       character(len=:), allocatable :: found
       found = bytes_of(lock_file)
-      call expect(trim(found(:len(found) - 1)) == host_name()//' '//to_text(process_id())//' '//beats, what)
+      call expect(trim(found(:len(found) - 1)) == host_name()//' '//to_text(process_id())//' '//heartbeats, what)
    end subroutine expect_ours
 
    subroutine free_place()
@@ -307,17 +307,17 @@ contains
       call expect_no_error(error, 'a free place is locked')
       call expect(lock%taken_from == '', 'from nobody')
       call expect_ours('0', 'the lock says who holds it')
-      call lock%beat(9)
-      call lock%beat(10)
-      call lock%beat(19)
-      call lock%beat(25)
-      call expect_ours('2', 'a beat in ten seconds')
+      call lock%heartbeat(9)
+      call lock%heartbeat(10)
+      call lock%heartbeat(19)
+      call lock%heartbeat(25)
+      call expect_ours('2', 'a heartbeat in ten seconds')
       call expect(lock%is_ours(), 'it is ours')
       call lock%release()
       call expect(.not. file_there(lock_file), 'released it is gone')
       call lock%release()
-      call lock%beat(100)
-      call expect(.not. file_there(lock_file), 'and no longer beats')
+      call lock%heartbeat(100)
+      call expect(.not. file_there(lock_file), 'and no heartbeat comes')
    end subroutine free_place
 
    !> Its lock file stayed, the system freed its lock: taken at once.
@@ -380,18 +380,18 @@ contains
 
    !> A holder elsewhere. It replaces the lock file at once, so that nobody reads a part of it.
    subroutine beat_for_ever()
-      integer :: beats
+      integer :: heartbeats
       logical :: ok
-      beats = 7
+      heartbeats = 7
       do
-         beats = beats + 1
-         call write_bytes(place//'.next', 'another-machine 12 '//to_text(beats)//newline)
+         heartbeats = heartbeats + 1
+         call write_bytes(place//'.next', 'another-machine 12 '//to_text(heartbeats)//newline)
          ok = rename_file(place//'.next', lock_file)
          call pause_seconds(1)
       end do
    end subroutine beat_for_ever
 
-   !> Who was taken for dead notices, writes no more beats and leaves the lock to its new holder.
+   !> Who was taken for dead notices, writes no more heartbeats and leaves the lock to its new holder.
    subroutine lost_lock()
       type(file_lock_type) :: lock
       type(error_type), allocatable :: error
@@ -399,7 +399,7 @@ contains
       call lock%acquire(place, error)
       call write_lock('another-machine 12 7')
       call expect(.not. lock%is_ours(), 'another''s now')
-      call lock%beat(100)
+      call lock%heartbeat(100)
       call lock%release()
       call expect(file_there(lock_file), 'and left to it')
       call expect(bytes_of(lock_file) == 'another-machine 12 7'//newline, 'as it was')
@@ -413,7 +413,7 @@ contains
    !> What has the name of the lock file and is none is refused, and stays as it is.
    subroutine other_files()
       call expect_refused("printf 'notes\n' > $LOCK", "test ""$(cat $LOCK)"" = notes", 'a text')
-      call expect_refused("printf 'node1 12 x\n' > $LOCK", "test -f $LOCK", 'no count of beats')
+      call expect_refused("printf 'node1 12 x\n' > $LOCK", "test -f $LOCK", 'no count of heartbeats')
       call expect_refused("printf 'node1 12 7 and more\n' > $LOCK", "test -f $LOCK", 'more than a lock says')
       call expect_refused("printf 'node1 12 7\nmore\n' > $LOCK", "test -f $LOCK", 'a second line')
       call expect_refused("printf 'node1 12 7' > $LOCK", "test -f $LOCK", 'a line without its end')
