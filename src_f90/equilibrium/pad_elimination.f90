@@ -60,7 +60,7 @@ contains
          ok = .not. asked(model%give_up)
          in_equilibrium = .false.
          if (ok) call settle_pads(model, journal, pads, in_equilibrium, ok, by_films)
-         if (ok .and. .not. all(in_equilibrium)) call put_down()
+         if (ok .and. .not. all(in_equilibrium)) call place_at_zero_tilt()
          if (.not. ok) exit
          force = forces(model, 0.0_wp, model%state(journal, pads))
          force(of_journal + 1:) = 0
@@ -79,7 +79,7 @@ contains
 
       !> Puts the pads that are not in equilibrium at zero tilt on their pivots, where their films are open there, and
       !> evaluates.
-      subroutine put_down()
+      subroutine place_at_zero_tilt()
          type(pad_state) :: still
          integer :: i
          do i = 1, size(pads)
@@ -89,7 +89,7 @@ contains
             if (film_of(model, i, journal, still) > 0) pads(i) = still
          end do
          call model%evaluate(0.0_wp, model%state(journal, pads), .true., ok, .not. in_equilibrium)
-      end subroutine put_down
+      end subroutine place_at_zero_tilt
 
       !> The step of the journal, in a time step that is shortened until it does not move too far, and of the pads that
       !> follow to their own equilibrium at once.
