@@ -12,11 +12,11 @@ module film_comparison
    private
    public :: film_comparison_type, film_difference, new_film_comparison
 
-   !> Error of the closest cavitated films, and of those they are compared with (film%table_tolerance).
-   real(wp), parameter :: closest = 1e-6_wp, less_close = 1e-5_wp
-   !> Even volumes, along an arc up to this, rad, and along half the width, for the second solution of films that have
+   !> Error of cavitated films of the reference, and of the coarse reference (film%table_tolerance).
+   real(wp), parameter :: reference_error = 1e-6_wp, coarse_error = 1e-5_wp
+   !> Uniform volumes, along an arc up to this, rad, and along half the width, for the second solution of films that have
    !> no tables: those of wide arcs, and of supply pressures where they may cavitate. Four times those of a march.
-   integer, parameter :: film_adapted(2) = 0, even(2) = [320, 32]
+   integer, parameter :: film_adapted(2) = 0, uniform(2) = [320, 32]
    !> What a pad carries counts as this share of its weight at least: below, the weight, whose moment about the pivot
    !> is at least that of the tilt (some 1e-3 rad), moves the pad, not the film. Without weight: of the load.
    real(wp), parameter :: least_share = 1e-3_wp
@@ -36,7 +36,7 @@ module film_comparison
 
    type :: film_comparison_type
       private
-      type(machine_model) :: close, less_close
+      type(machine_model) :: reference, coarse_reference
       !> Of each pad the least force that counts as carried, N.
       real(wp), allocatable :: least(:)
    contains
@@ -51,15 +51,15 @@ contains
       type(film_comparison_type) :: comparison
       real(wp), allocatable :: loads(:, :)
       integer :: b
-      comparison%close = new_machine_model(closely(model%inputs, closest, film_adapted), converged_films, &
-         & rotor=model%rotor)
-      comparison%less_close = new_machine_model(closely(model%inputs, less_close, even), converged_films, &
-         & rotor=model%rotor)
-      associate (close => comparison%close)
-         loads = close%rotor%loads(close%point)
+      comparison%reference = new_machine_model(with_films(model%inputs, reference_error, film_adapted), &
+         & converged_films, rotor=model%rotor)
+      comparison%coarse_reference = new_machine_model(with_films(model%inputs, coarse_error, uniform), &
+         & converged_films, rotor=model%rotor)
+      associate (reference => comparison%reference)
+         loads = reference%rotor%loads(reference%point)
          allocate (comparison%least(0))
-         do b = 1, size(close%bearings)
-            associate (weight => close%bearings(b)%pads%weight)
+         do b = 1, size(reference%bearings)
+            associate (weight => reference%bearings(b)%pads%weight)
                comparison%least = [comparison%least, least_share*merge(weight, norm2(loads(:, b)), weight > 0)]
             end associate
          end do
@@ -67,7 +67,7 @@ contains
    end function new_film_comparison
 
    !> The case with films of this error and on these volumes.
-   pure function closely(inputs, tolerance, volumes) result(changed)
+   pure function with_films(inputs, tolerance, volumes) result(changed)
       type(case_type), intent(in) :: inputs
       real(wp), intent(in) :: tolerance
       integer, intent(in) :: volumes(2)
@@ -83,7 +83,7 @@ contains
             film%axial_modes = 0
          end associate
       end do
-   end function closely
+   end function with_films
 
    !> Compares the films of a model, of each pad, in the state y at time t, s.
    subroutine compare(self, model, t, y, found)
@@ -91,22 +91,22 @@ contains
       type(machine_model), intent(inout) :: model
       real(wp), intent(in) :: t, y(:)
       type(film_difference), intent(out) :: found(:)
-      type(pad_sample), dimension(size(found)) :: own, close, less_close
+      type(pad_sample), dimension(size(found)) :: own, reference, coarse_reference
       integer :: i
-      call adapt(self%close, model)
-      call adapt(self%less_close, model)
+      call adapt(self%reference, model)
+      call adapt(self%coarse_reference, model)
       found = film_difference(refusal='')
       call take_films(model, t, y, own, found)
-      call take_films(self%close, t, y, close, found)
-      call take_films(self%less_close, t, y, less_close, found)
+      call take_films(self%reference, t, y, reference, found)
+      call take_films(self%coarse_reference, t, y, coarse_reference, found)
       do i = 1, size(found)
          if (found(i)%refusal /= '') cycle
-         associate (f => close(i)%film_force)
-            found(i)%carried = max(norm2(f) + close(i)%asperity_force, self%least(i))
+         associate (f => reference(i)%film_force)
+            found(i)%carried = max(norm2(f) + reference(i)%asperity_force, self%least(i))
             found(i)%force = norm2(own(i)%film_force - f)
-            found(i)%left = norm2(less_close(i)%film_force - f)
-            found(i)%highest_pressure = close(i)%max_pressure
-            found(i)%pressure = abs(own(i)%max_pressure - close(i)%max_pressure)
+            found(i)%left = norm2(coarse_reference(i)%film_force - f)
+            found(i)%highest_pressure = reference(i)%max_pressure
+            found(i)%pressure = abs(own(i)%max_pressure - reference(i)%max_pressure)
          end associate
          ! where nothing is carried and nothing weighs
          if (.not. found(i)%carried > 0) found(i)%carried = max(found(i)%force, tiny(1.0_wp))
