@@ -455,7 +455,7 @@ contains
             & //to_text(self%branch)//' was lost behind '//self%place(self%here)//', its point ' &
             & //to_text(self%points))
          if (error%status == stopped .or. .not. self%problem%refused) return
-         at_end = 'there is nothing beyond: '//error%message
+         at_end = 'the branch ends here: '//error%message
          deallocate (error)
          return
       end if

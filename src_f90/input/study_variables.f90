@@ -181,7 +181,7 @@ contains
       character(len=:), allocatable :: list, name
       integer(i8) :: runs
       integer :: i
-      call require(size(self%variables) > 0, origin//': &sweep sweeps nothing; expected group%name = values', error)
+      call require(size(self%variables) > 0, origin//': &sweep names no variable; expected group%name = values', error)
       list = ''
       runs = 1
       do i = 1, size(self%counts)

@@ -1,7 +1,7 @@
 !> How far the films of a model are from the same films solved closely, whatever solver it takes: by axial modes and,
 !> where they cavitate, by volumes of a film-adapted grid, extrapolated (the converged films of the factories).
-!> How good these are tells a second solution: ten times less close, or, where no table knows the film, on even
-!> volumes.
+!> How good this reference is tells a coarse one: with ten times the error, or, where no table knows the film, on
+!> uniform volumes.
 module film_comparison
    use kinds, only: wp, degree
    use case_inputs, only: case_type

@@ -147,7 +147,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       if (self%complete) return
       if (self%status == numerics_error) then
-         call raise(error, numerics_error, path//': there is nothing to go on with; '//self%reason)
+         call raise(error, numerics_error, path//': the run cannot be resumed; '//self%reason)
       else if (.not. self%checkpoint) then
          call raise(error, system_error, path//': holds no checkpoint to go on from')
       end if

@@ -75,7 +75,7 @@ def test_the_end_of_what_is_allowed_is_the_end_of_the_branch(run, tmp_path):
     run(LUGRE, *over)
     with h5py.File(tmp_path / "case.h5") as file:
         assert file.attrs["complete"] == 1
-        assert "nothing beyond: friction%dynamic_coefficient = " in file.attrs["branch_ends"]
+        assert "the branch ends here: friction%dynamic_coefficient = " in file.attrs["branch_ends"]
         assert file["parameter"][-1] == pytest.approx(0.1, abs=1e-4)
 
 

@@ -421,8 +421,8 @@ contains
    !> The values of a variable have more in wrong_values.
    subroutine refused()
       character(len=*), parameter :: range = 'a range is first:last:stride or first:last:*factor'
-      call expect_refused('&sweep /', '&sweep sweeps nothing')
-      call expect_refused('&sweep order = ''zip'' /', '&sweep sweeps nothing')
+      call expect_refused('&sweep /', '&sweep names no variable')
+      call expect_refused('&sweep order = ''zip'' /', '&sweep names no variable')
       call expect_refused('&sweep order = ''outer'', rotor%mass = 1/', '''product'', ''zip''')
       call expect_refused('&sweep order = ''zip'', ''zip'', rotor%mass = 1/', '''product'', ''zip''')
       call expect_refused('&sweep order(1) = ''zip'', rotor%mass = 1/', '''product'', ''zip''')
@@ -451,7 +451,7 @@ contains
       call expect_refused('&sweep rotor%mass = 1, 2/', 'rotor%mass = 3: is swept (case.nml line 1)', ['rotor%mass=3'])
       call expect_refused('&sweep rotor%mass = 1, 2/', '--set sweep%rotor%mass=', ['rotor%mass=3'])
       call expect_refused('&sweep pads%mass = 1, 2/', 'pads%mass(2) = 3: is swept', ['pads%mass(2)=3'])
-      call expect_refused('&rotor /', '&sweep sweeps nothing', ['sweep%order=''zip'''])
+      call expect_refused('&rotor /', '&sweep names no variable', ['sweep%order=''zip'''])
       call expect_refused('&rotor /', '--set: unknown variable sweep%mass', ['sweep%mass=3'])
    end subroutine refused
 
