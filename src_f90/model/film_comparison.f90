@@ -14,8 +14,8 @@ module film_comparison
 
    !> Error of cavitated films of the reference, and of the coarse reference (film%table_tolerance).
    real(wp), parameter :: reference_error = 1e-6_wp, coarse_error = 1e-5_wp
-   !> Uniform volumes, along an arc up to this, rad, and along half the width, for the second solution of films that have
-   !> no tables: those of wide arcs, and of supply pressures where they may cavitate. Four times those of a march.
+   !> Uniform volumes, along an arc up to this, rad, and along half the width, for the second solution of films that
+   !> have no tables: those of wide arcs, and of supply pressures where they may cavitate. Four times those of a march.
    integer, parameter :: film_adapted(2) = 0, uniform(2) = [320, 32]
    !> What a pad carries counts as this share of its weight at least: below, the weight, whose moment about the pivot
    !> is at least that of the tilt (some 1e-3 rad), moves the pad, not the film. Without weight: of the load.
