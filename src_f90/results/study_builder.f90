@@ -200,9 +200,11 @@ contains
             if (allocated(error)) return
             own%number = row%description
             own%taken = spread(.false., 1, size(own%layout%columns))
-            own%at = [integer ::]
+            own%at = spread(0, 1, own%layout%width)
             do c = 1, size(own%layout%columns)
-               own%at = [own%at, table%layout%places_of(own%layout, c)]
+               associate (column => own%layout%columns(c))
+                  own%at(column%before + 1:column%before + column%width) = table%layout%places_of(own%layout, c)
+               end associate
             end do
          end if
          if (size(row%numbers) /= own%layout%width) call raise(error, system_error, 'damaged: run '//to_text(k) &
