@@ -1,14 +1,10 @@
 """What all Python tests share: the program under test, and the closing line of every test program."""
 
-import gc
 import os
 import pathlib
 import subprocess
 
 import pytest
-
-# objects of results and pictures live long: looking for others after each 700 takes a twentieth of the time
-gc.set_threshold(50_000)
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = os.environ.get("TILTPAD", str(ROOT / "build/bin/tiltpad"))

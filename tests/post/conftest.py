@@ -1,5 +1,6 @@
 """Result files that the tests share: short runs of the program, one a case."""
 
+import gc
 import itertools
 import os
 import sys
@@ -14,9 +15,12 @@ import pytest
 import tiltpad as package
 from result_files import replace_series
 from ross_machine import recorded, recording
+from tiltpad.command import OBJECTS
 from tiltpad.draw import layout
 
 mpl.use("agg")
+# as the commands do, which say why
+gc.set_threshold(OBJECTS)
 #: The paper's package, post/paper, is not installed.
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "post"))
 
