@@ -369,7 +369,7 @@ contains
       call write_lock('another-machine 12 7')
       lock%watch_free = 60
       child = new_process()
-      if (child == 0) call beat_for_ever()
+      if (child == 0) call send_heartbeats()
       call lock%acquire(place, error)
       call stop_process(child)
       found = ended(child, .true., how)
@@ -379,7 +379,7 @@ contains
    end subroutine living_holder_elsewhere
 
    !> A holder elsewhere. It replaces the lock file at once, so that nobody reads a part of it.
-   subroutine beat_for_ever()
+   subroutine send_heartbeats()
       integer :: heartbeats
       logical :: ok
       heartbeats = 7
@@ -389,7 +389,7 @@ contains
          ok = rename_file(place//'.next', lock_file)
          call pause_seconds(1)
       end do
-   end subroutine beat_for_ever
+   end subroutine send_heartbeats
 
    !> Who was taken for dead notices, writes no more heartbeats and leaves the lock to its new holder.
    subroutine lost_lock()
